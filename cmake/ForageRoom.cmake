@@ -1,0 +1,23 @@
+# One CMake target per room of the house (docs/design.md).
+#
+#   forage_room(NAME SOURCES a.cpp b.cpp PUBLIC lib... PRIVATE lib...)
+#
+# makes the static library forage_NAME. Headers are included by their path from the project's root,
+# so that an #include line says which room it comes from.
+add_library(forage_options INTERFACE)
+target_compile_features(forage_options INTERFACE cxx_std_20)
+# The same bits everywhere: no contraction to fused multiply-add, no fast math.
+target_compile_options(forage_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+                                                -ffp-contract=off)
+if(FORAGE_WERROR)
+  target_compile_options(forage_options INTERFACE -Werror)
+endif()
+
+function(forage_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(forage_${name} STATIC ${ROOM_SOURCES})
+  target_include_directories(forage_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_link_libraries(forage_${name} PUBLIC ${ROOM_PUBLIC} PRIVATE forage_options ${ROOM_PRIVATE})
+  target_compile_features(forage_${name} PUBLIC cxx_std_20)
+  set_target_properties(forage_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+endfunction()

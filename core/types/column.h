@@ -1,0 +1,27 @@
+// Columns: how a type sees numbers. One entry per cell of a group, in cell order (row by row).
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+
+namespace forage {
+
+using Index = Eigen::Index;
+using Column = Eigen::Map<Eigen::ArrayXd>;
+using ConstColumn = Eigen::Map<const Eigen::ArrayXd>;
+
+/// The three ways in which a connection acts on its target.
+enum class InputKind { excitatory, inhibitory, modulatory };
+inline constexpr int input_kinds = 3;
+
+/// Extent of a group: `width` cells to the right, `height` cells downwards; cell = row * width + column.
+/// A sparse group has fewer `cells` than width * height.
+struct GroupShape {
+    int width = 0;
+    int height = 0;
+    int cells = 0;
+    friend bool operator==(const GroupShape&, const GroupShape&) = default;
+};
+
+}  // namespace forage

@@ -1,0 +1,171 @@
+// Module types: what ties groups to the outside world (a robot, a file, an algorithm).
+//
+// A module type is a plain struct whose members are its parameters, with
+//
+//     static void describe(ModuleSpec<T>&);          // name, parameters, inputs, outputs
+//     void check(const ModulePorts&, Problems&);     // optional: sizes that belong together
+//     void start(const ModulePorts&);                // optional: once, before the first cycle
+//     void update(ModuleFrame&);                     // once per cycle, after the groups, before the connections
+//
+// A module reads the output activity of its input groups of this cycle. What it writes into an output is
+// excitatory input of that group in the next cycle. An output keeps its values until it is written again.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/types/column.h"
+#include "core/types/parameter.h"
+#include "core/types/random.h"
+
+namespace forage {
+
+/// A cross reference that a module declares: a named place for one group.
+struct ModulePort {
+    std::string name;        ///< as in the file's <XRef name="..">
+    std::string label;       ///< as shown to people
+    bool is_output = false;  ///< written by the module (<XRefHolder name="OutputToGroup">)
+    bool optional = false;   ///< may be absent or unset; the original refuses a system with an unset one
+    int width = 0, height = 0;  ///< required size of the group, 0: any
+    int cells = 0;              ///< required number of cells, 0: any
+};
+
+/// The groups behind a module's ports, in order of declaration. An unset optional port has 0 cells.
+struct ModulePorts {
+    struct Group {
+        std::string port;  ///< the cross reference's name
+        std::string path;  ///< "Process/Group", empty when unset
+        GroupShape shape;
+    };
+    std::string process;        ///< name of the process that holds the module
+    std::vector<Group> inputs;  ///< in order of declaration (of the file, for a type that takes any)
+    std::vector<Group> outputs;
+    RandomStream random;  ///< the module's own stream
+};
+
+/// What a module finds wrong with its parameters or groups before the run; reported to the author of the file.
+struct Problems {
+    struct Problem {
+        std::string message;
+        std::string hint;
+        std::string parameter;  ///< the parameter to point at, if any
+        std::string port;       ///< the cross reference to point at, if any
+    };
+    std::vector<Problem> all;
+};
+
+/// What a module sees in one cycle.
+class ModuleFrame {
+  public:
+    ModuleFrame(std::uint64_t cycle, const std::vector<ConstColumn>& in, const std::vector<Column>& out)
+        : cycle_(cycle), in_(in), out_(out) {}
+    std::uint64_t cycle() const { return cycle_; }
+    const ConstColumn& input(std::size_t port) const { return in_[port]; }  ///< activity of this cycle
+    Column output(std::size_t port) const { return out_[port]; }            ///< received in the next cycle
+    std::size_t inputs() const { return in_.size(); }
+    std::size_t outputs() const { return out_.size(); }
+
+  private:
+    std::uint64_t cycle_;
+    const std::vector<ConstColumn>& in_;
+    const std::vector<Column>& out_;
+};
+
+/// A module of a running system.
+class ModuleInstance {
+  public:
+    virtual ~ModuleInstance() = default;
+    virtual void* parameters() = 0;
+    virtual void check(const ModulePorts&, Problems&) = 0;
+    virtual void start(const ModulePorts&) = 0;
+    virtual void update(ModuleFrame&) = 0;
+};
+
+struct ModuleType {
+    std::string name, label, doc;
+    std::vector<Parameter> parameters;
+    std::vector<ModulePort> ports;
+    bool any_ports = false;  ///< takes whatever cross references the file gives it, in file order
+    std::function<std::unique_ptr<ModuleInstance>()> make;
+};
+
+class PortBuilder {
+  public:
+    PortBuilder(std::vector<ModulePort>& all, std::size_t index) : all_(all), index_(index) {}
+    PortBuilder& label(std::string text) { return all_[index_].label = std::move(text), *this; }
+    PortBuilder& optional() { return all_[index_].optional = true, *this; }
+    PortBuilder& cells(int n) { return all_[index_].cells = n, *this; }
+    PortBuilder& size(int width, int height) {
+        return all_[index_].width = width, all_[index_].height = height, *this;
+    }
+
+  private:
+    std::vector<ModulePort>& all_;
+    std::size_t index_;
+};
+
+template <class T>
+class ModuleSpec {
+  public:
+    explicit ModuleSpec(ModuleType& type) : type_(type) {}
+    ModuleSpec& name(std::string name, std::string label) {
+        return type_.name = std::move(name), type_.label = std::move(label), *this;
+    }
+    ModuleSpec& doc(std::string text) { return type_.doc = std::move(text), *this; }
+    template <class M>
+    ParameterBuilder param(std::string name, M T::*member) {
+        type_.parameters.push_back(detail::make_parameter(std::move(name), member));
+        return {type_.parameters, type_.parameters.size() - 1};
+    }
+    PortBuilder input(std::string name, std::string label) { return port(std::move(name), std::move(label), false); }
+    PortBuilder output(std::string name, std::string label) { return port(std::move(name), std::move(label), true); }
+    ModuleSpec& any_ports() { return type_.any_ports = true, *this; }
+
+  private:
+    PortBuilder port(std::string name, std::string label, bool is_output) {
+        ModulePort p;
+        p.name = std::move(name);
+        p.label = std::move(label);
+        p.is_output = is_output;
+        type_.ports.push_back(std::move(p));
+        return {type_.ports, type_.ports.size() - 1};
+    }
+    ModuleType& type_;
+};
+
+namespace detail {
+
+template <class T>
+class ModuleModel final : public ModuleInstance {
+  public:
+    explicit ModuleModel(T value) : value_(std::move(value)) {}
+    void* parameters() override { return &value_; }
+    void check(const ModulePorts& ports, Problems& problems) override {
+        if constexpr (requires { value_.check(ports, problems); }) value_.check(ports, problems);
+    }
+    void start(const ModulePorts& ports) override {
+        if constexpr (requires { value_.start(ports); }) value_.start(ports);
+    }
+    void update(ModuleFrame& frame) override { value_.update(frame); }
+
+  private:
+    T value_;
+};
+
+}  // namespace detail
+
+/// The descriptor of module type T. `prototype` carries what is not a parameter (the world, a file's content):
+/// every module of a system starts as a copy of it.
+template <class T>
+ModuleType module_type(T prototype = {}) {
+    ModuleType type;
+    ModuleSpec<T> spec(type);
+    T::describe(spec);
+    type.make = [prototype] { return std::make_unique<detail::ModuleModel<T>>(prototype); };
+    return type;
+}
+
+}  // namespace forage

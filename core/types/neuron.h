@@ -1,0 +1,168 @@
+// Neuron types: what the cells of a group are. A neuron type is a plain struct whose members are its
+// parameters, with
+//
+//     static void describe(NeuronSpec<T>&);      // name, parameters, states: the only place that lists them
+//     void update(NeuronColumns&) const;         // one cycle, for all cells of a group
+//
+// neurons/linear_threshold.h is the example to copy.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/types/column.h"
+#include "core/types/parameter.h"
+#include "core/types/random.h"
+
+namespace forage {
+
+/// A column that every cell of a type has, kept for `history` cycles.
+struct StateInfo {
+    std::string name;
+    std::string label;
+    int history = 1;
+    bool output = false;    ///< what connections and modules read; exactly one per type
+    bool feedback = false;  ///< offered to synapses that learn from their target
+};
+
+/// What a neuron type's update sees: the columns of one group in one cycle.
+///
+/// A state's rows form a ring. `state(i)` is the row to be written in this cycle; before it is written it
+/// holds the value of `history` cycles ago, which is the previous cycle's for the usual history of 1.
+class NeuronColumns {
+  public:
+    struct State {
+        double* ring;        ///< first row of the ring
+        std::int64_t depth;  ///< rows in the ring
+    };
+
+    NeuronColumns(Index size, Index stride, std::uint64_t cycle, std::array<double*, input_kinds> inputs,
+                  const State* states, const RandomStream* random, double* scratch)
+        : size_(size), stride_(stride), cycle_(cycle), inputs_(inputs), states_(states), random_(random),
+          scratch_(scratch) {}
+
+    Index size() const { return size_; }  ///< number of cells
+    std::uint64_t cycle() const { return cycle_; }
+
+    /// What was delivered at the end of the last cycle, per cell. A type applies its gain in place.
+    Column excitation() const { return input(InputKind::excitatory); }
+    Column inhibition() const { return input(InputKind::inhibitory); }
+    Column modulation() const { return input(InputKind::modulatory); }
+
+    Column state(int i) const { return {row(i, 0), size_}; }
+    /// State i as it was `ago` cycles ago; 0 < ago < the state's history.
+    ConstColumn past(int i, int ago) const { return {row(i, ago), size_}; }
+
+    /// All states in order of declaration: `auto [vm, act] = c.states<2>();`
+    template <int N>
+    std::array<Column, N> states() const {
+        return [this]<int... I>(std::integer_sequence<int, I...>) {
+            return std::array<Column, N>{state(I)...};
+        }(std::make_integer_sequence<int, N>{});
+    }
+
+    /// One number per cell, uniform in [0, 1), new in each cycle. Valid until the next call.
+    Column uniform() const {
+        random_->uniform(cycle_, {scratch_, static_cast<std::size_t>(size_)});
+        return {scratch_, size_};
+    }
+
+  private:
+    Column input(InputKind kind) const { return {inputs_[static_cast<std::size_t>(kind)], size_}; }
+    double* row(int i, int ago) const {
+        const State& s = states_[i];
+        const auto now = static_cast<std::int64_t>(cycle_ % static_cast<std::uint64_t>(s.depth));
+        return s.ring + ((now - ago + s.depth) % s.depth) * stride_;
+    }
+
+    Index size_, stride_;
+    std::uint64_t cycle_;
+    std::array<double*, input_kinds> inputs_;
+    const State* states_;
+    const RandomStream* random_;
+    double* scratch_;
+};
+
+/// A neuron type with its parameters set, ready to update one group.
+class NeuronInstance {
+  public:
+    virtual ~NeuronInstance() = default;
+    virtual void* parameters() = 0;
+    virtual void update(NeuronColumns&) const = 0;
+};
+
+struct NeuronType {
+    std::string name, label, doc;
+    std::vector<Parameter> parameters;
+    std::vector<StateInfo> states;
+    std::array<bool, input_kinds> reads{};  ///< which kinds of input the type uses; the others stay 0
+    std::function<std::unique_ptr<NeuronInstance>()> make;
+
+    int output() const {  ///< index of the output state
+        for (int i = 0; i < static_cast<int>(states.size()); ++i)
+            if (states[static_cast<std::size_t>(i)].output) return i;
+        return -1;
+    }
+};
+
+template <class T>
+class NeuronSpec {
+  public:
+    explicit NeuronSpec(NeuronType& type) : type_(type) {}
+    NeuronSpec& name(std::string name, std::string label) {
+        return type_.name = std::move(name), type_.label = std::move(label), *this;
+    }
+    NeuronSpec& doc(std::string text) { return type_.doc = std::move(text), *this; }
+    /// The kinds of input that update() reads.
+    template <class... Kinds>
+    NeuronSpec& reads(Kinds... kinds) {
+        return ((type_.reads[static_cast<std::size_t>(kinds)] = true), ..., *this);
+    }
+    template <class M>
+    ParameterBuilder param(std::string name, M T::*member) {
+        type_.parameters.push_back(detail::make_parameter(std::move(name), member));
+        return {type_.parameters, type_.parameters.size() - 1};
+    }
+    NeuronSpec& state(std::string name, std::string label, int history = 1) {
+        return type_.states.push_back({std::move(name), std::move(label), history}), *this;
+    }
+    NeuronSpec& output(std::string name, std::string label, int history = 1) {
+        return type_.states.push_back({std::move(name), std::move(label), history, true, true}), *this;
+    }
+    NeuronSpec& feedback(std::string name, std::string label, int history = 1) {
+        return type_.states.push_back({std::move(name), std::move(label), history, false, true}), *this;
+    }
+
+  private:
+    NeuronType& type_;
+};
+
+namespace detail {
+
+template <class T>
+class NeuronModel final : public NeuronInstance {
+  public:
+    void* parameters() override { return &value_; }
+    void update(NeuronColumns& columns) const override { value_.update(columns); }
+
+  private:
+    T value_;
+};
+
+}  // namespace detail
+
+template <class T>
+NeuronType neuron_type() {
+    NeuronType type;
+    NeuronSpec<T> spec(type);
+    T::describe(spec);
+    type.make = [] { return std::make_unique<detail::NeuronModel<T>>(); };
+    return type;
+}
+
+}  // namespace forage

@@ -1,0 +1,55 @@
+#include "core/types/parameter.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace forage {
+namespace {
+
+template <class N>
+std::optional<ParameterValue> parse_number(std::string_view text) {
+    N value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    if constexpr (std::is_floating_point_v<N>) {
+        if (!std::isfinite(value)) return std::nullopt;
+    }
+    return value;
+}
+
+}  // namespace
+
+std::optional<ParameterValue> parse_parameter(ParameterKind kind, std::string_view text) {
+    switch (kind) {
+        case ParameterKind::boolean:
+            if (text == "true") return true;
+            if (text == "false") return false;
+            return std::nullopt;
+        case ParameterKind::real: return parse_number<double>(text);
+        case ParameterKind::integer: return parse_number<int>(text);
+        case ParameterKind::text: return std::string(text);
+    }
+    return std::nullopt;
+}
+
+std::string to_text(const ParameterValue& value) {
+    if (const auto* b = std::get_if<bool>(&value)) return *b ? "true" : "false";
+    if (const auto* s = std::get_if<std::string>(&value)) return *s;
+    char buffer[32];
+    const auto result = std::holds_alternative<double>(value)
+                            ? std::to_chars(buffer, buffer + sizeof buffer, std::get<double>(value))
+                            : std::to_chars(buffer, buffer + sizeof buffer, std::get<int>(value));
+    return {buffer, result.ptr};
+}
+
+std::string_view describe(ParameterKind kind) {
+    switch (kind) {
+        case ParameterKind::boolean: return "true or false";
+        case ParameterKind::real: return "a number";
+        case ParameterKind::integer: return "a whole number";
+        case ParameterKind::text: return "a text";
+    }
+    return "";
+}
+
+}  // namespace forage

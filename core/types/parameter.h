@@ -1,0 +1,90 @@
+// Parameters of a type: declared once, used by the XML check, --set, `forage types` and the docs.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace forage {
+
+enum class ParameterKind { boolean, real, integer, text };
+
+using ParameterValue = std::variant<bool, double, int, std::string>;
+
+/// Closed interval that the type's author recommends. Values outside are legal in a file (the original
+/// applies no range when it loads one) and give a warning.
+struct ParameterRange {
+    double low;
+    double high;
+};
+
+/// One parameter of a type: what it means and how to reach it in an object of that type.
+struct Parameter {
+    std::string name;   ///< as written in files
+    std::string label;  ///< as shown to people
+    std::string doc;    ///< one sentence
+    std::string unit;   ///< empty when dimensionless
+    ParameterKind kind;
+    ParameterValue default_value;
+    std::optional<ParameterRange> range;
+    std::function<void(void*, const ParameterValue&)> set;
+    std::function<ParameterValue(const void*)> get;
+};
+
+/// Reads `text` as a value of `kind` ("true"/"false", a number in C notation whatever the locale, any text).
+/// Empty when `text` is not one; NaN and infinities are not numbers here.
+std::optional<ParameterValue> parse_parameter(ParameterKind kind, std::string_view text);
+
+/// The shortest text that reads back as the same value.
+std::string to_text(const ParameterValue& value);
+
+/// "a number", "true or false", ...
+std::string_view describe(ParameterKind kind);
+
+/// Fluent completion of a parameter declared by a Spec: `.label(..).range(..).doc(..)`.
+class ParameterBuilder {
+  public:
+    ParameterBuilder(std::vector<Parameter>& all, std::size_t index) : all_(all), index_(index) {}
+    ParameterBuilder& label(std::string text) { return all_[index_].label = std::move(text), *this; }
+    ParameterBuilder& doc(std::string text) { return all_[index_].doc = std::move(text), *this; }
+    ParameterBuilder& unit(std::string text) { return all_[index_].unit = std::move(text), *this; }
+    ParameterBuilder& range(double low, double high) {
+        return all_[index_].range = ParameterRange{low, high}, *this;
+    }
+
+  private:
+    std::vector<Parameter>& all_;
+    std::size_t index_;
+};
+
+namespace detail {
+
+template <class M>
+constexpr ParameterKind kind_of() {
+    if constexpr (std::is_same_v<M, bool>) return ParameterKind::boolean;
+    else if constexpr (std::is_same_v<M, double>) return ParameterKind::real;
+    else if constexpr (std::is_same_v<M, int>) return ParameterKind::integer;
+    else {
+        static_assert(std::is_same_v<M, std::string>, "a parameter is a bool, double, int or std::string");
+        return ParameterKind::text;
+    }
+}
+
+/// The default is the member's initializer: read from a default-constructed object, written nowhere else.
+template <class T, class M>
+Parameter make_parameter(std::string name, M T::*member) {
+    Parameter p;
+    p.label = name;
+    p.name = std::move(name);
+    p.kind = kind_of<M>();
+    p.default_value = ParameterValue(T{}.*member);
+    p.set = [member](void* object, const ParameterValue& v) { static_cast<T*>(object)->*member = std::get<M>(v); };
+    p.get = [member](const void* object) { return ParameterValue(static_cast<const T*>(object)->*member); };
+    return p;
+}
+
+}  // namespace detail
+}  // namespace forage

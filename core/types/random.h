@@ -1,0 +1,32 @@
+// Random numbers that depend on nothing but what they are for.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace forage {
+
+/// A counter-based random stream (Philox4x32-10; Salmon et al., "Parallel random numbers: as easy as 1, 2, 3",
+/// SC 2011). A number is a function of (seed, item, stream, cycle, index): it does not depend on what was
+/// drawn before, on the number of threads, or on other items of the system.
+class RandomStream {
+  public:
+    RandomStream() = default;
+    /// `item` is the id of a group, connection or robot; `stream` separates several uses by one item.
+    RandomStream(std::uint64_t seed, std::string_view item, std::uint32_t stream = 0);
+
+    /// Uniform in [0, 1), 53 bits.
+    double uniform(std::uint64_t cycle, std::uint32_t index) const;
+    /// out[i] = uniform(cycle, i), faster.
+    void uniform(std::uint64_t cycle, std::span<double> out) const;
+    /// Standard normal numbers (Box-Muller on uniforms), mean 0, variance 1.
+    void normal(std::uint64_t cycle, std::span<double> out) const;
+    /// Raw 64-bit words, uniform.
+    void bits(std::uint64_t cycle, std::span<std::uint64_t> out) const;
+
+  private:
+    std::uint64_t key_ = 0;
+};
+
+}  // namespace forage

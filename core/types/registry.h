@@ -1,0 +1,48 @@
+// The types that a system may name. A value that is passed in: there is no global list.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/types/module.h"
+#include "core/types/neuron.h"
+#include "core/types/synapse.h"
+
+namespace forage {
+
+class Registry {
+  public:
+    /// Adds a type. Throws std::invalid_argument when its name is taken or its declaration does not hold
+    /// together (no name, not exactly one output).
+    void add(NeuronType type);
+    void add(SynapseType type);
+    void add(ModuleType type);
+
+    /// Null when there is none of that name.
+    const NeuronType* neuron(std::string_view name) const;
+    const SynapseType* synapse(std::string_view name) const;
+    const ModuleType* module(std::string_view name) const;
+
+    const auto& neurons() const { return neurons_; }
+    const auto& synapses() const { return synapses_; }
+    const auto& modules() const { return modules_; }
+
+  private:
+    template <class Type>
+    using Map = std::map<std::string, Type, std::less<>>;
+    Map<NeuronType> neurons_;
+    Map<SynapseType> synapses_;
+    Map<ModuleType> modules_;
+};
+
+/// The names of a registry's map, for hints.
+template <class Map>
+std::vector<std::string> names(const Map& map) {
+    std::vector<std::string> out;
+    for (const auto& [name, type] : map) out.push_back(name);
+    return out;
+}
+
+}  // namespace forage

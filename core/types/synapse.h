@@ -1,0 +1,131 @@
+// Synapse types: what the synapses of a connection are. A synapse type is a plain struct whose members are
+// its parameters, with
+//
+//     static void describe(SynapseSpec<T>&);
+//     void update(SynapseColumns&) const;     // one cycle, for all synapses of a connection
+//
+// A type that only multiplies its input by a constant declares that constant with `gain` and needs no update().
+// The engine then attenuates and delays what the type puts out; synapses/fixed_weight.h is the example to copy.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/types/column.h"
+#include "core/types/parameter.h"
+
+namespace forage {
+
+/// A number that every synapse of a connection keeps.
+struct SynapseStateInfo {
+    std::string name;
+    std::string label;
+    bool output = false;  ///< the postsynaptic potential, before attenuation and delay; exactly one per type
+};
+
+/// A state of the target's neuron that the synapse reads, `delay` cycles old.
+struct FeedbackInfo {
+    std::string name;   ///< as in <XRefHolder name="Freedback"><XRef name="..">
+    std::string label;
+    bool required = true;
+};
+
+/// What a synapse type's update sees: one entry per synapse, in the connection's synapse order.
+class SynapseColumns {
+  public:
+    SynapseColumns(ConstColumn pre, const std::vector<Column>& states, const std::vector<ConstColumn>& feedback)
+        : pre_(pre), states_(states), feedback_(feedback) {}
+    const ConstColumn& pre() const { return pre_; }             ///< source cell's activity of this cycle
+    Column state(std::size_t i) const { return states_[i]; }    ///< own states, in order of declaration
+    const ConstColumn& feedback(std::size_t i) const { return feedback_[i]; }
+
+  private:
+    ConstColumn pre_;
+    const std::vector<Column>& states_;
+    const std::vector<ConstColumn>& feedback_;
+};
+
+class SynapseInstance {
+  public:
+    virtual ~SynapseInstance() = default;
+    virtual void* parameters() = 0;
+    virtual void update(SynapseColumns&) const = 0;
+    virtual double gain() const = 0;  ///< psp = gain * pre, for types that declare one
+};
+
+struct SynapseType {
+    std::string name, label, doc;
+    std::vector<Parameter> parameters;
+    std::vector<SynapseStateInfo> states;
+    std::vector<FeedbackInfo> feedback;
+    bool has_gain = false;
+    std::function<std::unique_ptr<SynapseInstance>()> make;
+
+    int output() const {
+        for (int i = 0; i < static_cast<int>(states.size()); ++i)
+            if (states[static_cast<std::size_t>(i)].output) return i;
+        return -1;
+    }
+};
+
+template <class T>
+class SynapseSpec {
+  public:
+    explicit SynapseSpec(SynapseType& type) : type_(type) {}
+    SynapseSpec& name(std::string name, std::string label) {
+        return type_.name = std::move(name), type_.label = std::move(label), *this;
+    }
+    SynapseSpec& doc(std::string text) { return type_.doc = std::move(text), *this; }
+    template <class M>
+    ParameterBuilder param(std::string name, M T::*member) {
+        type_.parameters.push_back(detail::make_parameter(std::move(name), member));
+        return {type_.parameters, type_.parameters.size() - 1};
+    }
+    SynapseSpec& state(std::string name, std::string label) {
+        return type_.states.push_back({std::move(name), std::move(label)}), *this;
+    }
+    SynapseSpec& output(std::string name, std::string label) {
+        return type_.states.push_back({std::move(name), std::move(label), true}), *this;
+    }
+    SynapseSpec& feedback(std::string name, std::string label, bool required = true) {
+        return type_.feedback.push_back({std::move(name), std::move(label), required}), *this;
+    }
+
+  private:
+    SynapseType& type_;
+};
+
+namespace detail {
+
+template <class T>
+class SynapseModel final : public SynapseInstance {
+  public:
+    void* parameters() override { return &value_; }
+    void update(SynapseColumns& columns) const override {
+        if constexpr (requires { value_.update(columns); }) value_.update(columns);
+    }
+    double gain() const override {
+        if constexpr (requires { value_.gain(); }) return value_.gain();
+        else return 1;
+    }
+
+  private:
+    T value_;
+};
+
+}  // namespace detail
+
+template <class T>
+SynapseType synapse_type() {
+    SynapseType type;
+    SynapseSpec<T> spec(type);
+    T::describe(spec);
+    type.has_gain = requires(const T t) { t.gain(); };
+    type.make = [] { return std::make_unique<detail::SynapseModel<T>>(); };
+    return type;
+}
+
+}  // namespace forage
