@@ -1,0 +1,70 @@
+#include "core/model/lookup.h"
+
+namespace forage::model {
+
+GroupIndex::GroupIndex(const System& system) {
+    for (const auto& process : system.processes)
+        for (const auto& group : process.groups) entries_.emplace(group.id, Entry{&process, &group});
+}
+
+GroupIndex::Entry GroupIndex::find(std::string_view id) const {
+    const auto it = entries_.find(id);
+    return it == entries_.end() ? Entry{nullptr, nullptr} : it->second;
+}
+
+std::string_view trim(std::string_view text) {
+    const auto first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+}
+
+namespace {
+
+std::string plain_path(const Process& process, const Group& group) {
+    return std::string(trim(process.name)) + "/" + std::string(trim(group.name));
+}
+
+}  // namespace
+
+std::string path(const System& system, const Process& process, const Group& group) {
+    const std::string plain = plain_path(process, group);
+    int same = 0;
+    for (const auto& p : system.processes)
+        for (const auto& g : p.groups) same += plain_path(p, g) == plain;
+    return same > 1 ? plain + "#" + group.id : plain;
+}
+
+std::vector<std::string> group_paths(const System& system) {
+    std::unordered_map<std::string, int> uses;
+    for (const auto& p : system.processes)
+        for (const auto& g : p.groups) ++uses[plain_path(p, g)];
+    std::vector<std::string> out;
+    for (const auto& p : system.processes)
+        for (const auto& g : p.groups) {
+            const std::string plain = plain_path(p, g);
+            out.push_back(uses[plain] > 1 ? plain + "#" + g.id : plain);
+        }
+    return out;
+}
+
+std::vector<GroupIndex::Entry> find_groups(const System& system, std::string_view wanted) {
+    std::string_view id;
+    std::string_view plain = trim(wanted);
+    std::vector<GroupIndex::Entry> out;
+    const auto collect = [&] {
+        for (const auto& p : system.processes)
+            for (const auto& g : p.groups) {
+                const bool name_fits = plain.empty() || plain_path(p, g) == plain;
+                if (name_fits && (id.empty() ? !plain.empty() : g.id == id)) out.push_back({&p, &g});
+            }
+    };
+    collect();  // a name may contain '#'
+    if (const auto hash = wanted.rfind('#'); out.empty() && hash != std::string_view::npos) {
+        id = wanted.substr(hash + 1);
+        plain = trim(wanted.substr(0, hash));
+        collect();
+    }
+    return out;
+}
+
+}  // namespace forage::model

@@ -1,0 +1,55 @@
+// Which cells of the source a connection pairs with which cells of the target.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "core/model/diagnostic.h"
+
+namespace forage::model {
+
+/// A cell by its place in the group: x to the right, y downwards, both from 1.
+struct Point {
+    int x = 1, y = 1;
+    Location at;
+};
+
+/// Every cell of the group.
+struct All {};
+
+/// A rectangle of cells; (x, y) is its upper left cell, from 1.
+struct Region {
+    int x = 1, y = 1, width = 1, height = 1;
+    Location at;
+};
+
+/// Single cells.
+struct List {
+    std::vector<Point> points;
+    Location at;
+};
+
+using Population = std::variant<All, Region, List>;
+
+/// The smaller population is laid over the larger one; each cell is paired with the place where it comes to lie.
+struct MappedPattern {
+    bool all = false;  ///< pair with every cell under the projected rectangle, not only with its centre
+    Population source, target;
+};
+
+/// Every source cell with every target cell.
+struct ForeachPattern {
+    Population source, target;
+};
+
+/// In each tuple, every source with every target; duplicates stay.
+struct TuplesPattern {
+    struct Tuple {
+        std::vector<Point> sources, targets;
+    };
+    std::vector<Tuple> tuples;
+};
+
+using Pattern = std::variant<MappedPattern, ForeachPattern, TuplesPattern>;
+
+}  // namespace forage::model

@@ -1,0 +1,261 @@
+#include "core/model/validate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "core/model/lookup.h"
+
+namespace forage::model {
+namespace {
+
+const Parameter* find_parameter(const std::vector<Parameter>& parameters, std::string_view name) {
+    const auto it = std::find_if(parameters.begin(), parameters.end(), [&](const auto& p) { return p.name == name; });
+    return it == parameters.end() ? nullptr : &*it;
+}
+
+std::string_view name_of(InputKind kind) {
+    return std::array{"excitatory", "inhibitory", "modulatory"}[static_cast<std::size_t>(kind)];
+}
+
+class Validator {
+  public:
+    Validator(const System& system, const Registry& registry, Diagnostics& out)
+        : system_(system), registry_(registry), out_(out), groups_(system) {}
+
+    void run() {
+        unique_ids();
+        for (const auto& process : system_.processes) {
+            for (const auto& group : process.groups) check_group(group);
+            if (process.module) check_module(process);
+        }
+        for (const auto& connection : system_.connections) check_connection(connection);
+    }
+
+  private:
+    void unique_ids() {
+        std::map<std::string_view, const Location*> seen;
+        const auto see = [&](const std::string& id, const Location& at, std::string_view what) {
+            if (id.empty()) return;  // reported by the reader
+            const auto [it, fresh] = seen.emplace(id, &at);
+            if (!fresh)
+                out_.error(at, fmt::format("the id '{}' of this {} is already used on line {}", id, what, it->second->line),
+                           "ids are unique over the whole file");
+        };
+        for (const auto& p : system_.processes) {
+            see(p.id, p.at, "process");
+            for (const auto& g : p.groups) see(g.id, g.at, "group");
+        }
+        for (const auto& c : system_.connections) see(c.id, c.at, "connection");
+    }
+
+    void check_settings(const TypeUse& use, const std::vector<Parameter>& parameters) {
+        std::vector<std::string> known;
+        for (const auto& p : parameters) known.push_back(p.name);
+        std::map<std::string_view, int> first_line;
+        for (const auto& s : use.settings) {
+            const Parameter* p = find_parameter(parameters, s.name);
+            if (!p) {
+                std::string hint = suggest(s.name, known);
+                if (const auto near = nearest(s.name, known); !near.empty())
+                    hint = fmt::format("did you mean '{}' ({})?", near, find_parameter(parameters, near)->doc);
+                else if (known.empty()) hint = fmt::format("{} has no parameters", use.type);
+                out_.unknown(s.name_at, fmt::format("{} has no parameter '{}'", use.type, s.name), hint);
+                continue;
+            }
+            if (const auto [it, fresh] = first_line.emplace(p->name, s.name_at.line); !fresh)
+                out_.error(s.name_at, fmt::format("parameter '{}' is given twice, first on line {}", s.name, it->second),
+                           "remove one of them");
+            const auto value = parse_parameter(p->kind, s.value);
+            if (!value) {
+                out_.error(s.value_at, fmt::format("'{}' is not {}", s.value, describe(p->kind)),
+                           fmt::format("{} ({}) is {}, {} by default", p->name, p->doc, describe(p->kind),
+                                       to_text(p->default_value)));
+                continue;
+            }
+            if (const auto* number = std::get_if<double>(&*value);
+                number && p->range && (*number < p->range->low || *number > p->range->high))
+                out_.warning(s.value_at,
+                             fmt::format("{} = {} is outside its usual range", p->name, s.value),
+                             fmt::format("{} ({}) is meant for {} to {}; the value is used as it is", p->name, p->label,
+                                         to_text(p->range->low), to_text(p->range->high)));
+        }
+    }
+
+    void check_group(const Group& group) {
+        if (const NeuronType* type = registry_.neuron(group.neuron.type)) check_settings(group.neuron, type->parameters);
+        else
+            out_.error(group.neuron.at, fmt::format("there is no neuron type '{}'", group.neuron.type),
+                       suggest(group.neuron.type, names(registry_.neurons())));
+        if (shape(group.topology).cells == 0)
+            out_.error(group.at, fmt::format("group '{}' has no cells", group.name), "width and height start at 1");
+    }
+
+    void check_module(const Process& process) {
+        const ModuleUse& use = *process.module;
+        const ModuleType* type = registry_.module(use.type);
+        if (!type) {
+            const std::string message = fmt::format("there is no module type '{}'", use.type);
+            const std::string hint = suggest(use.type, names(registry_.modules()));
+            if (process.module_enabled) out_.error(use.at, message, hint);
+            else out_.warning(use.at, message + "; the module is disabled", hint);
+            return;
+        }
+        check_settings(use, type->parameters);
+        ModulePorts ports;
+        ports.process = process.name;
+        check_ports(use, *type, use.inputs, false, process.module_enabled, ports.inputs);
+        check_ports(use, *type, use.outputs, true, process.module_enabled, ports.outputs);
+        if (process.module_enabled && !out_.failed()) check_with_type(use, *type, ports);
+    }
+
+    void check_ports(const ModuleUse& use, const ModuleType& type, const std::vector<CrossReference>& references,
+                     bool outputs, bool enabled, std::vector<ModulePorts::Group>& found) {
+        const std::string_view holder = outputs ? "OutputToGroup" : "InputFromGroup";
+        std::vector<ModulePort> ports;
+        std::vector<std::string> known;
+        for (const auto& port : type.ports)
+            if (port.is_output == outputs) ports.push_back(port), known.push_back(port.name);
+        for (const auto& r : references) {
+            if (type.any_ports) {
+                ModulePort port;
+                port.name = r.name;
+                ports.push_back(port);
+            } else if (std::find(known.begin(), known.end(), r.name) == known.end()) {
+                out_.unknown(r.at, fmt::format("{} has no cross reference '{}' in {}", use.type, r.name, holder),
+                             suggest(r.name, known));
+            }
+            if (!r.target.empty() && !groups_.find(r.target).group)
+                out_.error(r.at, fmt::format("cross reference '{}' leads to '{}', which is not the id of a group", r.name, r.target),
+                           near_id(r.target));
+        }
+        for (const auto& port : ports) {
+            const auto it = std::find_if(references.begin(), references.end(), [&](const auto& r) { return r.name == port.name; });
+            const bool set = it != references.end() && !it->target.empty();
+            found.push_back({port.name, {}, {}});
+            if (!set) {
+                if (enabled && !port.optional)
+                    out_.error(it == references.end() ? use.at : it->at,
+                               fmt::format("the cross reference '{}' of {} is not set", port.name, use.type),
+                               fmt::format("in {}, give it the id of a group for: {}", holder,
+                                           port.label.empty() ? port.name : port.label));
+                continue;
+            }
+            const auto entry = groups_.find(it->target);
+            if (!entry.group) continue;
+            const GroupShape size = shape(entry.group->topology);
+            found.back().path = std::string(trim(entry.process->name)) + "/" + std::string(trim(entry.group->name));
+            found.back().shape = size;
+            const bool fits = (port.width == 0 || (port.width == size.width && port.height == size.height)) &&
+                              (port.cells == 0 || port.cells == size.cells);
+            if (!fits && enabled)
+                out_.error(it->at,
+                           fmt::format("group '{}' for '{}' has {} x {} cells", entry.group->name, port.name, size.width, size.height),
+                           port.cells ? fmt::format("it must have {} cells", port.cells)
+                                      : fmt::format("it must have {} x {} cells", port.width, port.height));
+        }
+    }
+
+    /// Lets the module itself look at its parameters and groups.
+    void check_with_type(const ModuleUse& use, const ModuleType& type, const ModulePorts& ports) {
+        const auto module = type.make();
+        apply(use.settings, type.parameters, module->parameters());
+        Problems problems;
+        module->check(ports, problems);
+        for (const auto& problem : problems.all) {
+            Location at = use.at;
+            for (const auto& s : use.settings)
+                if (s.name == problem.parameter) at = s.value_at;
+            for (const auto* references : {&use.inputs, &use.outputs})
+                for (const auto& r : *references)
+                    if (r.name == problem.port) at = r.at;
+            out_.error(at, problem.message, problem.hint);
+        }
+    }
+
+    void check_connection(const Connection& c) {
+        const auto source = end(c, c.source, c.source_at, "source");
+        const auto target = end(c, c.target, c.target_at, "target");
+        if (target) {
+            const NeuronType* type = registry_.neuron(target->neuron.type);
+            if (type && !type->reads[static_cast<std::size_t>(c.kind)])
+                out_.warning(c.at, fmt::format("connection '{}' has no effect: {} reads no {} input", c.name, type->name, name_of(c.kind)));
+        }
+        if (!c.synapse) {
+            out_.error(c.at, fmt::format("connection '{}' has no synapse type", c.name),
+                       "add <Synapse name=\"synapseFixedWeight\"/>");
+        } else if (const SynapseType* type = registry_.synapse(c.synapse->type)) {
+            check_settings(*c.synapse, type->parameters);
+            check_feedback(*c.synapse, *type, target);
+        } else {
+            out_.error(c.synapse->at, fmt::format("there is no synapse type '{}'", c.synapse->type),
+                       suggest(c.synapse->type, names(registry_.synapses())));
+        }
+        (void)source;
+    }
+
+    const Group* end(const Connection& c, const std::string& id, const Location& at, std::string_view which) {
+        const Group* group = groups_.find(id).group;
+        if (!group)
+            out_.error(at, fmt::format("the {} '{}' of connection '{}' is not the id of a group", which, id, c.name), near_id(id));
+        return group;
+    }
+
+    void check_feedback(const SynapseUse& use, const SynapseType& type, const Group* target) {
+        std::vector<std::string> known;
+        for (const auto& f : type.feedback) known.push_back(f.name);
+        for (const auto& r : use.feedback)
+            if (std::find(known.begin(), known.end(), r.name) == known.end())
+                out_.unknown(r.at, fmt::format("{} has no feedback input '{}'", use.type, r.name), suggest(r.name, known));
+        const NeuronType* neuron = target ? registry_.neuron(target->neuron.type) : nullptr;
+        if (!neuron) return;
+        std::vector<std::string> states;
+        for (const auto& s : neuron->states) states.push_back(s.name);
+        for (const auto& f : type.feedback) {
+            const auto it = std::find_if(use.feedback.begin(), use.feedback.end(), [&](const auto& r) { return r.name == f.name; });
+            if (it == use.feedback.end() || it->target.empty()) {
+                if (f.required)
+                    out_.error(it == use.feedback.end() ? use.at : it->at,
+                               fmt::format("the feedback input '{}' of {} is not set", f.name, use.type),
+                               fmt::format("name a state of the target's {} in <XRefHolder name=\"Freedback\">: {}", neuron->name,
+                                           fmt::join(states, ", ")));
+            } else if (std::find(states.begin(), states.end(), it->target) == states.end()) {
+                out_.error(it->at, fmt::format("{} has no state '{}'", neuron->name, it->target), suggest(it->target, states));
+            }
+        }
+    }
+
+    std::string near_id(const std::string& id) const {
+        std::vector<std::string> ids, paths;
+        for (const auto& p : system_.processes)
+            for (const auto& g : p.groups) {
+                ids.push_back(g.id);
+                paths.push_back(std::string(trim(p.name)) + "/" + std::string(trim(g.name)));
+            }
+        for (std::size_t i = 0; i < paths.size(); ++i)
+            if (paths[i] == id || paths[i].substr(paths[i].find('/') + 1) == id)
+                return fmt::format("'{}' is a name; the group's id is '{}'", id, ids[i]);
+        if (const auto near = nearest(id, ids); !near.empty()) return fmt::format("did you mean '{}'?", near);
+        return "ids are the id attributes of <Group> elements";
+    }
+
+    const System& system_;
+    const Registry& registry_;
+    Diagnostics& out_;
+    GroupIndex groups_;
+};
+
+}  // namespace
+
+void validate(const System& system, const Registry& registry, Diagnostics& diagnostics) {
+    Validator(system, registry, diagnostics).run();
+}
+
+void apply(const std::vector<Setting>& settings, const std::vector<Parameter>& parameters, void* object) {
+    for (const auto& s : settings)
+        if (const Parameter* p = find_parameter(parameters, s.name))
+            if (const auto value = parse_parameter(p->kind, s.value)) p->set(object, *value);
+}
+
+}  // namespace forage::model
