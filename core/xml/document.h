@@ -1,0 +1,46 @@
+// An XML file whose elements and attributes know their line and column.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/model/diagnostic.h"
+
+namespace tinyxml2 {
+class XMLDocument;
+class XMLElement;
+class XMLAttribute;
+}  // namespace tinyxml2
+
+namespace forage::xml {
+
+class Document {
+  public:
+    /// Reads `path`; on failure reports what and where, and returns nothing.
+    static std::optional<Document> read(const std::string& path, Diagnostics& diagnostics);
+    /// Parses `text`, which a person knows as `path`.
+    static std::optional<Document> parse(std::string path, std::string text, Diagnostics& diagnostics);
+
+    Document(Document&&) noexcept;
+    Document& operator=(Document&&) noexcept;
+    ~Document();
+
+    const tinyxml2::XMLElement& root() const;
+    const std::shared_ptr<const SourceFile>& source() const { return source_; }
+
+    Location at(const tinyxml2::XMLElement& element) const;            ///< of the '<'
+    Location name_of(const tinyxml2::XMLAttribute& attribute) const;   ///< of the attribute's name
+    Location value_of(const tinyxml2::XMLAttribute& attribute) const;  ///< of the value's first character
+
+  private:
+    Document();
+    Location locate(const char* in_buffer, int fallback_line, int shift) const;
+
+    std::unique_ptr<tinyxml2::XMLDocument> xml_;
+    std::shared_ptr<const SourceFile> source_;
+    std::vector<std::size_t> line_starts_;
+    const char* buffer_ = nullptr;  ///< where tinyxml2 keeps its copy of the text
+};
+
+}  // namespace forage::xml
