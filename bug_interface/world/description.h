@@ -1,0 +1,115 @@
+// What a world file says: plain values, no behaviour, every value knows its file and line.
+//
+// World frame: x to the right (east), y up on every map (north), z up; metres, radians, seconds, kilograms.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/diagnostic.h"
+
+namespace forage::bug {
+
+using Pose = Eigen::Isometry3d;  ///< relative to the parent: model in world, link in model, the rest in link
+using Colour = Eigen::Array3f;   ///< red, green, blue in 0..1
+
+enum class ShapeKind { plane, box, cylinder, sphere };
+
+struct Shape {
+    ShapeKind kind = ShapeKind::box;
+    Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< box, plane: full extents (plane: z unused); others: diameters
+};
+
+/// How a surface reflects light: shade = ambient * scene ambient + diffuse * max(0, normal . light).
+struct Material {
+    Colour ambient = Colour::Constant(0.3f);  ///< the default is plain grey
+    Colour diffuse = Colour::Constant(0.7f);
+    std::string texture;  ///< path of a PNG image, or empty
+};
+
+struct Collision {
+    Location where;
+    std::string name;
+    Pose pose = Pose::Identity();
+    Shape shape;
+    double friction = 1;  ///< Coulomb coefficient
+};
+
+struct Visual {
+    Location where;
+    std::string name;
+    Pose pose = Pose::Identity();
+    Shape shape;
+    Material material;
+};
+
+/// A planar range scanner. Ray i of n points `first + i * (last - first) / (n - 1)` to the left of the sensor's x axis.
+struct RangeSensor {
+    Location where;
+    std::string name;
+    Pose pose = Pose::Identity();
+    int rays = 1;
+    double first_angle = 0, last_angle = 0;   ///< rad
+    double min_range = 0, max_range = 1;      ///< m; nearer things are invisible
+    double noise = 0;                         ///< standard deviation, m
+};
+
+/// A pinhole camera that looks along its x axis.
+struct CameraSensor {
+    Location where;
+    std::string name;
+    Pose pose = Pose::Identity();
+    double horizontal_fov = 1;   ///< full opening angle, rad
+    int width = 32, height = 28; ///< pixels
+    double far = 20;             ///< nothing is drawn beyond, m
+    double noise = 0;            ///< standard deviation, of a channel in 0..1
+};
+
+struct Link {
+    Location where;
+    std::string name;
+    Pose pose = Pose::Identity();
+    double mass = 1;
+    double inertia_z = 1;  ///< kg m^2
+    std::vector<Collision> collisions;
+    std::vector<Visual> visuals;
+    std::vector<RangeSensor> range_sensors;
+    std::vector<CameraSensor> cameras;
+};
+
+struct Plugin {
+    Location where;
+    std::string name, filename;
+};
+
+struct Model {
+    Location where;
+    std::string name;
+    Pose pose = Pose::Identity();
+    bool is_static = false;
+    std::vector<Link> links;
+    std::vector<Plugin> plugins;
+    std::vector<Model> models;  ///< fixed to this one
+};
+
+/// Everything of a world file that Forage uses.
+struct WorldDescription {
+    std::string path;
+    double step = 0.001;         ///< physics step, s
+    double update_rate = 1000;   ///< physics steps per second of wall clock that the file asks for
+    float ambient = 0.4f;        ///< light from everywhere, 0..1
+    std::optional<Eigen::Vector3d> sun;  ///< unit vector towards a directional light
+    std::vector<Model> models;
+};
+
+/// A pose in the plane.
+struct Pose2 {
+    double x = 0, y = 0, yaw = 0;
+};
+
+inline double yaw_of(const Pose& pose) { return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0)); }
+inline Pose2 in_plane(const Pose& pose) { return {pose.translation().x(), pose.translation().y(), yaw_of(pose)}; }
+
+}  // namespace forage::bug

@@ -1,0 +1,31 @@
+// Colours: what the named materials look like, and how light falls on them.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "bug_interface/world/description.h"
+
+namespace forage::bug {
+
+/// The colours of a material that Gazebo ships ("Gazebo/Red", ...).
+std::optional<Material> named_material(std::string_view name);
+
+/// The names that named_material() knows.
+std::span<const std::string> material_names();
+
+/// The file name that `script_text` gives to the texture of material `name`; empty when there is none.
+std::string texture_in_script(std::string_view script_text, std::string_view name);
+
+/// Light of a scene.
+struct Lighting {
+    float ambient = 0.4f;
+    std::optional<Eigen::Vector3d> sun;  ///< unit vector towards the sun
+
+    /// What the camera sees of a face with unit normal `normal` (world frame), clamped to 0..1.
+    Colour shade(const Material& material, const Eigen::Vector3d& normal) const;
+};
+
+}  // namespace forage::bug

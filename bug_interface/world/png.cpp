@@ -1,0 +1,33 @@
+#include "bug_interface/world/png.h"
+
+#include <png.h>
+
+#include <stdexcept>
+
+namespace forage::bug {
+
+Image read_png(const std::string& path) {
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    if (!png_image_begin_read_from_file(&png, path.c_str())) throw std::runtime_error(path + ": " + png.message);
+    png.format = PNG_FORMAT_RGB;
+    Image image{static_cast<int>(png.width), static_cast<int>(png.height), std::vector<std::uint8_t>(PNG_IMAGE_SIZE(png))};
+    const png_color black{0, 0, 0};  // behind transparent pixels
+    if (!png_image_finish_read(&png, &black, image.rgb.data(), 0, nullptr))
+        throw std::runtime_error(path + ": " + png.message);
+    return image;
+}
+
+void write_png(const std::string& path, int width, int height, std::span<const std::uint8_t> rgb) {
+    if (rgb.size() != std::size_t(3) * std::size_t(width) * std::size_t(height))
+        throw std::runtime_error(path + ": the number of pixels is not width x height");
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    png.width = static_cast<png_uint_32>(width);
+    png.height = static_cast<png_uint_32>(height);
+    png.format = PNG_FORMAT_RGB;
+    if (!png_image_write_to_file(&png, path.c_str(), 0, rgb.data(), 0, nullptr))
+        throw std::runtime_error(path + ": " + png.message);
+}
+
+}  // namespace forage::bug
