@@ -5,11 +5,9 @@
 namespace forage {
 
 void LinearThreshold::describe(NeuronSpec<LinearThreshold>& s) {
-    using T = LinearThreshold;
     s.name("neuronLinearThreshold", "Linear threshold").doc("Sums its inputs, leaks, silent below threshold.");
     membrane::describe_potential(s);
-    s.param("probability", &T::probability).label("Probability").range(0, 1).doc("Chance per cycle that a cell is active.");
-    s.param("threshold", &T::threshold).label("Threshold potential").range(0, 1).doc("Potential below which act is 0.");
+    membrane::describe_firing(s);
     s.state("vm", "Membrane potential").output("act", "Activity");
 }
 

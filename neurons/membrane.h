@@ -18,6 +18,13 @@ void describe_potential(NeuronSpec<T>& s) {
     s.param("vmMax", &T::maximum).label("Maximum potential").range(0, 1).doc("Highest vm when it is clipped.");
 }
 
+/// Declares probability and threshold.
+template <class T>
+void describe_firing(NeuronSpec<T>& s) {
+    s.param("probability", &T::probability).label("Probability").range(0, 1).doc("Chance per cycle that a cell is active.");
+    s.param("threshold", &T::threshold).label("Threshold potential").range(0, 1).doc("Potential below which act is 0.");
+}
+
 /// vm = ((vm * vmPrs) + exc * excGain) - inh * inhGain, then clipped from below and from above if asked;
 /// `previous` is the potential that persists. NaN passes.
 template <class T, class Previous>

@@ -65,7 +65,7 @@ std::vector<int> delays(const model::DistanceFunction& function, std::span<const
     std::vector<int> out;
     out.reserve(distances.size());
     for (const double v : evaluate(function, distances, random, true)) {
-        const double whole = truncated ? std::trunc(v) : std::nearbyint(v);
+        const double whole = truncated ? std::trunc(v) : std::round(v);  // a half: away from 0
         out.push_back(whole > 0 ? static_cast<int>(std::min(whole, 1e9)) : 0);  // NaN gives 0
     }
     return out;

@@ -4,7 +4,8 @@
 //
 //     static void describe(ModuleSpec<T>&);          // name, parameters, inputs, outputs
 //     void check(const ModulePorts&, Problems&);     // optional: sizes that belong together
-//     void start(const ModulePorts&);                // optional: once, before the first cycle
+//     void start(const ModulePorts&);                // optional: once, before the first cycle; or
+//     void start(const ModulePorts&, ModuleFrame&);  // ... what it writes is received in cycle 0
 //     void update(ModuleFrame&);                     // once per cycle, after the groups, before the connections
 //
 // A module reads the output activity of its input groups of this cycle. What it writes into an output is
@@ -80,7 +81,7 @@ class ModuleInstance {
     virtual ~ModuleInstance() = default;
     virtual void* parameters() = 0;
     virtual void check(const ModulePorts&, Problems&) = 0;
-    virtual void start(const ModulePorts&) = 0;
+    virtual void start(const ModulePorts&, ModuleFrame&) = 0;
     virtual void update(ModuleFrame&) = 0;
 };
 
@@ -146,8 +147,9 @@ class ModuleModel final : public ModuleInstance {
     void check(const ModulePorts& ports, Problems& problems) override {
         if constexpr (requires { value_.check(ports, problems); }) value_.check(ports, problems);
     }
-    void start(const ModulePorts& ports) override {
-        if constexpr (requires { value_.start(ports); }) value_.start(ports);
+    void start(const ModulePorts& ports, ModuleFrame& frame) override {
+        if constexpr (requires { value_.start(ports, frame); }) value_.start(ports, frame);
+        else if constexpr (requires { value_.start(ports); }) value_.start(ports);
     }
     void update(ModuleFrame& frame) override { value_.update(frame); }
 

@@ -1,0 +1,33 @@
+// One block of numbers that holds everything that changes during a run.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "core/types/column.h"
+
+namespace forage::engine {
+
+/// Rows of doubles in one zeroed block. Each row starts at a multiple of 64 bytes. Reserve first, allocate once.
+class Arena {
+  public:
+    using Offset = std::size_t;
+
+    /// Room for `rows` rows of `cells` numbers each, stride(cells) apart.
+    Offset reserve(Index cells, Index rows = 1);
+    void allocate();
+    double* at(Offset offset) { return block_.get() + offset; }
+    std::size_t size() const { return size_; }  ///< in doubles
+
+    /// Distance between two rows of `cells` numbers.
+    static Index stride(Index cells) { return (cells + 7) / 8 * 8; }
+
+  private:
+    struct Free {
+        void operator()(double* p) const;
+    };
+    std::unique_ptr<double[], Free> block_;
+    std::size_t size_ = 0;
+};
+
+}  // namespace forage::engine

@@ -1,0 +1,152 @@
+#include "core/engine/kernel.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace forage::engine {
+namespace {
+
+/// Synapses sorted by target; those of one target stay in synapse order.
+struct ByTarget {
+    std::vector<int> start;  ///< of target t's synapses; one more entry than targets
+    std::vector<int> pre, delay;
+    std::vector<double> factor;
+};
+
+ByTarget sort_by_target(const connectivity::Synapses& s, int targets) {
+    ByTarget out;
+    out.start.assign(static_cast<std::size_t>(targets) + 1, 0);
+    for (const int post : s.post) ++out.start[static_cast<std::size_t>(post) + 1];
+    std::partial_sum(out.start.begin(), out.start.end(), out.start.begin());
+    std::vector<int> next(out.start.begin(), out.start.end() - 1);
+    out.pre.resize(s.size()), out.delay.resize(s.size()), out.factor.resize(s.size());
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const auto place = static_cast<std::size_t>(next[static_cast<std::size_t>(s.post[i])]++);
+        out.pre[place] = s.pre[i];
+        out.delay[place] = s.delay[i];
+        out.factor[place] = s.reference - s.attenuation[i];
+    }
+    return out;
+}
+
+template <class T>
+bool all_equal(const std::vector<T>& values) {
+    return std::all_of(values.begin(), values.end(), [&](const T& v) { return v == values.front(); });
+}
+
+/// Each target cell has one synapse, from the source cell of the same index, and all are alike.
+class OneToOne final : public Kernel {
+  public:
+    OneToOne(const ByTarget& s, const SynapseInstance& synapse)
+        : synapse_(synapse), cells_(static_cast<Index>(s.pre.size())), delay_(s.delay[0]), factor_(s.factor[0]) {}
+    static bool fits(const ByTarget& s, int source_cells, int target_cells) {
+        if (source_cells != target_cells || s.pre.size() != static_cast<std::size_t>(target_cells)) return false;
+        for (std::size_t i = 0; i < s.pre.size(); ++i)
+            if (s.pre[i] != static_cast<int>(i) || s.start[i] != static_cast<int>(i)) return false;
+        return all_equal(s.delay) && all_equal(s.factor);
+    }
+    void deliver(const History& source, double* target) override {
+        const ConstColumn pre(source.ago(delay_), cells_);
+        Column(target, cells_) += (pre * synapse_.gain()) * factor_;
+    }
+    std::string_view form() const override { return "one to one"; }
+
+  private:
+    const SynapseInstance& synapse_;
+    Index cells_;
+    int delay_;
+    double factor_;
+};
+
+/// The general form. The products of gain and source activity are made once per source cell.
+class List final : public Kernel {
+  public:
+    List(ByTarget s, int source_cells, const SynapseInstance& synapse)
+        : synapse_(synapse), s_(std::move(s)), same_delay_(all_equal(s_.delay)), same_factor_(all_equal(s_.factor)),
+          scaled_(static_cast<std::size_t>(source_cells)) {
+        longest_ = *std::max_element(s_.delay.begin(), s_.delay.end());
+        rows_.resize(static_cast<std::size_t>(longest_) + 1);
+    }
+    void deliver(const History& source, double* target) override {
+        const double gain = synapse_.gain();
+        if (!same_delay_) return deliver_delayed(source, gain, target);
+        const Index cells = static_cast<Index>(scaled_.size());
+        const ConstColumn pre(source.ago(longest_), cells);
+        Column scaled(scaled_.data(), cells);
+        scaled = pre * gain;
+        if (same_factor_) {
+            scaled *= s_.factor[0];
+            sum(target, [&](std::size_t i) { return scaled_[static_cast<std::size_t>(s_.pre[i])]; });
+        } else {
+            sum(target, [&](std::size_t i) { return scaled_[static_cast<std::size_t>(s_.pre[i])] * s_.factor[i]; });
+        }
+    }
+    std::string_view form() const override { return "list"; }
+
+  private:
+    void deliver_delayed(const History& source, double gain, double* target) {
+        for (int d = 0; d <= longest_; ++d) rows_[static_cast<std::size_t>(d)] = source.ago(d);
+        sum(target, [&](std::size_t i) { return (gain * rows_[static_cast<std::size_t>(s_.delay[i])][s_.pre[i]]) * s_.factor[i]; });
+    }
+    template <class F>
+    void sum(double* target, F psp) const {
+        for (std::size_t t = 0; t + 1 < s_.start.size(); ++t) {
+            double total = 0;
+            for (auto i = static_cast<std::size_t>(s_.start[t]); i < static_cast<std::size_t>(s_.start[t + 1]); ++i) total += psp(i);
+            target[t] += total;
+        }
+    }
+
+    const SynapseInstance& synapse_;
+    ByTarget s_;
+    bool same_delay_, same_factor_;
+    int longest_ = 0;
+    std::vector<double> scaled_;
+    std::vector<const double*> rows_;
+};
+
+/// All target cells receive the same sum, which is made once.
+class Broadcast final : public Kernel {
+  public:
+    Broadcast(const ByTarget& s, int source_cells, int target_cells, const SynapseInstance& synapse)
+        : one_(first_target(s), source_cells, synapse), cells_(target_cells) {}
+    static bool fits(const ByTarget& s, int target_cells) {
+        const auto each = static_cast<std::size_t>(s.start[1]);
+        if (target_cells < 2 || each * static_cast<std::size_t>(target_cells) != s.pre.size()) return false;
+        for (std::size_t i = 0; i < s.pre.size(); ++i) {
+            const std::size_t first = i % each;
+            if (s.pre[i] != s.pre[first] || s.delay[i] != s.delay[first] || s.factor[i] != s.factor[first]) return false;
+        }
+        for (std::size_t t = 0; t < s.start.size(); ++t)
+            if (static_cast<std::size_t>(s.start[t]) != t * each) return false;
+        return true;
+    }
+    void deliver(const History& source, double* target) override {
+        double total = 0;
+        one_.deliver(source, &total);
+        Column(target, cells_) += total;
+    }
+    std::string_view form() const override { return "broadcast"; }
+
+  private:
+    static ByTarget first_target(const ByTarget& s) {
+        const auto n = s.start[1];
+        return {{0, n}, {s.pre.begin(), s.pre.begin() + n}, {s.delay.begin(), s.delay.begin() + n}, {s.factor.begin(), s.factor.begin() + n}};
+    }
+    List one_;
+    Index cells_;
+};
+
+}  // namespace
+
+std::unique_ptr<Kernel> make_kernel(const connectivity::Synapses& synapses, int source_cells, int target_cells,
+                                    const SynapseInstance& synapse, Forms forms) {
+    ByTarget sorted = sort_by_target(synapses, target_cells);
+    if (forms == Forms::fastest) {
+        if (OneToOne::fits(sorted, source_cells, target_cells)) return std::make_unique<OneToOne>(sorted, synapse);
+        if (Broadcast::fits(sorted, target_cells)) return std::make_unique<Broadcast>(sorted, source_cells, target_cells, synapse);
+    }
+    return std::make_unique<List>(std::move(sorted), source_cells, synapse);
+}
+
+}  // namespace forage::engine

@@ -1,0 +1,70 @@
+// A model compiled against the types: what never changes during a run. The numbers live in an Arena.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/engine/arena.h"
+#include "core/engine/kernel.h"
+#include "core/engine/plastic_kernel.h"
+#include "core/model/system.h"
+#include "core/types/registry.h"
+
+namespace forage::engine {
+
+struct GroupPlan {
+    std::string path, id;  ///< path: "Process/Group"
+    GroupShape shape;
+    Index cells = 0, stride = 0;
+    NeuronType type;
+    std::unique_ptr<NeuronInstance> neuron;
+    RandomStream random;
+    std::vector<Arena::Offset> state_offsets;
+    std::vector<NeuronColumns::State> states;  ///< a state's ring: row t % depth is that of cycle t
+    std::array<std::array<Arena::Offset, 2>, input_kinds> input_offsets{};
+    std::array<std::array<double*, 2>, input_kinds> inputs{};  ///< of this and of the next cycle, in turns
+    int history = 0;  ///< longest delay of outgoing connections; 0: no ring of past activity is kept
+    Arena::Offset history_offset = 0;
+    double* history_ring = nullptr;  ///< row t % (history + 1) is the activity of cycle t
+};
+
+struct ModulePlan {
+    std::string process, process_id, type_name;
+    ModuleType type;
+    std::unique_ptr<ModuleInstance> module;
+    ModulePorts ports;
+    std::vector<int> input_groups, output_groups;  ///< -1: unset
+    std::vector<Arena::Offset> output_offsets;
+    std::vector<ConstColumn> in;
+    std::vector<Column> out;
+};
+
+struct ConnectionPlan {
+    std::string id, name;
+    int source = 0, target = 0;
+    InputKind kind = InputKind::excitatory;
+    std::unique_ptr<SynapseInstance> synapse;
+    SynapseType type;
+    std::unique_ptr<Kernel> kernel;
+    PlasticKernel* plastic = nullptr;  ///< the kernel, when its synapses have states of their own
+    bool effective = true;             ///< the target's type reads this kind of input
+    std::size_t synapses = 0;
+};
+
+/// Groups, modules and connections in the order in which a cycle updates them: byte order of their ids (of the
+/// process, for a module).
+struct Plan {
+    std::vector<GroupPlan> groups;
+    std::vector<ModulePlan> modules;
+    std::vector<ConnectionPlan> connections;
+    std::vector<double> scratch;  ///< one row of the widest group
+    Arena arena;
+};
+
+/// Empty when `diagnostics` got an error. The system must have passed model::validate().
+std::unique_ptr<Plan> compile(const model::System& system, const Registry& registry, std::uint64_t seed, Forms forms,
+                              Diagnostics& diagnostics);
+
+}  // namespace forage::engine

@@ -1,0 +1,95 @@
+// A system that runs.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/model/system.h"
+#include "core/types/registry.h"
+
+namespace forage::engine {
+
+struct ModulePlan;
+struct Plan;
+
+/// A type's update or a module's start failed; the message names the type, its place in the system and the cycle.
+class RunError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Runs a system cycle by cycle. A cycle is
+///
+///     update_groups()       each group reads what was delivered at the end of the last cycle
+///     update_modules()      each module reads this cycle's activity of its input groups
+///     update_connections()  each connection delivers what its target reads in the next cycle
+///
+/// each in byte order of ids. So A's activity of cycle t is B's input of cycle t + 1, plus the connection's delay; what
+/// a module writes in t is excitatory input of t + 1. An input is the sum of what modules write, in the order of
+/// their cross references, and then of what connections deliver. Between the phases, states may be looked at and,
+/// after update_groups(), activities may be overwritten.
+class Simulation {
+  public:
+    struct Options {
+        std::uint64_t seed = 1;
+        bool general_forms = false;  ///< compile every connection to a list of synapses (slower, same numbers)
+    };
+    /// Checks the system and builds it. Empty when `diagnostics` got an error.
+    static std::optional<Simulation> build(const model::System& system, const Registry& registry, Options options,
+                                           Diagnostics& diagnostics);
+    Simulation(Simulation&&) noexcept;
+    Simulation& operator=(Simulation&&) noexcept;
+    ~Simulation();
+
+    /// Starts the modules; before the first cycle. Throws RunError.
+    void start();
+    /// One cycle. Throws RunError.
+    void step();
+    void update_groups();
+    void update_modules();
+    void update_connections();  ///< ends the cycle
+
+    std::uint64_t cycle() const { return cycle_; }  ///< the number of completed cycles; the next one has this number
+
+    // Groups, numbered in order of update. What is read here is of the running cycle, or of the last one between
+    // cycles.
+    int groups() const;
+    const std::string& path(int group) const;  ///< "Process/Group", with "#id" where that is ambiguous
+    const std::string& id(int group) const;
+    GroupShape shape(int group) const;
+    const NeuronType& type(int group) const;
+    /// Input as the neuron read it, with the gain that its type applies.
+    ConstColumn input(int group, InputKind kind) const;
+    ConstColumn state(int group, int state) const;
+    Column output(int group);  ///< activity, to overwrite after update_groups()
+
+    // Modules that are enabled, in order of update.
+    int modules() const;
+    const std::string& module_process(int module) const;
+    const ModulePorts& module_ports(int module) const;
+    ConstColumn module_output(int module, int port) const;
+
+    // Connections, in order of update.
+    int connections() const;
+    const std::string& connection_id(int connection) const;
+    const std::string& connection_name(int connection) const;
+    std::string_view connection_form(int connection) const;  ///< how it was compiled
+    std::size_t synapses(int connection) const;
+    const SynapseType& synapse_type(int connection) const;
+    /// State of a connection whose synapses have their own, per synapse; empty for others.
+    ConstColumn synapse_state(int connection, int state) const;
+
+  private:
+    explicit Simulation(std::unique_ptr<Plan> plan);
+    void deliver_outputs(const ModulePlan& module, std::size_t turn);
+
+    std::unique_ptr<Plan> plan_;
+    std::uint64_t cycle_ = 0;
+    std::uint64_t shown_ = 0;  ///< the cycle whose numbers are looked at
+};
+
+}  // namespace forage::engine

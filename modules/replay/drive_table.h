@@ -1,0 +1,35 @@
+// Tables of values over time: what drives, or overwrites, groups of a running system.
+#pragma once
+
+#include <cstdint>
+#include <istream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace forage::replay {
+
+/// Rows `cycle,process,target,v0,v1,...`, one value per cell. `process` is a name, or `*` for any; `target` is a cross
+/// reference's name or a group's. A row of cycle -1 counts from the start.
+class DriveTable {
+  public:
+    struct Row {
+        std::int64_t cycle = 0;
+        std::string process, target;
+        std::vector<double> values;
+        int line = 0;  ///< in the file, from 1
+    };
+
+    DriveTable() = default;
+    /// Rows in order of cycle; rows of one cycle stay in file order. Throws std::runtime_error that names `name`, the
+    /// line and what is wrong with it.
+    static DriveTable parse(std::istream& in, const std::string& name);
+    static DriveTable read(const std::string& path);
+
+    const std::vector<Row>& rows() const { return rows_; }
+
+  private:
+    std::vector<Row> rows_;
+};
+
+}  // namespace forage::replay

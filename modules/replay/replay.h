@@ -1,0 +1,36 @@
+// moduleReplay: plays a table into groups, so that a system can be driven by recorded data.
+#pragma once
+
+#include <memory>
+
+#include "core/types/module.h"
+#include "modules/replay/drive_table.h"
+
+namespace forage::replay {
+
+/// Takes any cross references. In cycle t it writes the row of cycle t into the output that the row names (by cross
+/// reference or group), so the group receives it in cycle t + 1; a row of cycle -1 is received in cycle 0.
+/// Outputs hold their last row.
+struct Replay {
+    std::string file;
+    std::shared_ptr<const DriveTable> table;  ///< what is played when `file` is empty
+
+    static void describe(ModuleSpec<Replay>& s) {
+        s.name("moduleReplay", "Replay").doc("Plays the rows of a table into its output groups.").any_ports();
+        s.param("file", &Replay::file).label("File").doc("Table of rows cycle,process,target,v0,v1,...");
+    }
+    void check(const ModulePorts& ports, Problems& problems);
+    void start(const ModulePorts& ports, ModuleFrame& frame);
+    void update(ModuleFrame& frame);
+
+  private:
+    struct Cursor {
+        std::vector<const DriveTable::Row*> rows;  ///< of one output, in order
+        std::size_t next = 0;
+    };
+    void play(std::int64_t until, ModuleFrame& frame);
+
+    std::vector<Cursor> cursors_;  ///< one per output
+};
+
+}  // namespace forage::replay

@@ -1,0 +1,25 @@
+#include "neurons/integrate_fire.h"
+
+#include "neurons/membrane.h"
+
+namespace forage {
+
+void IntegrateFire::describe(NeuronSpec<IntegrateFire>& s) {
+    using T = IntegrateFire;
+    s.name("neuronIntegrateFire", "Integrate & fire").doc("Sums its inputs, leaks, spikes and is reset at threshold.");
+    membrane::describe_potential(s);
+    membrane::describe_firing(s);
+    s.param("spkAmpl", &T::amplitude).label("Spike amplitude").range(0, 1).doc("Divides the reset; a spike is always 1.");
+    s.param("vmReset", &T::reset).label("Membrane potential reset").range(0, 1).doc("What a spike takes from vm.");
+    s.state("vm", "Membrane potential").output("act", "Activity");
+}
+
+void IntegrateFire::update(NeuronColumns& c) const {
+    auto [vm, act] = c.states<2>();
+    membrane::integrate(*this, c, vm, vm);
+    act = (vm < threshold).select(0.0, Eigen::ArrayXd::Ones(c.size()));
+    membrane::silence(c, act, probability);
+    if (amplitude != 0) vm -= reset * act / amplitude;
+}
+
+}  // namespace forage
