@@ -1,0 +1,65 @@
+#include "core/observe/column.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/model/lookup.h"
+
+namespace forage::observe {
+namespace {
+
+constexpr std::array<std::string_view, input_kinds> inputs = {"excIn", "inhIn", "modIn"};
+
+/// Groups of the path, also "Process/Group#id" and "#id" where the path alone would do.
+std::vector<int> groups_named(const engine::Simulation& s, std::string_view path) {
+    std::vector<int> out;
+    const auto hash = path.rfind('#');
+    for (int g = 0; g < s.groups(); ++g) {
+        const std::string_view own = s.path(g);
+        const bool by_path = own == model::trim(path) || own.substr(0, own.rfind('#')) == model::trim(path);
+        const bool by_id = hash != std::string_view::npos && s.id(g) == path.substr(hash + 1);
+        if (by_path || by_id) out.push_back(g);
+    }
+    return out;
+}
+
+}  // namespace
+
+std::optional<ColumnRef> find_column(const engine::Simulation& s, std::string_view text, std::string_view what,
+                                     Diagnostics& diagnostics) {
+    std::string_view path = text, state;
+    auto found = groups_named(s, path);  // a name may contain ':'
+    if (const auto colon = text.rfind(':'); found.empty() && colon != std::string_view::npos) {
+        path = text.substr(0, colon);
+        state = text.substr(colon + 1);
+        found = groups_named(s, path);
+    }
+    if (found.size() != 1) {
+        std::vector<std::string> names;
+        if (found.empty())
+            for (int g = 0; g < s.groups(); ++g) names.push_back(s.path(g));
+        for (const int g : found) names.push_back(s.path(g));
+        diagnostics.error({}, fmt::format("{} '{}': {}", what, text, found.empty() ? fmt::format("there is no group '{}'", path)
+                                                                                      : fmt::format("'{}' names {} groups", path, found.size())),
+                          found.empty() ? suggest(path, names) : fmt::format("use one of '{}'", fmt::join(names, "', '")));
+        return std::nullopt;
+    }
+    const int group = found.front();
+    const auto& type = s.type(group);
+    if (state.empty()) return ColumnRef{group, type.output(), {}, s.path(group) + ":" + type.states[static_cast<std::size_t>(type.output())].name};
+    std::vector<std::string> known;
+    for (std::size_t i = 0; i < type.states.size(); ++i) {
+        known.push_back(type.states[i].name);
+        if (known.back() == state) return ColumnRef{group, static_cast<int>(i), {}, s.path(group) + ":" + known.back()};
+    }
+    for (std::size_t k = 0; k < inputs.size(); ++k) {
+        known.emplace_back(inputs[k]);
+        if (inputs[k] == state) return ColumnRef{group, -1, static_cast<InputKind>(k), s.path(group) + ":" + known.back()};
+    }
+    diagnostics.error({}, fmt::format("{} '{}': {} has no state '{}'", what, text, type.name, state), suggest(state, known));
+    return std::nullopt;
+}
+
+}  // namespace forage::observe

@@ -1,0 +1,31 @@
+// Columns of a running system by the name that a person gives them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/engine/simulation.h"
+
+namespace forage::observe {
+
+/// One number per cell of a group: a state of its neurons, or an input.
+struct ColumnRef {
+    int group = 0;
+    int state = -1;  ///< -1: the input `kind`
+    InputKind kind = InputKind::excitatory;
+    std::string name;  ///< "Process/Group:state"
+};
+
+/// The column that `text` names: "Process/Group:state", or "Process/Group" for the activity. States are those of the
+/// group's type, and excIn, inhIn, modIn. Reports what is not there, with the names there are; `what` says where
+/// the text stands ("--record").
+std::optional<ColumnRef> find_column(const engine::Simulation& simulation, std::string_view text, std::string_view what,
+                                     Diagnostics& diagnostics);
+
+/// Its values in the running cycle, or the last one between cycles.
+inline ConstColumn values(const engine::Simulation& simulation, const ColumnRef& c) {
+    return c.state >= 0 ? simulation.state(c.group, c.state) : simulation.input(c.group, c.kind);
+}
+
+}  // namespace forage::observe
