@@ -9,6 +9,9 @@ target_compile_features(forage_options INTERFACE cxx_std_20)
 # The same bits everywhere: no contraction to fused multiply-add, no fast math.
 target_compile_options(forage_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                                                 -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  target_compile_options(forage_options INTERFACE -Wno-restrict)  # GCC 12 warns of its own std::string (bug 105329)
+endif()
 if(FORAGE_WERROR)
   target_compile_options(forage_options INTERFACE -Werror)
 endif()

@@ -1,0 +1,258 @@
+#include "bug_interface/module/gazebo_bug.h"
+
+#include <algorithm>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "bug_interface/motion/motor.h"
+#include "core/model/diagnostic.h"
+
+namespace forage::bug {
+namespace {
+
+enum In : std::size_t { motor, gripper_command, audio_out };
+enum Out : std::size_t {
+    proximity,
+    target,
+    gripper_scan,
+    gps,
+    image_first,
+    image_second,
+    image_third,
+    place,
+    head,
+    audio_in
+};
+
+constexpr int max_image_width = 32, max_image_height = 28;
+
+std::span<double> cells_of(Column& column) {
+    return {column.data(), static_cast<std::size_t>(column.size())};
+}
+
+std::string no_robot(const World& world, const std::string& name) {
+    return fmt::format("there is no robot '{}' in the world '{}'", name, world.description().path);
+}
+
+std::string what_there_is(const World& world, const std::string& name) {
+    const auto names = world.bug_names();
+    return names.empty() ? "the world has no robot: a robot is a model with a link 'bug' and the plugin "
+                           "libvel_plugin.so"
+                         : suggest(name, names);
+}
+
+}  // namespace
+
+void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
+    using T = GazeboBug;
+    s.name("moduleGazeboBug", "Gazebo Bug")
+        .doc("The senses and motors of a robot in the simulated world, in lock-step with the system.");
+    s.param("device_name", &T::device_name)
+        .label("Device name")
+        .doc("Name of the robot: of its model in the world file.");
+    s.param("cps", &T::cps)
+        .label("Cycles per second")
+        .unit("1/s")
+        .doc("No effect: the robot moves in lock-step with the system.");
+    s.param("comkey", &T::comkey)
+        .label("Communication key")
+        .doc("Robots with the same key hear each other. No effect yet.");
+    s.param("gripper", &T::gripper)
+        .label("Has gripper")
+        .doc("Whether the robot has a gripper; its groups need their sizes only then.");
+    s.param("grayscale", &T::grayscale)
+        .label("Grayscale")
+        .doc("The three image groups all get the grey value; wins over hsv.");
+    s.param("hsv", &T::hsv)
+        .label("HSV")
+        .doc("The image groups get hue, saturation and value instead of red, green and blue.");
+    s.param("transSpeed", &T::trans_speed)
+        .label("Translation speed")
+        .unit("m/s")
+        .doc("Speed that the top row of the motor group stands for.");
+    s.param("rotSpeed", &T::rot_speed)
+        .label("Rotation speed")
+        .unit("rad/s")
+        .doc("Left turn that the left column of the motor group stands for.");
+    s.param("placeXOffset", &T::place_x_offset)
+        .label("Place X offset")
+        .unit("m")
+        .doc("x that the middle of the place cells stands for.");
+    s.param("placeYOffset", &T::place_y_offset)
+        .label("Place Y offset")
+        .unit("m")
+        .doc("y that the middle of the place cells stands for.");
+    s.param("placeXMax", &T::place_x_max)
+        .label("Place X max")
+        .unit("m")
+        .doc("Half extent in x of the area of the place cells; added to x in the GPS.");
+    s.param("placeYMax", &T::place_y_max)
+        .label("Place Y max")
+        .unit("m")
+        .doc("Half extent in y of the area of the place cells; added to y in the GPS.");
+    s.param("placeSigma", &T::place_sigma)
+        .label("Place sigma")
+        .doc("Width of a place cell's field; the area is 2 wide.");
+    s.param("headSigma", &T::head_sigma)
+        .label("Head sigma")
+        .doc("Width of a head direction cell's field; the circle is 1 long.");
+
+    s.input("_motor", "Motor");
+    s.input("_gripper", "Gripper").optional();
+    s.input("_audio_out", "Shout").optional().cells(36);
+    s.output("_proximity", "Proximity sensor").optional().size(32, 1);
+    s.output("_target", "Target sensor").optional().size(32, 1);
+    s.output("_proximityGripper", "Gripper proximity sensor").optional();
+    s.output("_gps", "GPS").optional().size(3, 1);
+    s.output("_image_RH", "Image red or hue").optional();
+    s.output("_image_GS", "Image green or saturation").optional();
+    s.output("_image_BV", "Image blue or value").optional();
+    s.output("placeCell", "Place cells").optional();
+    s.output("headCell", "Head direction cells").optional();
+    s.output("_audio_in", "Listen").optional().cells(36);
+}
+
+void GazeboBug::check(const ModulePorts& ports, Problems& problems) {
+    const auto complain = [&](const ModulePorts::Group& group, std::string message, std::string hint) {
+        problems.all.push_back({std::move(message), std::move(hint), {}, group.port});
+    };
+    const auto size = [](const ModulePorts::Group& group) {
+        return fmt::format("'{}' is {} x {}", group.path, group.shape.width, group.shape.height);
+    };
+
+    const auto& m = ports.inputs[motor];
+    if (m.shape.cells > 0 && (m.shape.width != m.shape.height || m.shape.width < 2 ||
+                              m.shape.cells != m.shape.width * m.shape.height))
+        complain(m, fmt::format("the motor group {}, and must be square and at least 2 wide", size(m)),
+                 "9 x 9 gives four speeds in each direction");
+
+    const ModulePorts::Group* first = nullptr;
+    for (const std::size_t port : {image_first, image_second, image_third}) {
+        const auto& g = ports.outputs[port];
+        if (g.shape.cells == 0) continue;
+        if (!first) first = &g;
+        if (g.shape.cells != g.shape.width * g.shape.height)
+            complain(g, fmt::format("the image group '{}' must be a full rectangle", g.path), {});
+        else if (g.shape.width > max_image_width || g.shape.height > max_image_height)
+            complain(g,
+                     fmt::format("the image group {}, and may be {} x {} at most", size(g), max_image_width,
+                                 max_image_height),
+                     "the camera has no more pixels");
+        else if (!(g.shape == first->shape))
+            complain(g, fmt::format("the image groups differ in size: {}, {}", size(g), size(*first)),
+                     "make all three the same");
+    }
+    const auto& p = ports.outputs[place];
+    if (p.shape.cells != p.shape.width * p.shape.height)
+        complain(p, fmt::format("the place cell group '{}' must be a full rectangle", p.path), {});
+    if (gripper) {
+        const auto &command = ports.inputs[gripper_command], &scan = ports.outputs[gripper_scan];
+        if (command.shape.cells > 0 && command.shape.cells != 1)
+            complain(command, fmt::format("the gripper group {}, and must be 1 x 1", size(command)),
+                     "or set 'gripper' to false");
+        if (scan.shape.cells > 0 && (scan.shape.width != 16 || scan.shape.height != 1))
+            complain(scan, fmt::format("the gripper proximity group {}, and must be 16 x 1", size(scan)),
+                     "or set 'gripper' to false");
+    }
+    if (!(place_x_max > 0 && place_y_max > 0 && place_sigma > 0 && head_sigma > 0))
+        problems.all.push_back({"placeXMax, placeYMax, placeSigma and headSigma must be above 0",
+                                {},
+                                !(place_x_max > 0)   ? "placeXMax"
+                                : !(place_y_max > 0) ? "placeYMax"
+                                : !(place_sigma > 0) ? "placeSigma"
+                                                     : "headSigma",
+                                {}});
+
+    if (!world_) return;
+    const auto bug = world_->find(device_name);
+    if (!bug) {
+        problems.all.push_back(
+            {no_robot(*world_, device_name), what_there_is(*world_, device_name), "device_name", {}});
+        return;
+    }
+    const auto scanner = [&](std::size_t port, std::size_t rays, const char* sensor) {
+        const auto& g = ports.outputs[port];
+        if (g.shape.cells > 0 && static_cast<std::size_t>(g.shape.cells) != rays)
+            complain(g,
+                     rays == 0 ? fmt::format("robot '{}' has no ray sensor '{}'", device_name, sensor)
+                               : fmt::format("the ray sensor '{}' of robot '{}' has {} rays, not {}", sensor,
+                                             device_name, rays, g.shape.cells),
+                     {});
+    };
+    scanner(proximity, world_->snapshot(*bug).proximity.size(), "laser");
+    scanner(target, world_->snapshot(*bug).target.size(), "laser_target");
+}
+
+void GazeboBug::start(const ModulePorts& ports) {
+    if (!world_)
+        throw std::runtime_error(
+            "this system drives a robot and needs a world to run in: give one with --world FILE");
+    const auto bug = world_->find(device_name);
+    if (!bug)
+        throw std::runtime_error(no_robot(*world_, device_name) + "; " + what_there_is(*world_, device_name));
+    bug_ = *bug;
+    claim_.reset();
+    claim_ = world_->claim(bug_);
+    if (!claim_)
+        throw std::runtime_error(
+            fmt::format("two modules drive the robot '{}'; each needs a robot of its own", device_name));
+
+    motor_ = ports.inputs[motor].shape;
+    place_ = ports.outputs[place].shape;
+    image_ = {};
+    for (const std::size_t port : {image_first, image_second, image_third})
+        if (ports.outputs[port].shape.cells > 0) image_ = ports.outputs[port].shape;
+    if (world_->snapshot(bug_).image_width == 0) image_ = {};
+    unused_.assign(static_cast<std::size_t>(image_.cells), 0);
+    world_->need_image(bug_, image_.cells > 0);
+}
+
+void GazeboBug::update(ModuleFrame& frame) {
+    const auto& activity = frame.input(motor);
+    world_->command(bug_, decode_motor({activity.data(), static_cast<std::size_t>(activity.size())},
+                                       motor_.width, motor_.height, trans_speed, rot_speed));
+    copy_scans(frame);
+    copy_pose(frame);
+    if (image_.cells > 0) copy_image(frame);
+}
+
+void GazeboBug::copy_scans(ModuleFrame& frame) const {
+    const BugSnapshot& seen = world_->snapshot(bug_);
+    const auto copy = [](const std::vector<double>& from, Column to) {
+        std::copy_n(from.begin(), std::min(from.size(), static_cast<std::size_t>(to.size())), to.data());
+    };
+    copy(seen.proximity, frame.output(proximity));
+    copy(seen.target, frame.output(target));
+}
+
+void GazeboBug::copy_pose(ModuleFrame& frame) const {
+    const Pose2& at = world_->snapshot(bug_).pose;
+    if (Column out = frame.output(gps); out.size() == 3) {
+        out[0] = at.x + place_x_max;
+        out[1] = at.y + place_y_max;
+        out[2] = at.yaw + std::numbers::pi;
+    }
+    if (Column out = frame.output(place); out.size() > 0)
+        place_cells(at.x, at.y, place_.width, place_.height,
+                    {place_x_offset, place_y_offset, place_x_max, place_y_max, place_sigma}, cells_of(out));
+    if (Column out = frame.output(head); out.size() > 0)
+        head_direction_cells(at.yaw, head_sigma, cells_of(out));
+}
+
+void GazeboBug::copy_image(ModuleFrame& frame) {
+    const auto picture = world_->image(bug_);
+    const BugSnapshot& seen = world_->snapshot(bug_);
+    const auto channel = [&](std::size_t port) {
+        Column out = frame.output(port);
+        return out.size() > 0 ? cells_of(out) : std::span<double>(unused_);
+    };
+    const ColourSpace space = grayscale ? ColourSpace::grey : hsv ? ColourSpace::hsv : ColourSpace::rgb;
+    image_cells(picture, seen.image_width, seen.image_height, space, image_.width, image_.height,
+                channel(image_first), channel(image_second), channel(image_third));
+}
+
+ModuleType gazebo_bug_type(World* world) { return module_type(GazeboBug(world)); }
+
+}  // namespace forage::bug

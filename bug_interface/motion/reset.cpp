@@ -1,0 +1,95 @@
+#include "bug_interface/motion/reset.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+namespace forage::bug {
+namespace {
+
+constexpr double jitter = 0.01;  ///< m and rad
+
+const Model* find_model(const WorldDescription& world, std::string_view name) {
+    for (const Model& model : world.models)
+        if (model.name == name) return &model;
+    return nullptr;
+}
+
+/// What a shape covers of the plane; all of it for a plane.
+Eigen::AlignedBox2d extent(const Shape& shape, const Pose& pose) {
+    if (shape.kind == ShapeKind::plane) {
+        const Eigen::Vector2d all = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+        return {-all, all};
+    }
+    const Eigen::Vector3d half = pose.linear().cwiseAbs() * shape.size / 2;
+    const Eigen::Vector2d middle = pose.translation().head<2>();
+    return {middle - half.head<2>(), middle + half.head<2>()};
+}
+
+std::optional<Eigen::AlignedBox2d> bounds_of(const Model& ground) {
+    if (ground.links.empty() || ground.links.back().collisions.empty()) return {};
+    const Link& link = ground.links.back();
+    const Collision& last = link.collisions.back();
+    return extent(last.shape, ground.pose * link.pose * last.pose);
+}
+
+}  // namespace
+
+std::optional<ResetPlan> find_reset(const WorldDescription& world, Diagnostics& diagnostics) {
+    ResetPlan plan;
+    std::vector<const Model*> starts;
+    for (int i = 0; i < 10; ++i)
+        if (const Model* start = find_model(world, fmt::format("Reset_{}", i))) {
+            starts.push_back(start);
+            plan.starts.push_back(in_plane(start->pose));
+        }
+    if (starts.empty()) return {};
+    const Model* ground = find_model(world, "GroundPlane");
+    if (!ground) {
+        diagnostics.error(
+            starts.front()->where,
+            fmt::format("there is a start pose '{}', but no model named GroundPlane to give the bounds",
+                        starts.front()->name),
+            "name the floor GroundPlane, or take the Reset_i models out");
+        return {};
+    }
+    const auto bounds = bounds_of(*ground);
+    if (!bounds) {
+        diagnostics.error(ground->where, "the last link of GroundPlane has no collision to give the bounds",
+                          "give it a box as its last collision, below the floor and as large as the arena");
+        return {};
+    }
+    plan.bounds = *bounds;
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+        const Eigen::Vector2d at(plan.starts[i].x, plan.starts[i].y);
+        if (!plan.bounds.contains(at - Eigen::Vector2d::Constant(jitter)) ||
+            !plan.bounds.contains(at + Eigen::Vector2d::Constant(jitter)))
+            diagnostics.error(
+                starts[i]->where,
+                fmt::format("'{}' at ({}, {}) is not inside the bounds x {} to {}, y {} to {}",
+                            starts[i]->name, at.x(), at.y(), plan.bounds.min().x(), plan.bounds.max().x(),
+                            plan.bounds.min().y(), plan.bounds.max().y()),
+                "a robot that starts there would be put back for ever");
+    }
+    return plan;
+}
+
+Reset::Phase Reset::substep(const Pose2& pose) {
+    if (left_ > 0) return --left_ == 0 ? Phase::end : Phase::hold;
+    const auto& low = plan_.bounds.min();
+    const auto& high = plan_.bounds.max();
+    if (!(pose.x > high.x() || pose.y > high.y() || pose.x < low.x() || pose.y < low.y())) return Phase::none;
+    left_ = substeps - 1;
+    return Phase::begin;
+}
+
+Pose2 Reset::draw() {
+    std::array<double, 4> u{};
+    random_.uniform(draws_++, u);
+    const Pose2& start =
+        plan_.starts[static_cast<std::size_t>(u[0] * static_cast<double>(plan_.starts.size()))];
+    const auto off = [](double v) { return (2 * v - 1) * jitter; };
+    return {start.x + off(u[1]), start.y + off(u[2]), start.yaw + off(u[3])};
+}
+
+}  // namespace forage::bug

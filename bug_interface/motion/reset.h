@@ -1,0 +1,58 @@
+// The reset rule: a robot that leaves the bounds is put back to a start pose.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "bug_interface/world/description.h"
+#include "core/model/diagnostic.h"
+#include "core/types/random.h"
+
+namespace forage::bug {
+
+/// Where robots start, and the bounds that end a trial.
+struct ResetPlan {
+    std::vector<Pose2> starts;
+    Eigen::AlignedBox2d bounds;  ///< of a robot's middle, m
+};
+
+/// The plan of a world: start poses are those of the models named Reset_0 to Reset_9, bounds those of the
+/// last collision of the last link of the model named GroundPlane. Empty when there is no Reset_i: nothing is
+/// ever reset. An error when there is one but no bounds, or one that lies outside: robots would be put back
+/// for ever.
+std::optional<ResetPlan> find_reset(const WorldDescription& world, Diagnostics& diagnostics);
+
+/// One robot's reset: triggered when its middle is outside the bounds, it lasts that substep and 1000 more.
+/// During these the original draws a new pose in every substep; here one is drawn for each look at the robot
+/// and one for the end, which gives the same statistics. A draw: a start pose, each as likely, and up to 0.01
+/// m and 0.01 rad off.
+class Reset {
+  public:
+    Reset(ResetPlan plan, RandomStream random) : plan_(std::move(plan)), random_(random) {}
+
+    /// What becomes of the robot in a substep.
+    enum class Phase {
+        none,   ///< it is driven
+        begin,  ///< it has just left the bounds; it is not driven
+        hold,   ///< it is not driven
+        end     ///< it is placed at a drawn pose, and driven from the next substep on
+    };
+    /// To be called once per substep, with the pose at its start.
+    Phase substep(const Pose2& pose);
+    bool running() const { return left_ > 0; }
+    Pose2 draw();
+
+    const ResetPlan& plan() const { return plan_; }
+
+    static constexpr int substeps = 1001;  ///< that a reset takes
+
+  private:
+    ResetPlan plan_;
+    RandomStream random_;
+    int left_ = 0;
+    std::uint64_t draws_ = 0;
+};
+
+}  // namespace forage::bug

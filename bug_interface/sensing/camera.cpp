@@ -1,0 +1,156 @@
+// What is constant about a camera: its rays, their floor points, the bounds of its tiles. And its noise.
+#include "bug_interface/sensing/camera.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "bug_interface/sensing/normal_table.h"
+#include "bug_interface/sensing/solid_ray.h"
+
+namespace forage::bug {
+namespace {
+
+double bottom(const VisualSolid& visual) {
+    return visual.solid.pose.translation().z() - half_height(visual.solid);
+}
+
+}  // namespace
+
+Camera::Camera(const CameraSensor& sensor, const Pose& link_in_model, std::shared_ptr<const Scene> scene,
+               int samples_per_axis)
+    : scene_(std::move(scene)),
+      width_(sensor.width),
+      height_(sensor.height),
+      samples_(samples_per_axis * samples_per_axis),
+      far_(sensor.far),
+      noise_(sensor.noise),
+      tan_x_(std::tan(sensor.horizontal_fov / 2)),
+      tan_y_(tan_x_ * sensor.height / sensor.width),
+      mount_(link_in_model * sensor.pose) {
+    if (samples_per_axis < 1 || samples_ > max_samples)
+        throw std::invalid_argument("a camera has 1 to 4 samples per axis");
+    make_samples(samples_per_axis);
+    make_floor_points();
+    double lowest = 0;
+    for (const FloorSurface& floor : scene_->floors()) lowest = std::min(lowest, floor.z);
+    for (const VisualSolid& solid : scene_->solids()) lowest = std::min(lowest, bottom(solid));
+    make_bounds(lowest);
+}
+
+Eigen::Vector3d Camera::ray(double column, double row) const {
+    const double left = (1 - 2 * column / width_) * tan_x_, up = (1 - 2 * row / height_) * tan_y_;
+    return mount_.linear() * Eigen::Vector3d(1, left, up);
+}
+
+void Camera::make_samples(int samples_per_axis) {
+    for (int row = 0; row < height_; ++row)
+        for (int column = 0; column < width_; column += tile_width) {
+            Tile tile;
+            tile.row = row, tile.column = column, tile.pixels = std::min(tile_width, width_ - column);
+            tile.first = ray_x_.size();
+            tiles_.push_back(tile);
+            for (int s = 0; s < samples_; ++s)
+                for (int p = 0; p < tile.pixels; ++p) {
+                    const Eigen::Vector3d r =
+                        ray(column + p + (s % samples_per_axis + 0.5) / samples_per_axis,
+                            row + (s / samples_per_axis + 0.5) / samples_per_axis);
+                    ray_x_.push_back(static_cast<float>(r.x()));
+                    ray_y_.push_back(static_cast<float>(r.y()));
+                    ray_z_.push_back(static_cast<float>(r.z()));
+                }
+        }
+}
+
+void Camera::make_floor_points() {
+    constexpr float never = std::numeric_limits<float>::infinity();
+    for (const FloorSurface& floor : scene_->floors()) {
+        FloorPoints points;
+        for (std::size_t k = 0; k < ray_x_.size(); ++k) {
+            const double depth = (floor.z - mount_.translation().z()) / ray_z_[k];
+            const bool met = ray_z_[k] < 0 && depth > 0 && depth <= far_;
+            points.x.push_back(met ? static_cast<float>(mount_.translation().x() + depth * ray_x_[k])
+                                   : never);
+            points.y.push_back(met ? static_cast<float>(mount_.translation().y() + depth * ray_y_[k])
+                                   : never);
+            points.depth.push_back(met ? static_cast<float>(depth) : never);
+        }
+        for (Tile& tile : tiles_)
+            for (int k = 0; k < tile.pixels * samples_; ++k)
+                tile.reaches_floor &= points.depth[tile.first + static_cast<std::size_t>(k)] < never;
+        floor_points_.push_back(std::move(points));
+    }
+}
+
+/// Holds what `count` samples can see between the heights `lowest` and `highest`.
+Camera::Bounds Camera::bounds(std::size_t first, std::size_t count, double lowest, double highest) const {
+    const Eigen::Vector3d eye = mount_.translation();
+    const auto down_to = [&](std::size_t k, double z) -> Eigen::Vector3d {
+        const double depth = eye.z() <= z    ? 0.0
+                             : ray_z_[k] < 0 ? std::min(far_, (z - eye.z()) / ray_z_[k])
+                                             : far_;
+        return eye + depth * Eigen::Vector3d(ray_x_[k], ray_y_[k], ray_z_[k]);
+    };
+    const auto last = [&](std::size_t k) -> Eigen::Vector3d {  // a camera below everything may look up at it
+        return eye.z() <= lowest ? eye + far_ * Eigen::Vector3d(ray_x_[k], ray_y_[k], ray_z_[k])
+                                 : down_to(k, lowest);
+    };
+    Eigen::AlignedBox3d box;
+    for (std::size_t k = first; k < first + count; ++k) box.extend(down_to(k, highest)).extend(last(k));
+    Bounds out{box, box.center(), 0};
+    for (std::size_t k = first; k < first + count; ++k)
+        for (const Eigen::Vector3d& end : {down_to(k, highest), last(k)})
+            out.radius = std::max(out.radius, (end - out.centre).norm());
+    return out;
+}
+
+void Camera::make_bounds(double lowest) {
+    const auto bound = [&](Tile& tile, std::size_t first, std::size_t count) {
+        tile.all = bounds(first, count, lowest, std::numeric_limits<double>::infinity());
+        tile.low = bounds(first, count, lowest, low_height);
+    };
+    for (Tile& tile : tiles_) bound(tile, tile.first, static_cast<std::size_t>(tile.pixels * samples_));
+    bound(whole_, 0, ray_x_.size());
+}
+
+std::optional<Eigen::Vector2d> Camera::floor_point(int column, int row) const {
+    const Eigen::Vector3d r = ray(column + 0.5, row + 0.5), eye = mount_.translation();
+    if (r.z() >= 0 || eye.z() <= 0) return {};
+    return Eigen::Vector2d(eye.head<2>() - eye.z() / r.z() * r.head<2>());
+}
+
+void Camera::quantise(std::span<const float> rgb, std::span<std::uint8_t> out, const RandomStream& random,
+                      std::uint64_t sample) const {
+    constexpr std::size_t part_pixels = 1024;
+    const auto quantiles = normal_quantiles();
+    const float scale = static_cast<float>(255 * noise_);
+    const std::size_t pixels = rgb.size() / 3, parts = (pixels + part_pixels - 1) / part_pixels;
+    std::array<std::uint64_t, part_pixels / 4> words;
+    std::array<float, 3 * part_pixels> noise;  // then levels
+    for (std::size_t part = 0; part < parts; ++part) {
+        const std::size_t first = part * part_pixels, count = std::min(part_pixels, pixels - first);
+        if (noise_ > 0) {
+            // A word of 64 random bits gives four pixels their places in the table of normal numbers.
+            random.bits(sample * parts + part, std::span(words).first((count + 3) / 4));
+            for (std::size_t i = 0; i < count; ++i) {
+                const float z = scale * quantiles[words[i / 4] >> (16 * (i % 4)) & 0xffffu];
+                noise[3 * i] = noise[3 * i + 1] = noise[3 * i + 2] = z;
+            }
+        } else {
+            noise.fill(0);
+        }
+        // Eigen's min and max have no branches, which this noise would make hard to predict.
+        const auto values = static_cast<Eigen::Index>(3 * count);
+        Eigen::Map<Eigen::ArrayXf> level(noise.data(), values);
+        level =
+            (255 * Eigen::Map<const Eigen::ArrayXf>(&rgb[3 * first], values) + level).max(0).min(255) + 0.5f;
+        std::uint8_t* to = &out[3 * first];
+        for (std::size_t i = 0; i < 3 * count; ++i)
+            to[i] = static_cast<std::uint8_t>(static_cast<int>(noise[i]));
+    }
+}
+
+}  // namespace forage::bug

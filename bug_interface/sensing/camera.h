@@ -1,0 +1,89 @@
+// The camera: small colour pictures of a scene, drawn ray by ray.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bug_interface/sensing/scene.h"
+#include "bug_interface/world/description.h"
+#include "core/types/random.h"
+
+namespace forage::bug {
+
+/// A pinhole camera on a robot that moves in the plane.
+///
+/// The rays are constant in the robot's frame, and so is the floor point of each: a picture of bare floor
+/// only turns and shifts those points and looks up the texture. Solids are tested ray by ray where their
+/// bounds meet a tile of the picture.
+class Camera {
+  public:
+    /// `link_in_model`: pose of the camera's link in the model whose pose render() gets. Every pixel is the
+    /// mean of samples_per_axis^2 rays (1 to 4 per axis).
+    Camera(const CameraSensor& sensor, const Pose& link_in_model, std::shared_ptr<const Scene> scene,
+           int samples_per_axis = 2);
+
+    int width() const { return width_; }    ///< pixels
+    int height() const { return height_; }  ///< pixels
+
+    /// Draws the scene and `moving` from the robot at `body`. rgb: height x width x 3 values in 0..1, row 0
+    /// is the top (far), column 0 the left; no noise. Allocates nothing.
+    void render(const Pose2& body, std::span<const MovingVisual> moving, std::span<float> rgb) const;
+
+    /// Rounds to 8 bits after adding noise: one normal number per pixel, the same in its three channels.
+    /// `sample` counts this camera's pictures.
+    void quantise(std::span<const float> rgb, std::span<std::uint8_t> out, const RandomStream& random,
+                  std::uint64_t sample) const;
+
+    /// Where the middle of pixel (column, row) meets the plane z = 0, in the robot's frame, m. Empty above
+    /// the horizon.
+    std::optional<Eigen::Vector2d> floor_point(int column, int row) const;
+
+  private:
+    static constexpr int tile_width = 32;   ///< pixels of one row that are drawn together
+    static constexpr int max_samples = 16;  ///< per pixel
+    static constexpr double low_height =
+        0.02;  ///< m; discs and strips on the floor lie below: tighter bounds for them
+
+    /// Where everything is that some rays can meet: in the box, and in the sphere round it. Robot's frame.
+    struct Bounds {
+        Eigen::AlignedBox3d box;
+        Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+        double radius = 0;
+    };
+    struct Tile {
+        int row = 0, column = 0, pixels = 0;
+        std::size_t first = 0;      ///< of its samples: sample s of pixel p is first + s * pixels + p
+        Bounds all;                 ///< of everything
+        Bounds low;                 ///< of what lies below z = low_height
+        bool reaches_floor = true;  ///< do all its rays meet all floors, were these without end?
+    };
+    /// Of one floor: where every sample meets it, in the robot's frame; infinity where it does not.
+    struct FloorPoints {
+        std::vector<float> x, y;
+        std::vector<float> depth;  ///< along the camera's axis, m
+    };
+    struct View;  ///< one picture's pose of the robot
+
+    Eigen::Vector3d ray(double column, double row) const;
+    void make_samples(int samples_per_axis);
+    void make_floor_points();
+    void make_bounds(double lowest);
+    Bounds bounds(std::size_t first, std::size_t count, double lowest, double highest) const;
+    static bool sees(const View& view, const Tile& tile, const VisualSolid& visual);
+    bool draw_bare_floor(const View& view, const Tile& tile, float* rgb) const;
+    void draw_all(const View& view, const Tile& tile, std::span<const MovingVisual> moving, float* rgb) const;
+
+    std::shared_ptr<const Scene> scene_;
+    int width_, height_, samples_ = 1;  ///< samples per pixel
+    double far_, noise_, tan_x_, tan_y_;
+    Pose mount_;  ///< of the camera in the model
+    std::vector<Tile> tiles_;
+    Tile whole_;                                ///< bounds of all tiles
+    std::vector<float> ray_x_, ray_y_, ray_z_;  ///< of every sample, robot's frame; 1 along the camera's axis
+    std::vector<FloorPoints> floor_points_;     ///< one per floor of the scene
+};
+
+}  // namespace forage::bug

@@ -1,0 +1,184 @@
+// How a camera draws one picture.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bug_interface/sensing/camera.h"
+#include "bug_interface/sensing/solid_ray.h"
+
+namespace forage::bug {
+namespace {
+
+/// From the robot's frame to texels of a floor: u = ux x + uy y + u0, v likewise.
+struct ToTexels {
+    float ux, uy, u0, vx, vy, v0;
+
+    ToTexels(const FloorSurface& floor, double x, double y, double yaw) {
+        const double across = floor.texture.width() / floor.size_x,
+                     down = floor.texture.height() / floor.size_y;
+        const double cf = std::cos(floor.pose.yaw), sf = std::sin(floor.pose.yaw);
+        const double dx = x - floor.pose.x, dy = y - floor.pose.y;
+        const double c = std::cos(yaw - floor.pose.yaw), s = std::sin(yaw - floor.pose.yaw);
+        ux = static_cast<float>(across * c), uy = static_cast<float>(-across * s);
+        vx = static_cast<float>(-down * s), vy = static_cast<float>(-down * c);
+        u0 = static_cast<float>(across * (cf * dx + sf * dy + floor.size_x / 2));
+        v0 = static_cast<float>(down * (floor.size_y / 2 - (cf * dy - sf * dx)));
+    }
+    float u(float x, float y) const { return ux * x + uy * y + u0; }
+    float v(float x, float y) const { return vx * x + vy * y + v0; }
+};
+
+constexpr std::size_t tile_samples = 32 * 16;
+
+/// The samples of one tile while they are drawn.
+struct Samples {
+    std::array<Eigen::Array4f, tile_samples> rgb;  ///< the fourth number is not used
+    std::array<float, tile_samples> depth;         ///< of what is seen so far, along the camera's axis
+};
+
+}  // namespace
+
+struct Camera::View {
+    Pose2 body;
+    Pose pose;            ///< of the robot in the world
+    bool solids = false;  ///< may any be in the picture?
+
+    explicit View(const Pose2& b) : body(b), pose(Pose::Identity()) {
+        pose.linear() = Eigen::AngleAxisd(b.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+        pose.translation() = Eigen::Vector3d(b.x, b.y, 0);
+    }
+};
+
+void Camera::render(const Pose2& body, std::span<const MovingVisual> moving, std::span<float> rgb) const {
+    View view(body);
+    const auto in_view = [&](const VisualSolid& visual) { return sees(view, whole_, visual); };
+    view.solids = std::any_of(scene_->solids().begin(), scene_->solids().end(), in_view) ||
+                  std::any_of(moving.begin(), moving.end(), in_view);
+    for (const Tile& tile : tiles_) {
+        float* out = &rgb[3 * (static_cast<std::size_t>(tile.row) * static_cast<std::size_t>(width_) +
+                               static_cast<std::size_t>(tile.column))];
+        const auto in_tile = [&](const VisualSolid& visual) { return sees(view, tile, visual); };
+        const bool bare =
+            !view.solids || (std::none_of(scene_->solids().begin(), scene_->solids().end(), in_tile) &&
+                             std::none_of(moving.begin(), moving.end(), in_tile));
+        if (!bare || !draw_bare_floor(view, tile, out)) draw_all(view, tile, moving, out);
+    }
+}
+
+/// Whether a solid may be in a tile: its box meets the tile's sphere, and the tile's box meets its sphere.
+/// Both are needed: spheres are poor bounds of long walls and of rows of pixels.
+bool Camera::sees(const View& view, const Tile& tile, const VisualSolid& visual) {
+    const Solid& solid = visual.solid;
+    const bool low = solid.pose.translation().z() + half_height(solid) <= low_height;
+    const Bounds& bounds = low ? tile.low : tile.all;
+    const Eigen::Vector3d centre =
+        solid.pose.linear().transpose() * (view.pose * bounds.centre - solid.pose.translation());
+    const Eigen::Vector3d outside = (centre.cwiseAbs() - solid.size / 2).cwiseMax(0);
+    if (outside.squaredNorm() > bounds.radius * bounds.radius) return false;
+    const Eigen::Vector3d middle =
+        view.pose.linear().transpose() * (solid.pose.translation() - view.pose.translation());
+    return bounds.box.squaredExteriorDistance(middle) <= radius_squared(solid);
+}
+
+/// The common case: the tile shows nothing but the inside of the only floor. False when that is not sure.
+bool Camera::draw_bare_floor(const View& view, const Tile& tile, float* rgb) const {
+    if (floor_points_.size() != 1) return false;
+    const FloorSurface& floor = scene_->floors().front();
+    const Eigen::Vector3d centre = view.pose * tile.low.centre;
+    const double cf = std::cos(floor.pose.yaw), sf = std::sin(floor.pose.yaw);
+    const double x = centre.x() - floor.pose.x, y = centre.y() - floor.pose.y;
+    if (!(tile.reaches_floor && floor.z <= low_height &&
+          std::abs(cf * x + sf * y) + tile.low.radius < floor.size_x / 2 &&
+          std::abs(cf * y - sf * x) + tile.low.radius < floor.size_y / 2))
+        return false;
+
+    const ToTexels to(floor, view.body.x, view.body.y, view.body.yaw);
+    const float* px = &floor_points_.front().x[tile.first];
+    const float* py = &floor_points_.front().y[tile.first];
+    const int count = tile.pixels * samples_;
+    std::array<float, tile_samples> u, v;
+    std::array<int, tile_samples> index;
+    for (int k = 0; k < count; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        u[i] = to.u(px[k], py[k]), v[i] = to.v(px[k], py[k]);
+        index[i] = floor.texture.index(u[i], v[i]);
+    }
+    const float mean = 1.0f / static_cast<float>(samples_);
+    for (int p = 0; p < tile.pixels; ++p, rgb += 3) {
+        const std::uint32_t texel = floor.texture.texel(index[static_cast<std::size_t>(p)]);
+        bool uniform = FloorTexture::flat(texel);
+        for (int k = p + tile.pixels; k < count; k += tile.pixels)
+            uniform &= floor.texture.texel(index[static_cast<std::size_t>(k)]) == texel;
+        if (uniform) {
+            rgb[0] = floor.texture.red(texel), rgb[1] = floor.texture.green(texel),
+            rgb[2] = floor.texture.blue(texel);
+            continue;
+        }
+        rgb[0] = rgb[1] = rgb[2] = 0;
+        for (int k = p; k < count; k += tile.pixels)
+            floor.texture.add(u[static_cast<std::size_t>(k)], v[static_cast<std::size_t>(k)], rgb);
+        for (int channel = 0; channel < 3; ++channel) rgb[channel] *= mean;
+    }
+    return true;
+}
+
+void Camera::draw_all(const View& view, const Tile& tile, std::span<const MovingVisual> moving,
+                      float* rgb) const {
+    Samples samples;
+    const auto count = static_cast<std::size_t>(tile.pixels * samples_);
+    std::fill_n(samples.rgb.begin(), count, Eigen::Array4f::Constant(Scene::background));
+    std::fill_n(samples.depth.begin(), count, static_cast<float>(far_));
+
+    for (std::size_t f = 0; f < floor_points_.size(); ++f) {  // a higher floor hides a lower one
+        const FloorSurface& floor = scene_->floors()[f];
+        const ToTexels to(floor, view.body.x, view.body.y, view.body.yaw);
+        const auto width = static_cast<float>(floor.texture.width()),
+                   height = static_cast<float>(floor.texture.height());
+        for (std::size_t k = 0; k < count; ++k) {
+            const float x = floor_points_[f].x[tile.first + k], y = floor_points_[f].y[tile.first + k];
+            const float u = to.u(x, y), v = to.v(x, y);
+            if (!(u >= 0 && u <= width && v >= 0 && v <= height))
+                continue;  // nor where the ray meets no floor
+            samples.depth[k] = floor_points_[f].depth[tile.first + k];
+            samples.rgb[k].setZero();
+            floor.texture.add(u, v, samples.rgb[k].data());
+        }
+    }
+
+    const Lighting& lighting = scene_->lighting();
+    const auto draw_solid = [&](const VisualSolid& visual) {
+        if (!view.solids || !sees(view, tile, visual)) return;
+        const Solid& solid = visual.solid;
+        const Eigen::Matrix3d turn = solid.pose.linear().transpose() * view.pose.linear();
+        const Eigen::Vector3d half = solid.size / 2;
+        const Eigen::Vector3d eye =
+            solid.pose.linear().transpose() * (view.pose * mount_.translation() - solid.pose.translation());
+        std::array<Colour, 6> faces;
+        for (int face = 0; face < 6; ++face)
+            faces[static_cast<std::size_t>(face)] =
+                lighting.shade(visual.material, solid.pose.linear() * face_normal(face));
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t i = tile.first + k;
+            const auto entry =
+                enter(solid.kind, half, eye, turn * Eigen::Vector3d(ray_x_[i], ray_y_[i], ray_z_[i]));
+            if (!entry || entry->depth >= samples.depth[k]) continue;
+            samples.depth[k] = static_cast<float>(entry->depth);
+            const Colour colour = entry->face == Entry::curved
+                                      ? lighting.shade(visual.material, solid.pose.linear() * entry->normal)
+                                      : faces[static_cast<std::size_t>(entry->face)];
+            samples.rgb[k].head<3>() = colour;
+        }
+    };
+    for (const VisualSolid& visual : scene_->solids()) draw_solid(visual);
+    for (const VisualSolid& visual : moving) draw_solid(visual);
+
+    const float mean = 1.0f / static_cast<float>(samples_);
+    const auto pixels = static_cast<std::size_t>(tile.pixels);
+    for (std::size_t p = 0; p < pixels; ++p, rgb += 3) {
+        Eigen::Array4f sum = samples.rgb[p];
+        for (std::size_t k = p + pixels; k < count; k += pixels) sum += samples.rgb[k];
+        Eigen::Map<Eigen::Array3f>{rgb} = sum.head<3>() * mean;
+    }
+}
+
+}  // namespace forage::bug

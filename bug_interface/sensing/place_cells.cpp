@@ -1,0 +1,49 @@
+#include "bug_interface/sensing/place_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace forage::bug {
+namespace {
+
+/// Turns exponents into exp(-exponent), divided by the greatest of them. Subtracting the least exponent first
+/// does the division, and keeps far-away places from becoming 0 / 0.
+void bells(std::span<double> exponents) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const double e : exponents) least = std::min(least, e);
+    for (double& e : exponents) e = std::exp(least - e);
+}
+
+/// -1..1 along a side of the group; even sides are lopsided, as in the original.
+double along_side(int index, int side) {
+    const int half = side / 2;
+    return half ? static_cast<double>(index - half) / half : 0.0;
+}
+
+}  // namespace
+
+void place_cells(double x, double y, int w, int h, const PlaceField& field, std::span<double> out) {
+    const double px = (x - field.x_offset) / field.x_max, py = (y - field.y_offset) / field.y_max;
+    std::size_t k = 0;
+    for (int row = 0; row < h; ++row)
+        for (int column = 0; column < w; ++column) {
+            const double dx = along_side(column, w) - px, dy = -along_side(row, h) - py;
+            out[k++] = (dx * dx + dy * dy) / (field.sigma * field.sigma);
+        }
+    bells(out.first(k));
+}
+
+void head_direction_cells(double yaw, double sigma, std::span<double> out) {
+    const double turn = (yaw + std::numbers::pi) / (2 * std::numbers::pi);
+    for (std::size_t c = 0; c < out.size(); ++c) {
+        double d = std::abs(static_cast<double>(c) / static_cast<double>(out.size()) - turn);
+        d -= std::floor(d);
+        d = std::min(d, 1 - d) / sigma;
+        out[c] = d * d;
+    }
+    bells(out);
+}
+
+}  // namespace forage::bug

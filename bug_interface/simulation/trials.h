@@ -1,0 +1,60 @@
+// What happened between two resets.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "bug_interface/world/description.h"
+
+namespace forage::bug {
+
+/// From a start to the moment when the robot leaves the bounds.
+struct Trial {
+    /// A robot (radius 0.2 m) whose middle comes nearer than this to the middle of a target (radius 0.25 m)
+    /// has reached it, m.
+    static constexpr double reach = 0.45;
+
+    int number = 1;                 ///< counts from 1
+    Pose2 start, end;               ///< end: of an unfinished trial, where the robot is now
+    std::uint64_t first_cycle = 0;  ///< the first in which the robot is driven
+    std::uint64_t cycles = 0;       ///< up to and with the one in which it ends
+    double smallest_distance = std::numeric_limits<double>::infinity();  ///< robot to nearest target, middle
+                                                                         ///< to middle, over all substeps, m
+    bool target() const { return smallest_distance < reach; }
+};
+
+/// One robot's trials.
+class TrialLog {
+  public:
+    explicit TrialLog(std::vector<Eigen::Vector2d> targets) : targets_(std::move(targets)) {}
+
+    /// `cycle`: the first one in which the robot is driven.
+    void begin(const Pose2& start, std::uint64_t cycle);
+    /// To be called after every substep of a trial.
+    void follow(const Pose2& pose) {
+        for (const Eigen::Vector2d& t : targets_) {
+            const double dx = pose.x - t.x(), dy = pose.y - t.y();
+            smallest_squared_ = std::min(smallest_squared_, dx * dx + dy * dy);
+        }
+    }
+    /// `done`: how many cycles have begun since the start of the run.
+    void finish(const Pose2& end, std::uint64_t done);
+
+    const std::vector<Trial>& finished() const { return finished_; }
+    /// The trial that runs now, after `done` cycles; while the robot is reset, the one to come.
+    Trial current(const Pose2& pose, std::uint64_t done) const;
+
+  private:
+    std::vector<Eigen::Vector2d> targets_;
+    std::vector<Trial> finished_;
+    Trial current_;
+    bool running_ = false;
+    double smallest_squared_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace forage::bug

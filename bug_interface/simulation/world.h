@@ -1,0 +1,105 @@
+// A world in lock-step with a neural system: robots move for one cycle, then sense.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bug_interface/motion/physics.h"
+#include "bug_interface/simulation/robot.h"
+#include "bug_interface/simulation/surroundings.h"
+#include "bug_interface/simulation/trials.h"
+#include "bug_interface/world/description.h"
+#include "core/model/diagnostic.h"
+
+namespace forage::bug {
+
+struct WorldOptions {
+    std::uint64_t seed = 1;
+    double cycles_per_second = 25;  ///< of the neural system, per second of the clock
+    std::optional<double>
+        real_time_factor;  ///< seconds of the world per second of the clock; default: what the file asks for
+    bool noise = true;     ///< of motors, scanners and cameras; resets are drawn all the same
+};
+
+/// Robots in a world. A robot is a model with a link named "bug" and the velocity plugin; those with the
+/// reset plugin are put back to a start pose when they leave the bounds, which ends a trial.
+///
+/// In a run, per cycle: the neural system steps (its module reads the snapshots and gives commands), then
+/// step(). Everything follows from the options' seed; robots and uses (motor noise, each scanner, camera,
+/// reset) have random streams of their own, so that doing without one of them leaves the others as they are.
+/// Not to be used from two threads at a time. Robots are counted from 0, in file order.
+class World {
+  public:
+    /// Null when the world cannot be simulated; `diagnostics` then says why.
+    static std::unique_ptr<World> make(const WorldDescription& description, const WorldOptions& options,
+                                       Diagnostics& diagnostics);
+
+    double seconds_per_cycle() const {
+        return substeps_per_cycle_ * description_.step;
+    }  ///< of the world; a mean
+    double time() const { return static_cast<double>(substep_) * description_.step; }  ///< s since the start
+    std::uint64_t cycle() const { return cycle_; }                                     ///< cycles done
+    std::uint64_t substeps() const { return substep_; }                                ///< physics steps done
+
+    /// One cycle: its substeps, then a snapshot of every robot. The first snapshot is taken at construction.
+    void step();
+    // The parts of step(), for benchmarks.
+    void advance_bodies();
+    void scan();
+    void render();  ///< for the robots of which images are wanted
+
+    std::size_t bugs() const { return robots_.size(); }
+    std::vector<std::string> bug_names() const;
+    std::optional<std::size_t> find(std::string_view bug) const;
+    const BugSnapshot& snapshot(std::size_t bug) const { return robots_[bug].snapshot; }
+    /// The picture of the last snapshot, rendered when first asked for; empty without a camera.
+    /// Throws std::runtime_error when a floor's picture cannot be read.
+    std::span<const std::uint8_t> image(std::size_t bug);
+    /// Whether step() renders this robot's image.
+    void need_image(std::size_t bug, bool needed);
+
+    /// Holds until the next command. The first is to stand still.
+    void command(std::size_t bug, const MotorCommand& command) { robots_[bug].command = command; }
+    /// A robot obeys one module: empty when it has one already. The claim ends with the returned object.
+    std::shared_ptr<void> claim(std::size_t bug);
+
+    const Pose2& pose(std::size_t bug) const { return robots_[bug].pose; }
+    bool resetting(std::size_t bug) const { return robots_[bug].reset && robots_[bug].reset->running(); }
+
+    const std::vector<Trial>& trials(std::size_t bug) const {
+        return robots_[bug].trials->finished();
+    }                                            ///< finished ones
+    Trial current_trial(std::size_t bug) const;  ///< the running one; during a reset the one to come
+
+    const std::vector<Eigen::Vector2d>& targets() const { return targets_; }  ///< their middles, m
+    std::optional<ResetPlan> reset_plan() const { return plan_; }             ///< start poses and bounds
+    std::vector<Floor> floors() const { return floors_of(description_); }     ///< for drawing
+    std::vector<DrawnSolid> drawing() const { return drawing_of(description_); }
+    const WorldDescription& description() const { return description_; }
+    const Physics& physics() const { return *physics_; }
+
+  private:
+    World(const WorldDescription& description, const WorldOptions& options);
+    bool build(Diagnostics& diagnostics);
+    bool in_reset(std::size_t bug);  ///< one substep of the reset rule: true when the robot is not driven
+    void make_camera(std::size_t bug);
+    std::uint64_t substeps_before(std::uint64_t cycle) const;
+
+    WorldDescription description_;
+    WorldOptions options_;
+    double substeps_per_cycle_;
+    std::uint64_t cycle_ = 0, substep_ = 0;
+    std::optional<ResetPlan> plan_;
+    std::vector<Eigen::Vector2d> targets_;
+    std::vector<Robot> robots_;
+    std::vector<Pose2> poses_;          ///< of all robots at the last snapshot
+    std::vector<MotorCommand> drives_;  ///< of this substep, with noise
+    std::unique_ptr<Physics> physics_;
+    std::shared_ptr<const Scene> scene_;  ///< made for the first image
+};
+
+}  // namespace forage::bug

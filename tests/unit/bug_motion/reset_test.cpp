@@ -1,0 +1,106 @@
+#include "bug_interface/motion/reset.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/unit/bug_motion/worlds.h"
+
+using namespace forage;
+using namespace forage::bug;
+using Phase = Reset::Phase;
+
+namespace {
+
+ResetPlan plan_of(const WorldDescription& world) {
+    Diagnostics diagnostics;
+    const auto plan = find_reset(world, diagnostics);
+    REQUIRE(plan);
+    return *plan;
+}
+
+std::string problem_of(const WorldDescription& world) {
+    Diagnostics diagnostics;
+    find_reset(world, diagnostics);
+    REQUIRE(diagnostics.errors() == 1);
+    return diagnostics.all().front().message;
+}
+
+}  // namespace
+
+TEST_CASE("The basic arena resets at 2.5 m to one of three start poses") {
+    const ResetPlan plan = plan_of(test::description("basic_arena"));
+    CHECK(plan.bounds.min() == Eigen::Vector2d(-2.5, -2.5));
+    CHECK(plan.bounds.max() == Eigen::Vector2d(2.5, 2.5));
+    REQUIRE(plan.starts.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(plan.starts[i].x == -1.5 + 1.5 * static_cast<double>(i));
+        CHECK(plan.starts[i].y == -2);
+        CHECK(plan.starts[i].yaw == Approx(1.57079));
+    }
+}
+
+TEST_CASE("A world without Reset_i has no resets") {
+    Diagnostics diagnostics;
+    CHECK_FALSE(find_reset(test::description("open_arena"), diagnostics));
+    CHECK(diagnostics.all().empty());
+}
+
+TEST_CASE("Start poses without bounds are an error, not a reset for ever") {
+    WorldDescription world = test::description("basic_arena");
+    test::find_model(world, "GroundPlane")->name = "Floor";
+    CHECK(problem_of(world) ==
+          "there is a start pose 'Reset_0', but no model named GroundPlane to give the bounds");
+    world = test::description("basic_arena");
+    test::find_model(world, "GroundPlane")->links.back().collisions.clear();
+    CHECK(problem_of(world) == "the last link of GroundPlane has no collision to give the bounds");
+    world = test::description("basic_arena");
+    test::find_model(world, "Reset_1")->pose.translation().y() = -2.6;
+    CHECK(problem_of(world) ==
+          "'Reset_1' at (0, -2.6) is not inside the bounds x -2.5 to 2.5, y -2.5 to 2.5");
+}
+
+TEST_CASE("The last collision of the last link gives the bounds, wherever it stands") {
+    WorldDescription world = test::description("basic_arena");
+    Model& ground = *test::find_model(world, "GroundPlane");
+    ground.pose.translation() = Eigen::Vector3d(1, 2, 0);
+    ground.links.back().collisions.back().shape.size = {8, 10, 1};
+    CHECK(plan_of(world).bounds.min() == Eigen::Vector2d(-3, -3));
+    CHECK(plan_of(world).bounds.max() == Eigen::Vector2d(5, 7));
+    std::swap(ground.links.back().collisions.front(), ground.links.back().collisions.back());
+    CHECK(std::isinf(plan_of(world).bounds.max().x()));  // a plane has no end
+}
+
+TEST_CASE("A reset takes 1001 substeps, and its bounds are strict") {
+    const ResetPlan plan = plan_of(test::description("basic_arena"));
+    Reset reset(plan, RandomStream(1, "reset"));
+    for (const Pose2 inside : {Pose2{0, 2.5, 0}, Pose2{0, -2.5, 0}, Pose2{2.5, 0, 0}, Pose2{-2.5, 0, 0}})
+        CHECK(reset.substep(inside) == Phase::none);
+    for (const Pose2 outside :
+         {Pose2{0, 2.501, 0}, Pose2{0, -2.501, 0}, Pose2{2.501, 0, 0}, Pose2{-2.501, 0, 0}}) {
+        int substeps = 1;
+        CHECK(reset.substep(outside) == Phase::begin);
+        CHECK(reset.running());
+        while (reset.substep(outside) == Phase::hold) ++substeps;
+        CHECK(++substeps == 1001);
+        CHECK_FALSE(reset.running());
+    }
+}
+
+TEST_CASE("Start poses are drawn evenly, up to 0.01 m and 0.01 rad off") {
+    Reset reset(plan_of(test::description("basic_arena")), RandomStream(1, "reset"));
+    constexpr int n = 30000;
+    std::array<int, 3> drawn{};
+    Eigen::Array3d sum = Eigen::Array3d::Zero(), squares = sum, farthest = sum;
+    for (int i = 0; i < n; ++i) {
+        const Pose2 p = reset.draw();
+        const auto which = static_cast<int>(std::lround(p.x / 1.5)) + 1;
+        ++drawn[static_cast<std::size_t>(which)];
+        const Eigen::Array3d off(p.x - 1.5 * (which - 1), p.y + 2, p.yaw - 1.57079);
+        sum += off, squares += off * off, farthest = farthest.max(off.abs());
+    }
+    for (const int d : drawn) CHECK(std::abs(d - n / 3) < 350);  // 4 standard deviations
+    CHECK((sum / n).abs().maxCoeff() < 2e-4);
+    CHECK(((squares / n).sqrt() - 0.01 / std::sqrt(3.0)).abs().maxCoeff() < 1e-4);
+    CHECK(farthest.maxCoeff() <= 0.01 + 1e-12);
+    CHECK(farthest.minCoeff() > 0.0099);
+}

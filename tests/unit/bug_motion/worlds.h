@@ -1,0 +1,45 @@
+// Worlds for the tests of motion, simulation and module.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "bug_interface/simulation/world.h"
+#include "bug_interface/world/sdf_reader.h"
+#include "tests/support/catch.h"
+#include "tests/support/paths.h"
+
+namespace forage::test {
+
+/// A world that ships with the project, read once.
+inline const bug::WorldDescription& description(const std::string& name) {
+    static std::map<std::string, bug::WorldDescription> known;
+    if (!known.contains(name)) {
+        Diagnostics diagnostics;
+        auto world =
+            bug::read_world((source_dir() / "systems/worlds" / (name + ".world")).string(), diagnostics);
+        INFO(format(diagnostics));
+        REQUIRE(world);
+        known[name] = *world;
+    }
+    return known[name];
+}
+
+inline std::unique_ptr<bug::World> make_world(const bug::WorldDescription& description,
+                                              bug::WorldOptions options = {}) {
+    Diagnostics diagnostics;
+    auto world = bug::World::make(description, options, diagnostics);
+    INFO(format(diagnostics));
+    REQUIRE(world);
+    CHECK(diagnostics.all().empty());
+    return world;
+}
+
+inline bug::Model* find_model(bug::WorldDescription& world, const std::string& name) {
+    for (auto& m : world.models)
+        if (m.name == name) return &m;
+    return nullptr;
+}
+
+}  // namespace forage::test

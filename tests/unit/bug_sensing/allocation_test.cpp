@@ -1,0 +1,55 @@
+#include <cstdlib>
+#include <new>
+
+#include "bug_interface/sensing/image_cells.h"
+#include "tests/unit/bug_sensing/arena.h"
+
+namespace {
+
+std::size_t allocations = 0;
+
+}  // namespace
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these bring their own
+void* operator new(std::size_t size) {
+    ++allocations;
+    if (void* memory = std::malloc(size ? size : 1)) return memory;
+    throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#endif
+
+using namespace forage;
+using namespace forage::bug;
+using forage::bug::test::Arena;
+using forage::bug::test::up;
+
+TEST_CASE("Sensing allocates nothing") {
+    const Arena& arena = Arena::get();
+    const Camera camera = arena.camera();
+    const RangeScanner scanner = arena.scanner("laser");
+    const RandomStream random(1, "Bug");
+    std::vector<Outline> outlines;
+    for (const Solid& solid : arena.solids())
+        if (const auto outline = cut(solid, scanner.height())) outlines.push_back(*outline);
+    const std::vector<MovingVisual> moving = {
+        {{ShapeKind::cylinder, forage::bug::test::at(0, 2.7, 0.1), {0.4, 0.4, 0.2}}, {}}};
+    std::vector<double> ranges(32), cells(32), a(896), b(896), c(896);
+    std::vector<float> rgb(3 * 896);
+    std::vector<std::uint8_t> bytes(rgb.size());
+    const auto sense = [&](const Pose2& body, std::uint64_t sample) {
+        scanner.scan(body, outlines, ranges);
+        scanner.add_noise(ranges, random, sample);
+        scanner.to_activity(ranges, cells);
+        camera.render(body, moving, rgb);
+        camera.quantise(rgb, bytes, random, sample);
+        image_cells(bytes, 32, 28, ColourSpace::hsv, 28, 28, a, b, c);
+        image_cells(bytes, 32, 28, ColourSpace::rgb, 16, 14, a, b, c);
+    };
+    sense({0, 0, up}, 0);  // makes the table of normal numbers
+    const std::size_t before = allocations;
+    sense({0, 0.6, up}, 1);
+    sense({0, 2.3, up}, 2);
+    CHECK(allocations == before);
+}

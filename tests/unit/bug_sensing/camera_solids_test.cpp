@@ -1,0 +1,191 @@
+// What the camera sees of things on the floor.
+#include <cmath>
+
+#include "bug_interface/sensing/solid_ray.h"
+#include "tests/unit/bug_sensing/arena.h"
+
+using namespace forage::bug;
+using forage::bug::test::Arena;
+using forage::bug::test::at;
+using forage::bug::test::picture;
+using forage::bug::test::up;
+
+namespace {
+
+const float* pixel(const std::vector<float>& rgb, int column, int row) {
+    return &rgb[3 * static_cast<std::size_t>(row * 32 + column)];
+}
+
+/// A camera like that of the larger robots: it sees far.
+Camera far_camera(const Arena& arena, const std::shared_ptr<const Scene>& scene) {
+    CameraSensor sensor = arena.link.cameras.at(0);
+    sensor.pose = at(0.125, 0, 0.25) * Eigen::AngleAxisd(0.57, Eigen::Vector3d::UnitY());
+    sensor.horizontal_fov = 1.0047;
+    return {sensor, arena.link.pose, scene};
+}
+
+VisualSolid solid(ShapeKind kind, const Pose& pose, const Eigen::Vector3d& size, const char* material) {
+    return {{kind, pose, size}, *named_material(material)};
+}
+
+}  // namespace
+
+TEST_CASE("The wall enters the picture at the top when the robot passes y = 2.32") {
+    const Arena& arena = Arena::get();
+    const auto grey_in_top_row = [&](double y) {
+        const auto rgb = picture(arena.camera(), {1, y, up});
+        return pixel(rgb, 16, 0)[0];
+    };
+    CHECK(grey_in_top_row(2.28) == 0);
+    CHECK(grey_in_top_row(2.36) == Approx(0.188).margin(1e-3));
+}
+
+TEST_CASE("The target is a white disc on the floor") {
+    const Arena& arena = Arena::get();
+    const auto rgb =
+        picture(arena.camera(), {0, 2.12, up});  // 0.38 before its middle, on the axis of the camera
+    CHECK(pixel(rgb, 16, 14)[0] == 1);
+    CHECK(pixel(rgb, 16, 14)[2] == 1);
+    const auto before = picture(arena.camera(), {0, 1.9, up});  // the disc begins at 2.25, 0.35 ahead
+    CHECK(pixel(before, 16, 27)[0] == 0);
+    CHECK(pixel(before, 16, 0)[0] == 1);
+}
+
+TEST_CASE("A start disc is grey, painted on the floor") {
+    const Arena& arena = Arena::get();
+    const auto rgb = picture(arena.camera(), {0, -2.38, up});
+    for (int channel = 0; channel < 3; ++channel)
+        CHECK(pixel(rgb, 16, 14)[channel] == Approx(0.729).margin(1e-3));
+}
+
+TEST_CASE("Faces have the shade of their direction to the sun") {
+    const Arena& arena = Arena::get();
+    const Lighting& light = arena.scene->lighting();
+    const auto shade = [&](const char* material, double x, double y, double z) {
+        return light.shade(*named_material(material), Eigen::Vector3d(x, y, z))[0];
+    };
+    CHECK(shade("Gazebo/Grey", 0, 0, 1) == Approx(0.729).margin(1e-3));
+    CHECK(shade("Gazebo/Grey", 0, -1, 0) == Approx(0.188).margin(1e-3));
+    CHECK(shade("Gazebo/Grey", 1, 0, 0) == Approx(0.458).margin(1e-3));
+    CHECK(shade("Gazebo/Grey", -1, 0, 0) == Approx(0.120).margin(1e-3));
+
+    // A red box seen from its +x side: front and top.
+    const std::vector<MovingVisual> box = {
+        solid(ShapeKind::box, at(-1, -1, 0.1), {0.2, 0.6, 0.2}, "Gazebo/Red")};
+    const auto rgb = picture(arena.camera(), {-0.6, -1, std::numbers::pi}, box);  // its front is 0.3 ahead
+    bool front = false, top = false;
+    for (int row = 0; row < 28; ++row) {
+        front |= std::abs(pixel(rgb, 16, row)[0] - 0.883f) < 2e-3f;
+        top |= pixel(rgb, 16, row)[0] == 1.0f;
+        CHECK(pixel(rgb, 16, row)[1] == 0);
+    }
+    CHECK(front);
+    CHECK(top);
+    CHECK(pixel(rgb, 16, 27)[0] == 0);  // floor before it
+}
+
+TEST_CASE("Another robot hides the floor behind it, from every side") {
+    const Arena& arena = Arena::get();
+    for (const double yaw : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0}) {
+        const Pose2 body{-0.3, -1.3, yaw};
+        const double ahead = 0.46;  // its side begins at 0.26
+        const std::vector<MovingVisual> other = {solid(
+            ShapeKind::cylinder, at(body.x + ahead * std::cos(yaw), body.y + ahead * std::sin(yaw), 0.1),
+            {0.4, 0.4, 0.2}, "Gazebo/Green")};
+        const auto rgb = picture(arena.camera(), body, other);
+        CHECK(pixel(rgb, 16, 0)[1] == 1);  // its top
+        CHECK(pixel(rgb, 16, 0)[0] == 0);
+        CHECK(pixel(rgb, 16, 27)[1] == 0);  // floor before it, at 0.24
+        int side = 0;
+        for (int row = 0; row < 28; ++row)
+            side += pixel(rgb, 16, row)[1] > 0.39f && pixel(rgb, 16, row)[1] < 1.0f;
+        CHECK(side > 0);
+    }
+}
+
+TEST_CASE("Nearer things hide farther ones, whatever their order") {
+    const Arena& arena = Arena::get();
+    const auto near = solid(ShapeKind::sphere, at(0, -0.6, 0.06), {0.16, 0.16, 0.16}, "Gazebo/Blue");
+    const auto far = solid(ShapeKind::box, at(0, -0.4, 0.125), {0.6, 0.1, 0.25}, "Gazebo/Red");
+    const auto scene = std::make_shared<Scene>(arena.world, arena.excluded);
+    const Camera camera = far_camera(arena, scene);
+    const auto one = picture(camera, {0, -1.2, up}, std::vector<MovingVisual>{near, far});
+    const auto other = picture(camera, {0, -1.2, up}, std::vector<MovingVisual>{far, near});
+    CHECK(one == other);
+    int blue = 0, red = 0;
+    for (std::size_t i = 0; i < one.size(); i += 3)
+        red += one[i] > 0.39f, blue += one[i + 2] > 0.39f && one[i] == 0;
+    CHECK(blue > 10);
+    CHECK(red > 10);
+}
+
+TEST_CASE("A camera that looks far sees the horizon's background above the floor") {
+    WorldDescription world;
+    const Arena& arena = Arena::get();
+    const auto scene = std::make_shared<Scene>(arena.world, arena.excluded);
+    CameraSensor level = arena.link.cameras.at(0);
+    level.pose = at(0, 0, 0.5);
+    const Camera camera(level, Pose::Identity(), scene);
+    const auto rgb = picture(camera, {0, 0, 0});
+    CHECK(pixel(rgb, 0, 0)[1] == 0.7f);
+    CHECK(pixel(rgb, 16, 27)[1] != 0.7f);
+}
+
+TEST_CASE("A robot does not see itself: its model is left out of the scene") {
+    const Arena& arena = Arena::get();
+    const Scene with(arena.world), without(arena.world, arena.excluded);
+    CHECK(with.solids().size() == without.solids().size() + 2);
+    CHECK(without.floors().size() == 1);
+}
+
+TEST_CASE("A missing texture is reported") {
+    WorldDescription world;
+    Visual visual;
+    visual.shape = {ShapeKind::plane, {1, 1, 0}};
+    visual.material.texture = "/nowhere/floor.png";
+    Link link;
+    link.visuals.push_back(visual);
+    Model model;
+    model.links.push_back(link);
+    world.models.push_back(model);
+    CHECK_THROWS_AS(Scene(world), std::runtime_error);
+}
+
+TEST_CASE("A higher floor hides a lower one") {
+    WorldDescription world;
+    const auto floor = [&](double z, double size, const char* material) {
+        Visual visual;
+        visual.pose = at(0, 0, z);
+        visual.shape = {ShapeKind::plane, {size, size, 0}};
+        visual.material = *named_material(material);
+        Link link;
+        link.visuals.push_back(visual);
+        Model model;
+        model.links.push_back(link);
+        world.models.push_back(model);
+    };
+    floor(0.01, 0.2, "Gazebo/Red");
+    floor(0, 20, "Gazebo/Green");
+    const Arena& arena = Arena::get();
+    const Camera camera(arena.link.cameras.at(0), arena.link.pose, std::make_shared<Scene>(world));
+    const auto rgb = picture(camera, {-0.37, 0, 0});
+    CHECK(pixel(rgb, 16, 14)[0] == 0.4f);  // there is no sun
+    CHECK(pixel(rgb, 16, 14)[1] == 0);
+    CHECK(pixel(rgb, 0, 0)[1] == 0.4f);
+}
+
+TEST_CASE("A ray enters solids from outside only") {
+    const Eigen::Vector3d half(1, 2, 3), ahead(1, 0, 0);
+    for (const ShapeKind kind : {ShapeKind::box, ShapeKind::cylinder, ShapeKind::sphere}) {
+        const auto entry = enter(kind, half, {-5, 0, 0}, ahead);
+        REQUIRE(entry);
+        CHECK(entry->depth == Approx(4));
+        CHECK_FALSE(enter(kind, half, {0, 0, 0}, ahead));
+        CHECK_FALSE(enter(kind, half, {5, 0, 0}, ahead));
+        CHECK_FALSE(enter(kind, half, {-5, 2.5, 0}, ahead));
+        CHECK_FALSE(enter(kind, half, {-5, 0, 3.5}, ahead));
+    }
+    CHECK(enter(ShapeKind::box, half, {-5, 0, 0}, ahead)->face == 1);
+    CHECK(enter(ShapeKind::cylinder, half, {0, 0, 9}, -Eigen::Vector3d::UnitZ())->face == 4);
+    CHECK(enter(ShapeKind::cylinder, half, {-5, 0, 0}, ahead)->normal.x() == Approx(-1));
+}
