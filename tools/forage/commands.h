@@ -1,0 +1,33 @@
+// The commands of the program. Each takes its options and returns the exit status: 0 fine, 1 the run failed, 2 bad
+// usage or bad input.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/forage/load.h"
+
+namespace forage::tool {
+
+enum ExitStatus { fine = 0, run_failed = 1, bad_input = 2 };
+
+struct RunOptions {
+    Input input;
+    std::optional<std::uint64_t> cycles;
+    std::optional<double> seconds;
+    std::optional<int> trials;
+    double longest_trial = 300;  ///< s of the world
+    std::vector<std::string> recordings;
+    std::uint64_t every = 1;
+    std::string directory = "forage-out";
+    bool real_time = false, quiet = false;
+};
+
+int run(const RunOptions& options);
+int check(const Input& input);
+/// Lists the types, or one with its parameters.
+int types(const std::string& name);
+
+}  // namespace forage::tool

@@ -1,0 +1,20 @@
+// Files that are there whole or not at all.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace forage::tool {
+
+/// The name under which a file grows; rename it with finish().
+std::string partial(const std::string& path);
+/// Gives a file that was written as partial(path) its name. Throws std::runtime_error.
+void finish(const std::string& path);
+/// Writes `text` to `path` by way of partial(path). Throws std::runtime_error.
+void write_file(const std::string& path, std::string_view text);
+/// Makes a directory and those above it. Throws std::runtime_error.
+void make_directory(const std::string& path);
+/// `text` with everything but letters, digits, '.', '-' and '_' replaced by '_'.
+std::string file_name(std::string_view text);
+
+}  // namespace forage::tool

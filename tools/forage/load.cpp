@@ -1,0 +1,66 @@
+#include "tools/forage/load.h"
+
+#include <fmt/format.h>
+
+#include "bug_interface/module/gazebo_bug.h"
+#include "bug_interface/world/sdf_reader.h"
+#include "core/model/edit.h"
+#include "core/xml/reader.h"
+#include "modules/replay/replay.h"
+#include "neurons/neurons.h"
+#include "synapses/synapses.h"
+
+namespace forage::tool {
+namespace {
+
+std::shared_ptr<const replay::DriveTable> read_table(const std::string& path, Diagnostics& diagnostics) {
+    if (path.empty()) return nullptr;
+    try {
+        return std::make_shared<replay::DriveTable>(replay::DriveTable::read(path));
+    } catch (const std::exception& e) {
+        diagnostics.error({}, e.what());
+        return nullptr;
+    }
+}
+
+}  // namespace
+
+Registry shipped_types(bug::World* world, std::shared_ptr<const replay::DriveTable> drive) {
+    Registry registry;
+    add_neurons(registry);
+    add_synapses(registry);
+    replay::Replay player;
+    player.table = std::move(drive);
+    registry.add(module_type(player));
+    registry.add(bug::gazebo_bug_type(world));
+    return registry;
+}
+
+double cycles_per_second(const model::System& system) { return system.cycles_per_second > 0 ? system.cycles_per_second : 25; }
+
+std::optional<Loaded> load(const Input& input, Diagnostics& diagnostics) {
+    diagnostics.lenient = input.lenient;
+    Loaded out;
+    auto system = xml::read_system(input.system, diagnostics);
+    if (system) out.system = std::move(*system);
+
+    if (!input.world.empty()) {
+        const auto description = bug::read_world(input.world, diagnostics);
+        bug::WorldOptions options;
+        options.seed = input.seed;
+        options.cycles_per_second = cycles_per_second(out.system);
+        options.real_time_factor = input.world_pace;
+        options.noise = input.noise;
+        if (description) out.world = bug::World::make(*description, options, diagnostics);
+    }
+    const auto drive = read_table(input.drive, diagnostics);
+    out.clamp = read_table(input.clamp, diagnostics);
+
+    out.registry = shipped_types(out.world.get(), drive);
+    if (system)
+        for (const auto& assignment : input.settings) model::set(out.system, out.registry, assignment, diagnostics);
+    if (diagnostics.failed()) return std::nullopt;
+    return out;
+}
+
+}  // namespace forage::tool

@@ -1,0 +1,130 @@
+#include "tools/forage/results.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <filesystem>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bug_interface/versions.h"
+
+namespace forage::tool {
+namespace {
+
+std::string_view outcome_of(const bug::Trial& t, bool finished) {
+    if (t.target()) return "target";
+    return finished ? "missed" : "unfinished";
+}
+
+std::string base_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+/// "left 10/11, ..." by start position, for worlds that reset the robot to a few.
+std::string by_start(const bug::World& world, const Trials& trials) {
+    const auto plan = world.reset_plan();
+    if (!plan || plan->starts.size() < 2) return {};
+    std::vector<std::pair<int, int>> counts(plan->starts.size());
+    for (const auto& t : trials.finished) {
+        const auto nearest = std::min_element(plan->starts.begin(), plan->starts.end(), [&](const auto& a, const auto& b) {
+            return std::hypot(a.x - t.start.x, a.y - t.start.y) < std::hypot(b.x - t.start.x, b.y - t.start.y);
+        });
+        auto& [reached, all] = counts[static_cast<std::size_t>(nearest - plan->starts.begin())];
+        ++all, reached += t.target();
+    }
+    std::string out;
+    for (std::size_t i = 0; i < counts.size(); ++i)
+        out += fmt::format("{}{} of {} from x = {:g}", i ? ", " : "", counts[i].first, counts[i].second, plan->starts[i].x);
+    return out;
+}
+
+}  // namespace
+
+std::size_t Trials::reached() const {
+    return static_cast<std::size_t>(std::count_if(finished.begin(), finished.end(), [](const auto& t) { return t.target(); }));
+}
+
+Trials trials_of(const bug::World& world, std::size_t robot) {
+    Trials out{world.trials(robot), std::nullopt};
+    const auto running = world.current_trial(robot);
+    if (running.cycles > 0) out.running = running;
+    return out;
+}
+
+std::string trials_csv(const Trials& trials) {
+    std::string out = "trial,start_x,start_y,start_yaw,cycles,smallest_distance,outcome\n";
+    const auto add = [&](const bug::Trial& t, bool finished) {
+        out += fmt::format("{},{},{},{},{},{},{}\n", t.number, t.start.x, t.start.y, t.start.yaw, t.cycles, t.smallest_distance, outcome_of(t, finished));
+    };
+    for (const auto& t : trials.finished) add(t, true);
+    if (trials.running) add(*trials.running, false);
+    return out;
+}
+
+std::string run_json(const RunOptions& o, const Loaded& loaded, const Outcome& outcome) {
+    nlohmann::ordered_json json;
+    json["forage"] = FORAGE_VERSION;
+    json["libraries"]["Eigen"] = fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
+    for (const auto& [name, version] : bug::library_versions()) json["libraries"][name] = version;
+    json["system"] = {{"file", o.input.system}, {"name", loaded.system.name}, {"cycles_per_second", cycles_per_second(loaded.system)}};
+    if (loaded.world) json["world"] = {{"file", o.input.world}, {"seconds_per_cycle", loaded.world->seconds_per_cycle()}, {"noise", o.input.noise}};
+    json["seed"] = o.input.seed;
+    if (o.cycles) json["cycles"] = *o.cycles;
+    if (o.seconds) json["seconds"] = *o.seconds;
+    if (o.trials) json["trials"] = *o.trials, json["longest_trial"] = o.longest_trial;
+    if (o.input.world_pace) json["world_pace"] = *o.input.world_pace;
+    json["set"] = o.input.settings;
+    json["record"] = o.recordings;
+    json["every"] = o.every;
+    if (!o.input.drive.empty()) json["drive"] = o.input.drive;
+    if (!o.input.clamp.empty()) json["clamp"] = o.input.clamp;
+    json["lenient"] = o.input.lenient;
+    auto& result = json["result"];
+    result["cycles"] = outcome.cycles;
+    result["seconds"] = outcome.seconds;
+    if (!outcome.stopped.empty()) result["stopped"] = outcome.stopped;
+    if (loaded.world)
+        for (std::size_t i = 0; i < loaded.world->bugs(); ++i) {
+            const Trials trials = trials_of(*loaded.world, i);
+            result["robots"].push_back({{"name", loaded.world->bug_names()[i]}, {"trials", trials.finished.size()}, {"at_target", trials.reached()}});
+        }
+    result["files"] = outcome.files;
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string summary(const RunOptions& o, const Loaded& loaded, const Outcome& outcome) {
+    std::string out = fmt::format("{}{}, seed {}\n", base_name(o.input.system), loaded.world ? " in " + base_name(o.input.world) : "", o.input.seed);
+    const auto line = [&](std::string_view name, const std::string& text) { out += fmt::format("  {:<14} {}\n", name, text); };
+    if (!outcome.stopped.empty()) line("stopped", outcome.stopped);
+    line("cycles", fmt::format("{} ({:.1f} s {})", outcome.cycles, outcome.seconds, loaded.world ? "in the world" : "at the system's pace"));
+    line("speed", fmt::format("{:.0f} cycles/s, {:.0f} x real time ({:.2f} s)", static_cast<double>(outcome.cycles) / outcome.clock,
+                              outcome.seconds / outcome.clock, outcome.clock));
+    if (loaded.world) {
+        const auto& world = *loaded.world;
+        for (std::size_t i = 0; i < world.bugs(); ++i) {
+            const Trials trials = trials_of(world, i);
+            const std::string name = world.bugs() > 1 ? world.bug_names()[i] + " " : "";
+            if (const auto n = trials.finished.size()) {
+                double cycles = 0;
+                for (const auto& t : trials.finished) cycles += static_cast<double>(t.cycles);
+                line(name + "trials", fmt::format("{} of {:.1f} s each on average", n,
+                                                  cycles / static_cast<double>(n) * world.seconds_per_cycle()));
+                if (!world.targets().empty()) {
+                    const std::string starts = by_start(world, trials);
+                    line(name + "at the target", fmt::format("{} of {} ({:.0f} %){}", trials.reached(), n,
+                                                             100.0 * static_cast<double>(trials.reached()) / static_cast<double>(n),
+                                                             starts.empty() ? "" : ": " + starts));
+                }
+            } else if (trials.running) {
+                const auto& t = *trials.running;
+                line(name + "robot", fmt::format("from ({:.2f}, {:.2f}) to ({:.2f}, {:.2f}), {:.2f} m apart", t.start.x, t.start.y, t.end.x, t.end.y,
+                                                 std::hypot(t.end.x - t.start.x, t.end.y - t.start.y)));
+                if (!world.targets().empty()) line(name + "target", fmt::format("{:.2f} m away at the nearest{}", t.smallest_distance, t.target() ? ": reached" : ""));
+            }
+        }
+    }
+    if (!outcome.files.empty()) line("written", fmt::format("{}: {}", o.directory, fmt::join(outcome.files, ", ")));
+    return out;
+}
+
+}  // namespace forage::tool

@@ -1,0 +1,40 @@
+// What a run leaves behind.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bug_interface/simulation/world.h"
+#include "tools/forage/commands.h"
+
+namespace forage::tool {
+
+/// How a run went.
+struct Outcome {
+    std::uint64_t cycles = 0;
+    double seconds = 0;     ///< of the world
+    double clock = 0;       ///< s of the clock
+    std::string stopped;    ///< why it ended before its time; empty when it did not
+    std::vector<std::string> files;
+};
+
+/// The trials of a robot: the finished ones and, if it had begun, the one that ran at the end.
+struct Trials {
+    std::vector<bug::Trial> finished;
+    std::optional<bug::Trial> running;
+
+    std::size_t reached() const;
+};
+Trials trials_of(const bug::World& world, std::size_t robot);
+
+/// trial,start_x,start_y,start_yaw,cycles,smallest_distance,outcome
+std::string trials_csv(const Trials& trials);
+
+/// Versions, seed and settings: what is needed to repeat the run, and what came of it. No times and no dates: the
+/// same run gives the same text.
+std::string run_json(const RunOptions& options, const Loaded& loaded, const Outcome& outcome);
+
+/// For people.
+std::string summary(const RunOptions& options, const Loaded& loaded, const Outcome& outcome);
+
+}  // namespace forage::tool

@@ -1,0 +1,24 @@
+#include "tools/forage/stop.h"
+
+#include <csignal>
+
+namespace forage::tool {
+namespace {
+
+volatile std::sig_atomic_t noted = 0;
+
+extern "C" void note(int signal) {
+    noted = signal;
+    std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+void note_signals() {
+    std::signal(SIGINT, note);
+    std::signal(SIGTERM, note);
+}
+
+int noted_signal() { return noted; }
+
+}  // namespace forage::tool
