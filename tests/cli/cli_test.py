@@ -1,0 +1,299 @@
+"""What a person sees: the program's output, its files and its exit status.
+
+    cli_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
+"""
+
+import csv
+import filecmp
+import json
+import os
+import pathlib
+import pty
+import re
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+FORAGE = str(pathlib.Path(sys.argv[1]).resolve())
+PROJECT = pathlib.Path(sys.argv[2]).resolve()
+SYSTEM = str(PROJECT / "systems" / "reactive_foraging.iqr")
+EXERCISE = str(PROJECT / "systems" / "reactive_foraging_exercise.iqr")
+WORLD = str(PROJECT / "systems" / "worlds" / "basic_arena.world")
+OPEN_WORLD = str(PROJECT / "systems" / "worlds" / "open_arena.world")
+SHARED = pathlib.Path(os.environ.get("FORAGE_SHARED", PROJECT.parent / "shared"))
+
+
+class Cli(unittest.TestCase):
+    def setUp(self):
+        self._directory = tempfile.TemporaryDirectory()
+        self.addCleanup(self._directory.cleanup)
+        self.here = pathlib.Path(self._directory.name)
+
+    def forage(self, *arguments, status=0):
+        done = subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done
+
+    def table(self, name):
+        with (self.here / name).open(newline="") as file:
+            return list(csv.reader(file))
+
+    def run_robot(self, *arguments, system=SYSTEM, out="out", **more):
+        return self.forage("run", system, "--world", WORLD, "-o", out, *arguments, **more)
+
+
+class Run(Cli):
+    def test_thirty_trials_give_a_table_a_picture_and_a_record(self):
+        done = self.run_robot("--trials", 30, "--seed", 1)
+        header, *rows = self.table("out/trials.csv")
+        rows = [dict(zip(header, row)) for row in rows]
+        self.assertEqual(len(rows), 30)
+        self.assertEqual(header, ["trial", "start_x", "start_y", "start_yaw", "cycles", "smallest_distance", "outcome"])
+        for number, row in enumerate(rows, 1):
+            self.assertEqual(int(row["trial"]), number)
+            self.assertGreater(int(row["cycles"]), 20)
+            self.assertEqual(row["outcome"], "target" if float(row["smallest_distance"]) < 0.45 else "missed")
+        reached = sum(row["outcome"] == "target" for row in rows)
+        self.assertGreaterEqual(reached, 25)
+        self.assertIn(f"{reached} of 30", done.stdout)
+        self.assertRegex(done.stdout, r"[\d]+ cycles/s, [\d]+ x real time")
+        record = json.loads((self.here / "out/run.json").read_text())
+        self.assertEqual((record["seed"], record["trials"], record["result"]["robots"][0]["at_target"]), (1, 30, reached))
+        picture = (self.here / "out/trajectory.png").read_bytes()
+        self.assertEqual(picture[:8], b"\x89PNG\r\n\x1a\n")
+        width, height = struct.unpack(">II", picture[16:24])
+        self.assertGreater(width, 600)
+        self.assertGreater(height, 600)
+        self.assertEqual(sorted(p.name for p in (self.here / "out").iterdir()), ["run.json", "trajectory.png", "trials.csv"])
+
+    def test_readme_says_how_many_of_thirty_reach_the_target(self):
+        done = self.run_robot("--trials", 30, "--seed", 1)
+        reached = re.search(r"at the target +(\d+ of 30)", done.stdout).group(1)
+        self.assertIn(f"**{reached}**", (PROJECT / "README.md").read_text())
+
+    def test_same_seed_same_bytes_other_seed_other_bytes(self):
+        record = ("--record", "Bug/Light", "--record", "Bug/Motor:vm", "--cycles", 300)
+        for out, seed in (("a", 3), ("b", 3), ("c", 4)):
+            self.forage("run", SYSTEM, "--world", WORLD, "-o", out, "--seed", seed, *record)
+        names = sorted(p.name for p in (self.here / "a").iterdir())
+        self.assertEqual(len(names), 5)
+        self.assertEqual(filecmp.cmpfiles(self.here / "a", self.here / "b", names, shallow=False), (names, [], []))
+        self.assertFalse(filecmp.cmp(self.here / "a/Bug_Light_act.csv", self.here / "c/Bug_Light_act.csv", shallow=False))
+
+    def test_recording_has_a_header_and_a_row_for_every_kth_cycle(self):
+        self.run_robot("--cycles", 100, "--record", "Bug/GPS", "--every", 10)
+        rows = self.table("out/Bug_GPS_act.csv")
+        self.assertEqual(rows[0], ["cycle", "0", "1", "2"])
+        self.assertEqual([int(r[0]) for r in rows[1:]], list(range(0, 100, 10)))
+        # The group reads x + 10, y + 10, heading + pi; what is sensed at the end of cycle t arrives in t + 2.
+        self.assertAlmostEqual(float(rows[2][1]), 10, delta=0.05)
+        self.assertAlmostEqual(float(rows[2][2]), 10 - 2 + 0.08 * 5, delta=0.5)
+        self.assertAlmostEqual(float(rows[2][3]), 1.5708 + 3.1416, delta=0.05)
+
+    def test_length_in_seconds_and_in_cycles(self):
+        self.run_robot("--seconds", 8, "-q")
+        self.assertEqual(json.loads((self.here / "out/run.json").read_text())["result"]["cycles"], 100)  # 80 ms each
+        self.run_robot("--cycles", 77, "-q")
+        self.assertEqual(json.loads((self.here / "out/run.json").read_text())["result"]["cycles"], 77)
+
+    def test_set_changes_a_parameter(self):
+        self.run_robot("--cycles", 200, "--set", "Motor In to Motor.weight=0", "--record", "Bug/Motor")
+        rows = self.table("out/Bug_Motor_act.csv")[1:]
+        self.assertTrue(all(float(v) == 0 for r in rows for v in r[1:]))
+
+    def test_the_exercise_stands_still_and_the_run_ends(self):
+        done = self.run_robot("--trials", 2, "--longest-trial", 20, system=EXERCISE)
+        self.assertIn("did not end within 20 s", done.stdout)
+        self.assertIn("0.00 m apart", done.stdout)
+
+    def test_quiet_prints_nothing(self):
+        done = self.run_robot("--cycles", 10, "-q")
+        self.assertEqual((done.stdout, done.stderr), ("", ""))
+
+    def test_no_directory_no_files(self):
+        self.forage("run", SYSTEM, "--world", WORLD, "--cycles", 10, "-o", "")
+        self.assertEqual(list(self.here.iterdir()), [])
+
+    def test_realtime_takes_as_long_as_in_the_world(self):
+        begin = time.monotonic()
+        self.run_robot("--seconds", 1, "--realtime")
+        self.assertGreaterEqual(time.monotonic() - begin, 0.9)
+
+    def test_progress_on_a_terminal_only(self):
+        self.assertNotIn("\r", self.run_robot("--cycles", 1000).stderr)
+        pid, terminal = pty.fork()
+        if pid == 0:
+            os.chdir(self.here)
+            os.execv(FORAGE, [FORAGE, "run", SYSTEM, "--world", WORLD, "--seconds", "2", "--realtime"])
+        seen = b""
+        try:
+            while chunk := os.read(terminal, 4096):
+                seen += chunk
+        except OSError:
+            pass
+        os.waitpid(pid, 0)
+        self.assertRegex(seen, rb"\[=* *\] +\d+ %  \d+ cycles/s  \d+ x real time")
+
+    def test_interrupt_keeps_what_was_done(self):
+        command = [FORAGE, "run", SYSTEM, "--world", WORLD, "--seconds", "1000", "--realtime", "--record", "Bug/Light"]
+        process = subprocess.Popen(command, cwd=self.here, stdout=subprocess.PIPE, text=True)
+        time.sleep(1.5)
+        process.send_signal(signal.SIGINT)
+        text, _ = process.communicate(timeout=20)
+        self.assertEqual(process.returncode, 130)
+        self.assertIn("stopped", text)
+        rows = self.table("forage-out/Bug_Light_act.csv")
+        self.assertGreater(len(rows), 2)
+        self.assertTrue(all(len(r) == 33 for r in rows))
+
+    def test_drive_and_clamp_tables(self):
+        system = self.here / "small.iqr"
+        system.write_text(SMALL_SYSTEM)
+        (self.here / "drive.csv").write_text("cycle,process,target,v0...\n0,P,out,1,2\n3,P,out,5,0\n")
+        (self.here / "clamp.csv").write_text("cycle,process,target,v0...\n2,P,B,7,8\n")
+        self.forage("run", system, "--cycles", 6, "--drive", "drive.csv", "--clamp", "clamp.csv", "-r", "P/A", "-r", "P/B", "-o", "out")
+        a = self.table("out/P_A_act.csv")[1:]
+        b = self.table("out/P_B_act.csv")[1:]
+        self.assertEqual(a, [["0", "0", "0"], ["1", "1", "2"], ["2", "1", "2"], ["3", "1", "2"], ["4", "5", "0"], ["5", "5", "0"]])
+        self.assertEqual(b, [["0", "0", "0"], ["1", "0", "0"], ["2", "7", "8"], ["3", "7", "8"], ["4", "7", "8"], ["5", "7", "8"]])
+
+
+class Mistakes(Cli):
+    def test_usage_is_status_2_with_a_hint(self):
+        for arguments in ([], ["rum"], ["run"], ["run", SYSTEM, "--cycles", "0"], ["run", SYSTEM, "--cycles", "5", "--trials", "2"],
+                          ["run", SYSTEM, "--seed", "x"]):
+            done = self.forage(*arguments, status=2)
+            self.assertIn("error:", done.stderr)
+            self.assertIn("hint:", done.stderr)
+
+    def test_every_mistake_of_a_file_is_reported_with_its_place(self):
+        bad = self.here / "bad.iqr"
+        text = SMALL_SYSTEM.replace('name="excGain"', 'name="exGain"').replace('target="a" type', 'target="nowhere" type')
+        bad.write_text(text)
+        for command in (["check", bad], ["run", bad, "--cycles", "1"]):
+            done = self.forage(*command, status=2)
+            self.assertRegex(done.stderr, r"bad\.iqr:\d+:\d+: error: neuronLinearThreshold has no parameter 'exGain'")
+            self.assertIn("did you mean 'excGain'", done.stderr)
+            self.assertRegex(done.stderr, r"bad\.iqr:\d+:\d+: error: .*'nowhere'")
+        self.assertEqual([p.name for p in self.here.iterdir()], ["bad.iqr"])  # nothing left behind
+
+    def test_lenient_turns_unknown_names_into_warnings(self):
+        bad = self.here / "bad.iqr"
+        bad.write_text(SMALL_SYSTEM.replace('name="excGain"', 'name="exGain"'))
+        done = self.forage("check", bad, "--lenient")
+        self.assertIn("warning:", done.stderr)
+        self.assertIn("fine", done.stdout)
+
+    def test_wrong_names_on_the_command_line(self):
+        for arguments, message in (
+            (["--record", "Bug/Ligth"], "did you mean 'Bug/Light'"),
+            (["--record", "Bug/Light:vn"], "did you mean 'vm'"),
+            (["--set", "Bug/Light.thresold=1"], "did you mean 'threshold'"),
+            (["--set", "Bug/Light.threshold=high"], "is not a number"),
+            (["--set", "nonsense"], "not an assignment"),
+            (["--drive", "absent.csv"], "cannot read 'absent.csv'"),
+        ):
+            done = self.run_robot("--cycles", 1, *arguments, status=2)
+            self.assertIn("error:", done.stderr)
+            self.assertIn(message, done.stderr)
+
+    def test_missing_files(self):
+        self.assertIn("absent.iqr", self.forage("run", "absent.iqr", status=2).stderr)
+        self.assertIn("absent.world", self.forage("run", SYSTEM, "--world", "absent.world", status=2).stderr)
+
+    def test_a_robot_without_a_world(self):
+        done = self.forage("run", SYSTEM, "--cycles", 5, "-o", "", status=2)
+        self.assertIn("--world", done.stderr)
+
+    def test_trials_where_there_are_none(self):
+        self.assertIn("never resets", self.forage("run", SYSTEM, "--world", OPEN_WORLD, "--trials", 2, status=2).stderr)
+        system = self.here / "small.iqr"
+        system.write_text(SMALL_SYSTEM)
+        self.assertIn("needs a world", self.forage("run", system, "--trials", 2, status=2).stderr)
+
+    def test_a_directory_that_cannot_be_made(self):
+        (self.here / "file").write_text("")
+        self.assertIn("error:", self.run_robot("--cycles", 1, out="file/out", status=2).stderr)
+
+
+class Others(Cli):
+    def test_help_lists_commands_and_options(self):
+        text = self.forage("--help").stdout
+        for word in ("run", "check", "types"):
+            self.assertIn(word, text)
+        text = self.forage("run", "--help").stdout
+        for option in ("--world", "--cycles", "--seconds", "--trials", "--seed", "--set", "--record", "--every", "--output", "--realtime", "--quiet"):
+            self.assertIn(option, text)
+
+    def test_types_are_listed_and_described(self):
+        self.assertIn("neuronLinearThreshold", self.forage("types").stdout)
+        text = self.forage("types", "neuronLinearThreshold").stdout
+        for word in ("excGain", "Default 1", "threshold", "vm", "act"):
+            self.assertIn(word, text)
+        self.assertIn("_motor", self.forage("types", "moduleGazeboBug").stdout)
+        self.assertIn("did you mean", self.forage("types", "neuronLinearTreshold", status=2).stderr)
+
+    def test_shipped_systems_are_fine(self):
+        for system in (PROJECT / "systems").glob("*.iqr"):
+            done = self.forage("check", system)
+            self.assertIn("fine", done.stdout)
+            self.assertEqual(done.stderr, "")
+
+    def test_shipped_floors_are_what_their_script_draws(self):
+        script = PROJECT / "systems" / "worlds" / "make_floors.py"
+        self.assertEqual(subprocess.run([sys.executable, script, "--check"], capture_output=True).returncode, 0)
+
+
+@unittest.skipUnless((SHARED / "original").exists(), "the original's files are absent")
+class Original(Cli):
+    FILES = SHARED / "original" / "DAC_files"
+
+    def run_original(self, system, *arguments):
+        self.forage("run", self.FILES / system, "--world", self.FILES / "DAC_basic_arena.world", "-o", "out", *arguments)
+        return json.loads((self.here / "out/run.json").read_text())["result"]
+
+    def test_the_tutorials_system_reaches_the_target_in_the_large_majority_of_trials(self):
+        result = self.run_original("DACReactiveBug.iqr", "--trials", 30, "--seed", 1)
+        self.assertEqual(result["robots"][0]["trials"], 30)
+        self.assertGreaterEqual(result["robots"][0]["at_target"], 25)
+
+    def test_the_tutorials_incomplete_system_stands_still(self):
+        result = self.run_original("DACReactiveBug_ex.iqr", "--trials", 30)
+        self.assertEqual(result["robots"][0]["trials"], 0)
+        self.assertIn("did not end", result["stopped"])
+
+
+SMALL_SYSTEM = """<?xml version="1.0" encoding="UTF-8"?>
+<System id="s" name="small" author="" date="" cylesPerSecond="25">
+  <Process id="p" name="P" enableModule="true">
+    <Module name="moduleReplay">
+      <XRefHolder name="OutputToGroup"><XRef name="out" target="a"/></XRefHolder>
+    </Module>
+    <DiagramIcon x="0" y="0"/>
+    <Group id="a" name="A">
+      <Topology><TopologyRect hcount="2" vcount="1" cylinderHor="false" cylinderVert="false"/></Topology>
+      <Neuron name="neuronLinearThreshold"><Parameter name="excGain" value="1"/></Neuron>
+      <DiagramIcon x="0" y="0"/>
+    </Group>
+    <Group id="b" name="B">
+      <Topology><TopologyRect hcount="2" vcount="1" cylinderHor="false" cylinderVert="false"/></Topology>
+      <Neuron name="neuronLinearThreshold"/>
+      <DiagramIcon x="0" y="0"/>
+    </Group>
+  </Process>
+  <Connection id="c" name="B to A" source="b" target="a" type="excitatory">
+    <Pattern><PatternForeach><All/><All/></PatternForeach></Pattern>
+    <Arborization><ArbRect width="1" height="1" direction="RF" initialization_probability="1"/></Arborization>
+    <AttenuationFunction><FunUniform value="0"/></AttenuationFunction>
+    <DelayFunction><FunUniform value="0"/></DelayFunction>
+    <Synapse name="synapseFixedWeight"><Parameter name="weight" value="0"/></Synapse>
+  </Connection>
+</System>
+"""
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
