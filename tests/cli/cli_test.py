@@ -10,6 +10,7 @@ import os
 import pathlib
 import pty
 import re
+import shlex
 import signal
 import struct
 import subprocess
@@ -242,6 +243,15 @@ class Others(Cli):
             done = self.forage("check", system)
             self.assertIn("fine", done.stdout)
             self.assertEqual(done.stderr, "")
+
+    def test_commands_of_the_readme_work(self):
+        commands = re.findall(r"^build/release/bin/(forage .*)$", (PROJECT / "README.md").read_text(), re.MULTILINE)
+        self.assertGreater(len(commands), 4)
+        os.symlink(PROJECT / "systems", self.here / "systems")
+        for command in commands:
+            with self.subTest(command):
+                done = subprocess.run([FORAGE, *shlex.split(command)[1:]], cwd=self.here, capture_output=True, text=True, timeout=120)
+                self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_shipped_floors_are_what_their_script_draws(self):
         script = PROJECT / "systems" / "worlds" / "make_floors.py"
