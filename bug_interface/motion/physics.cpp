@@ -10,9 +10,8 @@
 namespace forage::bug {
 namespace {
 
-constexpr double near_enough =
-    0.001;  ///< m; above what Bullet's single precision and its distances may be wrong by
-constexpr float box_half_height = 1;  ///< m; any, as long as contacts are horizontal
+constexpr double near_enough = 0.001;  ///< m; well above the errors of Bullet's single precision
+constexpr float box_half_height = 1;   ///< m; any, as long as contacts are horizontal
 
 /// Distance from point (x, y) to an outline, 0 inside.
 double distance_to(const Outline& o, double x, double y) {
@@ -29,6 +28,13 @@ double wrapped(double yaw) {
     return rest <= -std::numbers::pi ? std::numbers::pi : rest;
 }
 
+/// Bullet's default is megabytes for thousands of contacts; it takes more when these are used up.
+btDefaultCollisionConstructionInfo small_pools() {
+    btDefaultCollisionConstructionInfo info;
+    info.m_defaultMaxPersistentManifoldPoolSize = info.m_defaultMaxCollisionAlgorithmPoolSize = 64;
+    return info;
+}
+
 btVector3 vector(double x, double y) { return {static_cast<btScalar>(x), static_cast<btScalar>(y), 0}; }
 
 }  // namespace
@@ -38,11 +44,13 @@ btVector3 vector(double x, double y) { return {static_cast<btScalar>(x), static_
 /// 0.01 rad.
 ///
 /// Bullet finds contacts and solves velocities; poses are kept and moved outside, in double precision.
-/// Nothing survives a step: a step's result depends on its poses and velocities alone.
+/// No contact and no impulse outlives its step.
 class Physics::Engine {
   public:
     Engine(std::span<const Obstacle> obstacles, std::span<const Body> bodies)
-        : dispatcher_(&configuration_), world_(&dispatcher_, &broadphase_, &configuration_) {
+        : configuration_(small_pools()),
+          dispatcher_(&configuration_),
+          world_(&dispatcher_, &broadphase_, &configuration_) {
         // Between two spheres Bullet's special algorithm sees only overlaps, the general one also what is
         // just ahead.
         dispatcher_.registerCollisionCreateFunc(

@@ -128,6 +128,7 @@ class Compiler {
                 feedback_.emplace_back(plan_->connections.size(), feedback_states(*c->synapse, plan.type, target, longest));
                 plastic_synapses_.push_back(std::move(synapses));
             }
+            target.incoming.push_back(static_cast<int>(plan_->connections.size()));
             plan_->connections.push_back(std::move(plan));
         }
         // The kernels refer to the types of their plans, which have their final place only now.
@@ -161,18 +162,15 @@ class Compiler {
 
     void lay_out() {
         Arena& arena = plan_->arena;
-        std::size_t widest = 0;
         for (auto& g : plan_->groups) {
             for (auto& s : g.states) g.state_offsets.push_back(arena.reserve(g.cells, s.depth));
             for (auto& kind : g.input_offsets)
                 for (auto& offset : kind) offset = arena.reserve(g.cells);
             if (g.history > 0) g.history_offset = arena.reserve(g.cells, g.history + 1);
-            widest = std::max(widest, static_cast<std::size_t>(g.stride));
         }
         for (auto& m : plan_->modules)
             for (const int g : m.output_groups)
                 m.output_offsets.push_back(arena.reserve(g < 0 ? 0 : plan_->groups[static_cast<std::size_t>(g)].cells));
-        plan_->scratch.resize(widest);
         arena.allocate();
 
         for (auto& g : plan_->groups) {

@@ -25,6 +25,7 @@ struct GroupPlan {
     std::vector<NeuronColumns::State> states;  ///< a state's ring: row t % depth is that of cycle t
     std::array<std::array<Arena::Offset, 2>, input_kinds> input_offsets{};
     std::array<std::array<double*, 2>, input_kinds> inputs{};  ///< of this and of the next cycle, in turns
+    std::vector<int> incoming;  ///< connections that end here, in order
     int history = 0;  ///< longest delay of outgoing connections; 0: no ring of past activity is kept
     Arena::Offset history_offset = 0;
     double* history_ring = nullptr;  ///< row t % (history + 1) is the activity of cycle t
@@ -59,7 +60,7 @@ struct Plan {
     std::vector<GroupPlan> groups;
     std::vector<ModulePlan> modules;
     std::vector<ConnectionPlan> connections;
-    std::vector<double> scratch;  ///< one row of the widest group
+    std::vector<std::vector<double>> scratch;  ///< one row of the widest group per thread
     Arena arena;
 };
 

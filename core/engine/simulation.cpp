@@ -5,10 +5,13 @@
 #include <algorithm>
 
 #include "core/engine/plan.h"
+#include "core/engine/thread_pool.h"
 #include "core/model/validate.h"
 
 namespace forage::engine {
 namespace {
+
+constexpr std::size_t worth_sharing = 20000;  // cells and synapses
 
 template <class T>
 auto& at(std::vector<T>& all, int index) {
@@ -29,10 +32,20 @@ std::optional<Simulation> Simulation::build(const model::System& system, const R
     if (diagnostics.errors() > errors_before) return std::nullopt;
     auto plan = compile(system, registry, options.seed, options.general_forms ? Forms::general : Forms::fastest, diagnostics);
     if (!plan) return std::nullopt;
-    return Simulation(std::move(plan));
+    return Simulation(std::move(plan), options.threads);
 }
 
-Simulation::Simulation(std::unique_ptr<Plan> plan) : plan_(std::move(plan)) {}
+Simulation::Simulation(std::unique_ptr<Plan> plan, int threads) : plan_(std::move(plan)) {
+    // A loop costs a few microseconds to share: small systems are faster on one thread.
+    std::size_t work = 0;
+    for (const auto& g : plan_->groups) work += static_cast<std::size_t>(g.cells);
+    for (const auto& c : plan_->connections) work += c.synapses;
+    if (work < worth_sharing) threads = 1;
+    pool_ = std::make_unique<ThreadPool>(threads);
+    std::size_t widest = 0;
+    for (const auto& g : plan_->groups) widest = std::max(widest, static_cast<std::size_t>(g.stride));
+    plan_->scratch.assign(static_cast<std::size_t>(pool_->threads()), std::vector<double>(widest));
+}
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
@@ -58,17 +71,17 @@ void Simulation::step() {
 void Simulation::update_groups() {
     shown_ = cycle_;
     const std::size_t now = cycle_ % 2;
-    const GroupPlan* current = nullptr;
-    try {
-        for (auto& g : plan_->groups) {
-            current = &g;
+    auto update = [this, now](int group, int thread) {
+        auto& g = at(plan_->groups, group);
+        try {
             NeuronColumns columns(g.cells, g.stride, cycle_, {g.inputs[0][now], g.inputs[1][now], g.inputs[2][now]},
-                                  g.states.data(), &g.random, plan_->scratch.data());
+                                  g.states.data(), &g.random, at(plan_->scratch, thread).data());
             g.neuron->update(columns);
+        } catch (const std::exception& e) {
+            throw RunError(fmt::format("{} of group '{}' failed in cycle {}: {}", g.type.name, g.path, cycle_, e.what()));
         }
-    } catch (const std::exception& e) {
-        throw RunError(fmt::format("{} of group '{}' failed in cycle {}: {}", current->type.name, current->path, cycle_, e.what()));
-    }
+    };
+    pool_->run(groups(), update);
 }
 
 /// Adds what a module has written to the excitatory input of its groups; `turn` says which of their two rows.
@@ -112,20 +125,22 @@ void Simulation::update_connections() {
             const auto row = static_cast<Index>(cycle_ % static_cast<std::uint64_t>(g.history + 1));
             Column(g.history_ring + row * g.stride, g.cells) = ConstColumn(current_row(g, g.type.output(), cycle_), g.cells);
         }
-    const ConnectionPlan* current = nullptr;
-    try {
-        for (auto& c : plan_->connections) {
-            current = &c;
+    auto deliver = [this, next](int group, int thread) {
+        auto& target = at(plan_->groups, group);
+        for (const int connection : target.incoming) {
+            auto& c = at(plan_->connections, connection);
             const auto& source = at(plan_->groups, c.source);
-            auto& target = at(plan_->groups, c.target);
             const History history{current_row(source, source.type.output(), cycle_), source.history_ring, source.history + 1,
                                   source.stride, cycle_};
-            if (c.effective) c.kernel->deliver(history, target.inputs[static_cast<std::size_t>(c.kind)][next]);
-            else if (c.plastic) c.kernel->deliver(history, plan_->scratch.data());  // it learns all the same
+            try {
+                if (c.effective) c.kernel->deliver(history, target.inputs[static_cast<std::size_t>(c.kind)][next]);
+                else if (c.plastic) c.kernel->deliver(history, at(plan_->scratch, thread).data());  // it learns all the same
+            } catch (const std::exception& e) {
+                throw RunError(fmt::format("{} of connection '{}' failed in cycle {}: {}", c.type.name, c.name, cycle_, e.what()));
+            }
         }
-    } catch (const std::exception& e) {
-        throw RunError(fmt::format("{} of connection '{}' failed in cycle {}: {}", current->type.name, current->name, cycle_, e.what()));
-    }
+    };
+    pool_->run(groups(), deliver);
     ++cycle_;
 }
 

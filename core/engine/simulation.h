@@ -16,6 +16,7 @@ namespace forage::engine {
 
 struct ModulePlan;
 struct Plan;
+class ThreadPool;
 
 /// A type's update or a module's start failed; the message names the type, its place in the system and the cycle.
 class RunError : public std::runtime_error {
@@ -36,6 +37,7 @@ class Simulation {
   public:
     struct Options {
         std::uint64_t seed = 1;
+        int threads = 1;             ///< of a cycle's loops; the numbers do not depend on it
         bool general_forms = false;  ///< compile every connection to a list of synapses (slower, same numbers)
     };
     /// Checks the system and builds it. Empty when `diagnostics` got an error.
@@ -84,10 +86,11 @@ class Simulation {
     ConstColumn synapse_state(int connection, int state) const;
 
   private:
-    explicit Simulation(std::unique_ptr<Plan> plan);
+    Simulation(std::unique_ptr<Plan> plan, int threads);
     void deliver_outputs(const ModulePlan& module, std::size_t turn);
 
     std::unique_ptr<Plan> plan_;
+    std::unique_ptr<ThreadPool> pool_;
     std::uint64_t cycle_ = 0;
     std::uint64_t shown_ = 0;  ///< the cycle whose numbers are looked at
 };

@@ -1,9 +1,10 @@
 #include "core/model/edit.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "core/model/build.h"
 #include "core/model/lookup.h"
 
 namespace forage::model {
@@ -19,7 +20,8 @@ struct Owner {
 std::vector<Owner> find_owners(System& system, const Registry& registry, std::string_view where) {
     std::vector<Owner> owners;
     for (const auto& entry : find_groups(system, where)) {
-        auto& use = const_cast<Group*>(entry.group)->neuron;  // entry points into `system`, which we may change
+        auto& use =
+            const_cast<Group*>(entry.group)->neuron;  // entry points into `system`, which we may change
         const NeuronType* type = registry.neuron(use.type);
         owners.push_back({&use, type ? &type->parameters : nullptr, nullptr});
     }
@@ -44,12 +46,6 @@ std::vector<std::string> owner_names(const System& system) {
     return out;
 }
 
-void assign(TypeUse& use, const std::string& name, const std::string& value) {
-    const auto it = std::find_if(use.settings.begin(), use.settings.end(), [&](const auto& s) { return s.name == name; });
-    if (it != use.settings.end()) it->value = value, it->value_at = {};
-    else use.settings.push_back({name, value, {}, {}});
-}
-
 }  // namespace
 
 void set(System& system, const Registry& registry, std::string_view assignment, Diagnostics& diagnostics) {
@@ -59,16 +55,20 @@ void set(System& system, const Registry& registry, std::string_view assignment, 
     const auto equals = assignment.find('=');
     const auto dot = assignment.rfind('.', equals);
     if (equals == std::string_view::npos || dot == std::string_view::npos || dot == 0) {
-        problem("not an assignment", "write Process/Group.parameter=value, for example 'Reactive Layer/Approach.threshold=0.3'");
+        problem("not an assignment",
+                "write Process/Group.parameter=value, for example 'Reactive Layer/Approach.threshold=0.3'");
         return;
     }
     const std::string_view where = assignment.substr(0, dot);
-    const std::string name(assignment.substr(dot + 1, equals - dot - 1)), value(assignment.substr(equals + 1));
+    const std::string name(assignment.substr(dot + 1, equals - dot - 1)),
+        value(assignment.substr(equals + 1));
 
     const auto owners = find_owners(system, registry, where);
-    if (owners.empty()) return problem(fmt::format("there is no '{}'", where), suggest(where, owner_names(system)));
+    if (owners.empty())
+        return problem(fmt::format("there is no '{}'", where), suggest(where, owner_names(system)));
     if (owners.size() > 1)
-        return problem(fmt::format("'{}' names {} things", where, owners.size()), "add '#' and the id of the group you mean, or use the id of the connection");
+        return problem(fmt::format("'{}' names {} things", where, owners.size()),
+                       "add '#' and the id of the group you mean, or use the id of the connection");
     const Owner& owner = owners.front();
 
     if (owner.process && name == "enableModule") {
@@ -78,8 +78,11 @@ void set(System& system, const Registry& registry, std::string_view assignment, 
         return;
     }
     if (!owner.parameters)
-        return problem(owner.use ? fmt::format("the type '{}' is not known", owner.use->type) : "this process has no module", "");
-    const auto it = std::find_if(owner.parameters->begin(), owner.parameters->end(), [&](const auto& p) { return p.name == name; });
+        return problem(owner.use ? fmt::format("the type '{}' is not known", owner.use->type)
+                                 : "this process has no module",
+                       "");
+    const auto it = std::find_if(owner.parameters->begin(), owner.parameters->end(),
+                                 [&](const auto& p) { return p.name == name; });
     if (it == owner.parameters->end()) {
         std::vector<std::string> known;
         for (const auto& p : *owner.parameters) known.push_back(p.name);
@@ -88,10 +91,10 @@ void set(System& system, const Registry& registry, std::string_view assignment, 
     }
     const auto parsed = parse_parameter(it->kind, value);
     if (!parsed) return problem(fmt::format("'{}' is not {}", value, describe(it->kind)), it->doc);
-    if (const auto* number = std::get_if<double>(&*parsed);
-        number && it->range && (*number < it->range->low || *number > it->range->high))
-        diagnostics.warning({}, fmt::format("--set '{}': outside the usual range {} to {}", assignment, to_text(it->range->low), to_text(it->range->high)));
-    assign(*owner.use, name, value);
+    if (outside(*parsed, it->range))
+        diagnostics.warning({}, fmt::format("--set '{}': outside the usual range {} to {}", assignment,
+                                            to_text(it->range->low), to_text(it->range->high)));
+    set_parameter(*owner.use, name, value);
 }
 
 }  // namespace forage::model

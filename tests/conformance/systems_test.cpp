@@ -28,7 +28,7 @@ TEST_CASE("The reactive system of the tutorial, driven by recorded input, gives 
     const auto system = xml::read_system(file, diagnostics);
     REQUIRE(system);
     const bool general_forms = GENERATE(false, true);
-    auto simulation = engine::Simulation::build(*system, registry, {1, general_forms}, diagnostics);
+    auto simulation = engine::Simulation::build(*system, registry, {.general_forms = general_forms}, diagnostics);
     INFO(format(diagnostics));
     REQUIRE(simulation);
     simulation->start();

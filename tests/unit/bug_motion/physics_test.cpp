@@ -128,7 +128,7 @@ TEST_CASE("A robot that meets a wall at 45 degrees slides along it and slowly tu
     CHECK((r.pose().x - before.x) / 0.02 == Approx(v - 0.1 * v).epsilon(0.01));  // 0.636 m/s
     CHECK((r.pose().yaw - before.yaw) / 0.02 == Approx(0.1 * v).epsilon(0.01));  // 0.07 rad/s
     CHECK(r.gap() > -1e-4);
-    // dyaw/dt = 0.1 sin(yaw) sin.. integrated: the heading drifts and the robot slows down.
+    // From here on the heading drifts and the robot slows down.
     double x = r.pose().x, yaw = r.pose().yaw;
     for (int i = 0; i < 2000; ++i)
         x += (std::cos(yaw) - 0.1 * std::sin(yaw)) * dt, yaw += 0.1 * std::sin(yaw) * dt;

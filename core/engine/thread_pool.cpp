@@ -1,0 +1,62 @@
+#include "core/engine/thread_pool.h"
+
+#include <limits>
+
+namespace forage::engine {
+
+constexpr int no_item = std::numeric_limits<int>::max();
+constexpr int spins = 2000;  // some microseconds: the next loop of a cycle usually comes within that
+
+ThreadPool::ThreadPool(int threads) {
+    failures_.resize(static_cast<std::size_t>(std::max(threads, 1)), {no_item, nullptr});
+    for (int t = 1; t < threads; ++t) workers_.emplace_back([this, t] { serve(t); });
+}
+
+ThreadPool::~ThreadPool() {
+    stop_ = true;
+    round_.fetch_add(1, std::memory_order_release);
+    round_.notify_all();
+    for (auto& w : workers_) w.join();
+}
+
+void ThreadPool::share(int items) {
+    items_ = items;
+    next_.store(0, std::memory_order_relaxed);
+    busy_.store(static_cast<int>(workers_.size()), std::memory_order_relaxed);
+    round_.fetch_add(1, std::memory_order_release);
+    round_.notify_all();
+    take_items(0);
+    for (int n = busy_.load(std::memory_order_acquire), spun = 0; n != 0; n = busy_.load(std::memory_order_acquire))
+        if (++spun > spins) busy_.wait(n, std::memory_order_acquire);
+
+    std::pair<int, std::exception_ptr> first{no_item, nullptr};
+    for (auto& f : failures_) {
+        if (f.first < first.first) first = f;
+        f = {no_item, nullptr};
+    }
+    if (first.second) std::rethrow_exception(first.second);
+}
+
+void ThreadPool::serve(int thread) {
+    for (std::uint32_t seen = 0;;) {
+        for (int spun = 0; round_.load(std::memory_order_acquire) == seen;)
+            if (++spun > spins) round_.wait(seen, std::memory_order_acquire);
+        seen = round_.load(std::memory_order_acquire);
+        if (stop_) return;
+        take_items(thread);
+        if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_.notify_one();
+    }
+}
+
+void ThreadPool::take_items(int thread) {
+    for (int item; (item = next_.fetch_add(1, std::memory_order_relaxed)) < items_;) {
+        try {
+            call_(work_, item, thread);
+        } catch (...) {
+            auto& failure = failures_[static_cast<std::size_t>(thread)];
+            if (item < failure.first) failure = {item, std::current_exception()};
+        }
+    }
+}
+
+}  // namespace forage::engine

@@ -1,0 +1,135 @@
+#include "core/model/build.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+namespace forage::model {
+namespace {
+
+template <class Items>
+auto find_in(Items& items, std::string_view id) -> decltype(&items.front()) {
+    const auto it = std::find_if(items.begin(), items.end(), [&](const auto& item) { return item.id == id; });
+    return it == items.end() ? nullptr : &*it;
+}
+
+std::set<std::string, std::less<>> all_ids(const System& system) {
+    std::set<std::string, std::less<>> ids{system.id};
+    for (const auto& p : system.processes) {
+        ids.insert(p.id);
+        for (const auto& g : p.groups) ids.insert(g.id);
+    }
+    for (const auto& c : system.connections) ids.insert(c.id);
+    return ids;
+}
+
+/// `id` if it is free, or a made-up one when it is empty.
+std::string claim(const System& system, std::string id, const std::string& wish) {
+    if (id.empty()) return fresh_id(system, wish);
+    if (all_ids(system).contains(id)) throw std::invalid_argument(fmt::format("the id '{}' is taken", id));
+    return id;
+}
+
+void forget_groups(System& system, const std::set<std::string, std::less<>>& ids) {
+    std::erase_if(system.connections, [&](const Connection& c) { return ids.contains(c.source) || ids.contains(c.target); });
+    for (auto& p : system.processes) {
+        if (!p.module) continue;
+        for (auto* references : {&p.module->inputs, &p.module->outputs})
+            for (auto& r : *references)
+                if (ids.contains(r.target)) r.target.clear();
+    }
+}
+
+[[noreturn]] void no_item(std::string_view what, std::string_view id) {
+    throw std::invalid_argument(fmt::format("there is no {} with the id '{}'", what, id));
+}
+
+}  // namespace
+
+std::string fresh_id(const System& system, const std::string& wish) {
+    const auto taken = all_ids(system);
+    std::string id = wish;
+    for (int n = 2; taken.contains(id); ++n) id = fmt::format("{}-{}", wish, n);
+    return id;
+}
+
+std::string add_process(System& system, std::string name, std::string id) {
+    Process p;
+    p.id = claim(system, std::move(id), "process");
+    p.name = std::move(name);
+    p.icon.emplace();
+    system.processes.push_back(std::move(p));
+    return system.processes.back().id;
+}
+
+std::string add_group(System& system, std::string_view process, std::string name, int width, int height,
+                      std::string neuron_type, std::string id) {
+    Process* p = find_process(system, process);
+    if (!p) no_item("process", process);
+    Group g;
+    g.id = claim(system, std::move(id), "group");
+    g.name = std::move(name);
+    g.topology = RectTopology{width, height};
+    g.neuron.type = std::move(neuron_type);
+    g.icon.emplace();
+    p->groups.push_back(std::move(g));
+    return p->groups.back().id;
+}
+
+std::string add_connection(System& system, std::string_view source, std::string_view target, InputKind kind,
+                           std::string synapse_type, std::string id) {
+    for (const auto end : {source, target})
+        if (!find_group(system, end)) no_item("group", end);
+    Connection c;
+    c.id = claim(system, std::move(id), "connection");
+    c.name = fmt::format("{} to {}", find_group(system, source)->name, find_group(system, target)->name);
+    c.source = source, c.target = target, c.kind = kind;
+    c.synapse.emplace().type = std::move(synapse_type);
+    c.line.emplace();
+    system.connections.push_back(std::move(c));
+    return system.connections.back().id;
+}
+
+Process* find_process(System& system, std::string_view id) { return find_in(system.processes, id); }
+
+Group* find_group(System& system, std::string_view id) {
+    for (auto& p : system.processes)
+        if (Group* g = find_in(p.groups, id)) return g;
+    return nullptr;
+}
+
+Connection* find_connection(System& system, std::string_view id) { return find_in(system.connections, id); }
+
+void set_parameter(TypeUse& use, std::string name, std::string value) {
+    const auto it = std::find_if(use.settings.begin(), use.settings.end(), [&](const auto& s) { return s.name == name; });
+    if (it == use.settings.end()) use.settings.push_back({std::move(name), std::move(value), {}, {}});
+    else it->value = std::move(value), it->value_at = {};
+}
+
+void remove(System& system, std::string_view id) {
+    const auto is_it = [id = std::string(id)](const auto& item) { return item.id == id; };
+    if (std::erase_if(system.connections, is_it)) return;
+    for (auto& p : system.processes)
+        if (find_in(p.groups, id)) {
+            forget_groups(system, {std::string(id)});
+            std::erase_if(p.groups, is_it);
+            return;
+        }
+    const Process* process = find_process(system, id);
+    if (!process) no_item("process, group or connection", id);
+    std::set<std::string, std::less<>> groups;
+    for (const auto& g : process->groups) groups.insert(g.id);
+    forget_groups(system, groups);
+    std::erase_if(system.processes, is_it);
+}
+
+void rename(System& system, std::string_view id, std::string name) {
+    if (auto* p = find_process(system, id)) p->name = std::move(name);
+    else if (auto* g = find_group(system, id)) g->name = std::move(name);
+    else if (auto* c = find_connection(system, id)) c->name = std::move(name);
+    else no_item("process, group or connection", id);
+}
+
+}  // namespace forage::model

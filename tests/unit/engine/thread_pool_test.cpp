@@ -1,0 +1,31 @@
+#include "core/engine/thread_pool.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "tests/support/catch.h"
+
+using forage::engine::ThreadPool;
+
+TEST_CASE("Every item is done once, whatever the number of threads") {
+    ThreadPool pool(GENERATE(1, 2, 4));
+    for (const int items : {0, 1, 2, 3, 1000}) {
+        std::vector<std::atomic<int>> done(static_cast<std::size_t>(items));
+        auto work = [&](int item, int thread) {
+            REQUIRE(thread < pool.threads());
+            ++done[static_cast<std::size_t>(item)];
+        };
+        for (int round = 0; round < 20; ++round) pool.run(items, work);
+        for (const auto& n : done) REQUIRE(n == 20);
+    }
+}
+
+TEST_CASE("The exception of the lowest item that fails comes out, and the pool goes on") {
+    ThreadPool pool(GENERATE(1, 4));
+    auto work = [](int item, int) {
+        if (item == 7 || item == 90) throw std::runtime_error(std::to_string(item));
+    };
+    for (int round = 0; round < 20; ++round) CHECK_THROWS_WITH(pool.run(100, work), "7");
+    auto fine = [](int, int) {};
+    pool.run(100, fine);
+}
