@@ -1,19 +1,11 @@
 #include "core/connectivity/arbor.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <vector>
 
 namespace forage::connectivity {
 namespace {
-
-using PointVisitor = std::function<void(int, int)>;
-
-void visit_rect(Place c, int width, int height, const PointVisitor& visit) {
-    const Span xs = cover(c.x, width), ys = cover(c.y, height);
-    for (int x = xs.first; x <= xs.last; ++x)
-        for (int y = ys.first; y <= ys.last; ++y) visit(x, y);
-}
 
 /// Rows covered by an ellipse at column x; `xs` are the columns that it covers.
 Span ellipse_rows(Place c, Span xs, int x, int width, int height) {
@@ -23,20 +15,22 @@ Span ellipse_rows(Place c, Span xs, int x, int width, int height) {
     return squared < 0 ? Span{1, 0} : cover(c.y, 2 * std::sqrt(squared));
 }
 
-void visit_ellipse(Place c, int width, int height, const PointVisitor& visit) {
-    const Span xs = cover(c.x, width);
-    for (int x = xs.first; x <= xs.last; ++x) {
-        const Span ys = ellipse_rows(c, xs, x, width, height);
-        for (int y = ys.first; y <= ys.last; ++y) visit(x, y);
-    }
-}
+Span overlap(Span a, Span b) { return {std::max(a.first, b.first), std::min(a.last, b.last)}; }
+
+double length(Span s) { return s.last < s.first ? 0 : s.last - s.first + 1.0; }
 
 bool inside(Span s, int k) { return s.first <= k && k <= s.last; }
 
-/// -1 where a point lies outside, and the side does not wrap.
+/// Coordinates from which a cell is reached, given that a cylinder wraps once.
+Span reach(int first, int size, bool wraps) {
+    return wraps ? Span{first - size, first + 2 * size - 1} : Span{first, first + size - 1};
+}
+
 int wrapped(int k, int first, int size, bool wraps) {
-    if (wraps && k < first) k += size;
-    else if (wraps && k >= first + size) k -= size;
+    if (wraps && k < first)
+        k += size;
+    else if (wraps && k >= first + size)
+        k -= size;
     return k;
 }
 
@@ -50,23 +44,65 @@ Overloaded(Visitors...) -> Overloaded<Visitors...>;
 }  // namespace
 
 Arbor::Arbor(const model::Arborization& arborization, const Grid& grid, RandomStream random)
-    : arborization_(arborization), grid_(grid), random_(random) {}
+    : arborization_(arborization),
+      grid_(grid),
+      random_(random),
+      reach_x_(reach(grid.left(), grid.width(), grid.wraps_x())),
+      reach_y_(reach(grid.top(), grid.height(), grid.wraps_y())) {
+    if (std::holds_alternative<model::RandomArbor>(arborization.shape)) {
+        places_.resize(static_cast<std::size_t>(grid.width()) * static_cast<std::size_t>(grid.height()));
+        std::iota(places_.begin(), places_.end(), 0);
+    }
+}
+
+// What lies beyond reach is no cell: leaving it out early keeps a large arborization on a small group cheap.
+void Arbor::rectangle(Place c, int width, int height, const PointVisitor& visit) const {
+    const Span xs = overlap(cover(c.x, width), reach_x_), ys = overlap(cover(c.y, height), reach_y_);
+    for (int x = xs.first; x <= xs.last; ++x)
+        for (int y = ys.first; y <= ys.last; ++y) visit(x, y);
+}
+
+void Arbor::ellipse(Place c, int width, int height, const PointVisitor& visit) const {
+    const Span covered = cover(c.x, width), xs = overlap(covered, reach_x_);
+    for (int x = xs.first; x <= xs.last; ++x) {
+        const Span ys = overlap(ellipse_rows(c, covered, x, width, height), reach_y_);
+        for (int y = ys.first; y <= ys.last; ++y) visit(x, y);
+    }
+}
+
+double Arbor::most_points() const {
+    const auto box = [this](int width, int height) {
+        return std::min(width + 1.0, length(reach_x_)) * std::min(height + 1.0, length(reach_y_));
+    };
+    const double all = static_cast<double>(grid_.width()) * grid_.height();
+    return std::visit(
+        Overloaded{
+            [&](const model::RectArbor& a) { return box(a.width, a.height); },
+            [&](const model::EllipseArbor& a) { return box(a.width, a.height); },
+            [&](const model::RectWindowArbor& a) { return box(a.outer_width, a.outer_height); },
+            [&](const model::EllipseWindowArbor& a) { return box(a.outer_width, a.outer_height); },
+            [&](const model::AllArbor&) { return all; },
+            [&](const model::RandomArbor& a) { return std::min<double>(a.count, all); },
+        },
+        arborization_.shape);
+}
 
 void Arbor::points(Place c, const PointVisitor& visit) {
     std::visit(
         Overloaded{
-            [&](const model::RectArbor& a) { visit_rect(c, a.width, a.height, visit); },
-            [&](const model::EllipseArbor& a) { visit_ellipse(c, a.width, a.height, visit); },
+            [&](const model::RectArbor& a) { rectangle(c, a.width, a.height, visit); },
+            [&](const model::EllipseArbor& a) { ellipse(c, a.width, a.height, visit); },
             [&](const model::RectWindowArbor& a) {
                 const Span xs = cover(c.x, a.inner_width), ys = cover(c.y, a.inner_height);
-                visit_rect(c, a.outer_width, a.outer_height, [&](int x, int y) {
+                rectangle(c, a.outer_width, a.outer_height, [&](int x, int y) {
                     if (!(inside(xs, x) && inside(ys, y))) visit(x, y);
                 });
             },
             [&](const model::EllipseWindowArbor& a) {
                 const Span xs = cover(c.x, a.inner_width);
-                visit_ellipse(c, a.outer_width, a.outer_height, [&](int x, int y) {
-                    if (!(inside(xs, x) && inside(ellipse_rows(c, xs, x, a.inner_width, a.inner_height), y))) visit(x, y);
+                ellipse(c, a.outer_width, a.outer_height, [&](int x, int y) {
+                    if (!(inside(xs, x) && inside(ellipse_rows(c, xs, x, a.inner_width, a.inner_height), y)))
+                        visit(x, y);
                 });
             },
             [&](const model::AllArbor&) {
@@ -74,13 +110,15 @@ void Arbor::points(Place c, const PointVisitor& visit) {
                     for (int x = grid_.left(); x < grid_.left() + grid_.width(); ++x) visit(x, y);
             },
             [&](const model::RandomArbor& a) {
-                // Partial Fisher-Yates shuffle: `count` distinct cells, each set of them equally likely.
-                std::vector<int> places(static_cast<std::size_t>(grid_.width()) * static_cast<std::size_t>(grid_.height()));
-                std::iota(places.begin(), places.end(), 0);
-                for (std::size_t i = 0; i < places.size() && i < static_cast<std::size_t>(a.count); ++i) {
+                // Partial Fisher-Yates shuffle: `count` distinct cells, each set of them equally likely, in
+                // whatever order the places begin. So there is no need to put them back in order for the next
+                // centre.
+                for (std::size_t i = 0; i < places_.size() && i < static_cast<std::size_t>(a.count); ++i) {
                     const double u = random_.uniform(draws_++, 1);
-                    std::swap(places[i], places[i + static_cast<std::size_t>(u * double(places.size() - i))]);
-                    visit(grid_.left() + places[i] % grid_.width(), grid_.top() + places[i] / grid_.width());
+                    std::swap(places_[i],
+                              places_[i + static_cast<std::size_t>(u * double(places_.size() - i))]);
+                    visit(grid_.left() + places_[i] % grid_.width(),
+                          grid_.top() + places_[i] / grid_.width());
                 }
             },
         },

@@ -28,7 +28,8 @@ std::vector<double> evaluate(const model::DistanceFunction& function, std::span<
         }
     } else if (const auto* block = std::get_if<model::BlockFunction>(&function.form)) {
         const double min = bound(block->min), max = bound(block->max);
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] = distances[i] <= block->width / 2 ? min : max;  // whole half
+        for (std::size_t i = 0; i < out.size(); ++i)
+            out[i] = distances[i] <= block->width / 2 ? min : max;  // whole half
     } else {
         const double max = bound(std::get<model::RandomFunction>(function.form).max);
         random.uniform(0, out);
@@ -47,7 +48,8 @@ double six_digits(double value) {
     return out;
 }
 
-Attenuation attenuation(const model::DistanceFunction& function, std::span<const double> distances, const RandomStream& random) {
+Attenuation attenuation(const model::DistanceFunction& function, std::span<const double> distances,
+                        const RandomStream& random) {
     Attenuation out{evaluate(function, distances, random, false), 1};
     if (const auto* linear = std::get_if<model::LinearFunction>(&function.form)) {
         out.reference = std::max(six_digits(linear->min), six_digits(linear->max));
@@ -59,13 +61,14 @@ Attenuation attenuation(const model::DistanceFunction& function, std::span<const
     return out;
 }
 
-std::vector<int> delays(const model::DistanceFunction& function, std::span<const double> distances, const RandomStream& random) {
+std::vector<int> delays(const model::DistanceFunction& function, std::span<const double> distances,
+                        const RandomStream& random) {
     const bool truncated = std::holds_alternative<model::UniformFunction>(function.form) ||
                            std::holds_alternative<model::BlockFunction>(function.form);
     std::vector<int> out;
     out.reserve(distances.size());
     for (const double v : evaluate(function, distances, random, true)) {
-        const double whole = truncated ? std::trunc(v) : std::round(v);  // a half: away from 0
+        const double whole = truncated ? std::trunc(v) : std::round(v);         // a half: away from 0
         out.push_back(whole > 0 ? static_cast<int>(std::min(whole, 1e9)) : 0);  // NaN gives 0
     }
     return out;

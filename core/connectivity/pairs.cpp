@@ -1,10 +1,10 @@
 #include "core/connectivity/pairs.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
+
+#include <fmt/format.h>
 
 namespace forage::connectivity {
 namespace {
@@ -31,21 +31,64 @@ Rect extent(const model::Population& population, const Grid& grid) {
     return {grid.left(), grid.top(), grid.width(), grid.height()};
 }
 
+/// What the original does without a word, though it is hardly meant.
+void warn_of_fit(const model::Population& population, const Grid& grid, Diagnostics& diagnostics) {
+    const auto* region = std::get_if<model::Region>(&population);
+    if (!region) return;
+    const Rect r = extent(population, grid);
+    if (r.x != region->x || r.y != region->y || r.width != region->width || r.height != region->height)
+        diagnostics.warning(region->at,
+                            fmt::format("the region reaches out of the group, which has {} x {} cells",
+                                        grid.width(), grid.height()),
+                            fmt::format("it acts as xstart=\"{}\" ystart=\"{}\" width=\"{}\" height=\"{}\"",
+                                        r.x, r.y, r.width, r.height));
+}
+
+/// Whether there is a cell at `p`. Below 1 the original computes an index outside the group: an error. Other
+/// places without a cell it leaves out.
+bool usable(const Point& p, const Grid& grid, Diagnostics& diagnostics) {
+    if (grid.index(p.x, p.y) >= 0) return true;
+    const std::string message = fmt::format("there is no cell at x = {}, y = {}", p.x, p.y);
+    if (p.x < 1 || p.y < 1)
+        diagnostics.unknown(p.at, message, "cells count from 1");
+    else
+        diagnostics.warning(p.at, message + ": the point is left out",
+                            fmt::format("the group has {} x {} cells", grid.width(), grid.height()));
+    return false;
+}
+
 /// The cells of a population: row by row; of a list, in grid order and without duplicates.
-std::vector<Place> cells(const model::Population& population, const Grid& grid) {
+std::vector<Place> cells(const model::Population& population, const Grid& grid, Diagnostics& diagnostics) {
     std::vector<Place> out;
     if (const auto* list = std::get_if<model::List>(&population)) {
         std::set<std::pair<int, int>> places;
         for (const auto& p : list->points)
-            if (grid.index(p.x, p.y) >= 0) places.emplace(p.y, p.x);
+            if (usable(p, grid, diagnostics)) places.emplace(p.y, p.x);
         for (const auto& [y, x] : places) out.push_back({double(x), double(y)});
         return out;
     }
+    warn_of_fit(population, grid, diagnostics);
     const Rect r = extent(population, grid);
     for (int y = r.y; y < r.y + r.height; ++y)
         for (int x = r.x; x < r.x + r.width; ++x)
             if (grid.index(x, y) >= 0) out.push_back({double(x), double(y)});
     return out;
+}
+
+/// The smaller population, cell by cell, and the larger one that it is projected onto.
+struct Projection {
+    Rect iterated, projected;
+    bool over_targets;
+    double ratio_x, ratio_y;
+};
+
+Projection project(const model::MappedPattern& pattern, const Grid& source, const Grid& target) {
+    const Rect s = extent(pattern.source, source), t = extent(pattern.target, target);
+    const bool over_targets =
+        static_cast<long long>(s.width) * s.height > static_cast<long long>(t.width) * t.height;
+    const Rect &iterated = over_targets ? t : s, &projected = over_targets ? s : t;
+    return {iterated, projected, over_targets, double(projected.width) / iterated.width,
+            double(projected.height) / iterated.height};
 }
 
 void visit_mapped(const model::MappedPattern& pattern, const Grid& source, const Grid& target,
@@ -56,20 +99,22 @@ void visit_mapped(const model::MappedPattern& pattern, const Grid& source, const
                               "use a Region or All, or a PatternForeach or PatternTuples for single cells");
             return;
         }
-    const Rect s = extent(pattern.source, source), t = extent(pattern.target, target);
-    const bool over_targets = static_cast<long long>(s.width) * s.height > static_cast<long long>(t.width) * t.height;
-    const Rect& iterated = over_targets ? t : s;
-    const Rect& projected = over_targets ? s : t;
-    const double ratio_x = double(projected.width) / iterated.width, ratio_y = double(projected.height) / iterated.height;
-    const double side_x = std::nearbyint(ratio_x), side_y = std::nearbyint(ratio_y);
+    warn_of_fit(pattern.source, source, diagnostics);
+    warn_of_fit(pattern.target, target, diagnostics);
+    const Projection p = project(pattern, source, target);
+    const Rect &iterated = p.iterated, &projected = p.projected;
+    const double side_x = std::nearbyint(p.ratio_x), side_y = std::nearbyint(p.ratio_y);
     const auto link = [&](Place here, Place there) {
-        if (over_targets) visit(there, here);
-        else visit(here, there);
+        if (p.over_targets)
+            visit(there, here);
+        else
+            visit(here, there);
     };
     for (int row = 0; row < iterated.height; ++row)
         for (int column = 0; column < iterated.width; ++column) {
             const Place here{double(iterated.x + column), double(iterated.y + row)};
-            const Place centre{(column + 0.5) * ratio_x + 0.5 + (projected.x - 1), (row + 0.5) * ratio_y + 0.5 + (projected.y - 1)};
+            const Place centre{(column + 0.5) * p.ratio_x + 0.5 + (projected.x - 1),
+                               (row + 0.5) * p.ratio_y + 0.5 + (projected.y - 1)};
             if (!pattern.all) {
                 link(here, centre);
                 continue;
@@ -80,21 +125,14 @@ void visit_mapped(const model::MappedPattern& pattern, const Grid& source, const
         }
 }
 
-/// Points below 1 would give indices outside the group; points beyond its size are dropped like the original does.
-bool usable(const Point& p, Diagnostics& diagnostics) {
-    if (p.x >= 1 && p.y >= 1) return true;
-    diagnostics.unknown(p.at, fmt::format("there is no cell at x = {}, y = {}", p.x, p.y), "cells count from 1");
-    return false;
-}
-
 void visit_tuples(const model::TuplesPattern& pattern, const Grid& source, const Grid& target,
                   const std::function<void(Place, Place)>& visit, Diagnostics& diagnostics) {
     for (const auto& tuple : pattern.tuples) {
         std::vector<Place> targets;
         for (const auto& t : tuple.targets)
-            if (usable(t, diagnostics) && target.index(t.x, t.y) >= 0) targets.push_back({double(t.x), double(t.y)});
+            if (usable(t, target, diagnostics)) targets.push_back({double(t.x), double(t.y)});
         for (const auto& s : tuple.sources)
-            if (usable(s, diagnostics) && source.index(s.x, s.y) >= 0)
+            if (usable(s, source, diagnostics))
                 for (const auto& t : targets) visit({double(s.x), double(s.y)}, t);
     }
 }
@@ -105,13 +143,34 @@ Span cover(double centre, double size) {
     return {static_cast<int>(std::ceil(centre - size / 2)), static_cast<int>(std::floor(centre + size / 2))};
 }
 
+double most_pairs(const model::Pattern& pattern, const Grid& source, const Grid& target) {
+    const auto size = [](const model::Population& population, const Grid& grid) {
+        if (const auto* list = std::get_if<model::List>(&population))
+            return static_cast<double>(list->points.size());
+        const Rect r = extent(population, grid);
+        return static_cast<double>(r.width) * r.height;
+    };
+    if (const auto* mapped = std::get_if<model::MappedPattern>(&pattern)) {
+        const Projection p = project(*mapped, source, target);
+        const double cells = static_cast<double>(p.iterated.width) * p.iterated.height;
+        return mapped->all ? cells * (std::nearbyint(p.ratio_x) + 1) * (std::nearbyint(p.ratio_y) + 1)
+                           : cells;
+    }
+    if (const auto* foreach = std::get_if<model::ForeachPattern>(&pattern))
+        return size(foreach->source, source) * size(foreach->target, target);
+    double pairs = 0;
+    for (const auto& tuple : std::get<model::TuplesPattern>(pattern).tuples)
+        pairs += static_cast<double>(tuple.sources.size()) * static_cast<double>(tuple.targets.size());
+    return pairs;
+}
+
 void for_each_pair(const model::Pattern& pattern, const Grid& source, const Grid& target,
                    const std::function<void(Place, Place)>& visit, Diagnostics& diagnostics) {
     if (const auto* mapped = std::get_if<model::MappedPattern>(&pattern)) {
         visit_mapped(*mapped, source, target, visit, diagnostics);
     } else if (const auto* foreach = std::get_if<model::ForeachPattern>(&pattern)) {
-        const auto targets = cells(foreach->target, target);
-        for (const auto& s : cells(foreach->source, source))
+        const auto targets = cells(foreach->target, target, diagnostics);
+        for (const auto& s : cells(foreach->source, source, diagnostics))
             for (const auto& t : targets) visit(s, t);
     } else {
         visit_tuples(std::get<model::TuplesPattern>(pattern), source, target, visit, diagnostics);

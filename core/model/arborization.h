@@ -59,6 +59,9 @@ struct RandomFunction {
     double max = 1;
 };
 
+/// Longest delay in cycles; a longer one is more likely a mistake, and costs memory for every cell and cycle.
+inline constexpr int most_delay = 100'000;
+
 struct DistanceFunction {
     std::variant<UniformFunction, LinearFunction, GaussianFunction, BlockFunction, RandomFunction> form;
     Location at;

@@ -1,10 +1,13 @@
 #include "core/model/diagnostic.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <numeric>
+
+#include <fmt/format.h>
+
+#include "core/model/utf8.h"
 
 namespace forage {
 namespace {
@@ -21,27 +24,54 @@ std::string_view line_of(const SourceFile& file, int line) {
     return rest;
 }
 
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xc0u) == 0x80u; }
+
+/// The end of the longest part of `text` that is at most `most` bytes and cuts no character in two.
+std::size_t cut(std::string_view text, std::size_t most) {
+    if (most >= text.size()) return text.size();
+    while (most > 0 && continues_character(text[most])) --most;
+    return most;
+}
+
+/// `text` on one line and of a length that people read: a file may hold anything, the terminal must not obey
+/// it.
+std::string plain(std::string_view text, std::size_t most) {
+    const std::size_t end = cut(text, most);
+    std::string out;
+    for (std::size_t i = 0; i < end;) {
+        const std::size_t length = utf8_length(text.substr(i, end - i));
+        if (length == 0)
+            out += '?';
+        else if (std::iscntrl(static_cast<unsigned char>(text[i])))
+            out += ' ';
+        else
+            out += text.substr(i, length);
+        i += std::max<std::size_t>(length, 1);
+    }
+    if (end < text.size()) out += "...";
+    return out;
+}
+
 /// The source line, shortened around the column when it is long, with a caret below.
 std::string excerpt(const Location& where) {
     constexpr std::size_t width = 100;
     std::string_view text = line_of(*where.file, where.line);
     std::size_t column = static_cast<std::size_t>(std::max(where.column, 1)) - 1;
     if (text.empty() || column > text.size()) return {};
-    if (where.column > 0) {
-        const auto indent = std::min({text.find_first_not_of(" \t"), column, text.size()});
-        text.remove_prefix(indent);
-        column -= indent;
-        if (column > width - 20) {
-            const auto cut = column - (width - 40);
-            text.remove_prefix(cut);
-            column -= cut;
-        }
+    const auto indent = std::min({text.find_first_not_of(" \t"), column, text.size()});
+    text.remove_prefix(indent);
+    column -= indent;
+    if (column > width - 20) {
+        const auto from = cut(text, column - (width - 40));
+        text.remove_prefix(from);
+        column -= from;
     }
-    std::string shown(text.substr(0, width));
-    for (char& c : shown)
-        if (std::iscntrl(static_cast<unsigned char>(c))) c = ' ';
-    std::string out = fmt::format("      {}\n", shown);
-    if (where.column > 0) out += fmt::format("      {:{}}^\n", "", column);
+    std::string out = fmt::format("      {}\n", plain(text.substr(0, cut(text, width)), width));
+    if (where.column > 0) {
+        const auto before = std::count_if(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(column),
+                                          std::not_fn(continues_character));
+        out += fmt::format("      {:{}}^\n", "", before);
+    }
     return out;
 }
 
@@ -74,8 +104,10 @@ void Diagnostics::warning(Location where, std::string message, std::string hint)
 }
 
 void Diagnostics::unknown(Location where, std::string message, std::string hint) {
-    if (lenient) warning(std::move(where), std::move(message), std::move(hint));
-    else error(std::move(where), std::move(message), std::move(hint));
+    if (lenient)
+        warning(std::move(where), std::move(message), std::move(hint));
+    else
+        error(std::move(where), std::move(message), std::move(hint));
 }
 
 std::string format(const Diagnostic& d) {
@@ -86,9 +118,11 @@ std::string format(const Diagnostic& d) {
         if (d.where.column > 0) out += fmt::format(":{}", d.where.column);
         out += ": ";
     }
-    out += fmt::format("{}: {}\n", d.severity == Severity::error ? "error" : "warning", d.message);
+    constexpr std::size_t readable = 400;
+    out += fmt::format("{}: {}\n", d.severity == Severity::error ? "error" : "warning",
+                       plain(d.message, readable));
     if (d.where.file && d.where.line > 0) out += excerpt(d.where);
-    if (!d.hint.empty()) out += fmt::format("  hint: {}\n", d.hint);
+    if (!d.hint.empty()) out += fmt::format("  hint: {}\n", plain(d.hint, readable));
     return out;
 }
 
@@ -99,8 +133,10 @@ std::string format(const Diagnostics& diagnostics) {
         if (a->where.file != b->where.file) return false;  // files stay in the order in which they were read
         return std::pair(a->where.line, a->where.column) < std::pair(b->where.line, b->where.column);
     });
+    constexpr std::size_t shown = 50;
     std::string out;
-    for (const auto* d : order) out += format(*d);
+    for (std::size_t i = 0; i < order.size() && i < shown; ++i) out += format(*order[i]);
+    if (order.size() > shown) out += fmt::format("... and {} more\n", order.size() - shown);
     return out;
 }
 
@@ -108,14 +144,24 @@ std::string_view nearest(std::string_view name, std::span<const std::string> can
     std::string_view best;
     std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
     for (const auto& candidate : candidates) {
+        // The distance is at least the difference in length: a name of a megabyte is not worth comparing.
+        if (std::max(name.size(), candidate.size()) - std::min(name.size(), candidate.size()) >=
+            best_distance)
+            continue;
         const std::size_t d = distance(name, candidate);
         if (d < best_distance) best_distance = d, best = candidate;
     }
+    if (best.empty() && name.size() >= 3)  // an abbreviation
+        for (const auto& candidate : candidates)
+            if (candidate.size() > name.size() &&
+                distance(name, std::string_view(candidate).substr(0, name.size())) == 0)
+                return candidate;
     return best;
 }
 
 std::string suggest(std::string_view name, std::span<const std::string> candidates) {
-    if (const auto near = nearest(name, candidates); !near.empty()) return fmt::format("did you mean '{}'?", near);
+    if (const auto near = nearest(name, candidates); !near.empty())
+        return fmt::format("did you mean '{}'?", near);
     if (candidates.empty()) return {};
     constexpr std::size_t shown = 12;
     std::string list;

@@ -15,7 +15,8 @@ struct SourceFile {
     std::string text;
 };
 
-/// A place in a file. `line` and `column` count from 1 (bytes); 0: the file as a whole. No file: a command line.
+/// A place in a file. `line` and `column` count from 1 (bytes); 0: the file as a whole. No file: a command
+/// line.
 struct Location {
     std::shared_ptr<const SourceFile> file;
     int line = 0;
@@ -53,10 +54,11 @@ class Diagnostics {
 
 /// `file:line:column: error: message`, the line with a caret under the column, `hint: ...`.
 std::string format(const Diagnostic& diagnostic);
-/// All of them, in order of file position, each followed by a newline.
+/// All of them, in order of file position; of very many only the first fifty.
 std::string format(const Diagnostics& diagnostics);
 
-/// The candidate nearest to `name` (edit distance, case ignored), or empty when none is near.
+/// The candidate nearest to `name` (edit distance, case ignored), or one that begins with it; empty when none
+/// does.
 std::string_view nearest(std::string_view name, std::span<const std::string> candidates);
 /// "did you mean 'x'?", or the list of what there is when nothing is near; empty without candidates.
 std::string suggest(std::string_view name, std::span<const std::string> candidates);

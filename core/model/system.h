@@ -1,4 +1,5 @@
-// What a system file says: plain values, no behaviour; everything that can be wrong knows its place in the file.
+// What a system file says: plain values, no behaviour; everything that can be wrong knows its place in the
+// file.
 #pragma once
 
 #include <optional>
@@ -59,7 +60,11 @@ struct SparseTopology {
 
 using Topology = std::variant<RectTopology, SparseTopology>;
 
-/// Width, height and number of cells of a group with this topology.
+/// Largest extent of a group, width times height: of a sparse one, of the rectangle around its points.
+inline constexpr long long most_cells = 10'000'000;
+
+/// Width, height and number of cells of a group with this topology. Only where the extent is at most
+/// `most_cells` does the number of cells hold; validate() refuses all others.
 GroupShape shape(const Topology& topology);
 
 struct Group {

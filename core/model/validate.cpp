@@ -1,9 +1,11 @@
 #include "core/model/validate.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
+
+#include <fmt/format.h>
 
 #include "core/model/lookup.h"
 
@@ -11,7 +13,8 @@ namespace forage::model {
 namespace {
 
 const Parameter* find_parameter(const std::vector<Parameter>& parameters, std::string_view name) {
-    const auto it = std::find_if(parameters.begin(), parameters.end(), [&](const auto& p) { return p.name == name; });
+    const auto it =
+        std::find_if(parameters.begin(), parameters.end(), [&](const auto& p) { return p.name == name; });
     return it == parameters.end() ? nullptr : &*it;
 }
 
@@ -37,10 +40,14 @@ class Validator {
     void unique_ids() {
         std::map<std::string_view, const Location*> seen;
         const auto see = [&](const std::string& id, const Location& at, std::string_view what) {
-            if (id.empty()) return;  // reported by the reader
+            if (id.empty())
+                return out_.error(at, fmt::format("the id of this {} is empty", what),
+                                  "give it one that nothing else in the file has");
             const auto [it, fresh] = seen.emplace(id, &at);
             if (!fresh)
-                out_.error(at, fmt::format("the id '{}' of this {} is already used on line {}", id, what, it->second->line),
+                out_.error(at,
+                           fmt::format("the id '{}' of this {} is already used on line {}", id, what,
+                                       it->second->line),
                            "ids are unique over the whole file");
         };
         for (const auto& p : system_.processes) {
@@ -48,6 +55,21 @@ class Validator {
             for (const auto& g : p.groups) see(g.id, g.at, "group");
         }
         for (const auto& c : system_.connections) see(c.id, c.at, "connection");
+    }
+
+    /// A sentence as a part of another one.
+    static std::string_view phrase(std::string_view sentence) {
+        if (sentence.ends_with('.')) sentence.remove_suffix(1);
+        return sentence;
+    }
+
+    /// The parameter that somebody meant who wrote `name`: the label that people see will do.
+    static const Parameter* probably(std::string_view name, const std::vector<Parameter>& parameters,
+                                     const std::vector<std::string>& known) {
+        for (const auto& p : parameters)
+            if (nearest(name, {&p.label, 1}) == p.label && !p.label.empty() && p.label.size() == name.size())
+                return &p;
+        return find_parameter(parameters, nearest(name, known));
     }
 
     void check_settings(const TypeUse& use, const std::vector<Parameter>& parameters) {
@@ -58,38 +80,59 @@ class Validator {
             const Parameter* p = find_parameter(parameters, s.name);
             if (!p) {
                 std::string hint = suggest(s.name, known);
-                if (const auto near = nearest(s.name, known); !near.empty())
-                    hint = fmt::format("did you mean '{}' ({})?", near, find_parameter(parameters, near)->doc);
-                else if (known.empty()) hint = fmt::format("{} has no parameters", use.type);
+                if (const Parameter* meant = probably(s.name, parameters, known))
+                    hint = fmt::format("did you mean '{}' ({})?", meant->name, phrase(meant->doc));
+                else if (known.empty())
+                    hint = fmt::format("{} has no parameters", use.type);
                 out_.unknown(s.name_at, fmt::format("{} has no parameter '{}'", use.type, s.name), hint);
                 continue;
             }
             if (const auto [it, fresh] = first_line.emplace(p->name, s.name_at.line); !fresh)
-                out_.error(s.name_at, fmt::format("parameter '{}' is given twice, first on line {}", s.name, it->second),
+                out_.error(s.name_at,
+                           fmt::format("parameter '{}' is given twice, first on line {}", s.name, it->second),
                            "remove one of them");
             const auto value = parse_parameter(p->kind, s.value);
             if (!value) {
-                out_.error(s.value_at, fmt::format("'{}' is not {}", s.value, describe(p->kind)),
-                           fmt::format("{} ({}) is {}, {} by default", p->name, p->doc, describe(p->kind),
-                                       to_text(p->default_value)));
+                const std::string meant = mended(p->kind, s.value);
+                out_.error(
+                    s.value_at, fmt::format("{} = '{}' is not {}", p->name, s.value, describe(p->kind)),
+                    !meant.empty() ? fmt::format("did you mean '{}'?", meant)
+                                   : fmt::format("{} ({}) is {}, {} by default", p->name, phrase(p->doc),
+                                                 describe(p->kind), to_text(p->default_value)));
                 continue;
             }
-            if (const auto* number = std::get_if<double>(&*value);
-                number && p->range && (*number < p->range->low || *number > p->range->high))
-                out_.warning(s.value_at,
-                             fmt::format("{} = {} is outside its usual range", p->name, s.value),
-                             fmt::format("{} ({}) is meant for {} to {}; the value is used as it is", p->name, p->label,
-                                         to_text(p->range->low), to_text(p->range->high)));
+            if (outside(*value, p->range))
+                out_.warning(s.value_at, fmt::format("{} = {} is outside its usual range", p->name, s.value),
+                             fmt::format("{} ({}) is meant for {} to {}; the value is used as it is", p->name,
+                                         p->label, to_text(p->range->low), to_text(p->range->high)));
         }
     }
 
     void check_group(const Group& group) {
-        if (const NeuronType* type = registry_.neuron(group.neuron.type)) check_settings(group.neuron, type->parameters);
+        if (const NeuronType* type = registry_.neuron(group.neuron.type))
+            check_settings(group.neuron, type->parameters);
         else
             out_.error(group.neuron.at, fmt::format("there is no neuron type '{}'", group.neuron.type),
                        suggest(group.neuron.type, names(registry_.neurons())));
-        if (shape(group.topology).cells == 0)
-            out_.error(group.at, fmt::format("group '{}' has no cells", group.name), "width and height start at 1");
+        check_topology(group);
+    }
+
+    void check_topology(const Group& group) {
+        const auto* sparse = std::get_if<SparseTopology>(&group.topology);
+        if (sparse)
+            for (const auto& p : sparse->points)
+                if (p.x < 1 || p.y < 1)
+                    out_.unknown(p.at, fmt::format("there is no cell at x = {}, y = {}", p.x, p.y),
+                                 "cells count from 1");
+        const GroupShape size = shape(group.topology);
+        if (size.width < 1 || size.height < 1)
+            out_.error(group.at, fmt::format("group '{}' has no cells", group.name),
+                       "width and height start at 1");
+        else if (static_cast<long long>(size.width) * size.height > most_cells)
+            out_.error(group.at,
+                       fmt::format("group '{}' is too large: {} x {}", group.name, size.width, size.height),
+                       fmt::format("{} have an extent of at most {} cells",
+                                   sparse ? "the points of a group" : "groups", most_cells));
     }
 
     void check_module(const Process& process) {
@@ -98,8 +141,10 @@ class Validator {
         if (!type) {
             const std::string message = fmt::format("there is no module type '{}'", use.type);
             const std::string hint = suggest(use.type, names(registry_.modules()));
-            if (process.module_enabled) out_.error(use.at, message, hint);
-            else out_.warning(use.at, message + "; the module is disabled", hint);
+            if (process.module_enabled)
+                out_.error(use.at, message, hint);
+            else
+                out_.warning(use.at, message + "; the module is disabled", hint);
             return;
         }
         check_settings(use, type->parameters);
@@ -110,32 +155,49 @@ class Validator {
         if (process.module_enabled && !out_.failed()) check_with_type(use, *type, ports);
     }
 
-    void check_ports(const ModuleUse& use, const ModuleType& type, const std::vector<CrossReference>& references,
-                     bool outputs, bool enabled, std::vector<ModulePorts::Group>& found) {
+    void check_ports(const ModuleUse& use, const ModuleType& type,
+                     const std::vector<CrossReference>& references, bool outputs, bool enabled,
+                     std::vector<ModulePorts::Group>& found) {
         const std::string_view holder = outputs ? "OutputToGroup" : "InputFromGroup";
         std::vector<ModulePort> ports;
         std::vector<std::string> known;
         for (const auto& port : type.ports)
             if (port.is_output == outputs) ports.push_back(port), known.push_back(port.name);
+        std::map<std::string_view, int> first_line;
+        std::vector<std::string_view> meant;  // by references that are misspelt: they are not missing as well
         for (const auto& r : references) {
+            if (const auto [it, fresh] = first_line.emplace(r.name, r.at.line); !fresh) {
+                out_.error(
+                    r.at,
+                    fmt::format("cross reference '{}' is given twice, first on line {}", r.name, it->second),
+                    "remove one of them");
+                continue;
+            }
             if (type.any_ports) {
                 ModulePort port;
                 port.name = r.name;
                 ports.push_back(port);
             } else if (std::find(known.begin(), known.end(), r.name) == known.end()) {
-                out_.unknown(r.at, fmt::format("{} has no cross reference '{}' in {}", use.type, r.name, holder),
-                             suggest(r.name, known));
+                meant.push_back(nearest(r.name, known));
+                out_.unknown(
+                    r.at, fmt::format("{} has no cross reference '{}' in {}", use.type, r.name, holder),
+                    known.empty() ? fmt::format("it has none in {}", holder) : suggest(r.name, known));
             }
             if (!r.target.empty() && !groups_.find(r.target).group)
-                out_.error(r.at, fmt::format("cross reference '{}' leads to '{}', which is not the id of a group", r.name, r.target),
+                out_.error(r.at,
+                           fmt::format("cross reference '{}' leads to '{}', which is not the id of a group",
+                                       r.name, r.target),
                            near_id(r.target));
         }
         for (const auto& port : ports) {
-            const auto it = std::find_if(references.begin(), references.end(), [&](const auto& r) { return r.name == port.name; });
+            const auto it = std::find_if(references.begin(), references.end(),
+                                         [&](const auto& r) { return r.name == port.name; });
             const bool set = it != references.end() && !it->target.empty();
             found.push_back({port.name, {}, {}});
             if (!set) {
-                if (enabled && !port.optional)
+                const bool misspelt =
+                    it == references.end() && std::find(meant.begin(), meant.end(), port.name) != meant.end();
+                if (enabled && !port.optional && !(misspelt && !out_.lenient))
                     out_.error(it == references.end() ? use.at : it->at,
                                fmt::format("the cross reference '{}' of {} is not set", port.name, use.type),
                                fmt::format("in {}, give it the id of a group for: {}", holder,
@@ -145,13 +207,15 @@ class Validator {
             const auto entry = groups_.find(it->target);
             if (!entry.group) continue;
             const GroupShape size = shape(entry.group->topology);
-            found.back().path = std::string(trim(entry.process->name)) + "/" + std::string(trim(entry.group->name));
+            found.back().path =
+                std::string(trim(entry.process->name)) + "/" + std::string(trim(entry.group->name));
             found.back().shape = size;
             const bool fits = (port.width == 0 || (port.width == size.width && port.height == size.height)) &&
                               (port.cells == 0 || port.cells == size.cells);
             if (!fits && enabled)
                 out_.error(it->at,
-                           fmt::format("group '{}' for '{}' has {} x {} cells", entry.group->name, port.name, size.width, size.height),
+                           fmt::format("group '{}' for '{}' has {} x {} cells", entry.group->name, port.name,
+                                       size.width, size.height),
                            port.cells ? fmt::format("it must have {} cells", port.cells)
                                       : fmt::format("it must have {} x {} cells", port.width, port.height));
         }
@@ -175,12 +239,13 @@ class Validator {
     }
 
     void check_connection(const Connection& c) {
-        const auto source = end(c, c.source, c.source_at, "source");
+        end(c, c.source, c.source_at, "source");
         const auto target = end(c, c.target, c.target_at, "target");
         if (target) {
             const NeuronType* type = registry_.neuron(target->neuron.type);
             if (type && !type->reads[static_cast<std::size_t>(c.kind)])
-                out_.warning(c.at, fmt::format("connection '{}' has no effect: {} reads no {} input", c.name, type->name, name_of(c.kind)));
+                out_.warning(c.at, fmt::format("connection '{}' has no effect: {} reads no {} input", c.name,
+                                               type->name, name_of(c.kind)));
         }
         if (!c.synapse) {
             out_.error(c.at, fmt::format("connection '{}' has no synapse type", c.name),
@@ -192,13 +257,57 @@ class Validator {
             out_.error(c.synapse->at, fmt::format("there is no synapse type '{}'", c.synapse->type),
                        suggest(c.synapse->type, names(registry_.synapses())));
         }
-        (void)source;
+        check_attenuation(c.attenuation);
+        check_delay(c.delay);
+    }
+
+    /// What the original takes for something else than what is written (spec of the functions:
+    /// distance_functions.h).
+    void check_attenuation(const DistanceFunction& f) {
+        if (const auto* uniform = std::get_if<UniformFunction>(&f.form); uniform && uniform->value < 0)
+            out_.warning(f.at,
+                         fmt::format("a negative attenuation, {}, counts as 0", to_text(uniform->value)));
+        check_sigma(f);
+    }
+
+    void check_delay(const DistanceFunction& f) {
+        std::vector<double> bounds;
+        if (const auto* uniform = std::get_if<UniformFunction>(&f.form))
+            bounds = {uniform->value};
+        else if (const auto* linear = std::get_if<LinearFunction>(&f.form))
+            bounds = {linear->min, linear->max};
+        else if (const auto* gaussian = std::get_if<GaussianFunction>(&f.form))
+            bounds = {gaussian->min, gaussian->max};
+        else if (const auto* block = std::get_if<BlockFunction>(&f.form))
+            bounds = {block->min, block->max};
+        else
+            bounds = {std::get<RandomFunction>(f.form).max};
+        for (const double v : bounds) {
+            if (v > most_delay)
+                out_.error(f.at, fmt::format("a delay of {} cycles is not possible", to_text(v)),
+                           fmt::format("delays are at most {} cycles", most_delay));
+            else if (v < 0)
+                out_.warning(f.at, fmt::format("a delay cannot be negative: {}", to_text(v)),
+                             "delays below 0 count as 0");
+            else if (v != std::trunc(v))
+                out_.warning(f.at, fmt::format("delays are whole cycles: {} counts as {}", to_text(v),
+                                               to_text(std::trunc(v))));
+        }
+        check_sigma(f);
+    }
+
+    void check_sigma(const DistanceFunction& f) {
+        if (const auto* gaussian = std::get_if<GaussianFunction>(&f.form); gaussian && gaussian->sigma == 0)
+            out_.warning(f.at, "sigma = 0 counts as 0.0001: only distance 0 differs from the rest",
+                         "sigma is the width in cells");
     }
 
     const Group* end(const Connection& c, const std::string& id, const Location& at, std::string_view which) {
         const Group* group = groups_.find(id).group;
         if (!group)
-            out_.error(at, fmt::format("the {} '{}' of connection '{}' is not the id of a group", which, id, c.name), near_id(id));
+            out_.error(
+                at, fmt::format("the {} '{}' of connection '{}' is not the id of a group", which, id, c.name),
+                near_id(id));
         return group;
     }
 
@@ -207,21 +316,25 @@ class Validator {
         for (const auto& f : type.feedback) known.push_back(f.name);
         for (const auto& r : use.feedback)
             if (std::find(known.begin(), known.end(), r.name) == known.end())
-                out_.unknown(r.at, fmt::format("{} has no feedback input '{}'", use.type, r.name), suggest(r.name, known));
+                out_.unknown(r.at, fmt::format("{} has no feedback input '{}'", use.type, r.name),
+                             known.empty() ? fmt::format("{} has none", use.type) : suggest(r.name, known));
         const NeuronType* neuron = target ? registry_.neuron(target->neuron.type) : nullptr;
         if (!neuron) return;
         std::vector<std::string> states;
         for (const auto& s : neuron->states) states.push_back(s.name);
         for (const auto& f : type.feedback) {
-            const auto it = std::find_if(use.feedback.begin(), use.feedback.end(), [&](const auto& r) { return r.name == f.name; });
+            const auto it = std::find_if(use.feedback.begin(), use.feedback.end(),
+                                         [&](const auto& r) { return r.name == f.name; });
             if (it == use.feedback.end() || it->target.empty()) {
                 if (f.required)
-                    out_.error(it == use.feedback.end() ? use.at : it->at,
-                               fmt::format("the feedback input '{}' of {} is not set", f.name, use.type),
-                               fmt::format("name a state of the target's {} in <XRefHolder name=\"Freedback\">: {}", neuron->name,
-                                           fmt::join(states, ", ")));
+                    out_.error(
+                        it == use.feedback.end() ? use.at : it->at,
+                        fmt::format("the feedback input '{}' of {} is not set", f.name, use.type),
+                        fmt::format("name a state of the target's {} in <XRefHolder name=\"Freedback\">: {}",
+                                    neuron->name, fmt::join(states, ", ")));
             } else if (std::find(states.begin(), states.end(), it->target) == states.end()) {
-                out_.error(it->at, fmt::format("{} has no state '{}'", neuron->name, it->target), suggest(it->target, states));
+                out_.error(it->at, fmt::format("{} has no state '{}'", neuron->name, it->target),
+                           suggest(it->target, states));
             }
         }
     }

@@ -38,6 +38,13 @@ struct Parameter {
 /// Empty when `text` is not one; NaN and infinities are not numbers here.
 std::optional<ParameterValue> parse_parameter(ParameterKind kind, std::string_view text);
 
+/// `text` as it was probably meant, when it is no value of `kind` but nearly one ("True", " 1", "0,5"); else
+/// empty.
+std::string mended(ParameterKind kind, std::string_view text);
+
+/// Whether `value` is a number outside of `range`.
+bool outside(const ParameterValue& value, const std::optional<ParameterRange>& range);
+
 /// The shortest text that reads back as the same value.
 std::string to_text(const ParameterValue& value);
 
@@ -64,9 +71,12 @@ namespace detail {
 
 template <class M>
 constexpr ParameterKind kind_of() {
-    if constexpr (std::is_same_v<M, bool>) return ParameterKind::boolean;
-    else if constexpr (std::is_same_v<M, double>) return ParameterKind::real;
-    else if constexpr (std::is_same_v<M, int>) return ParameterKind::integer;
+    if constexpr (std::is_same_v<M, bool>)
+        return ParameterKind::boolean;
+    else if constexpr (std::is_same_v<M, double>)
+        return ParameterKind::real;
+    else if constexpr (std::is_same_v<M, int>)
+        return ParameterKind::integer;
     else {
         static_assert(std::is_same_v<M, std::string>, "a parameter is a bool, double, int or std::string");
         return ParameterKind::text;
@@ -81,7 +91,9 @@ Parameter make_parameter(std::string name, M T::*member) {
     p.name = std::move(name);
     p.kind = kind_of<M>();
     p.default_value = ParameterValue(T{}.*member);
-    p.set = [member](void* object, const ParameterValue& v) { static_cast<T*>(object)->*member = std::get<M>(v); };
+    p.set = [member](void* object, const ParameterValue& v) {
+        static_cast<T*>(object)->*member = std::get<M>(v);
+    };
     p.get = [member](const void* object) { return ParameterValue(static_cast<const T*>(object)->*member); };
     return p;
 }

@@ -1,0 +1,31 @@
+// UTF-8, as far as reading and showing files needs it.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace forage {
+
+/// Length of the UTF-8 character at the front of `text`, 0 when there is none (RFC 3629).
+inline std::size_t utf8_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) {
+        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+    };
+    const auto continues = [&](std::size_t n) {
+        for (std::size_t i = 1; i < n; ++i)
+            if ((byte(i) & 0xc0u) != 0x80u) return false;
+        return true;
+    };
+    const unsigned first = byte(0), second = byte(1);
+    if (first < 0x80) return 1;
+    if (first >= 0xc2 && first < 0xe0) return continues(2) ? 2 : 0;
+    if (first >= 0xe0 && first < 0xf0)
+        return continues(3) && !(first == 0xe0 && second < 0xa0) && !(first == 0xed && second >= 0xa0) ? 3
+                                                                                                       : 0;
+    if (first >= 0xf0 && first < 0xf5)
+        return continues(4) && !(first == 0xf0 && second < 0x90) && !(first == 0xf4 && second >= 0x90) ? 4
+                                                                                                       : 0;
+    return 0;
+}
+
+}  // namespace forage

@@ -1,0 +1,97 @@
+#include "core/model/edit.h"
+
+#include "tests/support/model_text.h"
+
+using namespace forage;
+using test::replaced;
+using test::small_system;
+using test::system_of;
+
+namespace {
+
+struct Edit {
+    model::System system;
+    Diagnostics diagnostics;
+    explicit Edit(const std::string& assignment, const std::string& text = small_system)
+        : system(system_of(text)) {
+        model::set(system, test::few_types(), assignment, diagnostics);
+    }
+    std::string said() const {
+        INFO(format(diagnostics));
+        REQUIRE(diagnostics.all().size() == 1);
+        return diagnostics.all()[0].message + " | " + diagnostics.all()[0].hint;
+    }
+    const model::Group& a() const { return system.processes[0].groups[0]; }
+};
+
+std::string value(const model::TypeUse& use, const std::string& name) {
+    std::string found = "(unset)";
+    for (const auto& s : use.settings)
+        if (s.name == name) found = found == "(unset)" ? s.value : "(twice)";
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("A parameter of a group, a connection or a module is set by the path of its owner") {
+    CHECK(value(Edit("P/A.threshold=0.25").a().neuron, "threshold") == "0.25");
+    CHECK(value(Edit("P/A.vmPrs=1").a().neuron, "vmPrs") == "1");  // not in the file until now
+    CHECK(value(Edit("#a.vmPrs=1").a().neuron, "vmPrs") == "1");
+    CHECK(value(*Edit("A to B.weight=0.5").system.connections[0].synapse, "weight") == "0.5");
+    CHECK(value(*Edit("c.weight=1e-3").system.connections[0].synapse, "weight") == "1e-3");
+    CHECK(value(*Edit("P.gain=7").system.processes[0].module, "gain") == "7");
+    const Edit enabled("P.enableModule=true");
+    CHECK(enabled.system.processes[0].module_enabled);
+    CHECK(enabled.diagnostics.all().empty());
+}
+
+TEST_CASE("An edit that cannot be done changes nothing and says what there is") {
+    CHECK(Edit("P/A.treshold=1").said() ==
+          "--set 'P/A.treshold=1': neuronLinearThreshold has no parameter 'treshold' | did you mean "
+          "'threshold'?");
+    CHECK(Edit("P/C.threshold=1").said() ==
+          "--set 'P/C.threshold=1': there is no 'P/C' | did you mean 'P/A'?");
+    CHECK(Edit("P/A.threshold=x").said() ==
+          "--set 'P/A.threshold=x': 'x' is not a number | Potential below which act is 0.");
+    CHECK(Edit("P.enableModule=maybe").said() ==
+          "--set 'P.enableModule=maybe': 'maybe' is not true or false | ");
+    CHECK(Edit("P.enableModul=true").said() ==
+          "--set 'P.enableModul=true': moduleTest has no parameter 'enableModul' | did you mean "
+          "'enableModule'?");
+    for (const std::string nonsense : {"", "=", "threshold=1", ".threshold=1", "P/A.threshold", "P/A"}) {
+        INFO(nonsense);
+        CHECK(Edit(nonsense).said() == "--set '" + nonsense +
+                                           "': not an assignment | write Process/Group.parameter=value, for "
+                                           "example 'Reactive Layer/Approach.threshold=0.3'");
+    }
+    CHECK(value(Edit("P/A.threshold=x").a().neuron, "threshold") == "0.5");
+}
+
+TEST_CASE("An owner that is not one is refused") {
+    const std::string twins = replaced(small_system, "id=\"b\" name=\"B\"", "id=\"b\" name=\"A\"");
+    CHECK(Edit("P/A.probability=1", twins).said() ==
+          "--set 'P/A.probability=1': 'P/A' names 2 things | add '#' and the id of the group you mean, or "
+          "use the id of the connection");
+    CHECK(value(Edit("P/A#b.probability=1", twins).system.processes[0].groups[1].neuron, "probability") ==
+          "1");
+    const std::string empty_process =
+        replaced(small_system, "</Process>", "</Process><Process id=\"q\" name=\"Q\"/>");
+    CHECK(Edit("Q.gain=1", empty_process).said() == "--set 'Q.gain=1': this process has no module | ");
+    const std::string strange = replaced(small_system, "moduleTest", "moduleUnknown");
+    CHECK(Edit("P.gain=1", strange).said() == "--set 'P.gain=1': the type 'moduleUnknown' is not known | ");
+}
+
+TEST_CASE("A value outside of its range is set, with a warning") {
+    const Edit edit("P/A.threshold=5");
+    CHECK(edit.said() == "--set 'P/A.threshold=5': outside the usual range 0 to 1 | ");
+    CHECK_FALSE(edit.diagnostics.failed());
+    CHECK(value(edit.a().neuron, "threshold") == "5");
+    CHECK(Edit("P.gain=101").said() == "--set 'P.gain=101': outside the usual range 0 to 100 | ");
+}
+
+TEST_CASE("A name with dots and a value with equals signs are taken apart at the right places") {
+    const std::string dotted = replaced(small_system, "name=\"A \"", "name=\"A.1\"");
+    CHECK(value(Edit("P/A.1.threshold=0.25", dotted).a().neuron, "threshold") == "0.25");
+    CHECK(Edit("P/A.threshold=a=b").said() ==
+          "--set 'P/A.threshold=a=b': 'a=b' is not a number | Potential below which act is 0.");
+}
