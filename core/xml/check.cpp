@@ -1,10 +1,11 @@
 #include "core/xml/check.h"
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+
 #include <fmt/format.h>
 #include <tinyxml2.h>
-
-#include <algorithm>
-#include <map>
 
 #include "core/types/parameter.h"
 #include "core/xml/format.h"
@@ -19,48 +20,99 @@ class Checker {
     void element(const tinyxml2::XMLElement& e, const ElementRule& rule) {
         attributes(e, rule);
         std::map<std::string_view, int> count;
-        for (const auto* child = e.FirstChildElement(); child; child = child->NextSiblingElement()) {
+        int chosen = 0;
+        bool strangers = false;
+        for (const auto* node = e.FirstChild(); node; node = node->NextSibling()) {
+            if (const auto* text = node->ToText(); text && !rule.has_text) stray(*text, rule);
+            const auto* child = node->ToElement();
+            if (!child) continue;
             const std::string_view name = child->Name();
-            const auto allowed = std::find_if(rule.children.begin(), rule.children.end(), [&](const auto& c) { return c.name == name; });
+            const auto allowed = std::find_if(rule.children.begin(), rule.children.end(),
+                                              [&](const auto& c) { return c.name == name; });
             if (allowed == rule.children.end()) {
-                out_.unknown(document_.at(*child), fmt::format("<{}> cannot hold a <{}>", rule.name, name), place_hint(rule, name));
+                const auto at = document_.at(*child);
+                const auto message = fmt::format("<{}> cannot hold <{}>", rule.name, name);
+                // Where one of several is chosen, nothing says what the unknown one might have meant: no
+                // leniency.
+                if (rule.choose)
+                    out_.error(at, message, place_hint(rule, name));
+                else
+                    out_.unknown(at, message, place_hint(rule, name));
+                strangers = true;
                 continue;
             }
-            if (++count[allowed->name] > allowed->most)
-                out_.error(document_.at(*child), fmt::format("<{}> holds more than {} <{}>", rule.name, allowed->most, name));
+            ++chosen;
+            if (rule.choose && chosen > rule.choose)
+                out_.error(document_.at(*child),
+                           fmt::format("<{}> holds more than {}", rule.name, amount(rule)),
+                           "remove what is too much");
+            else if (++count[allowed->name] > allowed->most)
+                out_.error(document_.at(*child),
+                           fmt::format("<{}> holds more than {} <{}>", rule.name, allowed->most, name),
+                           "keep one of them");
             if (const ElementRule* inner = find_element(name)) element(*child, *inner);
         }
+        // What is missing is probably what was misspelt; but under leniency that was no error, and this must
+        // be one.
+        if (strangers && (rule.choose || !out_.lenient)) return;
+        if (chosen < rule.choose)
+            out_.error(document_.at(e),
+                       fmt::format("<{}> holds {}, it needs {}", rule.name,
+                                   chosen ? "only one element" : "no element", amount(rule)),
+                       fmt::format("{} of <{}>", rule.choose > 1 ? "source, then target, each one" : "one",
+                                   fmt::join(child_names(rule), ">, <")));
         for (const auto& c : rule.children)
             if (count[c.name] < c.least)
-                out_.error(document_.at(e), fmt::format("<{}> needs a <{}>", rule.name, c.name),
-                           find_element(c.name) ? fmt::format("it says: {}", find_element(c.name)->doc) : "");
+                out_.error(document_.at(e), fmt::format("<{}> needs the element <{}>", rule.name, c.name),
+                           fmt::format("<{}>: {}", c.name, find_element(c.name)->doc));
     }
 
   private:
+    static std::string amount(const ElementRule& rule) {
+        return rule.choose == 1 ? "one element" : fmt::format("{} elements", rule.choose);
+    }
+    static std::vector<std::string> child_names(const ElementRule& rule) {
+        std::vector<std::string> out;
+        for (const auto& c : rule.children) out.push_back(c.name);
+        return out;
+    }
+
+    void stray(const tinyxml2::XMLText& text, const ElementRule& rule) {
+        const Location at = document_.at(text);
+        out_.unknown(at, fmt::format("<{}> holds no text", rule.name),
+                     "a text for people stands in a <Note>, a remark in <!-- -->");
+    }
+
     std::string place_hint(const ElementRule& parent, std::string_view name) const {
-        std::vector<std::string> children;
-        for (const auto& c : parent.children) children.push_back(c.name);
+        const std::vector<std::string> children = child_names(parent);
         if (nearest(name, children).empty())
             for (const auto& other : format_table())
                 for (const auto& c : other.children)
                     if (c.name == name) return fmt::format("<{}> belongs into <{}>", name, other.name);
-        return children.empty() ? fmt::format("<{}> holds no elements", parent.name) : suggest(name, children);
+        return children.empty() ? fmt::format("<{}> holds no elements", parent.name)
+                                : suggest(name, children);
     }
 
     void attributes(const tinyxml2::XMLElement& e, const ElementRule& rule) {
         std::vector<std::string> known;
         for (const auto& a : rule.attributes) known.push_back(a.name);
+        std::vector<std::string_view> meant;  // by attributes that are misspelt: they are not missing as well
         for (const auto* a = e.FirstAttribute(); a; a = a->Next()) {
-            if (const AttributeRule* r = rule.attribute(a->Name())) value(*a, *r);
+            if (const AttributeRule* r = rule.attribute(a->Name()))
+                value(*a, *r);
             else {
+                meant.push_back(nearest(a->Name(), known));
                 std::string hint = suggest(a->Name(), known);
                 if (known.empty()) hint = fmt::format("<{}> has no attributes", rule.name);
-                out_.unknown(document_.name_of(*a), fmt::format("<{}> has no attribute '{}'", rule.name, a->Name()), hint);
+                out_.unknown(document_.name_of(*a),
+                             fmt::format("<{}> has no attribute '{}'", rule.name, a->Name()), hint);
             }
         }
         for (const auto& r : rule.attributes)
-            if (r.required && !e.FindAttribute(r.name.c_str()))
-                out_.error(document_.at(e), fmt::format("<{}> needs the attribute '{}'", rule.name, r.name), fmt::format("it says: {}", r.doc));
+            if (r.required && !e.FindAttribute(r.name.c_str()) &&
+                (out_.lenient || std::find(meant.begin(), meant.end(), r.name) == meant.end()))
+                out_.error(document_.at(e), fmt::format("<{}> needs the attribute '{}'", rule.name, r.name),
+                           fmt::format("{}: {}", r.name, r.doc));
     }
 
     void value(const tinyxml2::XMLAttribute& a, const AttributeRule& rule) {
@@ -69,28 +121,49 @@ class Checker {
             out_.error(document_.value_of(a), std::move(message), std::move(hint));
         };
         switch (rule.kind) {
-            case ValueKind::text: return;
+            case ValueKind::text:
+                return;
             case ValueKind::choice:
                 if (std::find(rule.choices.begin(), rule.choices.end(), text) == rule.choices.end())
-                    wrong(fmt::format("'{}' is not one of {}", text, fmt::join(rule.choices, ", ")), suggest(text, rule.choices));
+                    wrong(fmt::format("'{}' is not one of {}", text, fmt::join(rule.choices, ", ")),
+                          suggest(text, rule.choices));
                 return;
             case ValueKind::boolean:
-                if (!parse_parameter(ParameterKind::boolean, text)) wrong(fmt::format("{} = '{}' is not true or false", rule.name, text), rule.doc);
+                if (!parse_parameter(ParameterKind::boolean, text))
+                    wrong(fmt::format("{} = '{}' is not true or false", rule.name, text),
+                          hint(ParameterKind::boolean, text, fmt::format("{}: {}", rule.name, rule.doc)));
                 return;
             case ValueKind::whole:
-            case ValueKind::number: {
-                const bool whole = rule.kind == ValueKind::whole;
-                const auto parsed = parse_parameter(whole ? ParameterKind::integer : ParameterKind::real, text);
-                if (!parsed) {
-                    wrong(fmt::format("{} = '{}' is not a {}", rule.name, text, whole ? "whole number" : "number"), rule.doc);
-                    return;
-                }
-                const double v = whole ? std::get<int>(*parsed) : std::get<double>(*parsed);
-                if (v < rule.low || v > rule.high)
-                    wrong(fmt::format("{} = {} is not possible", rule.name, text),
-                          fmt::format("{}: from {} to {}", rule.doc, to_text(rule.low), to_text(rule.high)));
-            }
+            case ValueKind::number:
+                number(text, rule, wrong);
         }
+    }
+
+    template <class Wrong>
+    static void number(std::string_view text, const AttributeRule& rule, const Wrong& wrong) {
+        const auto parsed = parse_parameter(ParameterKind::real, text);
+        const double v = parsed ? std::get<double>(*parsed) : 0;
+        const bool whole = rule.kind == ValueKind::whole;
+        const std::string range = fmt::format("{}: {}{}", rule.name, rule.doc, limits(rule));
+        if (!parsed || (whole && v != std::trunc(v))) {
+            wrong(fmt::format("{} = '{}' is not a {}", rule.name, text, whole ? "whole number" : "number"),
+                  hint(whole ? ParameterKind::integer : ParameterKind::real, text, range));
+        } else if (v < rule.low || v > rule.high) {
+            wrong(fmt::format("{} = {} is not possible", rule.name, text), range);
+        } else if (whole && !parse_parameter(ParameterKind::integer, text)) {  // 1e2, 3.0
+            wrong(fmt::format("{} = '{}' is not written as a whole number", rule.name, text),
+                  fmt::format("write {}", to_text(v)));
+        }
+    }
+
+    static std::string hint(ParameterKind kind, std::string_view text, std::string otherwise) {
+        const std::string meant = mended(kind, text);
+        return meant.empty() ? std::move(otherwise) : fmt::format("did you mean '{}'?", meant);
+    }
+
+    static std::string limits(const AttributeRule& rule) {
+        if (rule.low < -1e299 || rule.high > 1e299) return {};
+        return fmt::format(", from {:.0f} to {:.0f}", rule.low, rule.high);
     }
 
     const Document& document_;
@@ -102,8 +175,11 @@ class Checker {
 void check(const Document& document, Diagnostics& diagnostics) {
     const std::string_view name = document.root().Name();
     if (name != "System") {
-        diagnostics.error(document.at(document.root()), fmt::format("the file begins with <{}>, a system file with <System>", name),
-                          name == "sdf" ? "this looks like a world; pass it with --world" : "");
+        diagnostics.error(document.at(document.root()),
+                          fmt::format("the file begins with <{}>, a system file with <System>", name),
+                          name == "sdf"         ? "this looks like a world; pass it with --world"
+                          : name == "iqrEntity" ? "this is a process file: a part of a system, not a system"
+                                                : "is this a system file?");
         return;
     }
     Checker(document, diagnostics).element(document.root(), *find_element(name));

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/model/diagnostic.h"
 
@@ -11,6 +12,7 @@ namespace tinyxml2 {
 class XMLDocument;
 class XMLElement;
 class XMLAttribute;
+class XMLText;
 }  // namespace tinyxml2
 
 namespace forage::xml {
@@ -29,12 +31,14 @@ class Document {
     const tinyxml2::XMLElement& root() const;
     const std::shared_ptr<const SourceFile>& source() const { return source_; }
 
-    Location at(const tinyxml2::XMLElement& element) const;            ///< of the '<'
+    Location at(const tinyxml2::XMLElement& element) const;  ///< of the '<'
+    Location at(const tinyxml2::XMLText& text) const;        ///< of the first character that is no blank
     Location name_of(const tinyxml2::XMLAttribute& attribute) const;   ///< of the attribute's name
     Location value_of(const tinyxml2::XMLAttribute& attribute) const;  ///< of the value's first character
 
   private:
     Document();
+    Location place(std::size_t offset) const;  ///< of a byte of the text
     Location locate(const char* in_buffer, int fallback_line, int shift) const;
 
     std::unique_ptr<tinyxml2::XMLDocument> xml_;

@@ -1,5 +1,5 @@
-// The file format as a table: which elements and attributes there are, and what they mean. The check, its hints
-// and the schema come from it; the original's spellings stand in it like any other.
+// The file format as a table: which elements and attributes there are, and what they mean. The check, its
+// hints and the schema come from it; the original's spellings stand in it like any other.
 #pragma once
 
 #include <string>
@@ -31,6 +31,8 @@ struct ElementRule {
     std::vector<AttributeRule> attributes;
     std::vector<ChildRule> children;
     bool has_text = false;
+    int choose = 0;  ///< how many of `children` it holds in all, when they are alternatives; 0: each as often
+                     ///< as it says
 
     const AttributeRule* attribute(std::string_view name) const;
 };

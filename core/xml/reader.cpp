@@ -1,5 +1,7 @@
 #include "core/xml/reader.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
@@ -19,7 +21,8 @@ class Reader {
     model::System system(const XMLElement& e) {
         model::System s;
         s.at = document_.at(e);
-        s.id = text(e, "id"), s.name = text(e, "name"), s.author = text(e, "author"), s.date = text(e, "date"), s.port = text(e, "port");
+        s.id = text(e, "id"), s.name = text(e, "name"), s.author = text(e, "author"),
+        s.date = text(e, "date"), s.port = text(e, "port");
         s.cycles_per_second = number(e, "cylesPerSecond", 25);
         s.sync_plots = flag(e, "syncPlots", false);
         s.note = note(e);
@@ -35,11 +38,11 @@ class Reader {
     }
     static double number(const XMLElement& e, const char* name, double otherwise) {
         const char* value = e.Attribute(name);
-        const auto parsed = value ? parse_parameter(ParameterKind::real, value) : std::nullopt;
-        return parsed ? std::get<double>(*parsed) : otherwise;
+        return value ? std::get<double>(*parse_parameter(ParameterKind::real, value)) : otherwise;
     }
     static int whole(const XMLElement& e, const char* name, int otherwise) {
-        return static_cast<int>(number(e, name, otherwise));
+        const char* value = e.Attribute(name);
+        return value ? std::get<int>(*parse_parameter(ParameterKind::integer, value)) : otherwise;
     }
     static bool flag(const XMLElement& e, const char* name, bool otherwise) {
         const char* value = e.Attribute(name);
@@ -62,17 +65,20 @@ class Reader {
     static std::optional<model::Icon> icon(const XMLElement& e) {
         const auto* i = e.FirstChildElement("DiagramIcon");
         if (!i) return std::nullopt;
-        return model::Icon{whole(*i, "x", 0), whole(*i, "y", 0), whole(*i, "width", 50), whole(*i, "height", 50)};
+        return model::Icon{whole(*i, "x", 0), whole(*i, "y", 0), whole(*i, "width", 50),
+                           whole(*i, "height", 50)};
     }
 
     model::Process process(const XMLElement& e) {
         model::Process p;
         p.at = document_.at(e);
-        p.id = text(e, "id"), p.name = text(e, "name"), p.color = text(e, "color"), p.hostname = text(e, "hostname");
+        p.id = text(e, "id"), p.name = text(e, "name"), p.color = text(e, "color"),
+        p.hostname = text(e, "hostname");
         p.port = text(e, "port"), p.path = text(e, "path");
         p.module_enabled = flag(e, "enableModule", true);
         if (!p.path.empty())
-            out_.error(value_at(e, "path"), fmt::format("process '{}' is linked to the file '{}'", p.name, p.path),
+            out_.error(value_at(e, "path"),
+                       fmt::format("process '{}' is linked to the file '{}'", p.name, p.path),
                        "linked processes are not read yet: put the process into this file and empty 'path'");
         if (const auto* m = e.FirstChildElement("Module")) p.module = module(*m);
         p.note = note(e);
@@ -86,7 +92,18 @@ class Reader {
         u.at = value_at(e, "name");
         u.note = note(e);
         each(e, "Parameter", [&](const XMLElement& p) {
-            u.settings.push_back({text(p, "name"), text(p, "value"), value_at(p, "name"), value_at(p, "value")});
+            u.settings.push_back(
+                {text(p, "name"), text(p, "value"), value_at(p, "name"), value_at(p, "value")});
+        });
+    }
+
+    /// Only holders of these names mean something in this element.
+    void only_holders(const XMLElement& e, const std::vector<std::string>& meaningful) {
+        each(e, "XRefHolder", [&](const XMLElement& h) {
+            if (std::find(meaningful.begin(), meaningful.end(), text(h, "name")) == meaningful.end())
+                out_.unknown(value_at(h, "name"),
+                             fmt::format("a <{}> has no cross references '{}'", e.Name(), text(h, "name")),
+                             suggest(text(h, "name"), meaningful));
         });
     }
 
@@ -94,7 +111,9 @@ class Reader {
         std::vector<model::CrossReference> out;
         each(e, "XRefHolder", [&](const XMLElement& h) {
             if (text(h, "name") == holder)
-                each(h, "XRef", [&](const XMLElement& r) { out.push_back({text(r, "name"), text(r, "target"), document_.at(r)}); });
+                each(h, "XRef", [&](const XMLElement& r) {
+                    out.push_back({text(r, "name"), text(r, "target"), document_.at(r)});
+                });
         });
         return out;
     }
@@ -102,6 +121,7 @@ class Reader {
     model::ModuleUse module(const XMLElement& e) {
         model::ModuleUse m;
         use(e, m);
+        only_holders(e, {"InputFromGroup", "OutputToGroup"});
         m.inputs = references(e, "InputFromGroup");
         m.outputs = references(e, "OutputToGroup");
         return m;
@@ -119,8 +139,8 @@ class Reader {
     }
 
     model::Topology topology(const XMLElement& e) {
-        only_child(e);
-        if (const auto* sparse = e.FirstChildElement("TopologySparse")) return model::SparseTopology{points(*sparse)};
+        if (const auto* sparse = e.FirstChildElement("TopologySparse"))
+            return model::SparseTopology{points(*sparse)};
         model::RectTopology rect;
         if (const auto* r = e.FirstChildElement("TopologyRect")) {
             rect.width = whole(*r, "hcount", 1), rect.height = whole(*r, "vcount", 1);
@@ -131,22 +151,17 @@ class Reader {
 
     std::vector<model::Point> points(const XMLElement& e) {
         std::vector<model::Point> out;
-        each(e, "Point", [&](const XMLElement& p) { out.push_back({whole(p, "x", 1), whole(p, "y", 1), document_.at(p)}); });
+        each(e, "Point", [&](const XMLElement& p) {
+            out.push_back({whole(p, "x", 1), whole(p, "y", 1), document_.at(p)});
+        });
         return out;
-    }
-
-    /// An element that says one thing out of several holds exactly one child.
-    void only_child(const XMLElement& e) {
-        const auto* first = e.FirstChildElement();
-        if (!first) out_.error(document_.at(e), fmt::format("<{}> is empty", e.Name()));
-        else if (first->NextSiblingElement())
-            out_.error(document_.at(*first->NextSiblingElement()), fmt::format("<{}> holds more than one element", e.Name()), "keep one of them");
     }
 
     model::Population population(const XMLElement& e) {
         const std::string_view name = e.Name();
         if (name == "Region")
-            return model::Region{whole(e, "xstart", 1), whole(e, "ystart", 1), whole(e, "width", 1), whole(e, "height", 1), document_.at(e)};
+            return model::Region{whole(e, "xstart", 1), whole(e, "ystart", 1), whole(e, "width", 1),
+                                 whole(e, "height", 1), document_.at(e)};
         if (name == "List") return model::List{points(e), document_.at(e)};
         return model::All{};
     }
@@ -154,24 +169,20 @@ class Reader {
     template <class P>
     P populations(const XMLElement& e, P pattern) {
         const auto* source = e.FirstChildElement();
-        const auto* target = source ? source->NextSiblingElement() : nullptr;
-        if (!target || target->NextSiblingElement()) {
-            out_.error(document_.at(e), fmt::format("<{}> needs two populations: source, then target", e.Name()), "each is <All/>, <Region .../> or <List>");
-            return pattern;
-        }
+        const auto* target = source->NextSiblingElement();
         pattern.source = population(*source);
         pattern.target = population(*target);
         return pattern;
     }
 
     model::Pattern pattern(const XMLElement& e) {
-        only_child(e);
         if (const auto* m = e.FirstChildElement("PatternMapped")) {
             model::MappedPattern mapped;
             mapped.all = text(*m, "type") == "all";
             return populations(*m, mapped);
         }
-        if (const auto* f = e.FirstChildElement("PatternForeach")) return populations(*f, model::ForeachPattern{});
+        if (const auto* f = e.FirstChildElement("PatternForeach"))
+            return populations(*f, model::ForeachPattern{});
         model::TuplesPattern tuples;
         if (const auto* t = e.FirstChildElement("PatternTuples"))
             each(*t, "Tuple", [&](const XMLElement& tuple) {
@@ -183,50 +194,61 @@ class Reader {
     }
 
     model::Arborization arborization(const XMLElement& e) {
-        only_child(e);
         model::Arborization a;
-        const auto* shape = e.FirstChildElement();
-        if (!shape) return a;
-        const XMLElement& s = *shape;
+        const XMLElement& s = *e.FirstChildElement();
         const std::string_view name = s.Name();
         a.at = document_.at(s);
-        a.direction = text(s, "direction") == "PF" ? model::Direction::projective : model::Direction::receptive;
+        a.direction =
+            text(s, "direction") == "PF" ? model::Direction::projective : model::Direction::receptive;
         a.probability = number(s, "initialization_probability", 1);
         const auto window = [&]<class W>(W) {
-            return W{whole(s, "innerwidth", 0), whole(s, "innerheight", 0), whole(s, "outerwidth", 1), whole(s, "outerheight", 1)};
+            return W{whole(s, "innerwidth", 0), whole(s, "innerheight", 0), whole(s, "outerwidth", 1),
+                     whole(s, "outerheight", 1)};
         };
-        if (name == "ArbRect") a.shape = model::RectArbor{whole(s, "width", 1), whole(s, "height", 1)};
-        else if (name == "ArbEllipse") a.shape = model::EllipseArbor{whole(s, "width", 1), whole(s, "height", 1)};
-        else if (name == "ArbRectWindow") a.shape = window(model::RectWindowArbor{});
-        else if (name == "ArbEllipseWindow") a.shape = window(model::EllipseWindowArbor{});
-        else if (name == "ArbAll") a.shape = model::AllArbor{};
-        else a.shape = model::RandomArbor{whole(s, "count", 1)};
+        if (name == "ArbRect")
+            a.shape = model::RectArbor{whole(s, "width", 1), whole(s, "height", 1)};
+        else if (name == "ArbEllipse")
+            a.shape = model::EllipseArbor{whole(s, "width", 1), whole(s, "height", 1)};
+        else if (name == "ArbRectWindow")
+            a.shape = window(model::RectWindowArbor{});
+        else if (name == "ArbEllipseWindow")
+            a.shape = window(model::EllipseWindowArbor{});
+        else if (name == "ArbAll")
+            a.shape = model::AllArbor{};
+        else
+            a.shape = model::RandomArbor{whole(s, "count", 1)};
         return a;
     }
 
     model::DistanceFunction function(const XMLElement& e) {
-        only_child(e);
         model::DistanceFunction f;
-        const auto* form = e.FirstChildElement();
-        if (!form) return f;
-        const std::string_view name = form->Name();
-        const double min = number(*form, "min", 0), max = number(*form, "max", 1);
-        f.at = document_.at(*form);
-        if (name == "FunUniform") f.form = model::UniformFunction{number(*form, "value", 0)};
-        else if (name == "FunLinear") f.form = model::LinearFunction{min, max};
-        else if (name == "FunGaussian") f.form = model::GaussianFunction{min, max, number(*form, "sigma", 1)};
-        else if (name == "FunBlock") f.form = model::BlockFunction{min, max, whole(*form, "width", 0), whole(*form, "height", 0)};
-        else f.form = model::RandomFunction{max};
+        const XMLElement& form = *e.FirstChildElement();
+        const std::string_view name = form.Name();
+        const double min = number(form, "min", 0), max = number(form, "max", 1);
+        f.at = document_.at(form);
+        if (name == "FunUniform")
+            f.form = model::UniformFunction{number(form, "value", 0)};
+        else if (name == "FunLinear")
+            f.form = model::LinearFunction{min, max};
+        else if (name == "FunGaussian")
+            f.form = model::GaussianFunction{min, max, number(form, "sigma", 1)};
+        else if (name == "FunBlock")
+            f.form = model::BlockFunction{min, max, whole(form, "width", 0), whole(form, "height", 0)};
+        else
+            f.form = model::RandomFunction{max};
         return f;
     }
 
     model::Connection connection(const XMLElement& e) {
         model::Connection c;
         c.at = document_.at(e);
-        c.id = text(e, "id"), c.name = text(e, "name"), c.source = text(e, "source"), c.target = text(e, "target");
+        c.id = text(e, "id"), c.name = text(e, "name"), c.source = text(e, "source"),
+        c.target = text(e, "target");
         c.source_at = value_at(e, "source"), c.target_at = value_at(e, "target");
         const std::string kind = text(e, "type");
-        c.kind = kind == "inhibitory" ? InputKind::inhibitory : kind == "modulatory" ? InputKind::modulatory : InputKind::excitatory;
+        c.kind = kind == "inhibitory"   ? InputKind::inhibitory
+                 : kind == "modulatory" ? InputKind::modulatory
+                                        : InputKind::excitatory;
         if (const auto* p = e.FirstChildElement("Pattern")) c.pattern = pattern(*p);
         if (const auto* a = e.FirstChildElement("Arborization")) c.arborization = arborization(*a);
         if (const auto* f = e.FirstChildElement("AttenuationFunction")) c.attenuation = function(*f);
@@ -234,6 +256,7 @@ class Reader {
         if (const auto* s = e.FirstChildElement("Synapse")) {
             c.synapse.emplace();
             use(*s, *c.synapse);
+            only_holders(*s, {"Freedback"});
             c.synapse->feedback = references(*s, "Freedback");
         }
         c.note = note(e);
@@ -250,7 +273,7 @@ std::optional<model::System> build(const std::optional<Document>& document, Diag
     if (!document) return std::nullopt;
     const int errors_before = diagnostics.errors();
     check(*document, diagnostics);
-    if (std::string_view(document->root().Name()) != "System") return std::nullopt;
+    if (diagnostics.errors() > errors_before) return std::nullopt;
     auto system = Reader(*document, diagnostics).system(document->root());
     if (diagnostics.errors() > errors_before) return std::nullopt;
     return system;

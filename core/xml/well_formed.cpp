@@ -1,0 +1,286 @@
+#include "core/xml/well_formed.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/model/utf8.h"
+
+namespace forage::xml {
+namespace {
+
+constexpr std::size_t deepest = 64;  // a system file has seven levels
+constexpr std::string_view blanks = " \t\r\n";
+
+bool begins_name(char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) || c == '_' || c == ':' || (c & 0x80);
+}
+bool continues_name(char c) {
+    return begins_name(c) || std::isdigit(static_cast<unsigned char>(c)) || c == '-' || c == '.';
+}
+
+class Scanner {
+  public:
+    explicit Scanner(std::string_view text) : text_(text) {}
+
+    std::optional<Fault> run() {
+        if (characters() && content()) return std::nullopt;
+        return std::move(fault_);
+    }
+
+  private:
+    struct Open {
+        std::string_view name;
+        std::size_t at;
+    };
+
+    bool fail(std::size_t offset, std::string message, std::string hint = {}) {
+        fault_ = Fault{std::min(offset, text_.size()), std::move(message), std::move(hint)};
+        return false;
+    }
+    std::string line_of(const Open& open) const {
+        return fmt::format(
+            "line {}",
+            1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(open.at), '\n'));
+    }
+    bool fail_whole(std::string message, std::string hint) {
+        fail(0, std::move(message), std::move(hint));
+        fault_->of_the_whole = true;
+        return false;
+    }
+    bool looks_like_xml() const {
+        return text_.find_first_not_of(" \t\r\n\xef\xbb\xbf") == text_.find('<') &&
+               text_.find('<') < text_.size();
+    }
+    bool at(std::string_view what) const { return text_.substr(pos_).starts_with(what); }
+    std::size_t skip_blanks() {
+        const std::size_t from = pos_;
+        pos_ = std::min(text_.find_first_not_of(blanks, pos_), text_.size());
+        return pos_ - from;
+    }
+    std::string_view name() {
+        const std::size_t from = pos_;
+        if (pos_ < text_.size() && begins_name(text_[pos_]))
+            while (pos_ < text_.size() && continues_name(text_[pos_])) ++pos_;
+        return text_.substr(from, pos_ - from);
+    }
+
+    bool characters() {
+        if (text_.starts_with("\xff\xfe") || text_.starts_with("\xfe\xff") ||
+            (text_.size() > 1 && text_[0] == '<' && text_[1] == '\0'))
+            return fail_whole("the file is encoded as UTF-16", "save it as UTF-8");
+        for (std::size_t i = 0; i < text_.size();) {
+            const auto c = static_cast<unsigned char>(text_[i]);
+            if (c < 0x20 && c != '\t' && c != '\n' && c != '\r')
+                return fail(i, fmt::format("the byte 0x{:02x} does not occur in a text", c),
+                            looks_like_xml() ? "remove it" : "is this an XML file?");
+            const std::size_t length = utf8_length(text_.substr(i));
+            if (length == 0)
+                return fail(i, fmt::format("the byte 0x{:02x} is not UTF-8", c),
+                            looks_like_xml()
+                                ? "save the file as UTF-8, whatever encoding its first line names"
+                                : "is this an XML file?");
+            i += length;
+        }
+        return true;
+    }
+
+    bool content() {
+        if (at("\xef\xbb\xbf")) pos_ = 3;  // byte order mark
+        if (text_.find_first_not_of(blanks, pos_) == std::string_view::npos)
+            return fail_whole("the file is empty", "a system file begins with <System ...>");
+        while (pos_ < text_.size()) {
+            const std::size_t open = std::min(text_.find('<', pos_), text_.size());
+            if (!plain_text(pos_, open)) return false;
+            pos_ = open;
+            if (pos_ < text_.size() && !markup()) return false;
+        }
+        if (!open_.empty())
+            return fail(open_.back().at,
+                        fmt::format("<{}> is not closed before the file ends", open_.back().name),
+                        fmt::format("is the file complete? A </{}> is missing", open_.back().name));
+        return root_.empty()
+                   ? fail_whole("the file holds no element", "a system file begins with <System ...>")
+                   : true;
+    }
+
+    bool plain_text(std::size_t from, std::size_t to) {
+        if (open_.empty()) {
+            const std::size_t first = text_.find_first_not_of(blanks, from);
+            return first >= to
+                       ? true
+                       : fail(first,
+                              root_.empty() ? "there is text before the first element"
+                                            : fmt::format("there is text after the end of <{}>", root_),
+                              looks_like_xml() ? "remove it, or make it a comment: <!-- -->"
+                                               : "is this an XML file?");
+        }
+        return references(from, to);
+    }
+
+    /// Every '&' begins one of the five entities that XML has, or a character by its number.
+    bool references(std::size_t from, std::size_t to) {
+        for (std::size_t i = text_.find('&', from); i < to; i = text_.find('&', i + 1)) {
+            const std::size_t end = text_.find(';', i);
+            const std::string_view what = end < to ? text_.substr(i + 1, end - i - 1) : std::string_view{};
+            if (what == "lt" || what == "gt" || what == "amp" || what == "quot" || what == "apos" ||
+                character(what))
+                continue;
+            const bool named = !what.empty() && std::all_of(what.begin(), what.end(), continues_name);
+            return fail(
+                i, named ? fmt::format("there is no entity '&{};'", what) : "a '&' that begins no entity",
+                named ? "XML has &lt; &gt; &amp; &quot; and &apos;; other characters stand for themselves"
+                      : "a '&' itself is written &amp;");
+        }
+        return true;
+    }
+
+    static bool character(std::string_view reference) {
+        if (!reference.starts_with('#')) return false;
+        reference.remove_prefix(1);
+        const bool hex = reference.starts_with('x');
+        if (hex) reference.remove_prefix(1);
+        unsigned code = 0;
+        const auto [end, error] =
+            std::from_chars(reference.data(), reference.data() + reference.size(), code, hex ? 16 : 10);
+        return error == std::errc{} && end == reference.data() + reference.size() && !reference.empty() &&
+               (code >= 0x20 || code == 9 || code == 10 || code == 13) && code <= 0x10ffff &&
+               (code < 0xd800 || code > 0xdfff);
+    }
+
+    bool markup() {
+        if (at("<!--")) return skip("<!--", "-->", "the comment that begins here is not closed");
+        if (at("<![CDATA["))
+            return skip("<![CDATA[", "]]>", "the CDATA section that begins here is not closed");
+        if (at("<?")) return skip("<?", "?>", "the declaration that begins here is not closed");
+        if (at("<!")) {
+            const std::size_t bracket = text_.find('[', pos_), end = text_.find('>', pos_);
+            if (bracket < end)
+                return fail(bracket, "a document type with declarations of its own is not read",
+                            "remove all from '[' to ']'");
+            return skip("<!", ">", "the declaration that begins here is not closed");
+        }
+        return at("</") ? end_tag() : start_tag();
+    }
+
+    bool skip(std::string_view begin, std::string_view end, std::string message) {
+        if (open_.empty() && begin == "<![CDATA[")
+            return fail(pos_, "there is text outside of the first element");
+        const std::size_t close = text_.find(end, pos_ + begin.size());
+        if (close == std::string_view::npos)
+            return fail(pos_, std::move(message), fmt::format("it ends with {}", end));
+        pos_ = close + end.size();
+        return true;
+    }
+
+    bool end_tag() {
+        const std::size_t start = pos_;
+        pos_ += 2;
+        const std::string_view closes = name();
+        skip_blanks();
+        if (closes.empty() || !at(">"))
+            return fail(start, "a damaged end tag", "an end tag is written </Name>");
+        ++pos_;
+        if (open_.empty()) return fail(start, fmt::format("</{}> closes nothing", closes));
+        const Open last = open_.back();
+        if (last.name != closes) {
+            const bool is_open =
+                std::any_of(open_.begin(), open_.end(), [&](const Open& o) { return o.name == closes; });
+            return fail(
+                start,
+                fmt::format("</{}> comes before <{}> of {} is closed", closes, last.name, line_of(last)),
+                is_open ? fmt::format("close it with </{}>, or end its start tag with '/>'", last.name)
+                        : fmt::format("no <{}> is open here; is </{}> meant?", closes, last.name));
+        }
+        open_.pop_back();
+        return true;
+    }
+
+    bool start_tag() {
+        const std::size_t start = pos_++;
+        const std::string_view element = name();
+        if (element.empty())
+            return fail(start, "a '<' that begins no element", "a '<' itself is written &lt;");
+        if (open_.empty() && !root_.empty())
+            return fail(start, fmt::format("<{}> stands after the end of <{}>", element, root_),
+                        "a file holds one outermost element");
+        if (open_.size() >= deepest)
+            return fail(start, fmt::format("<{}> is nested more than {} elements deep", element, deepest));
+        if (root_.empty()) root_ = element;
+        std::vector<std::string_view> seen;
+        last_value_ = {};
+        while (true) {
+            const std::size_t gap = skip_blanks();
+            if (at("/>")) return pos_ += 2, true;
+            if (at(">")) {
+                ++pos_;
+                open_.push_back({element, start});
+                return true;
+            }
+            if (pos_ >= text_.size() || at("<"))
+                return fail(
+                    start, fmt::format("the start tag <{}> is not closed", element),
+                    pos_ >= text_.size() ? "is the file complete?" : "a start tag ends with '>' or '/>'");
+            if (!attribute(element, gap, seen)) return false;
+        }
+    }
+
+    bool attribute(std::string_view element, std::size_t gap, std::vector<std::string_view>& seen) {
+        const std::size_t start = pos_;
+        const std::string_view attribute = name();
+        // After a forgotten quote the next value's first quote closes, and its text stands where a name
+        // should.
+        if ((attribute.empty() || gap == 0) && last_value_.find('=') != std::string_view::npos)
+            return fail(static_cast<std::size_t>(last_value_.data() - text_.data()) - 1,
+                        fmt::format("the value of '{}' has no closing quote", seen.back()),
+                        "attributes are written name=\"value\"");
+        if (attribute.empty())
+            return fail(start, fmt::format("no attribute of <{}> can begin here", element),
+                        "attributes are written name=\"value\"");
+        if (gap == 0)
+            return fail(start, fmt::format("there is no blank before the attribute '{}'", attribute),
+                        "attributes are written name=\"value\", with a blank between them");
+        // Seen names are few: only a hostile file has many, and the limit keeps it from costing more than
+        // time.
+        if (std::find(seen.begin(), seen.end(), attribute) != seen.end())
+            return fail(start, fmt::format("<{}> has the attribute '{}' twice", element, attribute),
+                        "remove one of them");
+        if (seen.size() >= 1000)
+            return fail(start, fmt::format("<{}> has more than {} attributes", element, seen.size()));
+        seen.push_back(attribute);
+        skip_blanks();
+        if (!at("="))
+            return fail(start, fmt::format("the attribute '{}' has no value", attribute),
+                        fmt::format("it is written {}=\"value\"", attribute));
+        ++pos_;
+        skip_blanks();
+        if (!at("\"") && !at("'"))
+            return fail(pos_, fmt::format("the value of '{}' does not begin with a quote", attribute),
+                        fmt::format("it is written {}=\"value\"", attribute));
+        const char quote = text_[pos_];
+        const std::size_t value = ++pos_, end = text_.find(quote, value);
+        const std::size_t bracket = text_.find('<', value);
+        if (end == std::string_view::npos || bracket < end)
+            return fail(value - 1, fmt::format("the value of '{}' has no closing quote", attribute),
+                        bracket < end ? "or a '<' in it, which is written &lt;" : "is the file complete?");
+        pos_ = end + 1;
+        last_value_ = text_.substr(value, end - value);
+        return references(value, end);
+    }
+
+    std::string_view text_;
+    std::size_t pos_ = 0;
+    std::string_view root_;
+    std::string_view last_value_;  ///< of the attribute before this one
+    std::vector<Open> open_;
+    std::optional<Fault> fault_;
+};
+
+}  // namespace
+
+std::optional<Fault> first_fault(std::string_view text) { return Scanner(text).run(); }
+
+}  // namespace forage::xml

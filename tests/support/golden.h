@@ -1,0 +1,99 @@
+// The recorded traces of the original: a list of cases and a fast reader of their tables.
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tests/support/paths.h"
+
+namespace forage::test {
+
+inline std::string read_text(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw std::runtime_error("cannot read " + path.string());
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A table of text, row by row. The fields are views into the table: it must outlive them.
+class Rows {
+  public:
+    /// The first line, the header, is skipped; '#' does not begin a comment.
+    explicit Rows(const std::filesystem::path& path, char separator = ',')
+        : text_(read_text(path)), separator_(separator) {
+        take_line();
+    }
+    Rows(const Rows&) = delete;
+    Rows& operator=(const Rows&) = delete;
+
+    /// Splits the next line into `fields`; false at the end. An empty line is a row of one empty field.
+    bool next(std::vector<std::string_view>& fields) {
+        if (at_ >= text_.size()) return false;
+        fields.clear();
+        std::string_view line = take_line();
+        for (auto cut = line.find(separator_); cut != std::string_view::npos; cut = line.find(separator_)) {
+            fields.push_back(line.substr(0, cut));
+            line.remove_prefix(cut + 1);
+        }
+        fields.push_back(line);
+        return true;
+    }
+
+  private:
+    std::string_view take_line() {
+        const auto end = std::min(text_.find('\n', at_), text_.size());
+        std::string_view line(text_.data() + at_, end - at_);
+        at_ = end + 1;
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        return line;
+    }
+
+    std::string text_;
+    char separator_;
+    std::size_t at_ = 0;
+};
+
+/// A whole field as a number, "nan" and "inf" included; anything else is a fault of the recording.
+template <class N = double>
+N number(std::string_view field) {
+    N value{};
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (error != std::errc{} || end != field.data() + field.size())
+        throw std::runtime_error("'" + std::string(field) + "' is not a number");
+    return value;
+}
+
+/// The tolerance of the recordings; NaN equals NaN, an infinity only itself.
+inline bool same(double ours, double recorded, double tolerance = 1e-12) {
+    if (std::isnan(recorded) || std::isnan(ours)) return std::isnan(recorded) && std::isnan(ours);
+    if (std::isinf(recorded) || std::isinf(ours)) return ours == recorded;
+    return std::abs(ours - recorded) <= tolerance * std::max(1.0, std::abs(recorded));
+}
+
+struct Case {
+    std::string name;
+    std::string status;  ///< ok, refused, original-crashes
+    std::string note;
+    std::filesystem::path path;  ///< the case's folder
+};
+
+inline std::filesystem::path conformance_dir() { return shared_dir() / "golden" / "conformance"; }
+
+/// The conformance cases, in the order of their index.
+inline std::vector<Case> cases() {
+    std::vector<Case> out;
+    Rows index(conformance_dir() / "INDEX.tsv", '\t');
+    for (std::vector<std::string_view> f; index.next(f);)
+        if (f.size() >= 3)
+            out.push_back({std::string(f[0]), std::string(f[1]), f.size() > 3 ? std::string(f[3]) : "",
+                           conformance_dir() / f[0]});
+    return out;
+}
+
+}  // namespace forage::test

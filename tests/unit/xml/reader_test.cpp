@@ -1,0 +1,222 @@
+#include "core/xml/reader.h"
+
+#include "core/xml/format.h"
+#include "tests/support/model_text.h"
+
+using namespace forage;
+using test::replaced;
+using test::small_system;
+using test::system_of;
+
+namespace {
+
+/// The one diagnostic of a text with one mistake, as "line:column: message | hint".
+std::string mistake(const std::string& text, bool lenient = false) {
+    Diagnostics diagnostics;
+    diagnostics.lenient = lenient;
+    const auto system = xml::parse_system("test.iqr", text, diagnostics);
+    INFO(format(diagnostics));
+    REQUIRE(diagnostics.all().size() == 1);
+    CHECK(system.has_value() == !diagnostics.failed());
+    const auto& d = diagnostics.all().front();
+    return std::to_string(d.where.line) + ":" + std::to_string(d.where.column) + ": " + d.message + " | " +
+           d.hint;
+}
+
+}  // namespace
+
+TEST_CASE("A system is read with everything that is in the file") {
+    const model::System s = system_of(small_system);
+    CHECK((s.id == "s" && s.name == "Small" && s.author == "me" && s.date == "today" && s.port == "54923"));
+    CHECK(s.cycles_per_second == 12.5);
+    CHECK(s.sync_plots);
+    CHECK(s.note == "About <this>");
+    CHECK((s.at.line == 3 && s.at.column == 1));
+
+    REQUIRE(s.processes.size() == 1);
+    const auto& p = s.processes[0];
+    CHECK((p.id == "p" && p.name == "P" && p.hostname == "host" && p.port == "1" && p.color == "#00FF00" &&
+           p.path.empty()));
+    CHECK_FALSE(p.module_enabled);
+    CHECK(p.note == "");
+    REQUIRE(p.icon);
+    CHECK((p.icon->x == -10 && p.icon->y == 20 && p.icon->width == 50 && p.icon->height == 60));
+    REQUIRE(p.module);
+    CHECK(p.module->type == "moduleTest");
+    REQUIRE(p.module->settings.size() == 1);
+    CHECK((p.module->settings[0].name == "gain" && p.module->settings[0].value == "3"));
+    CHECK((p.module->settings[0].value_at.line == 7 && p.module->settings[0].value_at.column == 37));
+    REQUIRE((p.module->inputs.size() == 1 && p.module->outputs.size() == 1));
+    CHECK((p.module->inputs[0].name == "_in" && p.module->inputs[0].target == "a"));
+    CHECK((p.module->outputs[0].name == "_out" && p.module->outputs[0].target.empty()));
+
+    REQUIRE(p.groups.size() == 2);
+    const auto& a = p.groups[0];
+    CHECK(a.name == "A ");  // blanks are kept: writing must not lose them
+    const auto& rect = std::get<model::RectTopology>(a.topology);
+    CHECK((rect.width == 3 && rect.height == 2 && rect.wrap_x && !rect.wrap_y));
+    CHECK(a.neuron.settings.size() == 2);
+    CHECK((a.icon->x == 1 && a.icon->width == 50));
+    CHECK_FALSE(a.note);
+    const auto& points = std::get<model::SparseTopology>(p.groups[1].topology).points;
+    REQUIRE(points.size() == 2);
+    CHECK((points[1].x == 5 && points[1].y == 4));
+    CHECK(p.groups[1].note == "Line 1\nLine 2");
+
+    REQUIRE(s.connections.size() == 1);
+    const auto& c = s.connections[0];
+    CHECK((c.id == "c" && c.name == "A to B" && c.source == "a" && c.target == "b"));
+    CHECK(c.kind == InputKind::inhibitory);
+    const auto& pattern = std::get<model::ForeachPattern>(c.pattern);
+    const auto& region = std::get<model::Region>(pattern.source);
+    CHECK((region.x == 1 && region.y == 2 && region.width == 3 && region.height == 1));
+    CHECK(std::get<model::List>(pattern.target).points.size() == 1);
+    const auto& window = std::get<model::EllipseWindowArbor>(c.arborization.shape);
+    CHECK((window.inner_width == 1 && window.inner_height == 2 && window.outer_width == 3 &&
+           window.outer_height == 4));
+    CHECK(c.arborization.direction == model::Direction::projective);
+    CHECK(c.arborization.probability == 0.5);
+    const auto& gaussian = std::get<model::GaussianFunction>(c.attenuation.form);
+    CHECK((gaussian.min == 0.1 && gaussian.max == 0.9 && gaussian.sigma == 1.5));
+    const auto& block = std::get<model::BlockFunction>(c.delay.form);
+    CHECK((block.min == 1 && block.max == 4 && block.width == 3 && block.height == 7));
+    REQUIRE(c.synapse);
+    CHECK(c.synapse->settings.at(0).value == "-0.25");
+    CHECK(c.note == "n");
+    REQUIRE(c.line);
+    CHECK((c.line->source_anchor == 3 && c.line->target_anchor == 15 && c.line->vertices.size() == 1));
+}
+
+TEST_CASE("Each form of pattern, arborization and function is read as itself") {
+    const auto with = [](const std::string& what, const std::string& by) {
+        return system_of(replaced(small_system, what, by)).connections[0];
+    };
+    const std::string foreach =
+        "<PatternForeach><Region xstart=\"1\" ystart=\"2\" width=\"3\" height=\"1\"/><List><Point x=\"2\" "
+        "y=\"3\"/></List></PatternForeach>";
+    CHECK(std::get<model::MappedPattern>(
+              with(foreach, "<PatternMapped type=\"all\"><All/><All/></PatternMapped>").pattern)
+              .all);
+    CHECK_FALSE(std::get<model::MappedPattern>(
+                    with(foreach, "<PatternMapped type=\"center\"><All/><All/></PatternMapped>").pattern)
+                    .all);
+    const auto tuples = std::get<model::TuplesPattern>(
+        with(foreach,
+             "<PatternTuples><Tuple><SourceList><Point x=\"1\" y=\"2\"/></SourceList><TargetList><Point "
+             "x=\"3\" y=\"4\"/><Point x=\"5\" y=\"6\"/></TargetList></Tuple></PatternTuples>")
+            .pattern);
+    REQUIRE(tuples.tuples.size() == 1);
+    CHECK((tuples.tuples[0].sources[0].y == 2 && tuples.tuples[0].targets[1].x == 5));
+
+    const std::string window =
+        "<ArbEllipseWindow innerwidth=\"1\" innerheight=\"2\" outerwidth=\"3\" outerheight=\"4\" "
+        "direction=\"PF\" initialization_probability=\"0.5\"/>";
+    const std::string rest = " direction=\"RF\" initialization_probability=\"1\"/>";
+    const auto rect = std::get<model::RectArbor>(
+        with(window, "<ArbRect width=\"3\" height=\"4\"" + rest).arborization.shape);
+    CHECK((rect.width == 3 && rect.height == 4));
+    const auto ellipse = std::get<model::EllipseArbor>(
+        with(window, "<ArbEllipse width=\"3\" height=\"4\"" + rest).arborization.shape);
+    CHECK((ellipse.width == 3 && ellipse.height == 4));
+    const auto hole = std::get<model::RectWindowArbor>(
+        with(window,
+             "<ArbRectWindow innerwidth=\"0\" innerheight=\"1\" outerwidth=\"3\" outerheight=\"4\"" + rest)
+            .arborization.shape);
+    CHECK(
+        (hole.inner_width == 0 && hole.inner_height == 1 && hole.outer_width == 3 && hole.outer_height == 4));
+    CHECK(std::holds_alternative<model::AllArbor>(with(window, "<ArbAll" + rest).arborization.shape));
+    CHECK(std::get<model::RandomArbor>(with(window, "<ArbRandom count=\"4\"" + rest).arborization.shape)
+              .count == 4);
+
+    const std::string gaussian = "<FunGaussian min=\"0.1\" max=\"0.9\" sigma=\"1.5\"/>";
+    CHECK(std::get<model::UniformFunction>(with(gaussian, "<FunUniform value=\"0.25\"/>").attenuation.form)
+              .value == 0.25);
+    const auto linear = std::get<model::LinearFunction>(
+        with(gaussian, "<FunLinear min=\"0.25\" max=\"0.75\"/>").attenuation.form);
+    CHECK((linear.min == 0.25 && linear.max == 0.75));
+    CHECK(std::get<model::RandomFunction>(with(gaussian, "<FunRandom max=\"0.75\"/>").attenuation.form).max ==
+          0.75);
+}
+
+TEST_CASE("What the format leaves open has its default") {
+    const auto s = system_of(
+        "<System id=\"s\" name=\"S\" author=\"\" date=\"\" cylesPerSecond=\"0\"><Process id=\"p\" "
+        "name=\"P\"/></System>");
+    CHECK(s.cycles_per_second == 0);
+    CHECK_FALSE(s.sync_plots);
+    CHECK(s.processes[0].module_enabled);
+    CHECK_FALSE(s.processes[0].module);
+    CHECK_FALSE(s.processes[0].icon);
+}
+
+TEST_CASE("The order of attributes does not matter") {
+    const std::string turned =
+        replaced(small_system, "hcount=\"3\" vcount=\"2\" cylinderHor=\"false\" cylinderVert=\"true\"",
+                 "cylinderVert=\"true\" vcount=\"2\" cylinderHor=\"false\" hcount=\"3\"");
+    const auto rect = std::get<model::RectTopology>(system_of(turned).processes[0].groups[0].topology);
+    CHECK((rect.width == 3 && rect.height == 2 && rect.wrap_x && !rect.wrap_y));
+}
+
+TEST_CASE("Every problem of a file is reported, in the order of the file") {
+    std::string text = replaced(small_system, "hcount=\"3\"", "hcount=\"x\"");
+    text = replaced(text, "type=\"inhibitory\"", "type=\"inhibitor\"");
+    text = replaced(text, "cylesPerSecond=\"12.5\"", "cylesPerSecond=\"-1\"");
+    Diagnostics diagnostics;
+    CHECK_FALSE(xml::parse_system("test.iqr", text, diagnostics));
+    REQUIRE(diagnostics.errors() == 3);
+    CHECK(diagnostics.all()[0].where.line == 3);
+    CHECK(diagnostics.all()[1].where.line == 14);
+    CHECK(diagnostics.all()[2].where.line == 28);
+}
+
+TEST_CASE("A misspelt attribute is not reported as missing as well") {
+    CHECK(mistake(replaced(small_system, "vcount", "vcont")) ==
+          "14:42: <TopologyRect> has no attribute 'vcont' | did you mean 'vcount'?");
+}
+
+TEST_CASE("An unknown element where one is chosen of several is an error even when reading leniently") {
+    CHECK(mistake(replaced(small_system, "<FunGaussian min=\"0.1\" max=\"0.9\" sigma=\"1.5\"/>",
+                           "<FunGauss min=\"0.1\" max=\"0.9\" sigma=\"1.5\"/>"),
+                  true) ==
+          "31:26: <AttenuationFunction> cannot hold <FunGauss> | did you mean 'FunGaussian'?");
+}
+
+TEST_CASE("Unknown attributes and elements are warnings when reading leniently, and the rest is read") {
+    CHECK(mistake(replaced(small_system, "hostname=\"host\"", "hostname=\"host\" mood=\"good\""), true) ==
+          "5:44: <Process> has no attribute 'mood' | there are 'id', 'name', 'hostname', 'port', "
+          "'enableModule', 'path', 'color'");
+    CHECK(mistake(replaced(small_system, "<Note/>", "<Remark/>"), true) ==
+          "11:5: <Process> cannot hold <Remark> | there are 'Module', 'Note', 'DiagramIcon', 'Group'");
+}
+
+TEST_CASE("A remark outside of a note is not read as anything") {
+    CHECK(mistake(replaced(small_system, "<Topology>", "<Topology>\r\n  three cells")) ==
+          "15:3: <Topology> holds no text | a text for people stands in a <Note>, a remark in <!-- -->");
+}
+
+TEST_CASE("Cross references of a module do not pass for those of a synapse, nor the other way round") {
+    CHECK(
+        mistake(replaced(small_system, "OutputToGroup", "Freedback")) ==
+        "9:25: a <Module> has no cross references 'Freedback' | there are 'InputFromGroup', 'OutputToGroup'");
+    CHECK(mistake(replaced(small_system, "<Parameter name=\"weight\" value=\"-0.25\"/>",
+                           "<XRefHolder name=\"InputFromGroup\"/>")) ==
+          "33:58: a <Synapse> has no cross references 'InputFromGroup' | there is 'Freedback'");
+}
+
+TEST_CASE("Whole numbers beyond what an int holds are refused and never cast") {
+    for (const std::string n : {"2147483648", "99999999999999999999", "1e300", "-1e300"}) {
+        INFO(n);
+        CHECK(mistake(replaced(small_system, "hcount=\"3\"", "hcount=\"" + n + "\"")) ==
+              "14:39: hcount = " + n + " is not possible | hcount: cells in a row, from 1 to 100000");
+    }
+}
+
+TEST_CASE("Every element that another one can hold is described by the format table") {
+    for (const auto& rule : xml::format_table()) {
+        INFO(rule.name);
+        CHECK_FALSE(rule.doc.empty());
+        for (const auto& child : rule.children) CHECK(xml::find_element(child.name));
+        for (const auto& a : rule.attributes) CHECK_FALSE(a.doc.empty());
+    }
+    CHECK(xml::find_element("Nothing") == nullptr);
+}
