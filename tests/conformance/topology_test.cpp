@@ -29,8 +29,9 @@ std::map<std::string, List> recorded_synapses(const std::filesystem::path& path)
     for (std::vector<std::string_view> f; rows.next(f);) {
         // A name may hold commas: what follows it is counted from the end.
         const auto n = f.size();
-        out[std::string(f[0])].push_back({test::number<int>(f[n - 5]), test::number<int>(f[n - 4]), test::number(f[n - 3]),
-                                          test::number<int>(f[n - 2]), test::number(f[n - 1])});
+        out[std::string(f[0])].push_back({test::number<int>(f[n - 5]), test::number<int>(f[n - 4]),
+                                          test::number(f[n - 3]), test::number<int>(f[n - 2]),
+                                          test::number(f[n - 1])});
     }
     return out;
 }
@@ -46,15 +47,17 @@ List as_list(const connectivity::Synapses& s) {
 struct Random {
     bool choice, thinned, attenuation, delay;
     explicit Random(const model::Connection& c)
-        : choice(std::holds_alternative<model::RandomArbor>(c.arborization.shape)), thinned(c.arborization.probability < 1),
+        : choice(std::holds_alternative<model::RandomArbor>(c.arborization.shape)),
+          thinned(c.arborization.probability < 1),
           attenuation(std::holds_alternative<model::RandomFunction>(c.attenuation.form)),
           delay(std::holds_alternative<model::RandomFunction>(c.delay.form)) {}
     bool any() const { return choice || thinned || attenuation || delay; }
 };
 
 std::string describe(const Synapse& s) {
-    return std::to_string(s.pre) + " -> " + std::to_string(s.post) + ", distance " + std::to_string(s.distance) + ", delay " +
-           std::to_string(s.delay) + ", attenuation " + std::to_string(s.attenuation);
+    return std::to_string(s.pre) + " -> " + std::to_string(s.post) + ", distance " +
+           std::to_string(s.distance) + ", delay " + std::to_string(s.delay) + ", attenuation " +
+           std::to_string(s.attenuation);
 }
 
 /// The first difference of what does not depend on random numbers; empty when there is none.
@@ -63,7 +66,8 @@ std::string first_difference(const List& ours, const List& recorded, const Rando
         return std::to_string(ours.size()) + " synapses, recorded were " + std::to_string(recorded.size());
     for (std::size_t i = 0; i < ours.size(); ++i) {
         const Synapse &a = ours[i], &b = recorded[i];
-        if (a.pre != b.pre || a.post != b.post || !test::same(a.distance, b.distance) || (!random.delay && a.delay != b.delay) ||
+        if (a.pre != b.pre || a.post != b.post || !test::same(a.distance, b.distance) ||
+            (!random.delay && a.delay != b.delay) ||
             (!random.attenuation && !test::same(a.attenuation, b.attenuation)))
             return "synapse " + std::to_string(i) + ": " + describe(a) + "; recorded was " + describe(b);
     }
@@ -74,7 +78,9 @@ std::string first_difference(const List& ours, const List& recorded, const Rando
 bool is_subsequence(const List& part, const List& whole) {
     auto at = whole.begin();
     for (const Synapse& s : part) {
-        at = std::find_if(at, whole.end(), [&](const Synapse& w) { return w.pre == s.pre && w.post == s.post && test::same(s.distance, w.distance); });
+        at = std::find_if(at, whole.end(), [&](const Synapse& w) {
+            return w.pre == s.pre && w.post == s.post && test::same(s.distance, w.distance);
+        });
         if (at == whole.end()) return false;
         ++at;
     }
@@ -96,7 +102,8 @@ class Comparison {
 
     List connect(const model::Connection& c, std::uint64_t seed = 1) {
         Diagnostics diagnostics;
-        List out = as_list(connectivity::connect(c, topology(c.source), topology(c.target), seed, diagnostics));
+        List out =
+            as_list(connectivity::connect(c, topology(c.source), topology(c.target), seed, diagnostics));
         INFO(format(diagnostics));
         CHECK_FALSE(diagnostics.failed());
         return out;
@@ -130,7 +137,8 @@ class Comparison {
             const double max = std::get<model::RandomFunction>(c.attenuation.form).max;
             for (const auto& s : ours) {
                 CHECK((s.attenuation >= 0 && s.attenuation <= max));
-                CHECK(std::abs(s.attenuation * 1e4 - std::round(s.attenuation * 1e4)) < 1e-9);  // steps of 1e-4
+                CHECK(std::abs(s.attenuation * 1e4 - std::round(s.attenuation * 1e4)) <
+                      1e-9);  // steps of 1e-4
             }
             const double sigma = max / std::sqrt(12.0 * static_cast<double>(ours.size()));
             CHECK(std::abs(mean(ours, value) - mean(recorded, value)) < 4 * std::sqrt(2.0) * sigma);
@@ -145,16 +153,18 @@ class Comparison {
             }
         }
         const auto differ = [](const Synapse& a, const Synapse& b) {
-            return a.pre != b.pre || a.post != b.post || a.delay != b.delay || !test::same(a.attenuation, b.attenuation);
+            return a.pre != b.pre || a.post != b.post || a.delay != b.delay ||
+                   !test::same(a.attenuation, b.attenuation);
         };
-        CHECK((ours.size() != other_seed.size() || !std::equal(ours.begin(), ours.end(), other_seed.begin(), std::not_fn(differ))));
+        CHECK((ours.size() != other_seed.size() ||
+               !std::equal(ours.begin(), ours.end(), other_seed.begin(), std::not_fn(differ))));
     }
 
     const model::Topology& topology(const std::string& id) const { return groups_.find(id).group->topology; }
 
   private:
-    /// Each cell that is not spread gets the same number of distinct partners as in the recording, and over all of
-    /// them no partner is preferred.
+    /// Each cell that is not spread gets the same number of distinct partners as in the recording, and over
+    /// all of them no partner is preferred.
     static void check_choice(const List& ours, const List& recorded, bool receptive) {
         const auto partners = [receptive](const List& list) {
             std::map<int, std::multiset<int>> out;
@@ -170,7 +180,8 @@ class Comparison {
             if (theirs.count(cell)) CHECK(chosen.size() == theirs.at(cell).size());
             for (const int partner : chosen) ++uses[partner];
         }
-        const double expected = static_cast<double>(ours.size()) / static_cast<double>(mine.size());  // groups of equal size
+        const double expected =
+            static_cast<double>(ours.size()) / static_cast<double>(mine.size());  // groups of equal size
         for (const auto& [partner, n] : uses) CHECK(std::abs(n - expected) < 4 * std::sqrt(expected) + 1);
     }
 
@@ -190,7 +201,8 @@ void compare(const test::Case& one) {
     Comparison comparison(*system);
     if (one.status != "ok") {
         for (const auto& c : system->connections)
-            connectivity::connect(c, comparison.topology(c.source), comparison.topology(c.target), 1, diagnostics);
+            connectivity::connect(c, comparison.topology(c.source), comparison.topology(c.target), 1,
+                                  diagnostics);
         CHECK(diagnostics.failed());
         return;
     }
@@ -201,8 +213,10 @@ void compare(const test::Case& one) {
         INFO("connection " << c.name << " (" << c.id << ")");
         REQUIRE(recorded.count(c.id) == 1);
         const Random random(c);
-        if (random.any()) comparison.statistics(c, recorded.at(c.id), random);
-        else CHECK(first_difference(comparison.connect(c), recorded.at(c.id), random) == "");
+        if (random.any())
+            comparison.statistics(c, recorded.at(c.id), random);
+        else
+            CHECK(first_difference(comparison.connect(c), recorded.at(c.id), random) == "");
     }
 }
 
@@ -212,5 +226,7 @@ TEST_CASE("Every recorded connection has the original's synapses, in its order, 
     if (test::absent(test::conformance_dir())) return;
     const auto all = test::cases();
     REQUIRE(all.size() > 200);
-    for (const auto& one : all) DYNAMIC_SECTION(one.name) { compare(one); }
+    for (const auto& one : all) DYNAMIC_SECTION(one.name) {
+            compare(one);
+        }
 }

@@ -1,0 +1,71 @@
+// From any text to synapses: what the mutation test and the fuzzer do with each input.
+#pragma once
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "core/connectivity/connect.h"
+#include "core/model/lookup.h"
+#include "core/model/validate.h"
+#include "core/xml/reader.h"
+#include "neurons/neurons.h"
+#include "synapses/synapses.h"
+
+namespace forage::test {
+
+struct Way {
+    bool read = false;     ///< a system came out
+    bool checked = false;  ///< without errors
+    std::size_t synapses = 0;
+};
+
+inline void must(bool holds, const char* what) {
+    if (!holds) throw std::logic_error(what);
+}
+
+/// Reads, checks and connects; throws when something comes out that cannot be.
+inline Way whole_way(const std::string& text, const Registry& registry, bool lenient) {
+    Way way;
+    Diagnostics diagnostics;
+    diagnostics.lenient = lenient;
+    const auto system = xml::parse_system("input.iqr", text, diagnostics);
+    way.read = system.has_value();
+    must(way.read != diagnostics.failed(), "a system is read exactly when there is no error");
+    if (system) model::validate(*system, registry, diagnostics);
+    way.checked = !diagnostics.failed();
+    if (way.checked) {
+        const model::GroupIndex groups(*system);
+        for (const auto& c : system->connections) {
+            const auto *source = groups.find(c.source).group, *target = groups.find(c.target).group;
+            must(source && target, "the ends of a connection that was checked are groups");
+            const auto s = connectivity::connect(c, source->topology, target->topology, 1, diagnostics, 1e5);
+            const int sources = model::shape(source->topology).cells,
+                      targets = model::shape(target->topology).cells;
+            must(s.size() <= 100'000, "a connection is not larger than its limit");
+            for (std::size_t i = 0; i < s.size(); ++i)
+                must(s.pre[i] >= 0 && s.pre[i] < sources && s.post[i] >= 0 && s.post[i] < targets &&
+                         s.distance[i] >= 0 && s.delay.at(i) >= 0,
+                     "a synapse joins cells that there are");
+            way.synapses += s.size();
+        }
+    }
+    const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
+    for (const auto& d : diagnostics.all()) {
+        must(d.where.file && d.where.line >= 0 && d.where.line <= lines && d.where.column >= 0,
+             "a diagnostic lies in its file");
+        must(!d.message.empty(), "a diagnostic says something");
+    }
+    const std::string said = format(diagnostics);
+    must(said.empty() == diagnostics.all().empty(), "what is wrong is said");
+    return way;
+}
+
+inline Registry shipped_types() {
+    Registry registry;
+    add_neurons(registry);
+    add_synapses(registry);
+    return registry;
+}
+
+}  // namespace forage::test

@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+"""Reads the #include lines of the project and fails on an arrow that points up (docs/design.md).
+
+usage: layering.py ROOT          checks the project at ROOT
+       layering.py --self-test   checks the checker
+"""
+import pathlib
+import re
+import sys
+import tempfile
+
+# Each room and the rooms whose headers it may include, itself apart. Tests may include anything.
+ALLOWED = {
+    'core/types': set(),
+    'core/model': {'core/types'},
+    'core/connectivity': {'core/model', 'core/types'},
+    'core/engine': {'core/connectivity', 'core/model', 'core/types'},
+    'core/xml': {'core/connectivity', 'core/model', 'core/types'},
+    'core/observe': {'core/engine', 'core/xml', 'core/connectivity', 'core/model', 'core/types'},
+    'core/plugin': {'core/engine', 'core/xml', 'core/connectivity', 'core/model', 'core/types'},
+    # Shipped types use what a plugin can use, and nothing of each other's.
+    'neurons': {'core/types'},
+    'synapses': {'core/types'},
+    'modules': {'core/types'},
+    'bug_interface': {'core/types', 'core/model'},
+}
+ALLOWED['tools'] = set(ALLOWED)
+ROOMS = set(ALLOWED)
+
+# Libraries that are one room's own: what their headers begin with, and who may include them.
+OWNED = [
+    (r'tinyxml2\.h', {'core/xml'}),
+    (r'Random123/', {'core/types'}),
+    (r'(bullet/|bt[A-Z]\w*\.h|Bullet\w*/|LinearMath/|opencv2?/|sdf/|sdformat|png\.h)', {'bug_interface'}),
+]
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+
+def room_of(path):
+    """The room that a path from the root lies in, or None."""
+    return next((room for room in ROOMS if path == room or path.startswith(room + '/')), None)
+
+
+def check_include(path, bracket, header):
+    """What is wrong with `path` including `header`, or None. Both are paths from the root."""
+    here = room_of(path)
+    for pattern, owners in OWNED:
+        if re.match(pattern, header) and here not in owners:
+            return f'only {", ".join(sorted(owners))} may include <{header}>'
+    there = room_of(header)
+    if there is None:
+        if bracket == '"':
+            return f'"{header}" is in no room: ours are included by their path from the root'
+        return None
+    if there != here and there not in ALLOWED[here]:
+        return f'{here} may not include {there}'
+    return None
+
+
+def check(root):
+    """All faults of the project at `root`, as 'file:line: what'."""
+    faults = []
+    for room in sorted(ROOMS):
+        for file in sorted((root / room).rglob('*')):
+            if file.suffix not in {'.h', '.hpp', '.cpp', '.cc', '.inl'}:
+                continue
+            path = file.relative_to(root).as_posix()
+            for number, line in enumerate(file.read_text(encoding='utf-8').splitlines(), 1):
+                match = INCLUDE.match(line)
+                fault = match and check_include(path, match[1], match[2])
+                if fault:
+                    faults.append(f'{path}:{number}: {fault}')
+    # A room that this script does not know would be checked by nobody.
+    for folder in sorted((root / 'core').iterdir()):
+        if folder.is_dir() and f'core/{folder.name}' not in ROOMS:
+            faults.append(f'core/{folder.name}: not in the table of rooms in tests/layering/layering.py')
+    return faults
+
+
+def self_test():
+    bad = [
+        ('core/types/a.h', '#include "core/model/system.h"'),
+        ('core/model/a.h', '#include "core/connectivity/grid.h"'),
+        ('core/connectivity/a.cpp', '#include "core/xml/reader.h"'),
+        ('core/engine/a.cpp', '  #  include "core/xml/reader.h"'),
+        ('core/xml/a.cpp', '#include "core/engine/plan.h"'),
+        ('core/observe/a.cpp', '#include "modules/replay.h"'),
+        ('core/observe/a.cpp', '#include "core/plugin/load.h"'),
+        ('neurons/a.cpp', '#include "synapses/fixed_weight.h"'),
+        ('neurons/a.cpp', '#include "core/model/system.h"'),
+        ('modules/x/a.cpp', '#include "bug_interface/world/png.h"'),
+        ('bug_interface/a.cpp', '#include "core/engine/plan.h"'),
+        ('core/engine/a.cpp', '#include "tools/forage.h"'),
+        ('core/model/a.cpp', '#include <tinyxml2.h>'),
+        ('core/engine/a.cpp', '#include <Random123/philox.h>'),
+        ('tools/a.cpp', '#include <opencv2/core.hpp>'),
+        ('modules/a.cpp', '#include <bullet/btBulletDynamicsCommon.h>'),
+        ('core/observe/a.cpp', '#include <png.h>'),
+        ('core/types/a.cpp', '#include "random.h"'),
+    ]
+    good = [
+        ('tools/a.cpp', '#include "core/observe/record.h"'),
+        ('core/engine/a.cpp', '#include "core/connectivity/connect.h"'),
+        ('core/xml/a.cpp', '#include <tinyxml2.h>'),
+        ('core/types/a.cpp', '#include <Random123/philox.h>'),
+        ('bug_interface/a.cpp', '#include <sdf/sdf.hh>'),
+        ('bug_interface/b/a.cpp', '#include "core/model/diagnostic.h"'),
+        ('neurons/a.cpp', '#include "neurons/membrane.h"'),
+        ('core/types/a.h', '#include <vector>'),
+        ('core/model/a.h', '// #include "core/xml/reader.h"'),
+    ]
+    for lines, expected in ((bad, 1), (good, 0)):
+        for path, line in lines:
+            with tempfile.TemporaryDirectory() as folder:
+                root = pathlib.Path(folder)
+                (root / 'core').mkdir()
+                (root / path).parent.mkdir(parents=True, exist_ok=True)
+                (root / path).write_text('#pragma once\n' + line + '\n', encoding='utf-8')
+                faults = check(root)
+                if len(faults) != expected or (faults and not faults[0].startswith(f'{path}:2: ')):
+                    return [f'self-test: {path} with {line}: expected {expected} fault on line 2, got {faults}']
+    with tempfile.TemporaryDirectory() as folder:
+        (pathlib.Path(folder) / 'core' / 'cellar').mkdir(parents=True)
+        if len(check(pathlib.Path(folder))) != 1:
+            return ['self-test: an unknown room passes']
+    return []
+
+
+if __name__ == '__main__':
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    found = self_test() if sys.argv[1] == '--self-test' else check(pathlib.Path(sys.argv[1]))
+    for fault in found:
+        print(fault)
+    sys.exit(1 if found else 0)
