@@ -17,13 +17,25 @@ class Checker {
   public:
     Checker(const Document& document, Diagnostics& out) : document_(document), out_(out) {}
 
+    /// Whether a model of the document is wrong only where that was reported: nothing is missing from it, and no cell.
+    bool sound() const { return sound_; }
+
     void element(const tinyxml2::XMLElement& e, const ElementRule& rule) {
         attributes(e, rule);
+        const int errors_before = out_.errors();
+        const int inner = children(e, rule);
+        if (out_.errors() > errors_before + inner) sound_ = false;
+    }
+
+  private:
+    /// Returns the number of errors in the children themselves.
+    int children(const tinyxml2::XMLElement& e, const ElementRule& rule) {
+        int inside = 0;
         std::map<std::string_view, int> count;
         int chosen = 0;
         bool strangers = false;
         for (const auto* node = e.FirstChild(); node; node = node->NextSibling()) {
-            if (const auto* text = node->ToText(); text && !rule.has_text) stray(*text, rule);
+            if (const auto* text = node->ToText(); text && !rule.has_text) inside += stray(*text, rule);
             const auto* child = node->ToElement();
             if (!child) continue;
             const std::string_view name = child->Name();
@@ -50,11 +62,15 @@ class Checker {
                 out_.error(document_.at(*child),
                            fmt::format("<{}> holds more than {} <{}>", rule.name, allowed->most, name),
                            "keep one of them");
-            if (const ElementRule* inner = find_element(name)) element(*child, *inner);
+            if (const ElementRule* inner = find_element(name)) {
+                const int before = out_.errors();
+                element(*child, *inner);
+                inside += out_.errors() - before;
+            }
         }
         // What is missing is probably what was misspelt; but under leniency that was no error, and this must
         // be one.
-        if (strangers && (rule.choose || !out_.lenient)) return;
+        if (strangers && (rule.choose || !out_.lenient)) return inside;
         if (chosen < rule.choose)
             out_.error(document_.at(e),
                        fmt::format("<{}> holds {}, it needs {}", rule.name,
@@ -65,9 +81,9 @@ class Checker {
             if (count[c.name] < c.least)
                 out_.error(document_.at(e), fmt::format("<{}> needs the element <{}>", rule.name, c.name),
                            fmt::format("<{}>: {}", c.name, find_element(c.name)->doc));
+        return inside;
     }
 
-  private:
     static std::string amount(const ElementRule& rule) {
         return rule.choose == 1 ? "one element" : fmt::format("{} elements", rule.choose);
     }
@@ -77,10 +93,12 @@ class Checker {
         return out;
     }
 
-    void stray(const tinyxml2::XMLText& text, const ElementRule& rule) {
+    /// Returns the number of errors.
+    int stray(const tinyxml2::XMLText& text, const ElementRule& rule) {
         const Location at = document_.at(text);
         out_.unknown(at, fmt::format("<{}> holds no text", rule.name),
                      "a text for people stands in a <Note>, a remark in <!-- -->");
+        return out_.lenient ? 0 : 1;
     }
 
     std::string place_hint(const ElementRule& parent, std::string_view name) const {
@@ -98,9 +116,14 @@ class Checker {
         for (const auto& a : rule.attributes) known.push_back(a.name);
         std::vector<std::string_view> meant;  // by attributes that are misspelt: they are not missing as well
         for (const auto* a = e.FirstAttribute(); a; a = a->Next()) {
-            if (const AttributeRule* r = rule.attribute(a->Name()))
+            if (const AttributeRule* r = rule.attribute(a->Name())) {
+                const int before = out_.errors();
                 value(*a, *r);
-            else {
+                // A wrong size would make groups look wrong where they are used, a wrong holder its references unset.
+                if (out_.errors() > before &&
+                    (rule.name == "TopologyRect" || rule.name == "Point" || rule.name == "XRefHolder"))
+                    sound_ = false;
+            } else {
                 meant.push_back(nearest(a->Name(), known));
                 std::string hint = suggest(a->Name(), known);
                 if (known.empty()) hint = fmt::format("<{}> has no attributes", rule.name);
@@ -109,10 +132,12 @@ class Checker {
             }
         }
         for (const auto& r : rule.attributes)
-            if (r.required && !e.FindAttribute(r.name.c_str()) &&
-                (out_.lenient || std::find(meant.begin(), meant.end(), r.name) == meant.end()))
+            if (r.required && !e.FindAttribute(r.name.c_str())) {
+                sound_ = false;
+                if (!out_.lenient && std::find(meant.begin(), meant.end(), r.name) != meant.end()) continue;
                 out_.error(document_.at(e), fmt::format("<{}> needs the attribute '{}'", rule.name, r.name),
                            fmt::format("{}: {}", r.name, r.doc));
+            }
     }
 
     void value(const tinyxml2::XMLAttribute& a, const AttributeRule& rule) {
@@ -168,11 +193,12 @@ class Checker {
 
     const Document& document_;
     Diagnostics& out_;
+    bool sound_ = true;
 };
 
 }  // namespace
 
-void check(const Document& document, Diagnostics& diagnostics) {
+bool check(const Document& document, Diagnostics& diagnostics) {
     const std::string_view name = document.root().Name();
     if (name != "System") {
         diagnostics.error(document.at(document.root()),
@@ -180,9 +206,11 @@ void check(const Document& document, Diagnostics& diagnostics) {
                           name == "sdf"         ? "this looks like a world; pass it with --world"
                           : name == "iqrEntity" ? "this is a process file: a part of a system, not a system"
                                                 : "is this a system file?");
-        return;
+        return false;
     }
-    Checker(document, diagnostics).element(document.root(), *find_element(name));
+    Checker checker(document, diagnostics);
+    checker.element(document.root(), *find_element(name));
+    return checker.sound();
 }
 
 }  // namespace forage::xml

@@ -5,7 +5,9 @@
 
 namespace forage::xml {
 
-/// Reports elements and attributes that the format does not have, that are missing, or whose values are none.
-void check(const Document& document, Diagnostics& diagnostics);
+/// Reports elements and attributes that the format does not have, that are missing, or whose values are none. Returns
+/// whether a model can be made of the document that is wrong only where that was reported, so that it is worth
+/// checking further.
+bool check(const Document& document, Diagnostics& diagnostics);
 
 }  // namespace forage::xml

@@ -38,11 +38,13 @@ class Reader {
     }
     static double number(const XMLElement& e, const char* name, double otherwise) {
         const char* value = e.Attribute(name);
-        return value ? std::get<double>(*parse_parameter(ParameterKind::real, value)) : otherwise;
+        const auto parsed = value ? parse_parameter(ParameterKind::real, value) : std::nullopt;
+        return parsed ? std::get<double>(*parsed) : otherwise;
     }
     static int whole(const XMLElement& e, const char* name, int otherwise) {
         const char* value = e.Attribute(name);
-        return value ? std::get<int>(*parse_parameter(ParameterKind::integer, value)) : otherwise;
+        const auto parsed = value ? parse_parameter(ParameterKind::integer, value) : std::nullopt;
+        return parsed ? std::get<int>(*parsed) : otherwise;
     }
     static bool flag(const XMLElement& e, const char* name, bool otherwise) {
         const char* value = e.Attribute(name);
@@ -270,10 +272,8 @@ class Reader {
 };
 
 std::optional<model::System> build(const std::optional<Document>& document, Diagnostics& diagnostics) {
-    if (!document) return std::nullopt;
+    if (!document || !check(*document, diagnostics)) return std::nullopt;
     const int errors_before = diagnostics.errors();
-    check(*document, diagnostics);
-    if (diagnostics.errors() > errors_before) return std::nullopt;
     auto system = Reader(*document, diagnostics).system(document->root());
     if (diagnostics.errors() > errors_before) return std::nullopt;
     return system;

@@ -5,6 +5,7 @@
 #include "bug_interface/module/gazebo_bug.h"
 #include "bug_interface/world/sdf_reader.h"
 #include "core/model/edit.h"
+#include "core/model/validate.h"
 #include "core/xml/reader.h"
 #include "modules/replay/replay.h"
 #include "neurons/neurons.h"
@@ -57,8 +58,10 @@ std::optional<Loaded> load(const Input& input, Diagnostics& diagnostics) {
     out.clamp = read_table(input.clamp, diagnostics);
 
     out.registry = shipped_types(out.world.get(), drive);
-    if (system)
+    if (system) {
         for (const auto& assignment : input.settings) model::set(out.system, out.registry, assignment, diagnostics);
+        if (diagnostics.failed()) model::validate(out.system, out.registry, diagnostics);  // say all of it at once
+    }
     if (diagnostics.failed()) return std::nullopt;
     return out;
 }
