@@ -11,8 +11,6 @@
 namespace forage::engine {
 namespace {
 
-constexpr std::size_t worth_sharing = 20000;  // cells and synapses
-
 template <class T>
 auto& at(std::vector<T>& all, int index) {
     return all[static_cast<std::size_t>(index)];
@@ -32,16 +30,14 @@ std::optional<Simulation> Simulation::build(const model::System& system, const R
     if (diagnostics.errors() > errors_before) return std::nullopt;
     auto plan = compile(system, registry, options.seed, options.general_forms ? Forms::general : Forms::fastest, diagnostics);
     if (!plan) return std::nullopt;
-    return Simulation(std::move(plan), options.threads);
+    return Simulation(std::move(plan), options);
 }
 
-Simulation::Simulation(std::unique_ptr<Plan> plan, int threads) : plan_(std::move(plan)) {
-    // A loop costs a few microseconds to share: small systems are faster on one thread.
+Simulation::Simulation(std::unique_ptr<Plan> plan, const Options& options) : plan_(std::move(plan)) {
     std::size_t work = 0;
     for (const auto& g : plan_->groups) work += static_cast<std::size_t>(g.cells);
     for (const auto& c : plan_->connections) work += c.synapses;
-    if (work < worth_sharing) threads = 1;
-    pool_ = std::make_unique<ThreadPool>(threads);
+    pool_ = std::make_unique<ThreadPool>(work < options.worth_sharing ? 1 : options.threads);
     std::size_t widest = 0;
     for (const auto& g : plan_->groups) widest = std::max(widest, static_cast<std::size_t>(g.stride));
     plan_->scratch.assign(static_cast<std::size_t>(pool_->threads()), std::vector<double>(widest));

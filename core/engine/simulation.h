@@ -37,7 +37,8 @@ class Simulation {
   public:
     struct Options {
         std::uint64_t seed = 1;
-        int threads = 1;             ///< of a cycle's loops; the numbers do not depend on it
+        int threads = 1;  ///< at most, for a cycle's loops; the numbers do not depend on it
+        std::size_t worth_sharing = 20000;  ///< cells and synapses; smaller systems are faster on one thread
         bool general_forms = false;  ///< compile every connection to a list of synapses (slower, same numbers)
     };
     /// Checks the system and builds it. Empty when `diagnostics` got an error.
@@ -86,7 +87,7 @@ class Simulation {
     ConstColumn synapse_state(int connection, int state) const;
 
   private:
-    Simulation(std::unique_ptr<Plan> plan, int threads);
+    Simulation(std::unique_ptr<Plan> plan, const Options& options);
     void deliver_outputs(const ModulePlan& module, std::size_t turn);
 
     std::unique_ptr<Plan> plan_;

@@ -14,23 +14,30 @@ enum class Direction {
 
 struct RectArbor {
     int width = 1, height = 1;
+    friend bool operator==(const RectArbor&, const RectArbor&) = default;
 };
 struct EllipseArbor {
     int width = 1, height = 1;
+    friend bool operator==(const EllipseArbor&, const EllipseArbor&) = default;
 };
 /// Outer minus inner rectangle.
 struct RectWindowArbor {
     int inner_width = 0, inner_height = 0, outer_width = 1, outer_height = 1;
+    friend bool operator==(const RectWindowArbor&, const RectWindowArbor&) = default;
 };
 /// Outer minus inner ellipse.
 struct EllipseWindowArbor {
     int inner_width = 0, inner_height = 0, outer_width = 1, outer_height = 1;
+    friend bool operator==(const EllipseWindowArbor&, const EllipseWindowArbor&) = default;
 };
 /// Every cell of the group.
-struct AllArbor {};
+struct AllArbor {
+    friend bool operator==(const AllArbor&, const AllArbor&) = default;
+};
 /// `count` distinct cells.
 struct RandomArbor {
     int count = 1;
+    friend bool operator==(const RandomArbor&, const RandomArbor&) = default;
 };
 
 struct Arborization {
@@ -38,25 +45,31 @@ struct Arborization {
     Direction direction = Direction::receptive;
     double probability = 1;  ///< each point is kept with this probability
     Location at;
+    friend bool operator==(const Arborization&, const Arborization&) = default;
 };
 
 /// Functions of the distance in cells, used for attenuation (0: none) and for delay (in cycles).
 struct UniformFunction {
     double value = 0;
+    friend bool operator==(const UniformFunction&, const UniformFunction&) = default;
 };
 struct LinearFunction {
     double min = 0, max = 1;
+    friend bool operator==(const LinearFunction&, const LinearFunction&) = default;
 };
 struct GaussianFunction {
     double min = 0, max = 1, sigma = 1;
+    friend bool operator==(const GaussianFunction&, const GaussianFunction&) = default;
 };
 struct BlockFunction {
     double min = 0, max = 1;
     int width = 0;
     int height = 0;  ///< read and written, without effect
+    friend bool operator==(const BlockFunction&, const BlockFunction&) = default;
 };
 struct RandomFunction {
     double max = 1;
+    friend bool operator==(const RandomFunction&, const RandomFunction&) = default;
 };
 
 /// Longest delay in cycles; a longer one is more likely a mistake, and costs memory for every cell and cycle.
@@ -65,6 +78,7 @@ inline constexpr int most_delay = 100'000;
 struct DistanceFunction {
     std::variant<UniformFunction, LinearFunction, GaussianFunction, BlockFunction, RandomFunction> form;
     Location at;
+    friend bool operator==(const DistanceFunction&, const DistanceFunction&) = default;
 };
 
 }  // namespace forage::model

@@ -125,6 +125,58 @@ void remove(System& system, std::string_view id) {
     std::erase_if(system.processes, is_it);
 }
 
+std::string import_process(System& system, ProcessFile file) {
+    const auto taken = all_ids(system);
+    const auto ids = [&file] {
+        std::vector<std::string*> out{&file.process.id};
+        for (auto& g : file.process.groups) out.push_back(&g.id);
+        for (auto& c : file.connections) out.push_back(&c.id);
+        return out;
+    }();
+    std::string prefix;
+    const auto clashes = [&] {
+        return std::any_of(ids.begin(), ids.end(), [&](const auto* id) { return taken.contains(prefix + *id); });
+    };
+    for (int n = 1; prefix.empty() || clashes(); ++n) prefix = fmt::format("CB{}", n);
+
+    std::set<std::string, std::less<>> groups;
+    for (const auto& g : file.process.groups) groups.insert(g.id);
+    const auto follow = [&](std::string& reference) {
+        if (groups.contains(reference)) reference = prefix + reference;
+    };
+    if (file.process.module)
+        for (auto* references : {&file.process.module->inputs, &file.process.module->outputs})
+            for (auto& r : *references) follow(r.target);
+    for (auto& c : file.connections) follow(c.source), follow(c.target), c.linked = false;
+    for (auto* id : ids) *id = prefix + *id;
+    file.process.path.clear();
+    file.process.linked = false;
+    system.processes.push_back(std::move(file.process));
+    for (auto& c : file.connections) system.connections.push_back(std::move(c));
+    return system.processes.back().id;
+}
+
+ProcessFile extract_process(const System& system, std::string_view id) {
+    const auto it = std::find_if(system.processes.begin(), system.processes.end(), [&](const auto& p) { return p.id == id; });
+    if (it == system.processes.end()) no_item("process", id);
+    ProcessFile out{*it, {}};
+    out.process.path.clear();
+    out.process.linked = false;
+    std::set<std::string, std::less<>> groups;
+    for (const auto& g : it->groups) groups.insert(g.id);
+    for (const auto& c : system.connections)
+        if (groups.contains(c.source) && groups.contains(c.target)) {
+            out.connections.push_back(c);
+            out.connections.back().linked = false;
+        }
+    return out;
+}
+
+void embed_links(System& system) {
+    for (auto& p : system.processes) p.path.clear(), p.linked = false;
+    for (auto& c : system.connections) c.linked = false;
+}
+
 void rename(System& system, std::string_view id, std::string name) {
     if (auto* p = find_process(system, id)) p->name = std::move(name);
     else if (auto* g = find_group(system, id)) g->name = std::move(name);

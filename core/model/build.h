@@ -39,6 +39,17 @@ void remove(System& system, std::string_view id);
 /// Gives a process, group or connection another name. Throws std::invalid_argument when there is none of this id.
 void rename(System& system, std::string_view id, std::string name);
 
+/// Adds a copy of a process with its connections. All its ids get a prefix CB<n> that makes them new, as in the
+/// original. Returns the id of the new process.
+std::string import_process(System& system, ProcessFile file);
+
+/// A process with the connections among its groups, as a file of its own says it. Throws std::invalid_argument when
+/// there is none of this id.
+ProcessFile extract_process(const System& system, std::string_view id);
+
+/// Makes the content of linked processes part of the system: no process is linked any more.
+void embed_links(System& system);
+
 /// An id that is not in use: `wish`, or with the lowest number behind it that makes it unique.
 std::string fresh_id(const System& system, const std::string& wish);
 

@@ -21,6 +21,9 @@ struct Location {
     std::shared_ptr<const SourceFile> file;
     int line = 0;
     int column = 0;
+
+    /// Where something stands is not part of what it says: models that say the same are equal.
+    friend bool operator==(const Location&, const Location&) { return true; }
 };
 
 enum class Severity { error, warning };

@@ -12,21 +12,26 @@ namespace forage::model {
 struct Point {
     int x = 1, y = 1;
     Location at;
+    friend bool operator==(const Point&, const Point&) = default;
 };
 
 /// Every cell of the group.
-struct All {};
+struct All {
+    friend bool operator==(const All&, const All&) = default;
+};
 
 /// A rectangle of cells; (x, y) is its upper left cell, from 1.
 struct Region {
     int x = 1, y = 1, width = 1, height = 1;
     Location at;
+    friend bool operator==(const Region&, const Region&) = default;
 };
 
 /// Single cells.
 struct List {
     std::vector<Point> points;
     Location at;
+    friend bool operator==(const List&, const List&) = default;
 };
 
 using Population = std::variant<All, Region, List>;
@@ -35,19 +40,23 @@ using Population = std::variant<All, Region, List>;
 struct MappedPattern {
     bool all = false;  ///< pair with every cell under the projected rectangle, not only with its centre
     Population source, target;
+    friend bool operator==(const MappedPattern&, const MappedPattern&) = default;
 };
 
 /// Every source cell with every target cell.
 struct ForeachPattern {
     Population source, target;
+    friend bool operator==(const ForeachPattern&, const ForeachPattern&) = default;
 };
 
 /// In each tuple, every source with every target; duplicates stay.
 struct TuplesPattern {
     struct Tuple {
         std::vector<Point> sources, targets;
+        friend bool operator==(const Tuple&, const Tuple&) = default;
     };
     std::vector<Tuple> tuples;
+    friend bool operator==(const TuplesPattern&, const TuplesPattern&) = default;
 };
 
 using Pattern = std::variant<MappedPattern, ForeachPattern, TuplesPattern>;

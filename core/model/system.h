@@ -18,12 +18,14 @@ namespace forage::model {
 struct Setting {
     std::string name, value;
     Location name_at, value_at;
+    friend bool operator==(const Setting&, const Setting&) = default;
 };
 
 /// A named place and what stands in it: a group's id, or a state's name; empty when unset.
 struct CrossReference {
     std::string name, target;
     Location at;
+    friend bool operator==(const CrossReference&, const CrossReference&) = default;
 };
 
 /// A neuron, synapse or module of a named type.
@@ -32,30 +34,36 @@ struct TypeUse {
     std::vector<Setting> settings;
     std::optional<std::string> note;
     Location at;
+    friend bool operator==(const TypeUse&, const TypeUse&) = default;
 };
 
 struct SynapseUse : TypeUse {
     std::vector<CrossReference> feedback;
+    friend bool operator==(const SynapseUse&, const SynapseUse&) = default;
 };
 
 struct ModuleUse : TypeUse {
     std::vector<CrossReference> inputs, outputs;
+    friend bool operator==(const ModuleUse&, const ModuleUse&) = default;
 };
 
 /// Place in the diagram, in its units.
 struct Icon {
     int x = 0, y = 0, width = 50, height = 50;
+    friend bool operator==(const Icon&, const Icon&) = default;
 };
 
 struct RectTopology {
     int width = 1, height = 1;
     bool wrap_x = false;  ///< `cylinderVert`: the left edge meets the right one
     bool wrap_y = false;  ///< `cylinderHor`: the upper edge meets the lower one
+    friend bool operator==(const RectTopology&, const RectTopology&) = default;
 };
 
 /// Only the listed cells exist; a cell's index is its rank in row order.
 struct SparseTopology {
     std::vector<Point> points;
+    friend bool operator==(const SparseTopology&, const SparseTopology&) = default;
 };
 
 using Topology = std::variant<RectTopology, SparseTopology>;
@@ -73,7 +81,9 @@ struct Group {
     TypeUse neuron;
     std::optional<std::string> note;
     std::optional<Icon> icon;
+    std::vector<std::string> comments;  ///< the XML comments before and in it
     Location at;
+    friend bool operator==(const Group&, const Group&) = default;
 };
 
 struct Process {
@@ -82,14 +92,18 @@ struct Process {
     std::optional<ModuleUse> module;
     std::optional<std::string> note;
     std::optional<Icon> icon;
+    std::vector<std::string> comments;
     std::vector<Group> groups;
-    Location at;
+    bool linked = false;  ///< its content, except the icon, comes from the file `path`, relative to the system's
+    Location at, path_at;
+    friend bool operator==(const Process&, const Process&) = default;
 };
 
 /// The line that draws a connection.
 struct Line {
     int source_anchor = 0, target_anchor = 0;  ///< which of the 16 points round the icon
     std::vector<Point> vertices;
+    friend bool operator==(const Line&, const Line&) = default;
 };
 
 struct Connection {
@@ -102,7 +116,10 @@ struct Connection {
     std::optional<SynapseUse> synapse;
     std::optional<std::string> note;
     std::optional<Line> line;
+    std::vector<std::string> comments;
+    bool linked = false;  ///< it comes from the file of a linked process
     Location at, source_at, target_at;
+    friend bool operator==(const Connection&, const Connection&) = default;
 };
 
 struct System {
@@ -112,7 +129,16 @@ struct System {
     std::optional<std::string> note;
     std::vector<Process> processes;
     std::vector<Connection> connections;
+    std::vector<std::string> comments;
     Location at;
+    friend bool operator==(const System&, const System&) = default;
+};
+
+/// A process on its own, with the connections among its groups: what an .iqrProcess file says.
+struct ProcessFile {
+    Process process;
+    std::vector<Connection> connections;
+    friend bool operator==(const ProcessFile&, const ProcessFile&) = default;
 };
 
 }  // namespace forage::model

@@ -198,14 +198,16 @@ class Checker {
 
 }  // namespace
 
-bool check(const Document& document, Diagnostics& diagnostics) {
+bool check(const Document& document, std::string_view root, Diagnostics& diagnostics) {
     const std::string_view name = document.root().Name();
-    if (name != "System") {
+    if (name != root) {
+        const std::string_view kind = root == "System" ? "system" : "process";
         diagnostics.error(document.at(document.root()),
-                          fmt::format("the file begins with <{}>, a system file with <System>", name),
+                          fmt::format("the file begins with <{}>, a {} file with <{}>", name, kind, root),
                           name == "sdf"         ? "this looks like a world; pass it with --world"
                           : name == "iqrEntity" ? "this is a process file: a part of a system, not a system"
-                                                : "is this a system file?");
+                          : name == "System"    ? "this is a system file, not a part of one"
+                                                : fmt::format("is this a {} file?", kind));
         return false;
     }
     Checker checker(document, diagnostics);

@@ -1,12 +1,14 @@
 #include "core/xml/reader.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
 #include "core/types/parameter.h"
 #include "core/xml/check.h"
+#include "core/xml/comments.h"
 
 namespace forage::xml {
 namespace {
@@ -16,7 +18,8 @@ using tinyxml2::XMLElement;
 /// Builds the model from a document that has passed check(): names and values need no second look here.
 class Reader {
   public:
-    Reader(const Document& document, Diagnostics& out) : document_(document), out_(out) {}
+    Reader(const Document& document, Diagnostics& out)
+        : document_(document), out_(out), comments_(document.root()) {}
 
     model::System system(const XMLElement& e) {
         model::System s;
@@ -26,9 +29,19 @@ class Reader {
         s.cycles_per_second = number(e, "cylesPerSecond", 25);
         s.sync_plots = flag(e, "syncPlots", false);
         s.note = note(e);
+        s.comments = comments_.of(e);
         each(e, "Process", [&](const XMLElement& p) { s.processes.push_back(process(p)); });
         each(e, "Connection", [&](const XMLElement& c) { s.connections.push_back(connection(c)); });
         return s;
+    }
+
+    model::ProcessFile process_file(const XMLElement& e) {
+        model::ProcessFile f;
+        if (const auto* p = e.FirstChildElement("Process")) f.process = process(*p);
+        auto comments = comments_.of(e);
+        f.process.comments.insert(f.process.comments.begin(), comments.begin(), comments.end());
+        each(e, "Connection", [&](const XMLElement& c) { f.connections.push_back(connection(c)); });
+        return f;
     }
 
   private:
@@ -59,10 +72,14 @@ class Reader {
         return a ? document_.value_of(*a) : document_.at(e);
     }
 
+    /// A note's whole text, also where a comment or a CDATA section divides it.
     static std::optional<std::string> note(const XMLElement& e) {
         const auto* n = e.FirstChildElement("Note");
         if (!n) return std::nullopt;
-        return n->GetText() ? n->GetText() : "";
+        std::string out;
+        for (const auto* node = n->FirstChild(); node; node = node->NextSibling())
+            if (node->ToText()) out += node->Value();
+        return out;
     }
     static std::optional<model::Icon> icon(const XMLElement& e) {
         const auto* i = e.FirstChildElement("DiagramIcon");
@@ -78,10 +95,8 @@ class Reader {
         p.hostname = text(e, "hostname");
         p.port = text(e, "port"), p.path = text(e, "path");
         p.module_enabled = flag(e, "enableModule", true);
-        if (!p.path.empty())
-            out_.error(value_at(e, "path"),
-                       fmt::format("process '{}' is linked to the file '{}'", p.name, p.path),
-                       "linked processes are not read yet: put the process into this file and empty 'path'");
+        p.path_at = value_at(e, "path");
+        p.comments = comments_.of(e);
         if (const auto* m = e.FirstChildElement("Module")) p.module = module(*m);
         p.note = note(e);
         p.icon = icon(e);
@@ -137,6 +152,7 @@ class Reader {
         if (const auto* n = e.FirstChildElement("Neuron")) use(*n, g.neuron);
         g.note = note(e);
         g.icon = icon(e);
+        g.comments = comments_.of(e);
         return g;
     }
 
@@ -262,6 +278,7 @@ class Reader {
             c.synapse->feedback = references(*s, "Freedback");
         }
         c.note = note(e);
+        c.comments = comments_.of(e);
         if (const auto* l = e.FirstChildElement("DiagramLine"))
             c.line = model::Line{whole(*l, "APSource", 0), whole(*l, "APTarget", 0), points(*l)};
         return c;
@@ -269,12 +286,58 @@ class Reader {
 
     const Document& document_;
     Diagnostics& out_;
+    const Comments comments_;
 };
 
-std::optional<model::System> build(const std::optional<Document>& document, Diagnostics& diagnostics) {
-    if (!document || !check(*document, diagnostics)) return std::nullopt;
+/// Reads the files of linked processes, which stand in for what the system itself says of them.
+class Linker {
+  public:
+    Linker(model::System& system, const std::string& system_path, Diagnostics& out)
+        : system_(system), directory_(std::filesystem::path(system_path).parent_path()), out_(out) {}
+
+    void run() {
+        for (auto& p : system_.processes)
+            if (!p.path.empty()) link(p);
+    }
+
+  private:
+    void link(model::Process& place) {
+        const auto file = (directory_ / place.path).string();
+        std::error_code ignored;
+        if (!std::filesystem::is_regular_file(file, ignored)) {
+            out_.error(place.path_at, fmt::format("process '{}' is linked to '{}', which cannot be read", place.name, place.path),
+                       fmt::format("the path is relative to the system file: '{}'; empty it to use what this file says", file));
+            return;
+        }
+        auto content = read_process(file, out_);
+        if (!content) return;
+        if (!content->process.path.empty()) {
+            out_.error(content->process.path_at, "the process of a process file is linked itself",
+                       "a linked process cannot lead to another file: empty 'path'");
+            return;
+        }
+        content->process.path = place.path;
+        content->process.path_at = place.path_at;
+        content->process.linked = true;
+        if (place.icon) content->process.icon = place.icon;
+        content->process.comments.swap(place.comments);
+        place = std::move(content->process);
+        for (auto& c : content->connections) {
+            c.linked = true;
+            system_.connections.push_back(std::move(c));
+        }
+    }
+
+    model::System& system_;
+    std::filesystem::path directory_;
+    Diagnostics& out_;
+};
+
+std::optional<model::System> build(const std::string& path, const std::optional<Document>& document, Diagnostics& diagnostics) {
+    if (!document || !check(*document, "System", diagnostics)) return std::nullopt;
     const int errors_before = diagnostics.errors();
     auto system = Reader(*document, diagnostics).system(document->root());
+    Linker(system, path, diagnostics).run();
     if (diagnostics.errors() > errors_before) return std::nullopt;
     return system;
 }
@@ -282,11 +345,20 @@ std::optional<model::System> build(const std::optional<Document>& document, Diag
 }  // namespace
 
 std::optional<model::System> read_system(const std::string& path, Diagnostics& diagnostics) {
-    return build(Document::read(path, diagnostics), diagnostics);
+    return build(path, Document::read(path, diagnostics), diagnostics);
 }
 
 std::optional<model::System> parse_system(std::string path, std::string text, Diagnostics& diagnostics) {
-    return build(Document::parse(std::move(path), std::move(text), diagnostics), diagnostics);
+    return build(path, Document::parse(path, std::move(text), diagnostics), diagnostics);
+}
+
+std::optional<model::ProcessFile> read_process(const std::string& path, Diagnostics& diagnostics) {
+    const auto document = Document::read(path, diagnostics);
+    if (!document || !check(*document, "iqrEntity", diagnostics)) return std::nullopt;
+    const int errors_before = diagnostics.errors();
+    auto file = Reader(*document, diagnostics).process_file(document->root());
+    if (diagnostics.errors() > errors_before) return std::nullopt;
+    return file;
 }
 
 }  // namespace forage::xml

@@ -25,7 +25,15 @@ struct RunOptions {
     bool real_time = false, quiet = false;
 };
 
+struct ConvertOptions {
+    std::string input, output;         ///< .iqr or .iqrProcess, both
+    std::vector<std::string> imports;  ///< process files to add
+    std::string extract;               ///< name or id of a process to write on its own
+    bool embed = false, lenient = false;
+};
+
 int run(const RunOptions& options);
+int convert(const ConvertOptions& options);
 int check(const Input& input);
 /// Lists the types, or one with its parameters.
 int types(const std::string& name);

@@ -49,6 +49,17 @@ void add_run(CLI::App& app, RunOptions& o) {
     run.add_flag("-q,--quiet", o.quiet, "Print errors only");
 }
 
+void add_convert(CLI::App& app, ConvertOptions& o) {
+    auto& convert = *app.add_subcommand("convert", "Read a system or process file and write it in the standard layout");
+    convert.add_option("IN", o.input, "File to read (.iqr or .iqrProcess)")->required();
+    convert.add_option("OUT", o.output, "File to write (.iqr or .iqrProcess); may be the same")->required();
+    convert.add_option("--import", o.imports, "Add a copy of a process from an .iqrProcess file; may be repeated")
+        ->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    convert.add_option("--extract", o.extract, "Write this process alone, with the connections among its groups");
+    convert.add_flag("--embed", o.embed, "Write the content of linked processes instead of the links");
+    convert.add_flag("--lenient", o.lenient, "Unknown parameters and attributes are warnings, and left out");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -58,9 +69,11 @@ int main(int argc, char** argv) {
     app.failure_message(CLI::FailureMessage::simple);
 
     RunOptions run_options;
+    ConvertOptions convert_options;
     Input check_input;
     std::string type;
     add_run(app, run_options);
+    add_convert(app, convert_options);
     auto& check_command = *app.add_subcommand("check", "Check a system (and world) and say everything that is wrong with it");
     add_input(check_command, check_input);
     auto& types_command = *app.add_subcommand("types", "List the neuron, synapse and module types, or describe one");
@@ -78,6 +91,7 @@ int main(int argc, char** argv) {
     try {
         if (app.got_subcommand("run")) return run(run_options);
         if (app.got_subcommand("check")) return check(check_input);
+        if (app.got_subcommand("convert")) return convert(convert_options);
         return types(type);
     } catch (const std::exception& e) {
         fmt::print(stderr, "error: {}\n", e.what());

@@ -1,0 +1,72 @@
+// What holds for every valid model. $FORAGE_RANDOM_MODELS says how many are tried.
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+
+#include "core/engine/simulation.h"
+#include "core/xml/reader.h"
+#include "core/xml/writer.h"
+#include "neurons/neurons.h"
+#include "synapses/synapses.h"
+#include "tests/support/catch.h"
+#include "tests/support/random_model.h"
+
+using namespace forage;
+
+namespace {
+
+std::uint64_t models() {
+    const char* given = std::getenv("FORAGE_RANDOM_MODELS");
+    return given ? std::strtoull(given, nullptr, 10) : 300;
+}
+
+/// Every state of every group over some cycles, as bytes: NaN counts like any other.
+std::string trace(const model::System& system, const Registry& registry, int threads) {
+    Diagnostics diagnostics;
+    auto s = engine::Simulation::build(system, registry, {.seed = test::RandomModel::connection_seed, .threads = threads, .worth_sharing = 0}, diagnostics);
+    INFO(format(diagnostics));
+    REQUIRE(s);
+    s->start();
+    std::string out;
+    for (int t = 0; t < 8; ++t) {
+        s->step();
+        for (int g = 0; g < s->groups(); ++g)
+            for (int i = 0; i < static_cast<int>(s->type(g).states.size()); ++i) {
+                const ConstColumn column = s->state(g, i);
+                out.append(reinterpret_cast<const char*>(column.data()), static_cast<std::size_t>(column.size()) * sizeof(double));
+            }
+    }
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("What is written and read again is equal, and writing it again changes no byte") {
+    std::size_t connections = 0;
+    for (std::uint64_t seed = 1; seed <= models(); ++seed) {
+        const model::System system = test::RandomModel(seed).make();
+        connections += system.connections.size();
+        const std::string text = xml::write_system(system);
+        Diagnostics diagnostics;
+        const auto again = xml::parse_system("random.iqr", text, diagnostics);
+        INFO("seed " << seed << "\n" << format(diagnostics) << text);
+        REQUIRE(again);
+        REQUIRE_FALSE(diagnostics.failed());
+        REQUIRE(*again == system);
+        REQUIRE(xml::write_system(*again) == text);
+    }
+    CHECK(connections > models());  // the models are worth testing
+}
+
+TEST_CASE("The number of threads changes no bit of a simulation") {
+    Registry registry;
+    add_neurons(registry);
+    add_synapses(registry);
+    for (std::uint64_t seed = 1; seed <= models(); ++seed) {
+        const model::System system = test::RandomModel(seed).make();
+        INFO("seed " << seed << "\n" << xml::write_system(system));
+        const std::string one = trace(system, registry, 1);
+        REQUIRE(!one.empty());
+        REQUIRE(one == trace(system, registry, 4));
+    }
+}

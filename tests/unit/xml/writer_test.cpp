@@ -1,0 +1,185 @@
+#include "core/xml/writer.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+#include "core/model/build.h"
+#include "core/model/validate.h"
+#include "tests/support/catch.h"
+#include "tests/support/golden.h"
+#include "tests/support/model_text.h"
+
+using namespace forage;
+using test::replaced;
+using test::small_system;
+using test::system_of;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A directory of its own that is gone after the test.
+struct Folder {
+    fs::path path = fs::temp_directory_path() / ("forage-writer-test-" + std::to_string(::getpid()));
+    Folder() { fs::create_directories(path); }
+    ~Folder() { fs::remove_all(path); }
+    std::string write(const std::string& name, const std::string& text) const {
+        std::ofstream(path / name) << text;
+        return (path / name).string();
+    }
+};
+
+/// The first process of the small system, as a file of its own, with a connection.
+std::string process_text() { return xml::write_process(model::extract_process(system_of(small_system), "p")); }
+
+std::string linking_system(const std::string& path) {
+    return "<System id=\"s\" name=\"S\" author=\"\" date=\"\" cylesPerSecond=\"25\">\n"
+           "  <Process id=\"p\" name=\"placeholder\" path=\"" + path + "\"><DiagramIcon x=\"7\" y=\"8\"/></Process>\n</System>\n";
+}
+
+}  // namespace
+
+TEST_CASE("Every element and attribute survives writing and reading") {
+    const model::System s = system_of(small_system);
+    const std::string text = xml::write_system(s);
+    CHECK(system_of(text) == s);
+    CHECK(xml::write_system(system_of(text)) == text);
+    CHECK(text.find("<!DOCTYPE System PUBLIC '-//INI/iqr421' 'iqrSystem.dtd'>") != std::string::npos);
+    for (const char* kept : {"About &lt;this&gt;", "hostname=\"host\"", "#00FF00", "enableModule=\"false\"", "Line 1\nLine 2", "height=\"7\"", "APTarget=\"15\""})
+        CHECK(text.find(kept) != std::string::npos);
+}
+
+TEST_CASE("Two systems that differ anywhere are not equal") {
+    const model::System s = system_of(small_system);
+    const auto differs = [&](const std::string& what, const std::string& by) { return !(system_of(replaced(small_system, what, by)) == s); };
+    CHECK(differs("x=\"-10\"", "x=\"-11\""));
+    CHECK(differs("Line 2", "Line 3"));
+    CHECK(differs("value=\"-0.25\"", "value=\"-0.250\""));  // parameters stay as they were written
+    CHECK(differs("APTarget=\"15\"", "APTarget=\"14\""));
+    CHECK(differs("#FFFFFF", "#FFFFFE"));
+    CHECK_FALSE(differs("<Note>n</Note>", "<Note>n</Note>\n\n"));  // where something stands does not matter
+}
+
+TEST_CASE("Comments stay with the process, group or connection that they stand before or in") {
+    std::string text = replaced(small_system, "<System", "<!-- of the file -->\n<System");
+    text = replaced(text, "<Group id=\"b\"", "<!-- of b --><Group id=\"b\"");
+    text = replaced(text, "<Topology><TopologySparse>", "<Topology><!-- in b --><TopologySparse>");
+    text = replaced(text, "<Connection", "<!-- of c -->\n  <!-- and more --><Connection");
+    text = replaced(text, "</System>", "<!-- last --></System>");
+    const model::System s = system_of(text);
+    CHECK(s.comments == std::vector<std::string>{" of the file ", " last "});
+    CHECK(s.processes[0].groups[0].comments.empty());
+    CHECK(s.processes[0].groups[1].comments == std::vector<std::string>{" of b ", " in b "});
+    CHECK(s.connections[0].comments == std::vector<std::string>{" of c ", " and more "});
+    CHECK(system_of(xml::write_system(s)) == s);
+}
+
+TEST_CASE("A note that a comment or CDATA divides is read whole") {
+    const auto s = system_of(replaced(small_system, "Line 1\nLine 2", "one <!-- x -->two <![CDATA[<three>]]>"));
+    CHECK(s.processes[0].groups[1].note == "one two <three>");
+    CHECK(system_of(xml::write_system(s)) == s);
+}
+
+TEST_CASE("A linked process is read from its file, with its connections, and written as a link") {
+    const Folder folder;
+    folder.write("brain.iqrProcess", process_text());
+    const auto file = folder.write("system.iqr", linking_system("brain.iqrProcess"));
+    Diagnostics diagnostics;
+    const auto s = xml::read_system(file, diagnostics);
+    INFO(format(diagnostics));
+    REQUIRE(s);
+    REQUIRE(s->processes.size() == 1);
+    CHECK(s->processes[0].name == "P");
+    CHECK(s->processes[0].groups.size() == 2);
+    CHECK(s->processes[0].icon->x == 7);  // where the system shows it
+    CHECK(s->connections.size() == 1);
+    const std::string written = xml::write_system(*s);
+    CHECK(written.find("path=\"brain.iqrProcess\"") != std::string::npos);
+    CHECK(written.find("<Group") == std::string::npos);
+    CHECK(written.find("<Connection") == std::string::npos);
+    folder.write("again.iqr", written);
+    const auto again = xml::read_system((folder.path / "again.iqr").string(), diagnostics);
+    REQUIRE(again);
+    CHECK(*again == *s);
+
+    model::System embedded = *s;
+    model::embed_links(embedded);
+    CHECK(xml::write_system(embedded).find("<Connection") != std::string::npos);
+}
+
+TEST_CASE("What is wrong with a linked process is said with the file where it is wrong") {
+    const Folder folder;
+    const auto say = [&](const std::string& file) {
+        Diagnostics diagnostics;
+        CHECK_FALSE(xml::read_system(file, diagnostics));
+        return format(diagnostics);
+    };
+    const auto file = folder.write("system.iqr", linking_system("absent.iqrProcess"));
+    CHECK(say(file).find("system.iqr:2:44: error: process 'placeholder' is linked to 'absent.iqrProcess'") != std::string::npos);
+    folder.write("bad.iqrProcess", replaced(process_text(), "hcount", "hcout"));
+    CHECK(say(folder.write("system.iqr", linking_system("bad.iqrProcess"))).find("bad.iqrProcess:") != std::string::npos);
+    folder.write("self.iqrProcess", replaced(process_text(), "enableModule=\"false\"", "enableModule=\"false\" path=\"self.iqrProcess\""));
+    CHECK(say(folder.write("system.iqr", linking_system("self.iqrProcess"))).find("is linked itself") != std::string::npos);
+    CHECK(say(folder.write("system.iqr", linking_system("system.iqr"))).find("this is a system file, not a part of one") != std::string::npos);
+}
+
+TEST_CASE("A process file is read, written and read again") {
+    const Folder folder;
+    const auto path = folder.write("brain.iqrProcess", process_text());
+    Diagnostics diagnostics;
+    const auto file = xml::read_process(path, diagnostics);
+    REQUIRE(file);
+    CHECK(file->process.groups.size() == 2);
+    CHECK(file->connections.size() == 1);
+    CHECK(xml::write_process(*file) == process_text());
+}
+
+TEST_CASE("An imported process gets new ids, and its connections and references follow") {
+    model::System s = system_of(small_system);
+    const auto file = model::extract_process(s, "p");
+    CHECK(model::import_process(s, file) == "CB1p");
+    CHECK(model::import_process(s, file) == "CB2p");
+    REQUIRE(s.processes.size() == 3);
+    CHECK(s.processes[1].groups[0].id == "CB1a");
+    CHECK(s.processes[1].module->inputs[0].target == "CB1a");
+    CHECK(s.connections[1].source == "CB1a");
+    CHECK(s.connections[2].target == "CB2b");
+    Diagnostics diagnostics;
+    Registry registry;
+    registry.add(neuron_type<LinearThreshold>());
+    registry.add(neuron_type<RandomSpike>());
+    registry.add(synapse_type<FixedWeight>());
+    model::validate(s, registry, diagnostics);
+    for (const auto& d : diagnostics.all()) CHECK(d.severity == Severity::warning);  // the module type is not there, and disabled
+}
+
+TEST_CASE("The original's systems and processes are equal after writing and reading") {
+    const auto original = test::shared_dir() / "original";
+    if (test::absent(original)) return;
+    int files = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(original)) {
+        const auto path = entry.path();
+        INFO(path);
+        Diagnostics diagnostics;
+        if (path.extension() == ".iqr") {
+            const auto s = xml::read_system(path.string(), diagnostics);
+            REQUIRE(s);
+            const std::string text = xml::write_system(*s);
+            const auto again = xml::parse_system(path.string(), text, diagnostics);
+            REQUIRE(again);
+            CHECK(*again == *s);
+            CHECK(xml::write_system(*again) == text);
+            ++files;
+        } else if (path.extension() == ".iqrProcess") {
+            const auto p = xml::read_process(path.string(), diagnostics);
+            REQUIRE(p);
+            const Folder folder;
+            const auto again = xml::read_process(folder.write("p.iqrProcess", xml::write_process(*p)), diagnostics);
+            REQUIRE(again);
+            CHECK(*again == *p);
+            ++files;
+        }
+    }
+    CHECK(files >= 6);
+}

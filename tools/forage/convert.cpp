@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "core/model/build.h"
+#include "core/model/lookup.h"
+#include "core/xml/reader.h"
+#include "core/xml/writer.h"
+#include "tools/forage/commands.h"
+#include "tools/forage/files.h"
+
+namespace forage::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_process_file(const std::string& path) { return fs::path(path).extension() == ".iqrProcess"; }
+
+/// Links are relative to the system file: makes them lead from `to` where they led from `from`.
+void move_links(model::System& system, const std::string& from, const std::string& to) {
+    const fs::path old_place = fs::absolute(from).parent_path(), new_place = fs::absolute(to).parent_path();
+    if (fs::weakly_canonical(old_place) == fs::weakly_canonical(new_place)) return;
+    for (auto& p : system.processes)
+        if (p.linked && fs::path(p.path).is_relative())
+            p.path = fs::relative(old_place / p.path, new_place).generic_string();
+}
+
+std::string process_id(const model::System& system, const std::string& wanted, Diagnostics& diagnostics) {
+    std::vector<std::string> names;
+    for (const auto& p : system.processes) {
+        if (p.id == wanted || model::trim(p.name) == model::trim(wanted)) return p.id;
+        names.emplace_back(model::trim(p.name));
+    }
+    diagnostics.error({}, fmt::format("--extract: there is no process '{}'", wanted), suggest(wanted, names));
+    return {};
+}
+
+/// The text of the file to write; whatever it is when there are errors.
+std::string converted(const ConvertOptions& o, Diagnostics& diagnostics) {
+    const bool to_process = is_process_file(o.output) || !o.extract.empty();
+    if (is_process_file(o.input)) {
+        const auto file = xml::read_process(o.input, diagnostics);
+        if (!file) return {};
+        if (!to_process || !o.imports.empty() || !o.extract.empty() || o.embed) {
+            diagnostics.error({}, fmt::format("'{}' is a process file", o.input),
+                              "it can be written as one (OUT.iqrProcess), or imported into a system: forage convert SYSTEM.iqr OUT.iqr --import FILE");
+            return {};
+        }
+        return xml::write_process(*file);
+    }
+    auto system = xml::read_system(o.input, diagnostics);
+    if (!system) return {};
+    for (const auto& path : o.imports)
+        if (auto file = xml::read_process(path, diagnostics); file && !diagnostics.failed()) model::import_process(*system, std::move(*file));
+    if (o.embed) model::embed_links(*system);
+    if (!to_process) {
+        move_links(*system, o.input, o.output);
+        return xml::write_system(*system);
+    }
+    if (o.extract.empty()) {
+        diagnostics.error({}, fmt::format("'{}' is a system, '{}' would be a process file", o.input, o.output), "name the process to write with --extract");
+        return {};
+    }
+    const std::string id = process_id(*system, o.extract, diagnostics);
+    return id.empty() ? std::string() : xml::write_process(model::extract_process(*system, id));
+}
+
+}  // namespace
+
+int convert(const ConvertOptions& options) {
+    Diagnostics diagnostics;
+    diagnostics.lenient = options.lenient;
+    const std::string text = converted(options, diagnostics);
+    fmt::print(stderr, "{}", format(diagnostics));
+    if (diagnostics.failed()) return bad_input;
+    write_file(options.output, text);
+    return fine;
+}
+
+}  // namespace forage::tool
