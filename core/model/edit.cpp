@@ -25,6 +25,10 @@ std::vector<Owner> find_owners(System& system, const Registry& registry, std::st
         const NeuronType* type = registry.neuron(use.type);
         owners.push_back({&use, type ? &type->parameters : nullptr, nullptr});
     }
+    if (Group* by_id = find_group(system, where); owners.empty() && by_id) {
+        const NeuronType* type = registry.neuron(by_id->neuron.type);
+        owners.push_back({&by_id->neuron, type ? &type->parameters : nullptr, nullptr});
+    }
     if (!owners.empty()) return owners;
     for (auto& p : system.processes)
         if (trim(p.name) == trim(where) || p.id == where) {
@@ -39,11 +43,14 @@ std::vector<Owner> find_owners(System& system, const Registry& registry, std::st
     return owners;
 }
 
-std::vector<std::string> owner_names(const System& system) {
-    std::vector<std::string> out = group_paths(system);
-    for (const auto& p : system.processes) out.emplace_back(trim(p.name));
-    for (const auto& c : system.connections) out.emplace_back(trim(c.name));
-    return out;
+std::string suggest_owner(std::string_view where, const System& system) {
+    const auto groups = group_paths(system);
+    const std::string by_name = suggest_group(where, groups);
+    std::vector<std::string> all = groups;
+    for (const auto& p : system.processes) all.emplace_back(trim(p.name));
+    for (const auto& c : system.connections) all.emplace_back(trim(c.name));
+    const bool near_a_group = by_name.starts_with("did you mean");
+    return near_a_group ? by_name : suggest(where, all);
 }
 
 }  // namespace
@@ -59,13 +66,13 @@ void set(System& system, const Registry& registry, std::string_view assignment, 
                 "write Process/Group.parameter=value, for example 'Reactive Layer/Approach.threshold=0.3'");
         return;
     }
-    const std::string_view where = assignment.substr(0, dot);
-    const std::string name(assignment.substr(dot + 1, equals - dot - 1)),
-        value(assignment.substr(equals + 1));
+    const std::string_view where = trim(assignment.substr(0, dot));
+    const std::string name(trim(assignment.substr(dot + 1, equals - dot - 1)));
+    const std::string value(trim(assignment.substr(equals + 1)));
 
     const auto owners = find_owners(system, registry, where);
     if (owners.empty())
-        return problem(fmt::format("there is no '{}'", where), suggest(where, owner_names(system)));
+        return problem(fmt::format("there is no '{}'", where), suggest_owner(where, system));
     if (owners.size() > 1)
         return problem(fmt::format("'{}' names {} things", where, owners.size()),
                        "add '#' and the id of the group you mean, or use the id of the connection");

@@ -1,5 +1,7 @@
 #include "core/model/lookup.h"
 
+#include <fmt/format.h>
+
 namespace forage::model {
 
 GroupIndex::GroupIndex(const System& system) {
@@ -45,6 +47,21 @@ std::vector<std::string> group_paths(const System& system) {
             out.push_back(uses[plain] > 1 ? plain + "#" + g.id : plain);
         }
     return out;
+}
+
+std::string suggest_group(std::string_view wanted, const std::vector<std::string>& paths) {
+    std::vector<std::string> names, same;
+    for (const auto& path : paths) {
+        names.push_back(path.substr(path.find('/') + 1));
+        if (names.back().substr(0, names.back().rfind('#')) == trim(wanted)) same.push_back(path);
+    }
+    if (same.empty() && wanted.find('/') == std::string_view::npos) {
+        const auto near = nearest(wanted, names);
+        for (std::size_t i = 0; i < paths.size(); ++i)
+            if (!near.empty() && names[i] == near) same.push_back(paths[i]);
+    }
+    if (same.empty()) return suggest(wanted, paths);
+    return fmt::format("did you mean '{}'?", fmt::join(same, "' or '"));
 }
 
 std::vector<GroupIndex::Entry> find_groups(const System& system, std::string_view wanted) {

@@ -35,6 +35,9 @@ std::vector<std::string> group_paths(const System& system);
 /// The groups that `path` names: "Process/Group", "Process/Group#id" or "#id"; several when it is ambiguous.
 std::vector<GroupIndex::Entry> find_groups(const System& system, std::string_view path);
 
+/// A hint for a path that names no group: the groups of which it is the name, or the nearest paths.
+std::string suggest_group(std::string_view wanted, const std::vector<std::string>& paths);
+
 /// `text` without blanks at its ends.
 std::string_view trim(std::string_view text);
 

@@ -1,6 +1,7 @@
 #include "core/model/validate.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <array>
 #include <cmath>
 #include <map>
@@ -101,7 +102,7 @@ class Validator {
                                                  describe(p->kind), to_text(p->default_value)));
                 continue;
             }
-            if (outside(*value, p->range))
+            if (s.value_at.file && outside(*value, p->range))  // others were told when they were set
                 out_.warning(s.value_at, fmt::format("{} = {} is outside its usual range", p->name, s.value),
                              fmt::format("{} ({}) is meant for {} to {}; the value is used as it is", p->name,
                                          p->label, to_text(p->range->low), to_text(p->range->high)));
@@ -346,6 +347,12 @@ class Validator {
                 ids.push_back(g.id);
                 paths.push_back(std::string(trim(p.name)) + "/" + std::string(trim(g.name)));
             }
+        for (const auto& p : system_.processes)
+            if (p.id == id) {
+                std::vector<std::string> own;
+                for (const auto& g : p.groups) own.push_back(g.id);
+                return fmt::format("'{}' is a process; its groups are '{}'", id, fmt::join(own, "', '"));
+            }
         for (std::size_t i = 0; i < paths.size(); ++i)
             if (paths[i] == id || paths[i].substr(paths[i].find('/') + 1) == id)
                 return fmt::format("'{}' is a name; the group's id is '{}'", id, ids[i]);
@@ -359,6 +366,12 @@ class Validator {
     GroupIndex groups_;
 };
 
+/// A path as seen from the working directory.
+std::string resolved(const Setting& s) {
+    if (s.value.empty() || !s.value_at.file) return s.value;
+    return (std::filesystem::path(s.value_at.file->path).parent_path() / s.value).string();
+}
+
 }  // namespace
 
 void validate(const System& system, const Registry& registry, Diagnostics& diagnostics) {
@@ -368,7 +381,8 @@ void validate(const System& system, const Registry& registry, Diagnostics& diagn
 void apply(const std::vector<Setting>& settings, const std::vector<Parameter>& parameters, void* object) {
     for (const auto& s : settings)
         if (const Parameter* p = find_parameter(parameters, s.name))
-            if (const auto value = parse_parameter(p->kind, s.value)) p->set(object, *value);
+            if (const auto value = parse_parameter(p->kind, s.value))
+                p->set(object, p->is_path ? ParameterValue(resolved(s)) : *value);
 }
 
 }  // namespace forage::model

@@ -12,7 +12,7 @@ namespace forage::model {
 void validate(const System& system, const Registry& registry, Diagnostics& diagnostics);
 
 /// Sets the parameters of `object`, an instance of a type with `parameters`, from `settings`; what is not in them
-/// is left at its default. Values that validate() reports are left out.
+/// is left at its default. Values that validate() reports are left out. A relative path leads from the file that says it.
 void apply(const std::vector<Setting>& settings, const std::vector<Parameter>& parameters, void* object);
 
 }  // namespace forage::model

@@ -12,15 +12,18 @@ namespace {
 
 constexpr std::array<std::string_view, input_kinds> inputs = {"excIn", "inhIn", "modIn"};
 
-/// Groups of the path, also "Process/Group#id" and "#id" where the path alone would do.
+/// The groups that a person may mean by `path`: the one of exactly this path, or all of it without "#id", or the one
+/// of this id, written alone, as "#id" or as "Process/Group#id".
 std::vector<int> groups_named(const engine::Simulation& s, std::string_view path) {
+    path = model::trim(path);
     std::vector<int> out;
-    const auto hash = path.rfind('#');
+    for (int g = 0; g < s.groups(); ++g)
+        if (s.path(g) == path) return {g};
     for (int g = 0; g < s.groups(); ++g) {
-        const std::string_view own = s.path(g);
-        const bool by_path = own == model::trim(path) || own.substr(0, own.rfind('#')) == model::trim(path);
-        const bool by_id = hash != std::string_view::npos && s.id(g) == path.substr(hash + 1);
-        if (by_path || by_id) out.push_back(g);
+        const std::string& own = s.path(g);
+        const std::string suffix = "#" + s.id(g);
+        const std::string plain = own.ends_with(suffix) ? own.substr(0, own.size() - suffix.size()) : own;
+        if (path == plain || path == s.id(g) || path == suffix || path == plain + suffix) out.push_back(g);
     }
     return out;
 }
@@ -43,7 +46,7 @@ std::optional<ColumnRef> find_column(const engine::Simulation& s, std::string_vi
         for (const int g : found) names.push_back(s.path(g));
         diagnostics.error({}, fmt::format("{} '{}': {}", what, text, found.empty() ? fmt::format("there is no group '{}'", path)
                                                                                       : fmt::format("'{}' names {} groups", path, found.size())),
-                          found.empty() ? suggest(path, names) : fmt::format("use one of '{}'", fmt::join(names, "', '")));
+                          found.empty() ? model::suggest_group(path, names) : fmt::format("use one of '{}'", fmt::join(names, "', '")));
         return std::nullopt;
     }
     const int group = found.front();

@@ -4,17 +4,21 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 
 namespace forage::observe {
 
-constexpr std::size_t buffer_size = 1 << 16;
+constexpr std::size_t block = 1 << 16;
 
 Recorder::Recorder(std::string path, const engine::Simulation& simulation, ColumnRef column, std::uint64_t every)
     : path_(std::move(path)), column_(std::move(column)), every_(every), out_(path_, std::ios::binary) {
     if (!out_) throw std::runtime_error(fmt::format("cannot write '{}': {}", path_, std::strerror(errno)));
+    const GroupShape shape = simulation.shape(column_.group);
+    const bool full = shape.cells == shape.width * shape.height;
     buffer_ = "cycle";
-    for (Index i = 0; i < values(simulation, column_).size(); ++i) fmt::format_to(std::back_inserter(buffer_), ",{}", i);
+    for (int i = 0; i < shape.cells; ++i)
+        buffer_ += full ? fmt::format(",x{}_y{}", i % shape.width + 1, i / shape.width + 1) : fmt::format(",cell{}", i + 1);
     buffer_ += '\n';
 }
 
@@ -24,21 +28,30 @@ void Recorder::record(const engine::Simulation& simulation) {
     fmt::format_to(std::back_inserter(buffer_), "{}", cycle);
     for (const double v : values(simulation, column_)) fmt::format_to(std::back_inserter(buffer_), ",{}", v);
     buffer_ += '\n';
-    ++rows_;
-    if (buffer_.size() >= buffer_size) write();
+    if (buffer_.size() >= block) write();
 }
 
 void Recorder::close() {
+    if (!out_.is_open()) return;  // it failed before
     write();
     out_.close();
-    if (!out_) throw std::runtime_error(fmt::format("cannot write '{}': {}", path_, std::strerror(errno)));
+    if (!out_) fail();
 }
 
 void Recorder::write() {
     out_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
     out_.flush();
-    if (!out_) throw std::runtime_error(fmt::format("cannot write '{}': {}", path_, std::strerror(errno)));
+    if (!out_) fail();
+    written_ += buffer_.size();
     buffer_.clear();
+}
+
+void Recorder::fail() {
+    const std::string reason = std::strerror(errno);
+    out_.close();
+    std::error_code ignored;
+    std::filesystem::resize_file(path_, written_, ignored);  // half a row may have gone out
+    throw std::runtime_error(fmt::format("cannot write '{}': {}", path_, reason));
 }
 
 }  // namespace forage::observe

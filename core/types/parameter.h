@@ -30,6 +30,7 @@ struct Parameter {
     ParameterKind kind;
     ParameterValue default_value;
     std::optional<ParameterRange> range;
+    bool is_path = false;  ///< a file's name: relative to the file in which it is written
     std::function<void(void*, const ParameterValue&)> set;
     std::function<ParameterValue(const void*)> get;
 };
@@ -58,6 +59,7 @@ class ParameterBuilder {
     ParameterBuilder& label(std::string text) { return all_[index_].label = std::move(text), *this; }
     ParameterBuilder& doc(std::string text) { return all_[index_].doc = std::move(text), *this; }
     ParameterBuilder& unit(std::string text) { return all_[index_].unit = std::move(text), *this; }
+    ParameterBuilder& path() { return all_[index_].is_path = true, *this; }
     ParameterBuilder& range(double low, double high) {
         return all_[index_].range = ParameterRange{low, high}, *this;
     }

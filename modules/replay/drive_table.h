@@ -10,7 +10,8 @@
 namespace forage::replay {
 
 /// Rows `cycle,process,target,v0,v1,...`, one value per cell. `process` is a name, or `*` for any; `target` is a cross
-/// reference's name or a group's. A row of cycle -1 counts from the start.
+/// reference's name or a group's. A row of cycle -1 counts from the start. Blanks around fields do not matter; empty
+/// lines, lines that begin with '#' and a header that begins with `cycle` are skipped.
 class DriveTable {
   public:
     struct Row {
@@ -26,9 +27,11 @@ class DriveTable {
     static DriveTable parse(std::istream& in, const std::string& name);
     static DriveTable read(const std::string& path);
 
+    const std::string& name() const { return name_; }  ///< of the file
     const std::vector<Row>& rows() const { return rows_; }
 
   private:
+    std::string name_;
     std::vector<Row> rows_;
 };
 

@@ -11,6 +11,7 @@ import pathlib
 import pty
 import re
 import shlex
+import shutil
 import signal
 import struct
 import subprocess
@@ -53,7 +54,8 @@ class Run(Cli):
         header, *rows = self.table("out/trials.csv")
         rows = [dict(zip(header, row)) for row in rows]
         self.assertEqual(len(rows), 30)
-        self.assertEqual(header, ["trial", "start_x", "start_y", "start_yaw", "cycles", "smallest_distance", "outcome"])
+        self.assertEqual(header, ["trial", "start_x", "start_y", "start_yaw", "cycles", "smallest_distance", "outcome",
+                                  "first_cycle", "end_x", "end_y", "end_yaw"])
         for number, row in enumerate(rows, 1):
             self.assertEqual(int(row["trial"]), number)
             self.assertGreater(int(row["cycles"]), 20)
@@ -69,7 +71,7 @@ class Run(Cli):
         width, height = struct.unpack(">II", picture[16:24])
         self.assertGreater(width, 600)
         self.assertGreater(height, 600)
-        self.assertEqual(sorted(p.name for p in (self.here / "out").iterdir()), ["run.json", "trajectory.png", "trials.csv"])
+        self.assertEqual(sorted(p.name for p in (self.here / "out").iterdir()), ["run.json", "trajectory.csv", "trajectory.png", "trials.csv"])
 
     def test_readme_says_how_many_of_thirty_reach_the_target(self):
         done = self.run_robot("--trials", 30, "--seed", 1)
@@ -81,19 +83,70 @@ class Run(Cli):
         for out, seed in (("a", 3), ("b", 3), ("c", 4)):
             self.forage("run", SYSTEM, "--world", WORLD, "-o", out, "--seed", seed, *record)
         names = sorted(p.name for p in (self.here / "a").iterdir())
-        self.assertEqual(len(names), 5)
+        self.assertEqual(len(names), 6)
         self.assertEqual(filecmp.cmpfiles(self.here / "a", self.here / "b", names, shallow=False), (names, [], []))
         self.assertFalse(filecmp.cmp(self.here / "a/Bug_Light_act.csv", self.here / "c/Bug_Light_act.csv", shallow=False))
 
     def test_recording_has_a_header_and_a_row_for_every_kth_cycle(self):
         self.run_robot("--cycles", 100, "--record", "Bug/GPS", "--every", 10)
         rows = self.table("out/Bug_GPS_act.csv")
-        self.assertEqual(rows[0], ["cycle", "0", "1", "2"])
+        self.assertEqual(rows[0], ["cycle", "x1_y1", "x2_y1", "x3_y1"])
         self.assertEqual([int(r[0]) for r in rows[1:]], list(range(0, 100, 10)))
         # The group reads x + 10, y + 10, heading + pi; what is sensed at the end of cycle t arrives in t + 2.
         self.assertAlmostEqual(float(rows[2][1]), 10, delta=0.05)
         self.assertAlmostEqual(float(rows[2][2]), 10 - 2 + 0.08 * 5, delta=0.5)
         self.assertAlmostEqual(float(rows[2][3]), 1.5708 + 3.1416, delta=0.05)
+
+    def test_trials_trajectory_and_recordings_agree(self):
+        self.run_robot("--trials", 6, "--record", "Bug/GPS")
+        header, *trials = self.table("out/trials.csv")
+        trials = [dict(zip(header, map(float, row[:6] + [0] + row[7:]))) for row in trials]
+        gps = {int(r[0]): (float(r[1]) - 10, float(r[2]) - 10) for r in self.table("out/Bug_GPS_act.csv")[1:]}
+        path = [[float(v) for v in row] for row in self.table("out/trajectory.csv")[1:]]
+        for trial in trials:
+            own = [p for p in path if p[0] == trial["trial"]]
+            self.assertEqual(own[0][2:], [trial["start_x"], trial["start_y"], trial["start_yaw"]])
+            self.assertEqual(own[-1][2:], [trial["end_x"], trial["end_y"], trial["end_yaw"]])
+            self.assertEqual(own[-1][1], trial["first_cycle"] + trial["cycles"] - 1)
+            # Where the robot is at the end of cycle t, the GPS group shows in t + 2.
+            for _, cycle, x, y, _ in own[1:-1]:
+                if cycle + 2 in gps:
+                    self.assertAlmostEqual(gps[cycle + 2][0], x, places=9)
+                    self.assertAlmostEqual(gps[cycle + 2][1], y, places=9)
+            nearest = min(((x - 0) ** 2 + (y - 2.5) ** 2) ** 0.5 for _, _, x, y, _ in own)
+            self.assertLessEqual(trial["smallest_distance"], nearest + 1e-9)
+            self.assertGreater(trial["smallest_distance"], nearest - 0.1)
+
+    def test_recordings_of_an_earlier_run_do_not_stay(self):
+        self.run_robot("--cycles", 10, "--record", "Bug/GPS")
+        (self.here / "out/mine.txt").write_text("kept")
+        self.run_robot("--cycles", 10, "--record", "Bug/Light")
+        names = sorted(p.name for p in (self.here / "out").iterdir())
+        self.assertEqual(names, ["Bug_Light_act.csv", "mine.txt", "run.json", "trajectory.csv", "trajectory.png", "trials.csv"])
+
+    def test_the_robot_is_driven_by_hand(self):
+        self.run_robot("--seconds", 2, "--clamp", "Bug/Motor(5,1)=1", system=EXERCISE)  # straight on, full speed
+        end = self.table("out/trials.csv")[1]
+        self.assertAlmostEqual(float(end[8]), 0, delta=0.02)
+        self.assertAlmostEqual(float(end[9]), -2 + 2, delta=0.02)
+        self.run_robot("--seconds", 1, "--clamp", "Bug/Motor(1,5)=1", system=EXERCISE)  # turn left on the spot
+        end = self.table("out/trials.csv")[1]
+        self.assertAlmostEqual(float(end[9]), -2, delta=0.02)
+        self.assertGreater(float(end[10]), 1.57 + 0.5)
+
+    def test_a_full_disk_keeps_complete_rows_and_the_other_results(self):
+        command = f'ulimit -f 100; trap "" XFSZ; exec {shlex.quote(FORAGE)} run {shlex.quote(SYSTEM)} --world {shlex.quote(WORLD)} ' \
+                  "--cycles 5000 -o out -r 'Bug/Place Cells' -r Bug/GPS"
+        done = subprocess.run(["bash", "-c", command], cwd=self.here, capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("File too large", done.stderr)
+        cells, gps = self.table("out/Bug_Place_Cells_act.csv"), self.table("out/Bug_GPS_act.csv")
+        self.assertTrue(all(len(row) == len(cells[0]) for row in cells))
+        self.assertGreaterEqual(len(gps), len(cells))
+        self.assertGreater(len(cells), 3)
+        names = sorted(p.name for p in (self.here / "out").iterdir())
+        self.assertIn("trials.csv", names)
+        self.assertFalse([n for n in names if n.endswith(".part")])
 
     def test_length_in_seconds_and_in_cycles(self):
         self.run_robot("--seconds", 8, "-q")
@@ -137,7 +190,7 @@ class Run(Cli):
         except OSError:
             pass
         os.waitpid(pid, 0)
-        self.assertRegex(seen, rb"\[=* *\] +\d+ %  \d+ cycles/s  \d+ x real time")
+        self.assertRegex(seen, rb"\[=* *\] +\d+ %  0 trials, 0 at the target  \d+ x real time  \d+ cycles/s")
 
     def test_interrupt_keeps_what_was_done(self):
         command = [FORAGE, "run", SYSTEM, "--world", WORLD, "--seconds", "1000", "--realtime", "--record", "Bug/Light"]
@@ -165,11 +218,18 @@ class Run(Cli):
 
 class Mistakes(Cli):
     def test_usage_is_status_2_with_a_hint(self):
-        for arguments in ([], ["rum"], ["run"], ["run", SYSTEM, "--cycles", "0"], ["run", SYSTEM, "--cycles", "5", "--trials", "2"],
-                          ["run", SYSTEM, "--seed", "x"]):
+        for arguments in (["rum"], ["run"], ["run", SYSTEM, "--cycles", "0"], ["run", SYSTEM, "--cycles", "5", "--trials", "2"],
+                          ["run", SYSTEM, "--seed", "x"], ["run", SYSTEM, "--seed", "-1"], ["run", SYSTEM, "--seconds", "nan"],
+                          ["run", SYSTEM, "--seconds", "-1"], ["run", SYSTEM, "--every", "2"], ["run", SYSTEM, "--threads", "0"]):
             done = self.forage(*arguments, status=2)
             self.assertIn("error:", done.stderr)
             self.assertIn("hint:", done.stderr)
+            self.assertLess(len(done.stderr), 200)
+        self.assertIn("there is no command 'chekc'", self.forage("chekc", SYSTEM, status=2).stderr)
+        self.assertIn("did you mean 'check'", self.forage("chekc", SYSTEM, status=2).stderr)
+        self.assertIn("did you mean '--trials'", self.forage("run", SYSTEM, "--trails", "3", status=2).stderr)
+        self.assertIn("Usage:", self.forage(status=2).stderr)
+        self.assertIn("Usage:", self.forage("help").stdout)
 
     def test_every_mistake_of_a_file_is_reported_with_its_place(self):
         bad = self.here / "bad.iqr"
@@ -197,10 +257,57 @@ class Mistakes(Cli):
             (["--set", "Bug/Light.threshold=high"], "is not a number"),
             (["--set", "nonsense"], "not an assignment"),
             (["--drive", "absent.csv"], "cannot read 'absent.csv'"),
+            (["--record", "Light"], "did you mean 'Bug/Light'"),
+            (["--set", "US.threshold=1"], "did you mean 'Reactive Layer/US'"),
+            (["--set", "Approach.threshold=1"], "did you mean 'Reactive Layer/Approach' or 'Selection/Approach'"),
+            (["--clamp", "Bug/Motor(10,1)=1"], "it has 9 columns and 9 rows"),
+            (["--clamp", "Bug/Motr(1,1)=1"], "did you mean 'Bug/Motor'"),
+            (["--clamp", "Bug/Motor:vm(1,1)=1"], "only the activity"),
         ):
             done = self.run_robot("--cycles", 1, *arguments, status=2)
             self.assertIn("error:", done.stderr)
             self.assertIn(message, done.stderr)
+
+    def test_names_with_blanks_and_ids_work(self):
+        self.run_robot("--cycles", 1, "--set", " Bug/Light . threshold = 0.1 ", "--set", "reactive.us.threshold=0.3", "--record", "bug.gps")
+
+    def test_rows_that_nothing_plays_and_wrong_tables(self):
+        (self.here / "small.iqr").write_text(SMALL_SYSTEM)
+        for rows, message in (
+            ("0,P,outt,1,2", "t.csv:1: no moduleReplay plays 'P,outt'"),
+            ("0,P,out,1,2,3", "t.csv:1: 3 values for 'P/A', which has 2 cells"),
+            ("0,P,out,1,x", "t.csv:1: 'x' is not a number"),
+            ("0,P,out,1,2,", "t.csv:1: '' is not a number"),
+            ("", "holds no rows"),
+        ):
+            (self.here / "t.csv").write_text(rows + "\n")
+            self.assertIn(message, self.forage("run", "small.iqr", "--cycles", 1, "--drive", "t.csv", status=2).stderr)
+        (self.here / "t.csv").write_text("\ufeffcycle,process,target\n# a remark\n 0 , P , out , 1 , 2 \r\n")
+        self.forage("run", "small.iqr", "--cycles", 1, "--drive", "t.csv")
+        self.assertIn("no process has an enabled moduleReplay", self.run_robot("--cycles", 1, "--drive", "t.csv", status=2).stderr)
+        (self.here / "t.csv").write_text("0,*,B,1,2\n")
+        self.forage("run", "small.iqr", "--cycles", 1, "--drive", "d.csv", "--clamp", "t.csv", status=2)  # no d.csv
+        (self.here / "d.csv").write_text("0,*,out,1,2\n")
+        self.forage("run", "small.iqr", "--cycles", 1, "--drive", "d.csv", "--clamp", "t.csv")
+
+    def test_a_file_that_a_system_names_is_beside_it(self):
+        (self.here / "sub").mkdir()
+        module = '<Module name="moduleReplay"><Parameter name="file" value="d.csv"/>'
+        (self.here / "sub/small.iqr").write_text(SMALL_SYSTEM.replace('<Module name="moduleReplay">', module))
+        (self.here / "sub/d.csv").write_text("0,P,out,1,2\n")
+        self.forage("run", "sub/small.iqr", "--cycles", 3)
+        (self.here / "sub/d.csv").write_text("0,P,out,1\n")
+        self.assertRegex(self.forage("check", "sub/small.iqr", status=2).stderr, r"small.iqr:\d+:\d+: error: sub/d.csv:1: 1 values")
+
+    def test_a_directory_that_cannot_be_written(self):
+        if os.geteuid() == 0:
+            self.skipTest("root may write everywhere")
+        (self.here / "out").mkdir(mode=0o555)
+        self.assertIn("Permission denied", self.run_robot("--cycles", 1, status=2).stderr)
+
+    def test_nothing_is_made_when_a_name_is_wrong(self):
+        self.run_robot("--cycles", 1, "--record", "Bug/Ligth", status=2)
+        self.assertEqual(list(self.here.iterdir()), [])
 
     def test_missing_files(self):
         self.assertIn("absent.iqr", self.forage("run", "absent.iqr", status=2).stderr)
@@ -219,6 +326,43 @@ class Mistakes(Cli):
     def test_a_directory_that_cannot_be_made(self):
         (self.here / "file").write_text("")
         self.assertIn("error:", self.run_robot("--cycles", 1, out="file/out", status=2).stderr)
+
+
+class Convert(Cli):
+    def test_writing_what_was_written_changes_no_byte(self):
+        for system in (PROJECT / "systems").glob("*.iqr"):
+            self.forage("convert", system, "one.iqr")
+            self.forage("convert", "one.iqr", "two.iqr")
+            self.assertEqual((self.here / "one.iqr").read_bytes(), (self.here / "two.iqr").read_bytes())
+            self.assertIn("<!--", (self.here / "one.iqr").read_text())
+            self.forage("check", "one.iqr")
+
+    def test_a_converted_system_runs_the_same(self):
+        self.forage("convert", SYSTEM, "copy.iqr")
+        self.run_robot("--cycles", 200, "--record", "Bug/Motor", out="a")
+        self.run_robot("--cycles", 200, "--record", "Bug/Motor", out="b", system="copy.iqr")
+        self.assertTrue(filecmp.cmp(self.here / "a/Bug_Motor_act.csv", self.here / "b/Bug_Motor_act.csv", shallow=False))
+
+    def test_extract_link_embed_and_import(self):
+        (self.here / "small.iqr").write_text(SMALL_SYSTEM)
+        self.forage("convert", "small.iqr", "part.iqrProcess", "--extract", "P")
+        linking = SMALL_SYSTEM[: SMALL_SYSTEM.index("  <Process")] + '  <Process id="p" name="P" path="../part.iqrProcess"><DiagramIcon x="1" y="2"/></Process>\n</System>\n'
+        (self.here / "sub").mkdir()
+        (self.here / "sub/linking.iqr").write_text(linking)
+        self.assertIn("2 groups", self.forage("check", "sub/linking.iqr").stdout)
+        self.forage("convert", "sub/linking.iqr", "linking.iqr")  # the link follows
+        self.assertIn('path="part.iqrProcess"', (self.here / "linking.iqr").read_text())
+        self.forage("convert", "sub/linking.iqr", "whole.iqr", "--embed")
+        self.assertIn("<Connection", (self.here / "whole.iqr").read_text())
+        self.forage("convert", "small.iqr", "twice.iqr", "--import", "part.iqrProcess")
+        self.assertIn("4 groups", self.forage("check", "twice.iqr").stdout)
+
+    def test_mistakes(self):
+        (self.here / "small.iqr").write_text(SMALL_SYSTEM)
+        self.assertIn("--extract", self.forage("convert", "small.iqr", "out.iqrProcess", status=2).stderr)
+        self.assertIn("there is no process 'Q'", self.forage("convert", "small.iqr", "o.iqrProcess", "--extract", "Q", status=2).stderr)
+        self.assertIn("absent.iqr", self.forage("convert", "absent.iqr", "o.iqr", status=2).stderr)
+        self.assertEqual([p.name for p in self.here.iterdir()], ["small.iqr"])
 
 
 class Others(Cli):
@@ -243,6 +387,19 @@ class Others(Cli):
             done = self.forage("check", system)
             self.assertIn("fine", done.stdout)
             self.assertEqual(done.stderr, "")
+
+    def test_schema_is_current_and_accepts_the_shipped_systems(self):
+        schema = PROJECT / "docs" / "reference" / "iqr.rng"
+        self.assertEqual(self.forage("schema").stdout, schema.read_text(), "run: forage schema > docs/reference/iqr.rng")
+        if not shutil.which("xmllint"):
+            self.skipTest("xmllint is absent")
+        files = [*(PROJECT / "systems").glob("*.iqr"), *SHARED.glob("original/*/*.iqr"), *SHARED.glob("original/*/*.iqrProcess")]
+        for file in files:
+            done = subprocess.run(["xmllint", "--nowarning", "--noout", "--relaxng", schema, file], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        bad = PROJECT / "tests" / "diagnostics" / "bad_systems" / "four_mistakes_of_four_kinds.iqr"
+        done = subprocess.run(["xmllint", "--nowarning", "--noout", "--relaxng", schema, bad], capture_output=True, text=True)
+        self.assertNotEqual(done.returncode, 0)
 
     def test_commands_of_the_readme_work(self):
         commands = re.findall(r"^build/release/bin/(forage .*)$", (PROJECT / "README.md").read_text(), re.MULTILINE)

@@ -17,10 +17,12 @@ struct RunOptions {
     Input input;
     std::optional<std::uint64_t> cycles;
     std::optional<double> seconds;
-    std::optional<int> trials;
+    std::optional<std::uint64_t> trials;
     double longest_trial = 300;  ///< s of the world
     std::vector<std::string> recordings;
     std::uint64_t every = 1;
+    std::vector<std::string> clamp;  ///< files, or 'Process/Group(x,y)=value'
+    int threads = 1;
     std::string directory = "forage-out";
     bool real_time = false, quiet = false;
 };
@@ -37,5 +39,7 @@ int convert(const ConvertOptions& options);
 int check(const Input& input);
 /// Lists the types, or one with its parameters.
 int types(const std::string& name);
+/// Prints a RELAX NG schema of system files with the types that ship.
+int schema();
 
 }  // namespace forage::tool

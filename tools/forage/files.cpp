@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <cctype>
 #include <cerrno>
 #include <cstring>
@@ -36,6 +38,8 @@ void make_directory(const std::string& path) {
     std::error_code error;
     std::filesystem::create_directories(path, error);
     if (error) throw std::runtime_error(fmt::format("cannot make the directory '{}': {}", path, error.message()));
+    if (access(path.c_str(), W_OK) != 0)
+        throw std::runtime_error(fmt::format("cannot write into '{}': {}", path, std::strerror(errno)));
 }
 
 std::string file_name(std::string_view text) {

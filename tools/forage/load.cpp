@@ -7,6 +7,7 @@
 #include "core/model/edit.h"
 #include "core/model/validate.h"
 #include "core/xml/reader.h"
+#include "modules/modules.h"
 #include "modules/replay/replay.h"
 #include "neurons/neurons.h"
 #include "synapses/synapses.h"
@@ -19,7 +20,7 @@ std::shared_ptr<const replay::DriveTable> read_table(const std::string& path, Di
     try {
         return std::make_shared<replay::DriveTable>(replay::DriveTable::read(path));
     } catch (const std::exception& e) {
-        diagnostics.error({}, e.what());
+        diagnostics.error({}, fmt::format("--drive: {}", e.what()));
         return nullptr;
     }
 }
@@ -30,6 +31,7 @@ Registry shipped_types(bug::World* world, std::shared_ptr<const replay::DriveTab
     Registry registry;
     add_neurons(registry);
     add_synapses(registry);
+    add_modules(registry);
     replay::Replay player;
     player.table = std::move(drive);
     registry.add(module_type(player));
@@ -54,10 +56,9 @@ std::optional<Loaded> load(const Input& input, Diagnostics& diagnostics) {
         options.noise = input.noise;
         if (description) out.world = bug::World::make(*description, options, diagnostics);
     }
-    const auto drive = read_table(input.drive, diagnostics);
-    out.clamp = read_table(input.clamp, diagnostics);
+    out.drive = read_table(input.drive, diagnostics);
 
-    out.registry = shipped_types(out.world.get(), drive);
+    out.registry = shipped_types(out.world.get(), out.drive);
     if (system) {
         for (const auto& assignment : input.settings) model::set(out.system, out.registry, assignment, diagnostics);
         if (diagnostics.failed()) model::validate(out.system, out.registry, diagnostics);  // say all of it at once

@@ -17,7 +17,7 @@ namespace forage::tool {
 struct Input {
     std::string system, world;          ///< paths; no world when empty
     std::vector<std::string> settings;  ///< "Process/Group.parameter=value"
-    std::string drive, clamp;           ///< tables; none when empty
+    std::string drive;                  ///< table for moduleReplay; none when empty
     bool lenient = false;
     std::uint64_t seed = 1;
     std::optional<double> world_pace;   ///< seconds of the world per second of the clock, instead of the world's own
@@ -29,7 +29,7 @@ struct Loaded {
     Registry registry;
     std::unique_ptr<bug::World> world;  ///< null without one
     model::System system;
-    std::shared_ptr<const replay::DriveTable> clamp;  ///< null without one
+    std::shared_ptr<const replay::DriveTable> drive;  ///< null without one
 };
 
 /// The types that ship. Robots live in `world` and moduleReplay plays `drive`; either may be null.

@@ -2,21 +2,49 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <string_view>
 
+#include "core/model/diagnostic.h"
+#include "core/types/parameter.h"
 #include "tools/forage/commands.h"
 
 namespace {
 
 using namespace forage::tool;
 
+/// A number that `fits`, in words that a person reads.
+CLI::Validator number_that(bool (*fits)(double), const char* description) {
+    return CLI::Validator(
+        [=](std::string& text) {
+            const auto value = forage::parse_parameter(forage::ParameterKind::real, text);
+            return value && fits(std::get<double>(*value)) ? std::string() : fmt::format("'{}' is not {}", text, description);
+        },
+        "");
+}
+CLI::Validator positive() {
+    return number_that([](double v) { return v > 0; }, "a number above 0");
+}
+CLI::Validator count() {
+    return number_that([](double v) { return v >= 1 && v <= 1e15 && v == std::floor(v); }, "a whole number, at least 1");
+}
+CLI::Validator seed() {
+    return number_that([](double v) { return v >= 0 && v < 1.8e19 && v == std::floor(v); }, "a whole number, at least 0");
+}
+
+CLI::Option* repeated(CLI::Option* option) {
+    return option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
 void add_input(CLI::App& command, Input& input) {
-    command.add_option("SYSTEM", input.system, "System file (.iqr)")->required();
-    command.add_option("-w,--world", input.world, "World in which the robot lives (.world)");
-    command.add_option("-s,--set", input.settings,
-                       "Change a parameter: 'Process/Group.parameter=value', 'Process.parameter=value' for a module, "
-                       "'Connection.parameter=value' for a synapse; may be repeated")
-        ->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command.add_option("SYSTEM", input.system, "System file (.iqr)")->required()->option_text("FILE");
+    command.add_option("-w,--world", input.world, "World in which the robot lives (.world)")->option_text("FILE");
+    repeated(command.add_option("-s,--set", input.settings,
+                                "Change a parameter: 'Process/Group.parameter=value', 'Process.parameter=value' for a module, "
+                                "'Connection.parameter=value' for a synapse; may be repeated"))
+        ->option_text("WHERE=VALUE");
     command.add_flag("--lenient", input.lenient, "Unknown parameters and attributes are warnings, not errors");
 }
 
@@ -27,37 +55,59 @@ void add_run(CLI::App& app, RunOptions& o) {
         "Example:\n"
         "  forage run systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world --trials 30");
     add_input(run, o.input);
-    auto* cycles = run.add_option("-c,--cycles", o.cycles, "Stop after so many cycles");
-    auto* seconds = run.add_option("--seconds", o.seconds, "Stop after so many seconds of the world");
-    auto* trials = run.add_option("-t,--trials", o.trials, "Stop after so many trials; a trial ends when the robot is reset");
-    cycles->excludes(seconds)->excludes(trials)->check(CLI::PositiveNumber);
-    seconds->excludes(trials)->check(CLI::PositiveNumber);
-    trials->check(CLI::PositiveNumber);
-    run.add_option("--longest-trial", o.longest_trial, "Give up with --trials when one takes longer, in seconds of the world")
-        ->capture_default_str()->check(CLI::PositiveNumber);
-    run.add_option("--seed", o.input.seed, "Decides everything random")->capture_default_str();
-    run.add_option("-r,--record", o.recordings,
-                   "Write 'Process/Group' (its activity) or 'Process/Group:state' to a CSV file; may be repeated")
-        ->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    run.add_option("--every", o.every, "Record every K-th cycle")->capture_default_str()->check(CLI::PositiveNumber);
-    run.add_option("--drive", o.input.drive, "Table that modules of type moduleReplay play: cycle,process,target,v0,v1,...");
-    run.add_option("--clamp", o.input.clamp, "Table of activities to overwrite: cycle,process,group,v0,v1,...");
-    run.add_option("-o,--output", o.directory, "Directory for results; '' for none")->capture_default_str();
-    run.add_option("--world-pace", o.input.world_pace, "Seconds of the world per second of the clock, instead of the world's own");
-    run.add_flag("!--no-noise", o.input.noise, "Robots and sensors without noise");
+    auto* cycles = run.add_option("-c,--cycles", o.cycles, "Stop after so many cycles")->check(count())->option_text("N");
+    auto* seconds = run.add_option("--seconds", o.seconds, "Stop after so many seconds of the world")->check(positive())->option_text("S");
+    auto* trials = run.add_option("-t,--trials", o.trials, "Stop after so many trials; a trial ends when the robot is reset")
+                       ->check(count())->option_text("N");
+    cycles->excludes(seconds)->excludes(trials);
+    seconds->excludes(trials);
+    run.add_option("--longest-trial", o.longest_trial, "Give up when a trial takes longer, in seconds of the world [300]")
+        ->check(positive())->option_text("S")->needs(trials);
+    run.add_option("--seed", o.input.seed, "Decides everything random [1]")->check(seed())->option_text("N");
+    auto* record = repeated(run.add_option("-r,--record", o.recordings,
+                                           "Write 'Process/Group' (its activity) or 'Process/Group:state' to a CSV file; may be repeated"))
+                       ->option_text("COLUMN");
+    run.add_option("--every", o.every, "Record every K-th cycle [1]")->check(count())->option_text("K")->needs(record);
+    run.add_option("--drive", o.input.drive, "Table that modules of type moduleReplay play: cycle,process,target,v0,v1,...")->option_text("FILE");
+    repeated(run.add_option("--clamp", o.clamp,
+                            "Overwrite the activity of a group: 'Process/Group(x,y)=value' for one of its cells, from the start, with "
+                            "all others 0; or a table of rows cycle,process,group,v0,v1,...; may be repeated"))
+        ->option_text("CELL|FILE");
+    run.add_option("-o,--output", o.directory, "Directory for results [forage-out]; '' for none")->option_text("DIR");
+    run.add_option("--world-pace", o.input.world_pace, "Seconds of the world per second of the clock, instead of the world's own")
+        ->check(positive())->option_text("X")->needs("--world");
+    run.add_flag_callback("--no-noise", [&o] { o.input.noise = false; }, "Motors and sensors without noise; start positions still vary");
+    run.add_option("--threads", o.threads, "For large systems; the numbers do not depend on it [1]")->check(count())->option_text("N");
     run.add_flag("--realtime", o.real_time, "No faster than the clock: one second of the world per second");
     run.add_flag("-q,--quiet", o.quiet, "Print errors only");
 }
 
 void add_convert(CLI::App& app, ConvertOptions& o) {
     auto& convert = *app.add_subcommand("convert", "Read a system or process file and write it in the standard layout");
-    convert.add_option("IN", o.input, "File to read (.iqr or .iqrProcess)")->required();
-    convert.add_option("OUT", o.output, "File to write (.iqr or .iqrProcess); may be the same")->required();
-    convert.add_option("--import", o.imports, "Add a copy of a process from an .iqrProcess file; may be repeated")
-        ->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    convert.add_option("--extract", o.extract, "Write this process alone, with the connections among its groups");
+    convert.add_option("IN", o.input, "File to read (.iqr or .iqrProcess)")->required()->option_text("FILE");
+    convert.add_option("OUT", o.output, "File to write (.iqr or .iqrProcess); may be the same")->required()->option_text("FILE");
+    repeated(convert.add_option("--import", o.imports, "Add a copy of a process from an .iqrProcess file; may be repeated"))->option_text("FILE");
+    convert.add_option("--extract", o.extract, "Write this process alone, with the connections among its groups")->option_text("PROCESS");
     convert.add_flag("--embed", o.embed, "Write the content of linked processes instead of the links");
     convert.add_flag("--lenient", o.lenient, "Unknown parameters and attributes are warnings, and left out");
+}
+
+/// What was probably meant by the first word of the command line that does not exist; empty when all do.
+std::string suggestion(const CLI::App& app, int argc, char** argv) {
+    std::vector<std::string> commands, options;
+    for (const auto* c : app.get_subcommands([](const CLI::App*) { return true; })) commands.push_back(c->get_name());
+    if (argc < 2) return {};
+    const auto found = app.get_subcommands([&](const CLI::App* c) { return c->get_name() == argv[1]; });
+    const CLI::App* command = found.empty() ? nullptr : found.front();
+    if (!command) return std::string(argv[1]).starts_with("-") ? "" : forage::suggest(argv[1], commands);
+    for (const auto* o : command->get_options())
+        for (const auto& name : o->get_lnames()) options.push_back("--" + name);
+    for (int i = 2; i < argc; ++i) {
+        const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+        if (word.starts_with("--") && std::find(options.begin(), options.end(), word) == options.end())
+            return fmt::format("there is no option '{}'{}", word, forage::nearest(word, options).empty() ? "" : ", " + forage::suggest(word, options));
+    }
+    return {};
 }
 
 }  // namespace
@@ -66,7 +116,7 @@ int main(int argc, char** argv) {
     CLI::App app("Runs iqr brain models headless, in a closed loop with a simulated robot.", "forage");
     app.set_version_flag("--version", "forage " FORAGE_VERSION);
     app.require_subcommand(1);
-    app.failure_message(CLI::FailureMessage::simple);
+    app.get_formatter()->column_width(34);
 
     RunOptions run_options;
     ConvertOptions convert_options;
@@ -77,21 +127,36 @@ int main(int argc, char** argv) {
     auto& check_command = *app.add_subcommand("check", "Check a system (and world) and say everything that is wrong with it");
     add_input(check_command, check_input);
     auto& types_command = *app.add_subcommand("types", "List the neuron, synapse and module types, or describe one");
-    types_command.add_option("NAME", type, "The type to describe");
+    types_command.add_option("NAME", type, "The type to describe")->option_text(" ");
+    app.add_subcommand("schema", "Print a RELAX NG schema of system files, for editors");
 
     try {
+        if (argc == 1) {
+            fmt::print(stderr, "{}", app.help());
+            return bad_input;
+        }
+        if (argc == 2 && std::string_view(argv[1]) == "help") throw CLI::CallForHelp();
         app.parse(argc, argv);
     } catch (const CLI::Success& e) {
         return app.exit(e);
+    } catch (const CLI::RequiredError& e) {
+        const bool no_command = app.get_subcommands().empty() && !std::string_view(argv[1]).starts_with("-");
+        const std::string meant = suggestion(app, argc, argv);
+        fmt::print(stderr, "error: {}\n  hint: {}\n", no_command ? fmt::format("there is no command '{}'", argv[1]) : e.what(),
+                   meant.empty() ? "'forage --help' lists what there is" : meant);
+        return bad_input;
     } catch (const CLI::ParseError& e) {
-        fmt::print(stderr, "error: {}\n  hint: 'forage {}--help' lists what there is\n", e.what(),
-                   app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name() + " ");
+        const std::string meant = suggestion(app, argc, argv);
+        const auto parsed = app.get_subcommands();
+        fmt::print(stderr, "error: {}\n  hint: {}\n", e.what(),
+                   !meant.empty() ? meant : fmt::format("'forage {}--help' lists what there is", parsed.empty() ? "" : parsed.front()->get_name() + " "));
         return bad_input;
     }
     try {
         if (app.got_subcommand("run")) return run(run_options);
         if (app.got_subcommand("check")) return check(check_input);
         if (app.got_subcommand("convert")) return convert(convert_options);
+        if (app.got_subcommand("schema")) return schema();
         return types(type);
     } catch (const std::exception& e) {
         fmt::print(stderr, "error: {}\n", e.what());

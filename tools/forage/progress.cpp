@@ -6,23 +6,35 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <string_view>
 
 namespace forage::tool {
 
-Progress::Progress(bool wanted) : shown_(wanted && isatty(STDERR_FILENO)) {}
+namespace {
+
+bool can_redraw() {
+    const char* term = std::getenv("TERM");
+    return isatty(STDERR_FILENO) && term && std::string_view(term) != "dumb";
+}
+
+}  // namespace
+
+Progress::Progress(bool wanted) : shown_(wanted && can_redraw()) {}
 
 double Progress::elapsed() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 
 void Progress::draw(const State& s) {
     next_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(100);
-    constexpr int width = 24;
-    const int filled = static_cast<int>(std::clamp(s.done, 0.0, 1.0) * width);
-    const double elapsed = std::max(this->elapsed(), 1e-9);
-    std::string line = fmt::format("[{:=<{}}{:{}}] {:3.0f} %  {:.0f} cycles/s  {:.0f} x real time  {}", "", filled, "", width - filled,
-                                   100 * std::clamp(s.done, 0.0, 1.0), static_cast<double>(s.cycles) / elapsed, s.seconds / elapsed, s.text);
+    const double elapsed = std::max(this->elapsed(), 1e-9), done = std::clamp(s.done, 0.0, 1.0);
+    std::string text = fmt::format("{:3.0f} %  {}{}{:.0f} x real time  {:.0f} cycles/s", 100 * done, s.text, s.text.empty() ? "" : "  ",
+                                   s.seconds / elapsed, static_cast<double>(s.cycles) / elapsed);
     winsize size{};
-    const std::size_t columns = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1u : 79u;
-    line.resize(std::min(line.size(), columns));
+    const int columns = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1 : 79;
+    // What is left beside the text is the bar's, if it is enough to see something.
+    const int width = std::min(columns - static_cast<int>(text.size()) - 3, 40);
+    const int filled = static_cast<int>(done * width);
+    std::string line = width < 5 ? text.substr(0, static_cast<std::size_t>(columns)) : fmt::format("[{:=<{}}{:{}}] {}", "", filled, "", width - filled, text);
     fmt::print(stderr, "\r{}\x1b[K", line);
     std::fflush(stderr);
 }

@@ -21,4 +21,6 @@ void note_signals() {
 
 int noted_signal() { return noted; }
 
+std::string stopped_by(int signal) { return signal == SIGINT ? "by Ctrl-C" : "by SIGTERM"; }
+
 }  // namespace forage::tool

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "core/xml/schema.h"
 #include "tools/forage/commands.h"
 
 namespace forage::tool {
@@ -26,6 +27,11 @@ void list(std::string_view kind, const Map& types) {
 }
 
 }  // namespace
+
+int schema() {
+    fmt::print("{}", xml::relax_ng(shipped_types(nullptr, nullptr)));
+    return fine;
+}
 
 int types(const std::string& name) {
     const Registry registry = shipped_types(nullptr, nullptr);

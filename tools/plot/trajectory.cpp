@@ -66,7 +66,9 @@ class Drawing {
         for (const auto& d : world_.drawing()) draw_solid(d);
         draw_bounds();
         draw_starts();
-        for (std::size_t i = 0; i < paths_.size(); ++i) draw_path(i);
+        for (const bool reached : {true, false})  // the missed ones on top: they are fewer
+            for (std::size_t i = 0; i < paths_.size(); ++i)
+                if (paths_[i].reached == reached) draw_path(i);
         draw_targets();
         cairo_restore(c());
         draw_axes();
@@ -80,7 +82,7 @@ class Drawing {
     }
 
   private:
-    static constexpr int left = 62, right = 130, top = 34, bottom = 52;  // pixels
+    static constexpr int left = 62, right = 150, top = 34, bottom = 52;  // pixels
 
     cairo_t* c() const { return c_.get(); }
     double px(double x) const { return left + (x - view_.min().x()) * scale_; }
@@ -94,16 +96,16 @@ class Drawing {
             for (const auto& s : plan->starts) box.extend(Eigen::Vector2d(s.x, s.y));
         } else {
             for (const auto& d : world_.drawing()) {
-                const double r = d.solid.size.head<2>().norm() / 2;
                 const Eigen::Vector2d at = d.solid.pose.translation().head<2>();
-                box.extend(Eigen::Vector2d(at.array() - r)).extend(Eigen::Vector2d(at.array() + r));
+                const Eigen::Vector2d half = (d.solid.pose.linear().cwiseAbs() * d.solid.size / 2).head<2>();
+                box.extend(Eigen::Vector2d(at - half)).extend(Eigen::Vector2d(at + half));
             }
         }
         for (const auto& t : world_.targets()) box.extend(t);
         for (const auto& p : paths_)
             for (const auto& point : p.points) box.extend(point);
         if (box.isEmpty()) box.extend(Eigen::Vector2d::Zero());
-        const double margin = std::max(0.06 * box.sizes().maxCoeff(), 0.5);
+        const double margin = std::max(0.04 * box.sizes().maxCoeff(), 0.5);
         return {box.min().array() - margin, box.max().array() + margin};
     }
 
@@ -191,22 +193,30 @@ class Drawing {
         const auto& points = paths_[i].points;
         if (points.empty()) return;
         const auto colour = path_colour(paths_.size() > 1 ? static_cast<double>(i) / static_cast<double>(paths_.size() - 1) : 1);
+        const double width = paths_.size() > 60 ? 1 : 1.6;
         for (const bool halo : {true, false}) {  // a dark rim keeps a path visible on bright patches
             cairo_set_source_rgb(c(), halo ? 0 : colour[0], halo ? 0 : colour[1], halo ? 0 : colour[2]);
-            cairo_set_line_width(c(), halo ? 3 : 1.6);
+            cairo_set_line_width(c(), halo ? width + 1.4 : width);
             cairo_move_to(c(), px(points[0].x()), py(points[0].y()));
             for (const auto& p : points) cairo_line_to(c(), px(p.x()), py(p.y()));
             cairo_stroke(c());
         }
-        if (paths_[i].finished || paths_[i].reached) draw_end(px(points.back().x()), py(points.back().y()), paths_[i].reached, colour);
+        draw_end(px(points.back().x()), py(points.back().y()), end_of(paths_[i]), colour);
     }
 
-    void draw_end(double x, double y, bool reached, const std::array<double, 3>& colour) {
+    enum class End { reached, missed, unfinished };
+    static End end_of(const Path& p) { return p.reached ? End::reached : p.finished ? End::missed : End::unfinished; }
+
+    void draw_end(double x, double y, End end, const std::array<double, 3>& colour) {
         for (const bool halo : {true, false}) {
             cairo_set_source_rgb(c(), halo ? 0 : colour[0], halo ? 0 : colour[1], halo ? 0 : colour[2]);
-            if (reached) {
+            if (end == End::reached) {
                 cairo_arc(c(), x, y, halo ? 5 : 3.8, 0, 2 * M_PI);
                 cairo_fill(c());
+            } else if (end == End::unfinished) {
+                cairo_set_line_width(c(), halo ? 4.5 : 2.2);
+                cairo_rectangle(c(), x - 4, y - 4, 8, 8);
+                cairo_stroke(c());
             } else {
                 cairo_set_line_width(c(), halo ? 4.5 : 2.2);
                 cairo_move_to(c(), x - 5, y - 5), cairo_line_to(c(), x + 5, y + 5);
@@ -224,6 +234,7 @@ class Drawing {
         cairo_set_source_rgb(c(), 0, 0, 0);
         cairo_move_to(c(), x - anchor * extents.width, y);
         cairo_show_text(c(), what.c_str());
+        cairo_new_path(c());  // showing text leaves a current point, from which an arc would draw a line
     }
 
     void draw_axes() {
@@ -252,24 +263,39 @@ class Drawing {
     void draw_legend() {
         const double x = px(view_.max().x()) + 16;
         double y = top + 14;
-        text(x, y, "trial", 13, 0);
-        const double bar = 160;
-        for (int i = 0; i < static_cast<int>(bar); ++i) {
-            const auto colour = path_colour(i / (bar - 1));
-            cairo_set_source_rgb(c(), colour[0], colour[1], colour[2]);
-            cairo_rectangle(c(), x, y + 10 + i, 14, 1.5);
-            cairo_fill(c());
+        if (paths_.size() > 1) {
+            text(x, y, "trial", 13, 0);
+            const double bar = 160;
+            for (int i = 0; i < static_cast<int>(bar); ++i) {
+                const auto colour = path_colour(i / (bar - 1));
+                cairo_set_source_rgb(c(), colour[0], colour[1], colour[2]);
+                cairo_rectangle(c(), x, y + 10 + i, 14, 1.5);
+                cairo_fill(c());
+            }
+            text(x + 20, y + 19, "1", 12, 0);
+            text(x + 20, y + 10 + bar, fmt::format("{}", paths_.size()), 12, 0);
+            y += bar + 40;
         }
-        text(x + 20, y + 19, "1", 12, 0);
-        if (paths_.size() > 1) text(x + 20, y + 10 + bar, fmt::format("{}", paths_.size()), 12, 0);
-        y += bar + 40;
-        draw_end(x + 7, y, true, path_colour(1));
-        text(x + 20, y + 4, "at the target", 12, 0);
-        draw_end(x + 7, y + 24, false, path_colour(1));
-        text(x + 20, y + 28, "missed", 12, 0);
-        const auto reached = std::count_if(paths_.begin(), paths_.end(), [](const Path& p) { return p.reached; });
-        text(x, y + 60, fmt::format("{} of {}", reached, paths_.size()), 13, 0);
-        text(x, y + 77, "at the target", 12, 0);
+        const auto entry = [&](const std::string& what, auto draw) {
+            draw();
+            text(x + 20, y + 4, what, 12, 0);
+            y += 24;
+        };
+        const auto count = [&](End end) { return std::count_if(paths_.begin(), paths_.end(), [&](const Path& p) { return end_of(p) == end; }); };
+        for (const auto& [end, name] : {std::pair{End::reached, "at the target"}, {End::missed, "missed"}, {End::unfinished, "unfinished"}})
+            if (const auto n = count(end)) entry(fmt::format("{} {}", n, name), [&, e = end] { draw_end(x + 7, y, e, path_colour(1)); });
+        const auto outline = [&](double dash, auto shape) {
+            const double dashes[] = {dash, dash};
+            cairo_set_dash(c(), dashes, 2, 0);
+            cairo_set_line_width(c(), 1.2);
+            cairo_set_source_rgb(c(), 0.3, 0.3, 0.3);
+            shape();
+            cairo_stroke(c());
+            cairo_set_dash(c(), nullptr, 0, 0);
+        };
+        if (!world_.targets().empty())
+            entry("target", [&] { outline(2, [&] { cairo_arc(c(), x + 7, y, 6, 0, 2 * M_PI); }); });
+        if (world_.reset_plan()) entry("bounds", [&] { outline(3, [&] { cairo_rectangle(c(), x + 1, y - 6, 12, 12); }); });
     }
 
     const bug::World& world_;

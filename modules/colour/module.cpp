@@ -1,0 +1,60 @@
+#include "modules/colour/module.h"
+
+#include <cstring>
+
+#include <fmt/format.h>
+
+namespace forage::colour {
+namespace {
+
+/// Bit by bit; quick.
+bool same(const double* a, const Eigen::ArrayXd& b) {
+    return std::memcmp(a, b.data(), static_cast<std::size_t>(b.size()) * sizeof *a) == 0;
+}
+
+}  // namespace
+
+void ColourModule::check(const ModulePorts& ports, Problems& problems) const {
+    const auto &hue = ports.inputs[0], &value = ports.inputs[1], &colour = ports.outputs[0];
+    const auto rectangular = [](const GroupShape& s) { return s.cells == s.width * s.height; };
+    for (const auto* group : {&hue, &colour})
+        if (!rectangular(group->shape)) {
+            problems.all.push_back(
+                {fmt::format("'{}' needs a rectangular group; '{}' is sparse", group->port, group->path),
+                 "give the group a TopologyRect", "", group->port});
+            return;
+        }
+    if (colour.shape.width != hue.shape.width || colour.shape.height % hue.shape.height != 0)
+        problems.all.push_back(
+            {fmt::format("'_color' needs the width of '_hue' and a multiple of its height: '{}' has {} x {} "
+                         "cells, '{}' {} x {}",
+                         colour.path, colour.shape.width, colour.shape.height, hue.path, hue.shape.width,
+                         hue.shape.height),
+             fmt::format("for 12 colours, {} x {}", hue.shape.width, 12 * hue.shape.height), "", "_color"});
+    if (value.shape.cells < hue.shape.cells)
+        problems.all.push_back(
+            {fmt::format("'_value' needs a value for each of the {} cells of '_hue'; '{}' has {}",
+                         hue.shape.cells, value.path, value.shape.cells),
+             fmt::format("make the group {} x {}", hue.shape.width, hue.shape.height), "", "_value"});
+}
+
+void ColourModule::start(const ModulePorts& ports) {
+    const auto &hue = ports.inputs[0].shape, &colour = ports.outputs[0].shape;
+    bins_ = HueBins(colour.cells / hue.cells);
+    hue_.setZero(hue.cells);
+    value_.setZero(hue.cells);
+    shown_ = false;
+}
+
+void ColourModule::update(ModuleFrame& frame) {
+    const auto& hue = frame.input(0);
+    const auto value = frame.input(1).head(hue.size());
+    if (shown_ && same(hue.data(), hue_) && same(value.data(), value_))
+        return;  // a camera is slower than the cycles
+    bins_.separate(hue, value, frame.output(0));
+    hue_ = hue;
+    value_ = value;
+    shown_ = true;
+}
+
+}  // namespace forage::colour

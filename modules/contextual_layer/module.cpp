@@ -1,0 +1,124 @@
+#include "modules/contextual_layer/module.h"
+
+#include <fmt/format.h>
+
+#include "modules/contextual_layer/display.h"
+
+namespace forage::contextual {
+namespace {
+
+enum In : std::size_t { action_in, prototype, stats, discrepancy_in };
+enum Out : std::size_t { action_out, empty, collector, distance, selected, trigger };
+
+}  // namespace
+
+void ContextualLayerModule::describe(ModuleSpec<ContextualLayerModule>& s) {
+    using T = ContextualLayerModule;
+    s.name("moduleCL", "Contextual Layer")
+        .doc(
+            "Remembers the sequences of prototypes and actions that led to a goal, and acts on them when "
+            "they recur.");
+    s.param("Memory Height", &T::height)
+        .label("Memory height")
+        .range(0, 1000)
+        .doc("Number of sequences, and the most segments a sequence has; read at start.");
+    s.param("Memory Width", &T::width)
+        .label("Memory width")
+        .range(0, 1000)
+        .doc("Segments per sequence that the memory's pictures show; read at start.");
+    s.param("Memory Threshold", &T::threshold)
+        .label("Memory threshold")
+        .range(0, 2)
+        .doc("A segment is selected only when its collector is above this.");
+    s.param("%-WTA", &T::share)
+        .label("%-WTA")
+        .range(0, 1)
+        .doc("A segment is selected only when its collector is at least this part, 0 to 1, of the largest.");
+    s.param("Trigger Reset", &T::reset)
+        .label("Trigger Reset")
+        .range(0, 2)
+        .doc("Trigger of the segment that follows a selected one; above 1 favours it.");
+    s.param("Trigger Decay", &T::decay)
+        .label("Trigger Decay")
+        .range(0, 2)
+        .doc("Part of the way back to 1 that a trigger goes in a cycle.");
+    s.param("Discrepancy Threshold", &T::discrepancy)
+        .label("Discrepancy Threshold")
+        .range(0, 2)
+        .doc("The layer opens, for good, when the discrepancy is between 1e-6 and this.");
+    s.input("action", "Action");
+    s.input("prototype", "Prototype");
+    s.input("stats", "Stats");
+    s.input("discrepancy", "Discrepancy");
+    s.output("action", "Action");
+    s.output("empty", "Empty").optional();
+    s.output("collector", "Collector").optional();
+    s.output("distance", "Distance").optional();
+    s.output("selected", "Selected").optional();
+    s.output("trigger", "Trigger").optional();
+}
+
+void ContextualLayerModule::check(const ModulePorts& ports, Problems& problems) const {
+    const auto report = [&](const ModulePorts::Group& group, std::string message, std::string hint) {
+        problems.all.push_back({std::move(message), std::move(hint), "", group.port});
+    };
+    bool sized = true;
+    for (const auto& [name, value] : {std::pair{"Memory Height", height}, std::pair{"Memory Width", width}})
+        if (!(value >= 1 && value < 1e6)) {
+            problems.all.push_back(
+                {fmt::format("'{}' is {}: there is no such memory", name, value), "1 to 1000", name, ""});
+            sized = false;
+        }
+    if (sized) {
+        const auto rows = static_cast<std::int64_t>(height), columns = static_cast<std::int64_t>(width);
+        for (std::size_t i = empty; i <= trigger; ++i) {
+            const auto& group = ports.outputs[i];
+            const std::int64_t cells = group.shape.cells;
+            if (cells == 0 || cells == rows * columns || (cells > rows * columns && i != collector)) continue;
+            report(group,
+                   fmt::format("'{}' shows a memory of {} x {} segments; '{}' has {} cells", group.port,
+                               columns, rows, group.path, cells),
+                   fmt::format("make the group {} x {}, or fit 'Memory Width' and 'Memory Height'", columns,
+                               rows));
+        }
+    }
+    const auto& source = ports.inputs[action_in];
+    const auto& target = ports.outputs[action_out];
+    if (target.shape.cells > source.shape.cells)
+        report(target,
+               fmt::format("output 'action' gets the {} cells of input 'action' ({}); '{}' has {}",
+                           source.shape.cells, source.path, target.path, target.shape.cells),
+               "give both groups the same size");
+    if (const auto& goals = ports.inputs[stats]; goals.shape.cells < 2)
+        report(goals,
+               fmt::format("'stats' needs 2 cells, for the positive and the negative goal; '{}' has {}",
+                           goals.path, goals.shape.cells),
+               "make the group 2 x 1");
+}
+
+void ContextualLayerModule::start(const ModulePorts& ports) {
+    layer_ = ContextualLayer(static_cast<Index>(height), static_cast<Index>(width),
+                             ports.inputs[prototype].shape.cells, ports.inputs[action_in].shape.cells);
+    displayed_ = false;
+}
+
+void ContextualLayerModule::update(ModuleFrame& frame) {
+    const auto& goals = frame.input(stats);
+    if (!layer_.update({frame.input(action_in), frame.input(prototype), goals[0], goals[1],
+                        frame.input(discrepancy_in)[0]},
+                       {threshold, share, reset, decay, discrepancy}))
+        return;
+    Column action = frame.output(action_out);
+    action = layer_.action().head(action.size()).cast<double>();
+    const auto picture = [&](Out port, const SegmentArray& numbers) {
+        if (frame.output(port).size() > 0) show(layer_, numbers, !displayed_, frame.output(port));
+    };
+    if (frame.output(empty).size() > 0) show_empty(layer_, !displayed_, frame.output(empty));
+    picture(collector, layer_.memory().collector());
+    picture(distance, layer_.memory().distance());
+    picture(selected, layer_.memory().selected());
+    picture(trigger, layer_.memory().trigger());
+    displayed_ = true;
+}
+
+}  // namespace forage::contextual

@@ -1,0 +1,29 @@
+// moduleCL: the contextual layer between groups.
+#pragma once
+
+#include "core/types/module.h"
+#include "modules/contextual_layer/contextual_layer.h"
+
+namespace forage::contextual {
+
+/// Inputs `action` (M cells), `prototype` (N), `stats` (positive goal, negative goal) and `discrepancy` (its
+/// first cell); output `action` (up to M cells) and, if wanted, pictures of the memory. Writes nothing while
+/// the layer is closed. Memory Height and Memory Width are read at start, all else in each update.
+class ContextualLayerModule {
+  public:
+    double height = 1, width = 1;
+    double threshold = 0, share = 0, reset = 0, decay = 0, discrepancy = 0;
+
+    static void describe(ModuleSpec<ContextualLayerModule>& spec);
+    void check(const ModulePorts& ports, Problems& problems) const;
+    void start(const ModulePorts& ports);
+    void update(ModuleFrame& frame);
+
+    const ContextualLayer& layer() const { return layer_; }
+
+  private:
+    ContextualLayer layer_;
+    bool displayed_ = false;  ///< the displays have been written once
+};
+
+}  // namespace forage::contextual

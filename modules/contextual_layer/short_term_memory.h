@@ -1,0 +1,40 @@
+// What happened since the last goal.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace forage::contextual {
+
+using Eigen::Index;
+
+/// A ring of the newest `slots` couplets of prototype and action, in single precision.
+class ShortTermMemory {
+  public:
+    ShortTermMemory() = default;
+    ShortTermMemory(Index slots, Index prototype_cells, Index action_cells)
+        : prototypes_(prototype_cells, slots), actions_(action_cells, slots) {}
+
+    /// Remembers a couplet; when all slots are taken the oldest is forgotten.
+    void append(const Eigen::Ref<const Eigen::ArrayXd>& prototype,
+                const Eigen::Ref<const Eigen::ArrayXd>& action) {
+        prototypes_.col(next_) = prototype.cast<float>();
+        actions_.col(next_) = action.cast<float>();
+        next_ = (next_ + 1) % slots();
+        if (size_ < slots()) ++size_;
+    }
+    void clear() { size_ = 0; }
+
+    Index slots() const { return prototypes_.cols(); }
+    Index size() const { return size_; }
+    /// The prototype, or action, that was appended `age` couplets ago; 0 is the newest.
+    auto prototype(Index age) const { return prototypes_.col(slot(age)); }
+    auto action(Index age) const { return actions_.col(slot(age)); }
+
+  private:
+    Index slot(Index age) const { return (next_ - 1 - age + slots()) % slots(); }
+
+    Eigen::ArrayXXf prototypes_, actions_;  ///< one column per slot
+    Index next_ = 0, size_ = 0;
+};
+
+}  // namespace forage::contextual

@@ -1,0 +1,77 @@
+#include "modules/direction/direction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace forage::goal {
+namespace {
+
+enum In : std::size_t { location_in, orientation_in, goal_in };
+enum Out : std::size_t { direction_out, distance_out };
+
+double up(const Place& from, const Place& to) { return static_cast<double>(from.row - to.row); }
+double left(const Place& from, const Place& to) { return static_cast<double>(from.column - to.column); }
+
+}  // namespace
+
+double distance(const Place& from, const Place& to) {
+    const double rows = up(from, to), columns = left(from, to);
+    return std::sqrt(rows * rows + columns * columns);
+}
+
+double bearing(const Place& from, const Place& to) {
+    constexpr double pi = std::numbers::pi;
+    double angle = std::atan(up(from, to) / left(from, to));  // a right angle in the same column
+    if (to.column > from.column)
+        angle += pi;
+    else if (to.row > from.row)
+        angle += 2 * pi;
+    return 1 - angle / (2 * pi);
+}
+
+double turn(double bearing, double orientation) {
+    const double ahead = bearing - orientation;
+    const double apart = std::min(std::abs(ahead), 1 - std::abs(ahead));
+    const double step = apart < 0.05 ? 0 : apart < 0.1 ? 0.1 : apart < 0.15 ? 0.33 : 0.45;
+    const bool forwards = (ahead > 0 && ahead <= 0.5) || ahead < -0.5;
+    return forwards ? 0.5 + step : 0.5 - step;
+}
+
+void DirectionModule::check(const ModulePorts& ports, Problems& problems) const {
+    const auto &location = ports.inputs[location_in], &goal = ports.inputs[goal_in];
+    if (location.shape.cells != location.shape.width * location.shape.height)
+        problems.all.push_back(
+            {fmt::format("'_location' needs a rectangular group; '{}' is sparse", location.path),
+             "give the group a TopologyRect", "", "_location"});
+    if (!(goal.shape == location.shape))
+        problems.all.push_back(
+            {fmt::format("'_goal' needs {} x {} cells, as '_location' ({}); '{}' has {} x {}",
+                         location.shape.width, location.shape.height, location.path, goal.path,
+                         goal.shape.width, goal.shape.height),
+             "give both groups the same size", "", "_goal"});
+    if (const auto& orientation = ports.inputs[orientation_in]; orientation.shape.cells < 2)
+        problems.all.push_back(
+            {fmt::format("'_ori' needs at least 2 cells, a whole turn from first to last; '{}' has {}",
+                         orientation.path, orientation.shape.cells),
+             "give the group a cell per direction, as to the robot's head direction", "", "_ori"});
+}
+
+void DirectionModule::update(ModuleFrame& frame) const {
+    frame.output(direction_out).setZero();
+    frame.output(distance_out).setZero();
+    const auto location = place_of(frame.input(location_in), width_),
+               goal = place_of(frame.input(goal_in), width_);
+    if (!location || !goal) return;
+    const auto& cells = frame.input(orientation_in);
+    const double orientation =
+        static_cast<double>(highest_cell(cells)) / static_cast<double>(cells.size() - 1);
+    const double s = turn(bearing(*location, *goal), orientation);
+    Column direction = frame.output(direction_out);
+    direction[static_cast<Index>((1 - s) * static_cast<double>(direction.size()))] = 1;
+    frame.output(distance_out)[0] = distance(*location, *goal);
+}
+
+}  // namespace forage::goal

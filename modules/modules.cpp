@@ -1,0 +1,19 @@
+#include "modules/modules.h"
+
+#include "modules/adaptive_layer/module.h"
+#include "modules/colour/module.h"
+#include "modules/contextual_layer/module.h"
+#include "modules/difference/difference.h"
+#include "modules/direction/direction.h"
+
+namespace forage {
+
+void add_modules(Registry& registry) {
+    registry.add(module_type<adaptive::AdaptiveLayerModule>());
+    registry.add(module_type<colour::ColourModule>());
+    registry.add(module_type<contextual::ContextualLayerModule>());
+    registry.add(module_type<goal::DifferenceModule>());
+    registry.add(module_type<goal::DirectionModule>());
+}
+
+}  // namespace forage
