@@ -1,0 +1,79 @@
+#include "modules/contextual_layer/prototype_store.h"
+
+#include <map>
+#include <random>
+
+#include "tests/support/catch.h"
+
+using namespace forage::contextual;
+using Eigen::ArrayXd;
+using Eigen::ArrayXf;
+
+namespace {
+
+/// The definition, word by word.
+float distance(const ArrayXf& stored, const ArrayXd& present) {
+    const float stored_peak = std::max(0.0F, stored.maxCoeff());
+    const double present_peak = static_cast<float>(std::max(0.0, present.maxCoeff()));
+    if (!(stored_peak > 0) || !(present_peak > 0)) return 1;
+    const float share = 1.0F / static_cast<float>(stored.size());
+    float sum = 0;
+    for (Index i = 0; i < stored.size(); ++i) {
+        const float quotient = stored[i] / stored_peak;
+        sum = static_cast<float>(sum +
+                                 std::abs(quotient - present[i] / present_peak) * static_cast<double>(share));
+    }
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("Distances are the definition's to the last bit, whatever was added and removed before") {
+    std::mt19937 random(1);
+    std::normal_distribution<float> normal;
+    const Index keys = 90, capacity = 60, cells = 11;
+    PrototypeStore store(keys, capacity, cells);
+    std::map<Index, ArrayXf> stored;
+    const auto drawn = [&] {
+        ArrayXf out(cells);
+        for (auto& v : out)
+            v = random() % 3 ? 0 : normal(random);  // often 0, sometimes without a cell above 0
+        return out;
+    };
+    std::vector<float> distances(keys, -1);
+    for (int step = 0; step < 3000; ++step) {
+        const Index key = static_cast<Index>(random() % keys);
+        if (stored.count(key)) {
+            store.remove(key);
+            stored.erase(key);
+        } else if (stored.size() < capacity) {
+            store.add(key, stored[key] = drawn());
+        }
+        if (step % 3) continue;
+        const ArrayXd present = drawn().cast<double>() * 1.1;
+        store.compare(present, distances.data());
+        REQUIRE(store.size() == static_cast<Index>(stored.size()));
+        for (const auto& [k, prototype] : stored)
+            if (distances[static_cast<std::size_t>(k)] != distance(prototype, present))
+                FAIL("step " << step << ", key " << k);
+    }
+}
+
+TEST_CASE("A prototype is next to nothing from itself, at any strength, and at most 1 from any other") {
+    PrototypeStore store(3, 3, 4);
+    const ArrayXf a = (ArrayXf(4) << 0.1F, 0.7F, 0, 0.3F).finished(),
+                  b = (ArrayXf(4) << 0, 0, 1, 0).finished();
+    store.add(0, a);
+    store.add(1, b);
+    store.add(2, 5 * a);
+    float d[3];
+    store.compare(3 * a.cast<double>(), d);
+    CHECK(d[0] < 1e-6F);
+    CHECK(d[2] < 1e-6F);
+    CHECK(d[1] > 0.5F);
+    CHECK(d[1] <= 1);
+    store.compare(ArrayXd::Zero(4), d);
+    CHECK((d[0] == 1 && d[1] == 1 && d[2] == 1));
+    store.compare(ArrayXd::Constant(4, -1), d);
+    CHECK((d[0] == 1 && d[1] == 1 && d[2] == 1));
+}

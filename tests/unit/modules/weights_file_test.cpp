@@ -1,0 +1,90 @@
+#include "modules/adaptive_layer/weights_file.h"
+
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "tests/support/catch.h"
+#include "tests/support/golden.h"
+
+using namespace forage::adaptive;
+using Catch::Matchers::Contains;
+using Eigen::MatrixXd;
+
+namespace {
+
+struct File {
+    std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("forage_weights_" + std::to_string(std::random_device{}()));
+    std::string path = (folder / "weights").string();
+    File() { std::filesystem::create_directories(folder); }
+    explicit File(const std::string& text) : File() { std::ofstream(path) << text; }
+    ~File() { std::filesystem::remove_all(folder); }
+};
+
+std::string complaint(const std::string& text) {
+    const File file(text);
+    try {
+        read_weights(file.path, 2, 2);
+    } catch (const std::exception& e) {
+        return std::string(e.what()).replace(std::string(e.what()).find(file.path), file.path.size(), "FILE");
+    }
+    return "none";
+}
+
+MatrixXd two_by_two(double a, double b, double c, double d) {
+    return (MatrixXd(2, 2) << a, b, c, d).finished();
+}
+
+}  // namespace
+
+TEST_CASE("Weights are written a line per response, with six digits and a comma after each") {
+    const File file;
+    MatrixXd w(3, 2);
+    w << 0.5, -1, 1.0 / 3, 1e-7, 12345678, 0;
+    write_weights(file.path, w);
+    CHECK(forage::test::read_text(file.path) == "0.5, 0.333333, 1.23457e+07, \n-1, 1e-07, 0, \n");
+}
+
+TEST_CASE("Weights that were written are read again, to six digits") {
+    const File file;
+    const MatrixXd w = MatrixXd::Random(5, 3);
+    write_weights(file.path, w);
+    const MatrixXd again = read_weights(file.path, 5, 3);
+    CHECK((again - w).cwiseAbs().maxCoeff() < 1e-6);
+    write_weights(file.path, again);
+    CHECK(read_weights(file.path, 5, 3) == again);
+}
+
+TEST_CASE("Line ends and blanks mean nothing between weights, and the last comma may be missing") {
+    const MatrixXd expected = two_by_two(1, 3, 2, 4);
+    for (const char* text : {"1,2,3,4", "1, 2, \n3, 4, \n", " 1\n,\n\n2 ,\t3,4,\r\n", "+1,2.0,3e0,4,"})
+        CHECK(read_weights(File(text).path, 2, 2) == expected);
+}
+
+TEST_CASE("A file that does not hold the weights is refused, with the place and the reason") {
+    CHECK_THAT(complaint("1, 2, 3"), Contains("FILE:1: error: 3 weights") && Contains("need 4"));
+    CHECK_THAT(complaint("1, 2, \n3, 4, \n5, "), Contains("5 weights") && Contains("need 4"));
+    CHECK_THAT(complaint("1, 2, \n3, 8x, \n"), Contains("FILE:2: error: '8x' is not a number"));
+    CHECK_THAT(complaint("1, 2 \n3, 4, \n"), Contains("FILE:1: error: '2 ?3' is not a number"));
+    CHECK_THAT(complaint("1, , 3, 4"), Contains("'' is not a number"));
+    CHECK_THAT(complaint("1, nan, 3, 4"), Contains("'nan'"));
+    CHECK_THAT(complaint("1, 1e300, 3, 4"), Contains("'1e300'"));
+    CHECK_THAT(complaint(""), Contains("0 weights"));
+    CHECK_THAT(complaint("\x1b[31m"), Contains("'?[31m'"));
+}
+
+TEST_CASE("A file that is not there, or a folder, is refused by name") {
+    const File file;
+    CHECK_THROWS_WITH(read_weights(file.path, 2, 2), Contains("cannot read") && Contains(file.path));
+    CHECK_THROWS_WITH(read_weights(file.folder.string(), 2, 2), Contains("cannot read"));
+}
+
+TEST_CASE("Weights that cannot be written leave nothing behind") {
+    const File file;
+    CHECK_THROWS_WITH(write_weights((file.folder / "none" / "weights").string(), MatrixXd::Zero(2, 2)),
+                      Contains("cannot write"));
+    CHECK_THROWS_WITH(write_weights(file.folder.string(), MatrixXd::Zero(2, 2)), Contains("cannot write"));
+    CHECK(std::filesystem::is_empty(file.folder));
+    CHECK_FALSE(std::filesystem::exists(file.folder.string() + ".part"));
+}
