@@ -71,33 +71,47 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
     s.param("transSpeed", &T::trans_speed)
         .label("Translation speed")
         .unit("m/s")
-        .doc("Speed that the top row of the motor group stands for.");
+        .doc(
+            "Speed straight ahead when the cell in the middle of the motor group's top row is the most "
+            "active one; rows below stand for less, the middle row for none, the bottom row for as much "
+            "backwards.");
     s.param("rotSpeed", &T::rot_speed)
         .label("Rotation speed")
         .unit("rad/s")
-        .doc("Left turn that the left column of the motor group stands for.");
+        .doc(
+            "Speed of the left turn that the motor group's left column stands for; the right column stands "
+            "for as fast a right turn, the middle one for none.");
     s.param("placeXOffset", &T::place_x_offset)
         .label("Place X offset")
         .unit("m")
-        .doc("x that the middle of the place cells stands for.");
+        .doc("x of the middle of the area that the place cells cover. No effect on the GPS.");
     s.param("placeYOffset", &T::place_y_offset)
         .label("Place Y offset")
         .unit("m")
-        .doc("y that the middle of the place cells stands for.");
+        .doc("y of the middle of the area that the place cells cover. No effect on the GPS.");
     s.param("placeXMax", &T::place_x_max)
         .label("Place X max")
         .unit("m")
-        .doc("Half extent in x of the area of the place cells; added to x in the GPS.");
+        .doc(
+            "Half the extent in x of the area that the place cells cover. Also added to x in the GPS group, "
+            "so that it is not negative there.");
     s.param("placeYMax", &T::place_y_max)
         .label("Place Y max")
         .unit("m")
-        .doc("Half extent in y of the area of the place cells; added to y in the GPS.");
+        .doc(
+            "Half the extent in y of the area that the place cells cover. Also added to y in the GPS group, "
+            "so that it is not negative there.");
     s.param("placeSigma", &T::place_sigma)
         .label("Place sigma")
-        .doc("Width of a place cell's field; the area is 2 wide.");
+        .unit("half extents")
+        .doc(
+            "Width of a place cell's field, exp(-(distance/sigma)^2), as a fraction of half the area's "
+            "extent: 0.2 with placeXMax 10 is 2 m.");
     s.param("headSigma", &T::head_sigma)
         .label("Head sigma")
-        .doc("Width of a head direction cell's field; the circle is 1 long.");
+        .unit("turn")
+        .doc(
+            "Width of a head direction cell's field, exp(-(distance/sigma)^2), in turns: 0.1 is 36 degrees.");
 
     s.input("_motor", "Motor");
     s.input("_gripper", "Gripper").optional();

@@ -1,6 +1,8 @@
 #include "bug_interface/motion/reset.h"
 
 #include <array>
+#include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -15,33 +17,61 @@ const Model* find_model(const WorldDescription& world, std::string_view name) {
     return nullptr;
 }
 
-/// What a shape covers of the plane; all of it for a plane.
+/// What a solid covers of the plane.
 Eigen::AlignedBox2d extent(const Shape& shape, const Pose& pose) {
-    if (shape.kind == ShapeKind::plane) {
-        const Eigen::Vector2d all = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
-        return {-all, all};
-    }
     const Eigen::Vector3d half = pose.linear().cwiseAbs() * shape.size / 2;
     const Eigen::Vector2d middle = pose.translation().head<2>();
     return {middle - half.head<2>(), middle + half.head<2>()};
 }
 
-std::optional<Eigen::AlignedBox2d> bounds_of(const Model& ground) {
-    if (ground.links.empty() || ground.links.back().collisions.empty()) return {};
+/// The bounds that the model gives; empty, and an error, when it gives none.
+std::optional<Eigen::AlignedBox2d> bounds_of(const Model& ground, Diagnostics& diagnostics) {
+    constexpr const char* hint =
+        "give it a box as its last collision, below the floor and as large as the arena";
+    if (ground.links.empty() || ground.links.back().collisions.empty()) {
+        diagnostics.error(ground.where, "the last link of GroundPlane has no collision to give the bounds",
+                          hint);
+        return {};
+    }
     const Link& link = ground.links.back();
     const Collision& last = link.collisions.back();
+    if (last.shape.kind == ShapeKind::plane) {
+        diagnostics.error(ground.where, "GroundPlane's last collision is a plane, so the arena has no bounds",
+                          hint);
+        return {};
+    }
     return extent(last.shape, ground.pose * link.pose * last.pose);
+}
+
+/// Names that look as if they meant something, and do not.
+void warn_about_names(const WorldDescription& world, Diagnostics& diagnostics) {
+    constexpr std::string_view start = "Reset_";
+    std::set<std::string_view> seen;
+    for (const Model& model : world.models) {
+        const std::string_view name = model.name;
+        const bool is_start = name.starts_with(start);
+        if (is_start && (name.size() != start.size() + 1 || name.back() < '0' || name.back() > '9'))
+            diagnostics.warning(model.where,
+                                fmt::format("'{}' is no start pose: only Reset_0 to Reset_9 are", name),
+                                "give it another number, or another name when it is only a mark");
+        else if ((is_start || name == "GroundPlane") && !seen.insert(name).second)
+            diagnostics.warning(model.where,
+                                fmt::format("there are two models named '{}'; the first one counts", name),
+                                "give each <include> a <name> of its own");
+    }
 }
 
 }  // namespace
 
 std::optional<ResetPlan> find_reset(const WorldDescription& world, Diagnostics& diagnostics) {
+    warn_about_names(world, diagnostics);
     ResetPlan plan;
     std::vector<const Model*> starts;
     for (int i = 0; i < 10; ++i)
         if (const Model* start = find_model(world, fmt::format("Reset_{}", i))) {
             starts.push_back(start);
             plan.starts.push_back(in_plane(start->pose));
+            plan.names.push_back(start->name);
         }
     if (starts.empty()) return {};
     const Model* ground = find_model(world, "GroundPlane");
@@ -53,12 +83,8 @@ std::optional<ResetPlan> find_reset(const WorldDescription& world, Diagnostics& 
             "name the floor GroundPlane, or take the Reset_i models out");
         return {};
     }
-    const auto bounds = bounds_of(*ground);
-    if (!bounds) {
-        diagnostics.error(ground->where, "the last link of GroundPlane has no collision to give the bounds",
-                          "give it a box as its last collision, below the floor and as large as the arena");
-        return {};
-    }
+    const auto bounds = bounds_of(*ground, diagnostics);
+    if (!bounds) return {};
     plan.bounds = *bounds;
     for (std::size_t i = 0; i < starts.size(); ++i) {
         const Eigen::Vector2d at(plan.starts[i].x, plan.starts[i].y);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -15,13 +16,15 @@ namespace forage::bug {
 /// Where robots start, and the bounds that end a trial.
 struct ResetPlan {
     std::vector<Pose2> starts;
-    Eigen::AlignedBox2d bounds;  ///< of a robot's middle, m
+    std::vector<std::string> names;  ///< of the models that give `starts`
+    Eigen::AlignedBox2d bounds;      ///< of a robot's middle, m
 };
 
 /// The plan of a world: start poses are those of the models named Reset_0 to Reset_9, bounds those of the
 /// last collision of the last link of the model named GroundPlane. Empty when there is no Reset_i: nothing is
-/// ever reset. An error when there is one but no bounds, or one that lies outside: robots would be put back
-/// for ever.
+/// ever reset. An error when there is one but no bounds (a plane has none: trials would never end), or one
+/// that lies outside: robots would be put back for ever. Of two models with one of these names the first
+/// counts, with a warning.
 std::optional<ResetPlan> find_reset(const WorldDescription& world, Diagnostics& diagnostics);
 
 /// One robot's reset: triggered when its middle is outside the bounds, it lasts that substep and 1000 more.

@@ -67,7 +67,7 @@ Robot::Robot(const Model& model, std::uint64_t seed_, Diagnostics& diagnostics)
     });
 }
 
-void Robot::surround(const WorldDescription& world, const std::vector<std::vector<Solid>>& others,
+void Robot::surround(const WorldDescription& world, const std::vector<std::vector<Solid>>& robots,
                      std::size_t self) {
     const auto make = [&](std::string_view sensor, Stream use,
                           std::vector<double>& cells) -> std::optional<Scan> {
@@ -84,8 +84,8 @@ void Robot::surround(const WorldDescription& world, const std::vector<std::vecto
             for (const Solid& solid : solids_of(model))
                 if (const auto outline = cut(solid, scan.scanner.height())) scan.around.push_back(*outline);
         }
-        for (std::size_t other = 0; other < others.size(); ++other)
-            for (const Solid& solid : others[other])
+        for (std::size_t other = 0; other < robots.size(); ++other)
+            for (const Solid& solid : robots[other])
                 if (const auto outline = cut(solid, scan.scanner.height()); outline && other != self)
                     scan.moving.push_back({other, *outline});
         scan.around.resize(scan.around.size() + scan.moving.size());

@@ -33,14 +33,17 @@ struct RobotVisual {
     bool of_body = true;  ///< of the body itself, which the robot's own camera looks away from
 };
 
-/// Built and moved by World.
+/// A part of World, which alone makes, moves and asks robots; the members are public for it. They are used in
+/// this order: the constructor; surround(), when all robots are there; then in every cycle `pose` is set, and
+/// sense() and render() look at the world from it. What is said of a member holds from then on.
 class Robot {
   public:
-    /// What its range scanners see. An outline of another robot is in that one's frame.
+    /// A range scanner and what it sees. `around` ends with the outlines of the other robots, one for each
+    /// element of `moving`, in that order; run() puts them where those robots are.
     struct Scan {
         struct Moving {
             std::size_t robot;
-            Outline outline;
+            Outline outline;  ///< in the frame of that robot
         };
         RangeScanner scanner;
         RandomStream noise;
@@ -48,6 +51,8 @@ class Robot {
         std::vector<Moving> moving;
         std::vector<double> ranges;  ///< m
 
+        /// Scans from `body`, with all robots at `all`, into `cells`, one for each ray. `sample` counts the
+        /// scans: the same one has the same noise.
         void run(const Pose2& body, std::uint64_t sample, bool with_noise, std::span<const Pose2> all,
                  std::span<double> cells);
     };
@@ -59,35 +64,43 @@ class Robot {
     Robot(const Model& model, std::uint64_t seed, Diagnostics& diagnostics);
 
     RandomStream random(Stream use) const { return {seed, "bug " + name, use}; }
-    /// Gives the scanners what is around: `still` stands still, `others[i]` are the solids of robot i in its
-    /// frame.
-    void surround(const WorldDescription& world, const std::vector<std::vector<Solid>>& others,
+
+    /// Makes the scanners and gives them what is around: what stands still in `world`, and of each robot i
+    /// `robots[i]`, its solids in its own frame. `self` is the number of this robot, which does not see
+    /// itself.
+    void surround(const WorldDescription& world, const std::vector<std::vector<Solid>>& robots,
                   std::size_t self);
+    /// Writes pose and scans of `sample` into the snapshot, with the robots at `all` (this one too).
     void sense(bool with_noise, std::uint64_t sample, std::span<const Pose2> all);
+    /// Has no effect without a camera sensor, or when it is made already.
     void make_camera(std::shared_ptr<const Scene> scene);
+    /// Writes the picture of `sample` into the snapshot, unless it is there already. `all` are the poses of
+    /// `robots`, of which this is one. Has no effect before make_camera().
     void render(bool with_noise, std::uint64_t sample, std::span<const Pose2> all,
                 const std::vector<Robot>& robots);
 
+    // ---- what it is; constant ----
     std::string name;
-    std::uint64_t seed;
+    std::uint64_t seed;  ///< of the world
     Body body;
-    double low = 0, high = 0;  ///< what the body reaches from and to, m above the floor
-    Pose2 pose;                ///< as it is seen at the end of a cycle
-    std::vector<RobotVisual> visuals;
-    Pose link_pose = Pose::Identity();
+    double low = 0, high = 0;           ///< what the body reaches from and to, m above the floor
+    std::vector<RobotVisual> visuals;   ///< what other cameras see of it
+    Pose link_pose = Pose::Identity();  ///< of the body's link in the model; sensors stand on it
     std::vector<RangeSensor> range_sensors;
     std::optional<CameraSensor> camera_sensor;
 
-    MotorCommand command;
+    // ---- what happens to it ----
+    Pose2 pose;            ///< at the end of the last cycle; while it is reset, a drawn one
+    MotorCommand command;  ///< holds until the next
     RandomStream motor_random, image_random;
-    std::optional<Reset> reset;
-    std::optional<TrialLog> trials;
-    std::optional<Scan> proximity, target;
-    std::optional<Camera> camera;
+    std::optional<Reset> reset;             ///< empty: it is never put back
+    std::optional<TrialLog> trials;         ///< always there once the world is made
+    std::optional<Scan> proximity, target;  ///< of the sensors "laser" and "laser_target"
+    std::optional<Camera> camera;           ///< made when a picture is first asked for
     BugSnapshot snapshot;
-    bool wants_image = false;
+    bool wants_image = false;               ///< whether World::step() renders
     std::optional<std::uint64_t> rendered;  ///< the sample that the snapshot's image is of
-    std::weak_ptr<void> claim;
+    std::weak_ptr<void> claim;              ///< held by the module that drives it
 
   private:
     std::vector<float> picture_;

@@ -46,7 +46,8 @@ std::vector<Solid> solids_of(const Model& model);
 /// mm.
 std::optional<double> common_height(const Solid& solid, double low, double high);
 
-/// What bodies that reach from `low` to `high` bump into, in static models.
+/// What bodies that reach from `low` to `high` bump into, in static models: the outline at the middle of the
+/// heights they share. World takes the heights of all its robots together.
 std::vector<Obstacle> obstacles_of(const WorldDescription& world, double low, double high);
 
 /// The middles of all targets: cylinders in static models that the light sensors (at 0.35 m) meet and the

@@ -32,6 +32,9 @@ struct WorldOptions {
 /// step(). Everything follows from the options' seed; robots and uses (motor noise, each scanner, camera,
 /// reset) have random streams of their own, so that doing without one of them leaves the others as they are.
 /// Not to be used from two threads at a time. Robots are counted from 0, in file order.
+///
+/// What a robot bumps into is what stands at any height that some robot of the world reaches: with robots of
+/// different heights a low one stops at things that only a high one would touch.
 class World {
   public:
     /// Null when the world cannot be simulated; `diagnostics` then says why.
@@ -47,10 +50,11 @@ class World {
 
     /// One cycle: its substeps, then a snapshot of every robot. The first snapshot is taken at construction.
     void step();
-    // The parts of step(), for benchmarks.
-    void advance_bodies();
-    void scan();
-    void render();  ///< for the robots of which images are wanted
+    // The parts of step(), for benchmarks; in this order, since scans and pictures are of the cycle that
+    // advance_bodies() ended.
+    void advance_bodies();  ///< the substeps of a cycle
+    void scan();            ///< poses and range scans into the snapshots; the same again when called again
+    void render();          ///< pictures into the snapshots of the robots of which they are wanted
 
     std::size_t bugs() const { return robots_.size(); }
     std::vector<std::string> bug_names() const;
@@ -68,6 +72,8 @@ class World {
     std::shared_ptr<void> claim(std::size_t bug);
 
     const Pose2& pose(std::size_t bug) const { return robots_[bug].pose; }
+    /// Whether this robot is put back to a start pose when it leaves the bounds.
+    bool has_trials(std::size_t bug) const { return robots_[bug].reset.has_value(); }
     bool resetting(std::size_t bug) const { return robots_[bug].reset && robots_[bug].reset->running(); }
 
     const std::vector<Trial>& trials(std::size_t bug) const {
@@ -101,5 +107,9 @@ class World {
     std::unique_ptr<Physics> physics_;
     std::shared_ptr<const Scene> scene_;  ///< made for the first image
 };
+
+/// A world in a few lines for people: robots, start poses, targets, bounds, whether there are trials, and how
+/// much time of the world a cycle takes.
+std::string describe(const World& world);
 
 }  // namespace forage::bug

@@ -1,198 +1,162 @@
 #include "bug_interface/world/sdf_reader.h"
 
-#include <fmt/format.h>
-
-#include <cstdlib>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <map>
-#include <mutex>
-#include <regex>
-#include <sdf/sdf.hh>
+#include <numbers>
+#include <set>
 #include <sstream>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sdf/sdf.hh>
+
 #include "bug_interface/world/material.h"
+#include "bug_interface/world/model_folders.h"
+#include "bug_interface/world/sdf_parser.h"
 
 namespace forage::bug {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Collects what is written to std::cerr: the library reports its reasons only there, and we print them ourselves.
-class CapturedErrors {
-  public:
-    CapturedErrors() : before_(std::cerr.rdbuf(text_.rdbuf())) {}
-    ~CapturedErrors() { std::cerr.rdbuf(before_); }
-    CapturedErrors(const CapturedErrors&) = delete;
-    CapturedErrors& operator=(const CapturedErrors&) = delete;
-    std::string text() const { return std::regex_replace(text_.str(), std::regex("\x1b\\[[0-9;]*m"), ""); }
-
-  private:
-    std::ostringstream text_;
-    std::streambuf* before_;
-};
-
-/// The library opens a log file below $HOME when its console is first used, and has no switch against that. It goes
-/// without one when the directory cannot be made, so HOME points elsewhere during this one call.
-void make_console_without_log_file() {
-    static std::once_flag done;
-    std::call_once(done, [] {
-        const char* home = std::getenv("HOME");
-        const std::optional<std::string> before = home ? std::optional<std::string>(home) : std::nullopt;
-        setenv("HOME", "/dev/null", 1);
-        sdf::Console::Instance();
-        if (before) setenv("HOME", before->c_str(), 1);
-        else unsetenv("HOME");
-    });
-}
-
-/// The library's schema takes 30 ms to set up; a copy of it does not.
-sdf::SDFPtr empty_document() {
-    auto document = std::make_shared<sdf::SDF>();
-    sdf::init(document);
-    return document;
-}
-
-std::vector<std::string> split_path(const char* list) {
-    std::vector<std::string> out;
-    std::istringstream in(list ? list : "");
-    for (std::string entry; std::getline(in, entry, ':');)
-        if (!entry.empty()) out.push_back(entry);
-    return out;
-}
-
-std::optional<std::string> read_text(const fs::path& path) {
-    std::error_code ignored;
-    if (!fs::is_regular_file(path, ignored)) return {};
-    std::ifstream in(path, std::ios::binary);
-    if (!in) return {};
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
+/// The name of the first element of an XML text; empty when there is none.
+std::string root_name(std::string_view text) {
+    for (;;) {
+        const auto open = text.find('<');
+        if (open == std::string_view::npos) return {};
+        text.remove_prefix(open + 1);
+        if (!text.starts_with('!') && !text.starts_with('?'))
+            return std::string(text.substr(0, text.find_first_of(" \t\r\n/>")));
+        const std::string_view end = text.starts_with("!--") ? "-->" : ">";
+        const auto close = text.find(end);
+        if (close == std::string_view::npos) return {};
+        text.remove_prefix(close + end.size());
+    }
 }
 
 class Reader {
   public:
     Reader(const std::string& path, Diagnostics& diagnostics, const std::vector<std::string>& extra)
-        : path_(path), diagnostics_(diagnostics), directories_(extra) {
-        const fs::path beside = fs::path(path).parent_path();
-        directories_.push_back((beside / "models").string());
-        directories_.push_back((beside / ".." / "models").string());
-        for (const char* variable : {"FORAGE_MODEL_PATH", "GAZEBO_MODEL_PATH"})
-            for (auto& entry : split_path(std::getenv(variable))) directories_.push_back(std::move(entry));
-    }
+        : path_(path), diagnostics_(diagnostics), folders_(path, extra), parser_(diagnostics) {}
 
     std::optional<WorldDescription> read() {
         const int errors_before = diagnostics_.errors();
-        if (!read_text(path_)) {
-            diagnostics_.error({}, fmt::format("cannot read the world file '{}'", path_), "is the path right?");
-            return {};
-        }
-        const sdf::SDFPtr document = parse();
+        sdf::ElementPtr world_element;
+        for (const auto& e : parser_.parse(path_))
+            if (e->GetName() == "world" && !world_element) world_element = e;
+        if (!world_element && diagnostics_.errors() == errors_before)
+            diagnostics_.error(at(path_, 1), "the file has no <world>",
+                               "a world file is <sdf><world name=\"..\">..</world></sdf>");
         if (diagnostics_.errors() > errors_before) return {};
-        const sdf::ElementPtr root = document->Root();
-        if (!root || !root->HasElement("world")) {
-            diagnostics_.error(at(path_, 1), "the file has no <world>", "a world file is <sdf><world name=\"..\">..</world></sdf>");
-            return {};
-        }
-        WorldDescription world = read_world_element(root->GetElement("world"));
+        WorldDescription world = read_world_element(world_element);
         if (diagnostics_.errors() > errors_before) return {};
         return world;
     }
 
   private:
-    // ---- the library ----
+    Location at(const std::string& file, int line) { return parser_.at(file, line); }
+    Location at(const sdf::ElementPtr& e) { return parser_.at(e); }
 
-    sdf::SDFPtr parse() {
-        make_console_without_log_file();
-        const auto find = [this](const std::string& uri) { return find_model(uri); };
-        CapturedErrors captured;
-        // An include inside an included model is looked up through the global callback only.
-        sdf::setFindCallback(find);
-        const sdf::ParserConfig config = sdf::ParserConfig::GlobalConfig();
-        const sdf::SDFPtr document = empty_document();
-        sdf::Errors errors;
-        const bool good = sdf::readFile(path_, config, document, errors);
-        sdf::setFindCallback([](const std::string&) { return std::string(); });
-        report(errors, captured.text(), good);
-        return document;
-    }
+    // ---- includes ----
 
-    std::string find_model(const std::string& uri) const {
-        constexpr std::string_view scheme = "model://";
-        if (!uri.starts_with(scheme)) return fs::exists(uri) ? uri : std::string();
-        for (const auto& directory : directories_) {
-            const fs::path candidate = fs::path(directory) / uri.substr(scheme.size());
-            std::error_code ignored;
-            if (fs::exists(candidate, ignored)) return candidate.string();
+    /// What a model's file holds: a model or a light.
+    struct Content {
+        std::optional<Model> model;
+        sdf::ElementPtr light;
+    };
+
+    /// What an <include> stands for. A file that is included many times is read once; what is wrong in it is
+    /// said once.
+    Content included(const sdf::ElementPtr& include) {
+        const std::string file = model_file(include);
+        if (file.empty()) return {};
+        if (const auto known = contents_.find(file); known != contents_.end()) {
+            if (open_.contains(file))
+                diagnostics_.error(at(include),
+                                   fmt::format("'{}' includes itself", value(include, "uri", std::string())));
+            return known->second;
         }
-        return {};
+        contents_[file];
+        open_.insert(file);
+        const Content content = read_model_file(file, include);
+        open_.erase(file);
+        return contents_[file] = content;
     }
 
-    std::vector<std::string> known_models() const {
-        std::vector<std::string> names;
-        for (const auto& directory : directories_) {
-            std::error_code ignored;
-            for (fs::directory_iterator entry(directory, ignored), end; !ignored && entry != end; entry.increment(ignored))
-                if (fs::exists(entry->path() / "model.config", ignored))
-                    names.push_back("model://" + entry->path().filename().string());
-        }
-        std::sort(names.begin(), names.end());
-        names.erase(std::unique(names.begin(), names.end()), names.end());
-        return names;
-    }
-
-    void report(const sdf::Errors& errors, const std::string& console, bool good) {
-        static const std::regex syntax(R"(Error parsing XML in file \[([^\]]*)\]: Error=(\w+) .*Line number=(\d+))");
-        static const std::regex reason(R"(Error \[\w+\.cc:\d+\] (.*))");
+    Content read_model_file(const std::string& file, const sdf::ElementPtr& include) {
         const int errors_before = diagnostics_.errors();
-        std::smatch match;
-        if (std::regex_search(console, match, syntax))
-            diagnostics_.error(at(match[1], std::stoi(match[3])), "this is not well-formed XML (" + xml_reason(match[2]) + ")",
-                               "every element needs its closing tag, every attribute its quotes");
-        bool inside_chain = false;  // "Error reading element" is repeated for every parent
-        for (const auto& e : errors) {
-            const Location where = at(e.FilePath().value_or(path_), e.LineNumber().value_or(0));
-            const std::string& message = e.Message();
-            const bool chain = message.starts_with("Error reading element");
-            if (chain && inside_chain) continue;
-            inside_chain = chain;
-            if (message.find("Unable to find uri") != std::string::npos) {
-                const auto open = message.find('['), close = message.find(']', open);
-                const std::string uri = message.substr(open + 1, close - open - 1);
-                const auto names = known_models();
+        const auto elements = parser_.parse(file);
+        if (diagnostics_.errors() > errors_before) return {};
+        const auto first = [&](const char* name) {
+            return std::find_if(elements.begin(), elements.end(),
+                                [&](const auto& e) { return e->GetName() == name; });
+        };
+        const auto model = first("model"), light = first("light");
+        if (elements.size() > 1)
+            diagnostics_.warning(at(elements[1]),
+                                 "the included file holds several models; the first one is used");
+        Content content;
+        if (model != elements.end())
+            content.model = read_model(*model);
+        else if (light != elements.end())
+            content.light = *light;
+        else
+            diagnostics_.error(at(include), fmt::format("'{}' holds neither a model nor a light", file));
+        return content;
+    }
+
+    /// The file that an <include> names; empty when there is none.
+    std::string model_file(const sdf::ElementPtr& include) {
+        const std::string uri = value(include, "uri", std::string());
+        const Location where = at(include->HasElement("uri") ? include->GetElement("uri") : include);
+        const std::string found = folders_.find(uri);
+        // A bare name that happens to be a folder here would not be one elsewhere.
+        const bool bare = uri.find('/') == std::string::npos;
+        if (found.empty() || (bare && fs::is_directory(found))) {
+            const auto names = folders_.names();
+            if (!names.empty()) {
                 diagnostics_.error(where, fmt::format("there is no model '{}'", uri),
-                                   names.empty() ? "no models found; searched " + fmt::format("{}", fmt::join(directories_, ", "))
-                                                 : suggest(uri, names));
-                inside_chain = true;
-            } else if (message.find("more than one model for <include>") != std::string::npos) {
-                diagnostics_.warning(where, "the included file holds several models; the first one is used");
-            } else if (chain && std::regex_search(console, match, reason)) {
-                diagnostics_.error(where, message + ": " + std::string(match[1]));
-            } else {
-                diagnostics_.error(where, message);
+                                   ModelFolders::hint(uri, names));
+            } else if (!no_models_) {
+                no_models_ = true;  // once is enough
+                diagnostics_.error(
+                    where, fmt::format("there is no model '{}', nor any other: no models are found", uri),
+                    "put them into a folder 'models' beside the world file or one above, or name their "
+                    "folder in FORAGE_MODEL_PATH");
             }
+            return {};
         }
-        if (!good && diagnostics_.errors() == errors_before)
-            diagnostics_.error(at(path_, 0), "the world file could not be read",
-                               std::regex_search(console, match, reason) ? std::string(match[1]) : std::string());
+        if (!fs::is_directory(found)) return found;
+        const fs::path folder = found;
+        if (!fs::exists(folder / "model.config") && !fs::exists(folder / "manifest.xml")) {
+            diagnostics_.error(where, fmt::format("the folder '{}' of this model has no model.config", found),
+                               "it says which file holds the model; copy it from another model");
+            return {};
+        }
+        const std::string file = SdfParser::model_file(found);
+        if (file.empty() || !fs::exists(file)) {
+            diagnostics_.error(where, fmt::format("'{}/model.config' names no file that there is", found),
+                               "<sdf version=\"1.4\">model.sdf</sdf>");
+            return {};
+        }
+        return file;
     }
 
-    static std::string xml_reason(std::string text) {
-        if (text.starts_with("XML_ERROR_")) text.erase(0, 10);
-        for (char& c : text) c = c == '_' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-        return text;
+    /// `model`, with the name and the place that an <include> gives it.
+    Model placed(Model model, const sdf::ElementPtr& include) {
+        model.where = at(include);
+        if (const auto name = value(include, "name", std::string()); !name.empty()) model.name = name;
+        if (include->HasElement("pose")) model.pose = pose_of(include);
+        model.is_static = value(include, "static", model.is_static);
+        if (include->HasElement("placement_frame"))
+            diagnostics_.error(at(include->GetElement("placement_frame")),
+                               "<placement_frame> is not supported", "give the <pose> of the model's origin");
+        read_plugins(include, model);
+        return model;
     }
-
-    // ---- places ----
-
-    Location at(const std::string& file, int line) {
-        auto& known = files_[file];
-        if (!known) known = std::make_shared<SourceFile>(SourceFile{file, read_text(file).value_or("")});
-        return {known, line, 0};
-    }
-    Location at(const sdf::ElementPtr& e) { return at(e->FilePath().empty() ? path_ : e->FilePath(), e->LineNumber().value_or(0)); }
 
     // ---- values ----
 
@@ -220,16 +184,34 @@ class Reader {
             if (e->GetName() == name) visit(e);
     }
 
+    /// Angles of more than a turn are likely degrees.
+    void check_angles(const sdf::ElementPtr& pose) {
+        for (const char* attribute : {"degrees", "rotation_format"})
+            if (pose->GetAttributeSet(attribute)) return;
+        std::istringstream in(pose->GetValue()->GetAsString());
+        std::array<double, 6> v{};
+        for (double& each : v) in >> each;
+        for (std::size_t i = 3; i < v.size(); ++i)
+            if (std::abs(v[i]) > 2 * std::numbers::pi + 1e-3) {
+                diagnostics_.warning(
+                    at(pose), fmt::format("an angle of {} in a <pose>: radians, not degrees?", v[i]),
+                    fmt::format("{} degrees are {:.5g} rad", v[i], v[i] * std::numbers::pi / 180));
+                return;
+            }
+    }
+
     Pose pose_of(const sdf::ElementPtr& parent) {
         if (!parent->HasElement("pose")) return Pose::Identity();
         const auto e = parent->GetElement("pose");
         if (e->HasAttribute("relative_to") && !e->Get<std::string>("relative_to").empty())
             diagnostics_.error(at(e), "poses relative to a named frame are not supported",
                                "give the pose relative to the enclosing element");
+        check_angles(e);
         const auto p = e->Get<ignition::math::Pose3d>();
         Pose pose = Pose::Identity();
         pose.translation() = Eigen::Vector3d(p.Pos().X(), p.Pos().Y(), p.Pos().Z());
-        pose.linear() = Eigen::Quaterniond(p.Rot().W(), p.Rot().X(), p.Rot().Y(), p.Rot().Z()).toRotationMatrix();
+        pose.linear() =
+            Eigen::Quaterniond(p.Rot().W(), p.Rot().X(), p.Rot().Y(), p.Rot().Z()).toRotationMatrix();
         return pose;
     }
 
@@ -238,7 +220,8 @@ class Reader {
         const auto geometry = child(parent, {"geometry"});
         const auto kind = geometry ? geometry->GetFirstElement() : nullptr;
         if (!kind || kind->GetName() == "empty") {
-            diagnostics_.error(at(parent), fmt::format("<{}> has no shape that is known here", parent->GetName()),
+            diagnostics_.error(at(parent),
+                               fmt::format("<{}> has no shape that is known here", parent->GetName()),
                                "the shapes are <plane>, <box>, <cylinder> and <sphere>");
         } else if (kind->GetName() == "box") {
             const auto s = value(kind, "size", ignition::math::Vector3d(1, 1, 1));
@@ -275,7 +258,8 @@ class Reader {
             } else if (const auto known = named_material(name)) {
                 material = *known;
             } else {
-                diagnostics_.error(at(script), fmt::format("there is no material '{}'", name), suggest(name, material_names()));
+                diagnostics_.error(at(script), fmt::format("there is no material '{}'", name),
+                                   suggest(name, material_names()));
             }
         }
         const auto set = [&](const char* which, Colour& colour) {
@@ -289,9 +273,10 @@ class Reader {
     }
 
     std::string texture_of(const sdf::ElementPtr& script, const std::string& uri, const std::string& name) {
-        const std::string folder = find_model(uri);
+        const std::string folder = folders_.find(uri);
         if (folder.empty()) {
-            diagnostics_.error(at(script), fmt::format("there is no folder '{}'", uri), "it holds the .material script and its texture");
+            diagnostics_.error(at(script), fmt::format("there is no folder '{}'", uri),
+                               "it holds the .material script and its texture");
             return {};
         }
         std::vector<fs::path> places = {folder, fs::path(folder) / "scripts", fs::path(folder) / "textures",
@@ -299,17 +284,20 @@ class Reader {
         std::string image;
         for (const auto& place : places) {
             std::error_code ignored;
-            for (fs::directory_iterator entry(place, ignored), end; !ignored && entry != end; entry.increment(ignored))
+            for (fs::directory_iterator entry(place, ignored), end; !ignored && entry != end;
+                 entry.increment(ignored))
                 if (entry->path().extension() == ".material" && image.empty())
                     image = texture_in_script(read_text(entry->path()).value_or(""), name);
         }
         if (image.empty()) {
-            diagnostics_.error(at(script), fmt::format("no script in '{}' gives material '{}' a texture", folder, name));
+            diagnostics_.error(at(script),
+                               fmt::format("no script in '{}' gives material '{}' a texture", folder, name));
             return {};
         }
         for (const auto& place : places)
             if (fs::exists(place / image)) return (place / image).string();
-        diagnostics_.error(at(script), fmt::format("the texture '{}' of material '{}' is missing in '{}'", image, name, folder));
+        diagnostics_.error(at(script), fmt::format("the texture '{}' of material '{}' is missing in '{}'",
+                                                   image, name, folder));
         return {};
     }
 
@@ -329,7 +317,9 @@ class Reader {
             const auto scan = ray ? child(ray, {"scan", "horizontal"}) : nullptr;
             const auto range = ray ? child(ray, {"range"}) : nullptr;
             if (!scan || !range) {
-                diagnostics_.error(s.where, fmt::format("ray sensor '{}' needs <ray> with <scan><horizontal> and <range>", s.name));
+                diagnostics_.error(
+                    s.where,
+                    fmt::format("ray sensor '{}' needs <ray> with <scan><horizontal> and <range>", s.name));
                 return;
             }
             s.rays = value(scan, "samples", 1);
@@ -337,7 +327,8 @@ class Reader {
             s.min_range = value(range, "min", 0.0), s.max_range = value(range, "max", 1.0);
             s.noise = noise_of(ray);
             if (s.rays < 1 || !(s.max_range > s.min_range))
-                diagnostics_.error(s.where, fmt::format("ray sensor '{}' needs at least one sample and min < max", s.name));
+                diagnostics_.error(
+                    s.where, fmt::format("ray sensor '{}' needs at least one sample and min < max", s.name));
             link.range_sensors.push_back(std::move(s));
         } else if (type == "camera") {
             CameraSensor s;
@@ -348,13 +339,15 @@ class Reader {
                 return;
             }
             s.horizontal_fov = value(camera, "horizontal_fov", 1.047);
-            if (const auto image = child(camera, {"image"})) s.width = value(image, "width", 32), s.height = value(image, "height", 28);
+            if (const auto image = child(camera, {"image"}))
+                s.width = value(image, "width", 32), s.height = value(image, "height", 28);
             if (const auto clip = child(camera, {"clip"})) s.far = value(clip, "far", 20.0);
             s.noise = noise_of(camera);
             if (s.width < 1 || s.height < 1 || s.width > 4096 || s.height > 4096)
                 diagnostics_.error(s.where, fmt::format("camera '{}' has an impossible image size", s.name));
             if (!(s.horizontal_fov > 0 && s.horizontal_fov < 3.1))
-                diagnostics_.error(s.where, fmt::format("camera '{}' needs a horizontal_fov between 0 and 3.1 rad", s.name));
+                diagnostics_.error(
+                    s.where, fmt::format("camera '{}' needs a horizontal_fov between 0 and 3.1 rad", s.name));
             link.cameras.push_back(std::move(s));
         }
     }
@@ -365,11 +358,13 @@ class Reader {
         if (const auto inertial = child(e, {"inertial"})) {
             link.mass = value(inertial, "mass", 1.0);
             if (const auto izz = child(inertial, {"inertia", "izz"})) link.inertia_z = izz->Get<double>();
-            if (!(link.mass > 0 && link.inertia_z > 0)) diagnostics_.error(at(inertial), "mass and inertia must be positive");
+            if (!(link.mass > 0 && link.inertia_z > 0))
+                diagnostics_.error(at(inertial), "mass and inertia must be positive");
         }
         each(e, "collision", [&](const sdf::ElementPtr& c) {
             const auto mu = child(c, {"surface", "friction", "ode", "mu"});
-            link.collisions.push_back({at(c), name_of(c), pose_of(c), shape_of(c), mu ? mu->Get<double>() : 1.0});
+            link.collisions.push_back(
+                {at(c), name_of(c), pose_of(c), shape_of(c), mu ? mu->Get<double>() : 1.0});
         });
         each(e, "visual", [&](const sdf::ElementPtr& v) {
             link.visuals.push_back({at(v), name_of(v), pose_of(v), shape_of(v), material_of(v)});
@@ -383,11 +378,27 @@ class Reader {
         model.where = at(e), model.name = name_of(e), model.pose = pose_of(e);
         model.is_static = value(e, "static", false);
         each(e, "link", [&](const sdf::ElementPtr& l) { model.links.push_back(read_link(l)); });
-        each(e, "model", [&](const sdf::ElementPtr& m) { model.models.push_back(read_model(m)); });
+        each_model(e, model.models, [](const sdf::ElementPtr&) {});
+        read_plugins(e, model);
+        return model;
+    }
+
+    void read_plugins(const sdf::ElementPtr& e, Model& model) {
         each(e, "plugin", [&](const sdf::ElementPtr& p) {
             model.plugins.push_back({at(p), name_of(p), p->Get<std::string>("filename")});
         });
-        return model;
+    }
+
+    /// The models and includes in `parent`, in file order; visit_light(element) for an included light.
+    template <class F>
+    void each_model(const sdf::ElementPtr& parent, std::vector<Model>& models, F visit_light) {
+        for (auto e = parent->GetFirstElement(); e; e = e->GetNextElement()) {
+            if (e->GetName() == "model") models.push_back(read_model(e));
+            if (e->GetName() != "include") continue;
+            const Content content = included(e);
+            if (content.model) models.push_back(placed(*content.model, e));
+            if (content.light) visit_light(content.light);
+        }
     }
 
     WorldDescription read_world_element(const sdf::ElementPtr& e) {
@@ -399,31 +410,84 @@ class Reader {
             if (!(world.step > 0 && world.update_rate > 0))
                 diagnostics_.error(at(physics), "max_step_size and real_time_update_rate must be positive");
         }
-        if (const auto ambient = child(e, {"scene", "ambient"})) world.ambient = ambient->Get<ignition::math::Color>().R();
-        each(e, "light", [&](const sdf::ElementPtr& light) {
+        if (const auto ambient = child(e, {"scene", "ambient"}))
+            world.ambient = ambient->Get<ignition::math::Color>().R();
+        const auto read_light = [&](const sdf::ElementPtr& light) {
             if (light->Get<std::string>("type") != "directional") {
-                diagnostics_.warning(at(light), "only directional lights are simulated; this one is left out");
+                diagnostics_.warning(at(light),
+                                     "only directional lights are simulated; this one is left out");
             } else if (world.sun) {
-                diagnostics_.warning(at(light), "there are several directional lights; the first one is used");
+                diagnostics_.warning(at(light),
+                                     "there are several directional lights; the first one is used");
             } else {
                 const auto d = value(light, "direction", ignition::math::Vector3d(0, 0, -1));
                 world.sun = -Eigen::Vector3d(d.X(), d.Y(), d.Z()).normalized();
             }
-        });
-        each(e, "model", [&](const sdf::ElementPtr& m) { world.models.push_back(read_model(m)); });
+        };
+        each(e, "light", read_light);
+        each_model(e, world.models, read_light);
         return world;
     }
 
     std::string path_;
     Diagnostics& diagnostics_;
-    std::vector<std::string> directories_;
-    std::map<std::string, std::shared_ptr<const SourceFile>> files_;
+    ModelFolders folders_;
+    SdfParser parser_;
+    std::map<std::string, Content> contents_;  ///< of the model files that were read
+    std::set<std::string> open_;               ///< those that are being read
+    bool no_models_ = false;
 };
+
+/// Whether a file can be a world; says what it is when it is something else.
+bool looks_like_a_world(const std::string& path, Diagnostics& diagnostics) {
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored)) {
+        std::set<std::string> worlds;
+        for (fs::directory_iterator entry(path, ignored), end; !ignored && entry != end;
+             entry.increment(ignored))
+            if (entry->path().extension() == ".world") worlds.insert(entry->path().string());
+        diagnostics.error({}, fmt::format("'{}' is a folder, not a world file", path),
+                          worlds.empty() ? "give the path of a .world file"
+                                         : fmt::format("in it are {}", fmt::join(worlds, ", ")));
+        return false;
+    }
+    const auto text = read_text(path);
+    if (!text) {
+        diagnostics.error({}, fmt::format("cannot read the world file '{}'", path), "is the path right?");
+        return false;
+    }
+    const bool png = text->starts_with("\x89PNG");
+    if (png || text->substr(0, 1000).find('\0') != std::string::npos) {
+        diagnostics.error(
+            {}, fmt::format("'{}' is {}, not a world file", path, png ? "a PNG picture" : "a binary file"),
+            "a world is a text file: SDF, an XML format");
+        return false;
+    }
+    if (text->find_first_not_of(" \t\r\n") == std::string::npos) {
+        diagnostics.error({}, fmt::format("the world file '{}' is empty", path));
+        return false;
+    }
+    const std::string root = root_name(*text);
+    const Location file{std::make_shared<SourceFile>(SourceFile{path, {}}), 0, 0};
+    if (root == "System")
+        diagnostics.error(
+            file, "this is a system file; a world is wanted here",
+            "a world is an SDF file, with the ending .world: the robot, its arena and the lights");
+    else if (root.empty())
+        diagnostics.error(file, "there is no XML in this file",
+                          "a world is an SDF file, with the ending .world");
+    else if (root != "sdf" && root != "gazebo")
+        diagnostics.error(file, fmt::format("the root element is <{}>; that of a world is <sdf>", root));
+    else
+        return true;
+    return false;
+}
 
 }  // namespace
 
 std::optional<WorldDescription> read_world(const std::string& path, Diagnostics& diagnostics,
                                            const std::vector<std::string>& extra_model_dirs) {
+    if (!looks_like_a_world(path, diagnostics)) return {};
     return Reader(path, diagnostics, extra_model_dirs).read();
 }
 

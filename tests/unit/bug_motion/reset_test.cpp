@@ -66,8 +66,31 @@ TEST_CASE("The last collision of the last link gives the bounds, wherever it sta
     ground.links.back().collisions.back().shape.size = {8, 10, 1};
     CHECK(plan_of(world).bounds.min() == Eigen::Vector2d(-3, -3));
     CHECK(plan_of(world).bounds.max() == Eigen::Vector2d(5, 7));
+}
+
+TEST_CASE("A plane gives no bounds: trials would never end") {
+    WorldDescription world = test::description("basic_arena");
+    Model& ground = *test::find_model(world, "GroundPlane");
     std::swap(ground.links.back().collisions.front(), ground.links.back().collisions.back());
-    CHECK(std::isinf(plan_of(world).bounds.max().x()));  // a plane has no end
+    REQUIRE(ground.links.back().collisions.back().shape.kind == ShapeKind::plane);
+    CHECK(problem_of(world) == "GroundPlane's last collision is a plane, so the arena has no bounds");
+}
+
+TEST_CASE("Names of start poses that do not count are warnings") {
+    const auto warning = [](const char* from, const char* to) {
+        WorldDescription world = test::description("basic_arena");
+        test::find_model(world, from)->name = to;
+        Diagnostics diagnostics;
+        const auto plan = find_reset(world, diagnostics);
+        CHECK((plan && plan->starts.size() == 2 && plan->names.size() == 2));
+        REQUIRE(diagnostics.all().size() == 1);
+        CHECK(diagnostics.errors() == 0);
+        return diagnostics.all().front().message;
+    };
+    CHECK(warning("Reset_2", "Reset_0") == "there are two models named 'Reset_0'; the first one counts");
+    for (const char* name : {"Reset_10", "Reset_A", "Reset_"})
+        CHECK(warning("Reset_2", name) ==
+              "'" + std::string(name) + "' is no start pose: only Reset_0 to Reset_9 are");
 }
 
 TEST_CASE("A reset takes 1001 substeps, and its bounds are strict") {

@@ -1,9 +1,14 @@
 #include "bug_interface/simulation/world.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <set>
+
+#include <stdlib.h>
 
 #include "tests/unit/bug_motion/worlds.h"
 
@@ -25,9 +30,16 @@ MotorCommand wander(std::uint64_t cycle) { return {0.8, std::sin(0.1 * static_ca
 
 bool same(const Pose2& a, const Pose2& b) { return a.x == b.x && a.y == b.y && a.yaw == b.yaw; }
 
-/// The arena with a second robot.
-WorldDescription two_robots(double x, double y, double yaw) {
+/// The open arena with a robot in the middle that looks along -y.
+WorldDescription one_robot() {
     WorldDescription world = description("open_arena");
+    test::find_model(world, "Bug")->pose = in_space({0, 0, -std::numbers::pi / 2});
+    return world;
+}
+
+/// The same with a second robot.
+WorldDescription two_robots(double x, double y, double yaw) {
+    WorldDescription world = one_robot();
     Model other = *test::find_model(world, "Bug");
     other.name = "Second";
     other.pose = in_space({x, y, yaw});
@@ -154,7 +166,7 @@ TEST_CASE("The same seed gives the same bits, another seed others, and pictures 
 }
 
 TEST_CASE("One robot's noise does not depend on whether there is another") {
-    const auto alone = make_world(description("open_arena")), together = make_world(two_robots(3, 3, 0));
+    const auto alone = make_world(one_robot()), together = make_world(two_robots(3, 3, 0));
     for (std::uint64_t i = 0; i < 20; ++i) {
         for (const auto& w : {alone.get(), together.get()}) w->command(0, wander(i)), w->step();
         REQUIRE(same(alone->pose(0), together->pose(0)));
@@ -236,4 +248,274 @@ TEST_CASE("A world that cannot be simulated says why") {
     Diagnostics third;
     CHECK_FALSE(World::make(boxy, {}, third));
     CHECK(third.errors() == 1);
+}
+
+TEST_CASE("A world is described in a few lines") {
+    CHECK(describe(*make_world(description("basic_arena"), options())) ==
+          "basic_arena.world\n"
+          "  robot       Bug at (0, -2) heading 1.571\n"
+          "  start       Reset_0 at (-1.5, -2) heading 1.571\n"
+          "  start       Reset_1 at (0, -2) heading 1.571\n"
+          "  start       Reset_2 at (1.5, -2) heading 1.571\n"
+          "  target      (0, 2.5)\n"
+          "  bounds      x -2.5 to 2.5, y -2.5 to 2.5\n"
+          "  trials      a robot that leaves the bounds is put back to a start\n"
+          "  time        0.08 s of the world per cycle\n"
+          "  in m and rad; heading 0 looks along x, 1.571 along y\n");
+    const std::string open = describe(*make_world(description("open_arena"), options(60)));
+    CHECK(open.find("none: there are no start poses") != std::string::npos);
+    CHECK(open.find("0.033 s of the world") != std::string::npos);
+}
+
+// ---- mistakes in world files ----
+
+namespace {
+
+/// A directory that goes away with everything in it.
+struct Scratch {
+    std::filesystem::path path;
+    Scratch() {
+        std::string name = (std::filesystem::temp_directory_path() / "forage_world_XXXXXX").string();
+        REQUIRE(mkdtemp(name.data()));
+        path = name;
+    }
+    ~Scratch() { std::filesystem::remove_all(path); }
+    std::string write(const std::string& file, const std::string& text) const {
+        std::filesystem::create_directories((path / file).parent_path());
+        std::ofstream(path / file) << text;
+        return (path / file).string();
+    }
+};
+
+std::string models() { return (test::source_dir() / "systems/worlds/models").string(); }
+
+std::string text_of(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The basic arena with `from` replaced once.
+std::string edited(const std::string& from, const std::string& to) {
+    std::string text = text_of(test::source_dir() / "systems/worlds/basic_arena.world");
+    const auto at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, from.size(), to);
+}
+
+/// What is said of a world in `text`: one line each, "12: error: message | hint".
+std::string said_of(const std::string& text, bool with_models = true) {
+    const Scratch scratch;
+    const std::string file = scratch.write("test.world", text);
+    Diagnostics diagnostics;
+    const auto world =
+        read_world(file, diagnostics, with_models ? std::vector{models()} : std::vector<std::string>{});
+    CHECK(world.has_value() == (diagnostics.errors() == 0));
+    if (world) World::make(*world, {}, diagnostics);
+    std::string out;
+    for (const Diagnostic& d : diagnostics.all()) {
+        if (d.where.file && d.where.line > 0) {
+            CHECK(d.where.file->path == file);  // where the person edits
+            out += std::to_string(d.where.line) + ": ";
+        }
+        out += (d.severity == Severity::error ? "error: " : "warning: ") + d.message;
+        out += d.hint.empty() ? "\n" : " | " + d.hint + "\n";
+    }
+    return out;
+}
+
+/// The line of the edited arena on which `what` stands.
+std::string line_of(const std::string& text, const std::string& what) {
+    const auto at = text.find(what);
+    REQUIRE(at != std::string::npos);
+    return std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<long>(at), '\n'));
+}
+
+}  // namespace
+
+TEST_CASE("An unknown element is a warning at its line, with the nearest name") {
+    const std::string target = "<pose>0 2.5 0 0 0 0</pose>",
+                      text = edited(target, "<psoe>0 2.5 0 0 0 0</psoe>");
+    CHECK(said_of(text) == line_of(text, "<psoe>") +
+                               ": warning: <psoe> is not known in <include> and has no effect | did you mean "
+                               "<pose>?\n");
+    const std::string model = said_of(edited(
+        "<include>",
+        "<model name='m'><satic>1</satic><static>1</static><link name='l'><collision name='c'><geometry>"
+        "<box><sze>1 1 1</sze></box></geometry><surfce/></collision><visual name='v'><geometry><sphere/>"
+        "</geometry><materal/></visual><sensor type='ray' "
+        "name='s'><ray><scan><horizontl/><horizontal/></scan>"
+        "<range/></ray></sensor></link></model><lihgt/><include>"));
+    for (const char* what :
+         {"<satic> is not known in <model> and has no effect | did you mean <static>?",
+          "<sze> is not known in <box> and has no effect | did you mean <size>?",
+          "<surfce> is not known in <collision> and has no effect | did you mean <surface>?",
+          "<materal> is not known in <visual> and has no effect | did you mean <material>?",
+          "<horizontl> is not known in <scan> and has no effect | did you mean <horizontal>?",
+          "<lihgt> is not known in <world> and has no effect | did you mean <light>?"})
+        CHECK_THAT(model, Catch::Contains(what));
+}
+
+TEST_CASE("What an include lacks, or names wrongly, is said with what to write") {
+    const std::string uri = "<uri>model://wall_straight</uri>";
+    const auto said = [&](const std::string& instead) {
+        const std::string text = edited(uri, instead), out = said_of(text);
+        CHECK_THAT(out, Catch::StartsWith(std::string("64: error: ")) ||
+                            Catch::StartsWith(std::string("62: error: ")));
+        CHECK(std::count(out.begin(), out.end(), '\n') == 1);
+        return out.substr(out.find("error: ") + 7);
+    };
+    CHECK(said("") ==
+          "this <include> does not say what to include | write <uri>model://NAME</uri> into it\n");
+    CHECK(said("<uri></uri>") == "<uri> is empty | write <uri>model://NAME</uri>\n");
+    CHECK(said("<uri>model://wall</uri>") ==
+          "there is no model 'model://wall' | did you mean 'model://wall_straight'?\n");
+    CHECK(said("<uri>model://wal_strait</uri>") ==
+          "there is no model 'model://wal_strait' | did you mean 'model://wall_straight'?\n");
+    CHECK(said("<uri>model://floor</uri>") ==
+          "there is no model 'model://floor' | did you mean 'model://floor_ambiguous' or "
+          "'model://floor_basic' or "
+          "'model://floor_open'?\n");
+    CHECK(said("<uri>target</uri>") == "there is no model 'target' | write model://target\n");
+    CHECK_THAT(said("<uri>model://quux</uri>"), Catch::Contains("the models are floor_ambiguous, "));
+}
+
+TEST_CASE("That no models are found is said once, with how to make them found") {
+    const std::string said = said_of(edited("</world>", "</world>"), false);
+    CHECK(said ==
+          "46: error: there is no model 'model://floor_basic', nor any other: no models are found | put them "
+          "into a "
+          "folder 'models' beside the world file or one above, or name their folder in FORAGE_MODEL_PATH\n");
+}
+
+TEST_CASE("A value of the wrong form is said in plain words, at its line") {
+    const std::string target = "<pose>0 2.5 0 0 0 0</pose>";
+    const auto said = [&](const std::string& instead) { return said_of(edited(target, instead)); };
+    const std::string pose = " | a pose is x y z roll pitch yaw: six numbers, in m and rad\n";
+    CHECK(said("<pose>a b c</pose>") == "71: error: <pose> cannot be 'a b c'" + pose);
+    CHECK(said("<pose>1 2 3</pose>") == "71: error: <pose> has 3 numbers instead of 6" + pose);
+    CHECK(said("<static>maybe</static>") == "71: error: <static> must be true or false\n");
+    CHECK(said("</include><model><link name='l'/></model><include><uri>model://target</uri>") ==
+          "71: error: <model> needs the attribute 'name' | <model name=\"...\">\n");
+    CHECK(said_of(edited("<sdf version=\"1.4\">", "<sdf>")) ==
+          "24: error: <sdf> needs the attribute 'version' | <sdf version=\"1.4\">\n");
+    CHECK(
+        said_of(edited("<max_step_size>0.001<", "<max_step_size>fast<")) ==
+        "32: error: <max_step_size> cannot be 'fast' | a number is expected here, with a point and without a "
+        "unit\n");
+}
+
+TEST_CASE("An angle of more than a turn is asked about") {
+    const auto said = [](const char* yaw) {
+        return said_of(
+            edited("<pose>0 -2 0 0 0 1.57079</pose>", std::string("<pose>0 -2 0 0 0 ") + yaw + "</pose>"));
+    };
+    CHECK(said("90") ==
+          "58: warning: an angle of 90 in a <pose>: radians, not degrees? | 90 degrees are 1.5708 rad\n");
+    CHECK(said("-6.28").empty());
+}
+
+TEST_CASE("What is wrong with an included model's place is said where it is included") {
+    std::string said =
+        said_of(edited("<pose>1.5 -2 0 0 0 1.57079</pose>", "<pose>1.5 -7 0 0 0 1.57079</pose>"));
+    CHECK_THAT(said, Catch::StartsWith("85: error: 'Reset_2' at (1.5, -7) is not inside the bounds"));
+    said = said_of(edited("<name>GroundPlane</name>", "<name>Ground</name>"));
+    CHECK_THAT(said, Catch::StartsWith(
+                         "75: error: there is a start pose 'Reset_0', but no model named GroundPlane"));
+    said = said_of(
+        edited("</world>", "<include><name>Bug</name><uri>model://forage_bug</uri></include></world>"));
+    CHECK_THAT(said, Catch::Contains("error: there are two robots named 'Bug'"));
+}
+
+TEST_CASE("A file that is no world is told what it is") {
+    const auto said = [](const std::filesystem::path& path) {
+        Diagnostics diagnostics;
+        CHECK_FALSE(read_world(path.string(), diagnostics));
+        REQUIRE(diagnostics.all().size() == 1);
+        return diagnostics.all().front().message;
+    };
+    const auto systems = test::source_dir() / "systems";
+    const Scratch scratch;
+    CHECK(said(systems / "reactive_foraging.iqr") == "this is a system file; a world is wanted here");
+    CHECK_THAT(said(systems / "worlds"), Catch::Contains("is a folder, not a world file"));
+    CHECK_THAT(said(systems / "worlds/models/floor_open/materials/floor_open.png"),
+               Catch::Contains("is a PNG picture, not a world file"));
+    CHECK_THAT(said(scratch.write("a.world", std::string("a\0b", 3))), Catch::Contains("is a binary file"));
+    CHECK_THAT(said(scratch.write("a.world", " \n")), Catch::Contains("is empty"));
+    CHECK(said(scratch.write("a.world", "hello")) == "there is no XML in this file");
+    CHECK(said(scratch.write("a.world", "<!-- <sdf> --><sfd/>")) ==
+          "the root element is <sfd>; that of a world is <sdf>");
+}
+
+TEST_CASE("An include takes name, place, fixedness and plugins from the world, the rest from the model") {
+    const Scratch scratch;
+    const std::string config =
+        "<?xml version='1.0'?><model><name>m</name><sdf version='1.4'>model.sdf</sdf></model>";
+    scratch.write("models/inner/model.config", config);
+    scratch.write(
+        "models/inner/model.sdf",
+        "<sdf version='1.4'><model name='inner'><pose>1 0 0 0 0 0</pose><link name='i'/></model></sdf>");
+    scratch.write("models/outer/model.config", config);
+    scratch.write("models/outer/model.sdf",
+                  "<sdf version='1.4'><model name='outer'><pose>2 0 0 0 0 0</pose><link name='o'/>"
+                  "<include><uri>model://inner</uri></include></model></sdf>");
+    const std::string file = scratch.write(
+        "a.world",
+        "<sdf version='1.4'><world name='w'><include><uri>model://outer</uri></include>\n<model name='own'>"
+        "<link name='l'/></model>\n<include><name>second</name><pose>0 3 0 0 0 0</pose><static>1</static>"
+        "<uri>model://outer</uri><plugin name='p' filename='libvel_plugin.so'/></include></world></sdf>");
+    Diagnostics diagnostics;
+    const auto world = read_world(file, diagnostics);
+    INFO(format(diagnostics));
+    REQUIRE(world);
+    REQUIRE(world->models.size() == 3);
+    const auto &first = world->models[0], &second = world->models[2];
+    CHECK(first.name == "outer");
+    CHECK(first.pose.translation().x() == 2);
+    CHECK_FALSE(first.is_static);
+    CHECK(world->models[1].name == "own");
+    CHECK(second.name == "second");
+    CHECK(second.pose.translation() == Eigen::Vector3d(0, 3, 0));
+    CHECK(second.is_static);
+    CHECK(second.where.line == 3);
+    REQUIRE(second.plugins.size() == 1);
+    REQUIRE(second.models.size() == 1);
+    CHECK(second.models[0].name == "inner");
+    CHECK(second.models[0].pose.translation().x() == 1);
+    REQUIRE(second.links.size() == 1);
+    CHECK(second.links[0].name == "o");
+}
+
+TEST_CASE("A mistake in a model's file is said there, and once however often it is included") {
+    const Scratch scratch;
+    scratch.write("models/m/model.config",
+                  "<?xml version='1.0'?><model><name>m</name><sdf version='1.4'>model.sdf</sdf></model>");
+    const std::string model = scratch.write(
+        "models/m/model.sdf",
+        "<sdf version='1.4'><model name='m'>\n<link name='l'><psoe/><pose>1 2</pose></link></model></sdf>");
+    const std::string include = "<include><uri>model://m</uri></include>";
+    Diagnostics diagnostics;
+    CHECK_FALSE(read_world(scratch.write("a.world", "<sdf version='1.4'><world name='w'>" + include +
+                                                        include + "</world></sdf>"),
+                           diagnostics));
+    REQUIRE(diagnostics.all().size() == 2);
+    for (const auto& d : diagnostics.all()) {
+        CHECK(std::filesystem::equivalent(d.where.file->path, model));
+        CHECK(d.where.line == 2);
+    }
+    CHECK(diagnostics.errors() == 1);
+}
+
+TEST_CASE("A model that includes itself is an error, not an endless loop") {
+    const Scratch scratch;
+    scratch.write("models/m/model.config",
+                  "<?xml version='1.0'?><model><name>m</name><sdf version='1.4'>model.sdf</sdf></model>");
+    scratch.write("models/m/model.sdf",
+                  "<sdf version='1.4'><model name='m'><include><uri>model://m</uri></include></model></sdf>");
+    Diagnostics diagnostics;
+    CHECK_FALSE(read_world(scratch.write("a.world",
+                                         "<sdf version='1.4'><world name='w'><include>"
+                                         "<uri>model://m</uri></include></world></sdf>"),
+                           diagnostics));
+    REQUIRE(diagnostics.errors() == 1);
+    CHECK(diagnostics.all()[0].message == "'model://m' includes itself");
 }

@@ -1,0 +1,55 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "bug_interface/simulation/world.h"
+
+namespace forage::bug {
+namespace {
+
+/// At most three decimals, no trailing zeros.
+std::string number(double v) {
+    std::string out = fmt::format("{:.3f}", v);
+    out.erase(out.find_last_not_of('0') + 1);
+    if (out.ends_with('.')) out.pop_back();
+    return out == "-0" ? "0" : out;
+}
+
+std::string at(const Pose2& p) {
+    return fmt::format("({}, {}) heading {}", number(p.x), number(p.y), number(p.yaw));
+}
+
+}  // namespace
+
+std::string describe(const World& world) {
+    std::string out = std::filesystem::path(world.description().path).filename().string() + "\n";
+    const auto line = [&](std::string_view label, const std::string& text) {
+        out += fmt::format("  {:12}{}\n", label, text);
+    };
+    const auto names = world.bug_names();
+    std::size_t with_resets = 0;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        line("robot", fmt::format("{} at {}", names[i], at(world.snapshot(i).pose)));
+        with_resets += world.has_trials(i);
+    }
+    if (names.empty()) line("robot", "none");
+    const auto plan = world.reset_plan();
+    if (plan)
+        for (std::size_t i = 0; i < plan->starts.size(); ++i)
+            line("start", fmt::format("{} at {}", plan->names[i], at(plan->starts[i])));
+    for (const auto& t : world.targets())
+        line("target", fmt::format("({}, {})", number(t.x()), number(t.y())));
+    if (world.targets().empty()) line("target", "none");
+    if (plan)
+        line("bounds", fmt::format("x {} to {}, y {} to {}", number(plan->bounds.min().x()),
+                                   number(plan->bounds.max().x()), number(plan->bounds.min().y()),
+                                   number(plan->bounds.max().y())));
+    line("trials", !plan          ? "none: there are no start poses (models named Reset_0 to Reset_9)"
+                   : !with_resets ? "none: no robot has the plugin libreset_plugin.so"
+                                  : "a robot that leaves the bounds is put back to a start");
+    line("time", fmt::format("{} s of the world per cycle", number(world.seconds_per_cycle())));
+    out += "  in m and rad; heading 0 looks along x, 1.571 along y\n";
+    return out;
+}
+
+}  // namespace forage::bug

@@ -1,0 +1,102 @@
+#include "bug_interface/world/model_folders.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/model/diagnostic.h"
+
+namespace forage::bug {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::string_view scheme = "model://";
+
+std::string lower(std::string_view text) {
+    std::string out(text);
+    for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return out;
+}
+
+}  // namespace
+
+ModelFolders::ModelFolders(const std::string& world_file, const std::vector<std::string>& extra)
+    : folders_(extra) {
+    const fs::path beside = fs::path(world_file).parent_path();
+    folders_.push_back((beside / "models").string());
+    folders_.push_back((beside / ".." / "models").string());
+    for (const char* variable : {"FORAGE_MODEL_PATH", "GAZEBO_MODEL_PATH"}) {
+        const char* list = std::getenv(variable);
+        std::istringstream in(list ? list : "");
+        for (std::string entry; std::getline(in, entry, ':');)
+            if (!entry.empty()) folders_.push_back(entry);
+    }
+}
+
+std::string ModelFolders::find(const std::string& uri) const {
+    std::error_code ignored;
+    if (!uri.starts_with(scheme)) return fs::exists(uri, ignored) ? uri : std::string();
+    for (const auto& folder : folders_) {
+        const fs::path candidate = fs::path(folder) / uri.substr(scheme.size());
+        if (fs::exists(candidate, ignored)) return candidate.string();
+    }
+    return {};
+}
+
+std::vector<std::string> ModelFolders::names() const {
+    std::vector<std::string> names;
+    for (const auto& folder : folders_) {
+        std::error_code ignored;
+        for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+             entry.increment(ignored))
+            if (fs::exists(entry->path() / "model.config", ignored))
+                names.push_back(entry->path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    return names;
+}
+
+std::string ModelFolders::hint(std::string_view uri, const std::vector<std::string>& names) {
+    if (!uri.starts_with(scheme) && std::find(names.begin(), names.end(), uri) != names.end())
+        return fmt::format("write {}{}", scheme, uri);
+    const std::string name(uri.starts_with(scheme) ? uri.substr(scheme.size()) : uri);
+    std::vector<std::string> near;
+    const auto take = [&](auto&& matches) {
+        if (near.empty() && name.size() >= 3)
+            for (const auto& candidate : names)
+                if (matches(lower(candidate), lower(name)))
+                    near.push_back(fmt::format("'{}{}'", scheme, candidate));
+    };
+    take([](const std::string& known, const std::string& asked) { return known.starts_with(asked); });
+    take([](const std::string& known, const std::string& asked) {
+        return known.find(asked) != std::string::npos || asked.find(known) != std::string::npos;
+    });
+    if (near.empty())
+        if (const auto nearest = forage::nearest(name, names); !nearest.empty())
+            near.push_back(fmt::format("'{}{}'", scheme, nearest));
+    constexpr std::size_t few = 4, shown = 12;
+    if (!near.empty() && near.size() <= few) return fmt::format("did you mean {}?", fmt::join(near, " or "));
+    const std::size_t n = std::min(names.size(), shown);
+    return fmt::format("the models are {}{}",
+                       fmt::join(names.begin(), names.begin() + static_cast<long>(n), ", "),
+                       n < names.size() ? fmt::format(" and {} more", names.size() - n) : "");
+}
+
+std::optional<std::string> read_text(const std::string& path) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored)) return {};
+    std::ifstream in(path, std::ios::binary);
+    if (!in) return {};
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+}  // namespace forage::bug

@@ -1,0 +1,33 @@
+// Where the models are that a world includes.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace forage::bug {
+
+/// The folders in which `model://NAME` is looked up, in this order: `extra`, `models` and `../models` beside
+/// the world file, and those listed in FORAGE_MODEL_PATH and GAZEBO_MODEL_PATH (separated by colons).
+class ModelFolders {
+  public:
+    ModelFolders(const std::string& world_file, const std::vector<std::string>& extra);
+
+    /// The path of what `uri` stands for (`model://NAME`, `model://NAME/FOLDER`, or a path); empty when there
+    /// is none.
+    std::string find(const std::string& uri) const;
+    /// The names of all models, sorted.
+    std::vector<std::string> names() const;
+    /// What to write instead of `uri`, for which there is nothing. Not to be called when there are no
+    /// names().
+    static std::string hint(std::string_view uri, const std::vector<std::string>& names);
+
+  private:
+    std::vector<std::string> folders_;
+};
+
+/// The text of a regular file; empty when it cannot be read.
+std::optional<std::string> read_text(const std::string& path);
+
+}  // namespace forage::bug
