@@ -17,7 +17,7 @@ void IntegrateFire::describe(NeuronSpec<IntegrateFire>& s) {
 void IntegrateFire::update(NeuronColumns& c) const {
     auto [vm, act] = c.states<2>();
     membrane::integrate(*this, c, vm, vm);
-    act = (vm < threshold).select(0.0, Eigen::ArrayXd::Ones(c.size()));
+    act = (vm >= threshold).select(Eigen::ArrayXd::Ones(c.size()), 0.0);  // NaN is silent
     membrane::silence(c, act, probability);
     if (amplitude != 0) vm -= reset * act / amplitude;
 }

@@ -19,7 +19,7 @@ struct Synapses {
     std::size_t size() const { return pre.size(); }
 };
 
-/// The largest connection that is built: 2.8 GB while it is.
+/// The largest connection that is built: 2.8 GB while it is (measured: 2.74 GB), then 0.4 to 2 GB of it.
 inline constexpr double most_synapses = 1e8;
 
 /// Builds the synapses of `connection` between groups of these topologies. `seed` decides everything random.

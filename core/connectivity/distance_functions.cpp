@@ -7,35 +7,36 @@
 namespace forage::connectivity {
 namespace {
 
-/// The function's values at the distances; `whole` reads the bounds as whole numbers, as delays do.
-std::vector<double> evaluate(const model::DistanceFunction& function, std::span<const double> distances,
-                             const RandomStream& random, bool whole) {
+/// Calls take(i, value) for the function's value at each distance; `whole` reads the bounds as whole numbers, as
+/// delays do.
+template <class Take>
+void evaluate(const model::DistanceFunction& function, std::span<const double> distances,
+              const RandomStream& random, bool whole, Take take) {
     const auto bound = [whole](double v) { return whole ? std::trunc(six_digits(v)) : six_digits(v); };
-    std::vector<double> out(distances.size());
+    const std::size_t n = distances.size();
     if (const auto* uniform = std::get_if<model::UniformFunction>(&function.form)) {
-        std::fill(out.begin(), out.end(), std::max(0.0, bound(uniform->value)));
+        const double value = std::max(0.0, bound(uniform->value));
+        for (std::size_t i = 0; i < n; ++i) take(i, value);
     } else if (const auto* linear = std::get_if<model::LinearFunction>(&function.form)) {
         const double min = bound(linear->min), max = bound(linear->max);
         const double farthest = distances.empty() ? 0 : *std::max_element(distances.begin(), distances.end());
         const double slope = (max - min) / farthest;
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] = slope * distances[i] + min;
+        for (std::size_t i = 0; i < n; ++i) take(i, slope * distances[i] + min);
     } else if (const auto* gaussian = std::get_if<model::GaussianFunction>(&function.form)) {
         const double min = bound(gaussian->min), max = bound(gaussian->max);
         const double sigma = gaussian->sigma == 0 ? 0.0001 : six_digits(gaussian->sigma);
-        for (std::size_t i = 0; i < out.size(); ++i) {
+        for (std::size_t i = 0; i < n; ++i) {
             const double d = distances[i];
-            out[i] = std::max(0.0, max - std::exp(-(d * d) / (2 * sigma * sigma)) * (max - min) + min);
+            take(i, std::max(0.0, max - std::exp(-(d * d) / (2 * sigma * sigma)) * (max - min) + min));
         }
     } else if (const auto* block = std::get_if<model::BlockFunction>(&function.form)) {
         const double min = bound(block->min), max = bound(block->max);
-        for (std::size_t i = 0; i < out.size(); ++i)
-            out[i] = distances[i] <= block->width / 2 ? min : max;  // whole half
+        for (std::size_t i = 0; i < n; ++i) take(i, distances[i] <= block->width / 2 ? min : max);  // whole half
     } else {
-        const double max = bound(std::get<model::RandomFunction>(function.form).max);
-        random.uniform(0, out);
-        for (double& v : out) v = std::round(v * std::trunc(max * 1e4)) / 1e4;
+        const double scale = std::trunc(bound(std::get<model::RandomFunction>(function.form).max) * 1e4);
+        for (std::size_t i = 0; i < n; ++i)
+            take(i, std::round(random.uniform(0, static_cast<std::uint32_t>(i)) * scale) / 1e4);
     }
-    return out;
 }
 
 }  // namespace
@@ -50,7 +51,8 @@ double six_digits(double value) {
 
 Attenuation attenuation(const model::DistanceFunction& function, std::span<const double> distances,
                         const RandomStream& random) {
-    Attenuation out{evaluate(function, distances, random, false), 1};
+    Attenuation out{std::vector<double>(distances.size()), 1};
+    evaluate(function, distances, random, false, [&](std::size_t i, double v) { out.values[i] = v; });
     if (const auto* linear = std::get_if<model::LinearFunction>(&function.form)) {
         out.reference = std::max(six_digits(linear->min), six_digits(linear->max));
     } else if (const auto* block = std::get_if<model::BlockFunction>(&function.form)) {
@@ -65,12 +67,11 @@ std::vector<int> delays(const model::DistanceFunction& function, std::span<const
                         const RandomStream& random) {
     const bool truncated = std::holds_alternative<model::UniformFunction>(function.form) ||
                            std::holds_alternative<model::BlockFunction>(function.form);
-    std::vector<int> out;
-    out.reserve(distances.size());
-    for (const double v : evaluate(function, distances, random, true)) {
-        const double whole = truncated ? std::trunc(v) : std::round(v);         // a half: away from 0
-        out.push_back(whole > 0 ? static_cast<int>(std::min(whole, 1e9)) : 0);  // NaN gives 0
-    }
+    std::vector<int> out(distances.size());
+    evaluate(function, distances, random, true, [&](std::size_t i, double v) {
+        const double whole = truncated ? std::trunc(v) : std::round(v);
+        out[i] = whole > 0 ? static_cast<int>(std::min(whole, 1e9)) : 0;  // NaN gives 0
+    });
     return out;
 }
 

@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
+#include <new>
 
 #include "core/engine/plan.h"
 #include "core/model/lookup.h"
@@ -16,6 +19,33 @@ std::vector<const T*> by_id(const std::vector<T>& items) {
     return out;
 }
 
+/// Adds up what the arena will hold and remembers the largest part. In double: a file may ask for any amount.
+class Budget {
+  public:
+    /// `rows` rows of `cells` numbers each.
+    void add(double rows, Index cells, const Location& at, std::string what) {
+        const double bytes = rows * static_cast<double>(Arena::stride(cells)) * sizeof(double);
+        total_ += bytes;
+        if (bytes > largest_) largest_ = bytes, at_ = at, what_ = std::move(what);
+    }
+    bool exceeded() const { return total_ > most_bytes; }
+    void report(Diagnostics& diagnostics) const {
+        diagnostics.error(at_, fmt::format("the system needs {:.4g} GB of memory, the most is {:.4g} GB", total_ / 1e9, most_bytes / 1e9),
+                          largest());
+    }
+    void report_exhausted(Diagnostics& diagnostics) const {
+        diagnostics.error(at_, "there is not enough memory for the system", largest());
+    }
+
+  private:
+    std::string largest() const {
+        return what_.empty() ? "" : fmt::format("the largest part is {} = {:.4g} GB", what_, largest_ / 1e9);
+    }
+    double total_ = 0, largest_ = 0;
+    Location at_;
+    std::string what_;
+};
+
 class Compiler {
   public:
     Compiler(const model::System& system, const Registry& registry, std::uint64_t seed, Forms forms, Diagnostics& diagnostics)
@@ -24,11 +54,17 @@ class Compiler {
 
     std::unique_ptr<Plan> run() {
         const int errors_before = diagnostics_.errors();
-        add_groups();
-        add_modules();
-        add_connections();
-        if (diagnostics_.errors() > errors_before) return nullptr;
-        lay_out();
+        try {
+            add_groups();
+            add_modules();
+            add_connections();
+            if (budget_.exceeded()) budget_.report(diagnostics_);
+            if (diagnostics_.errors() > errors_before) return nullptr;
+            lay_out();
+        } catch (const std::bad_alloc&) {
+            budget_.report_exhausted(diagnostics_);
+            return nullptr;
+        }
         return std::move(plan_);
     }
 
@@ -54,6 +90,9 @@ class Compiler {
             model::apply(g->neuron.settings, plan.type.parameters, plan.neuron->parameters());
             plan.random = RandomStream(seed_, g->id);
             for (const auto& s : plan.type.states) plan.states.push_back({nullptr, s.history});
+            double rows = 2 * input_kinds;
+            for (const auto& s : plan.states) rows += static_cast<double>(s.depth);
+            budget_.add(rows, plan.cells, g->at, fmt::format("group '{}': {} numbers x {} cells", plan.path, rows, plan.cells));
             group_at_[g->id] = static_cast<int>(plan_->groups.size());
             topology_of_.push_back(&g->topology);
             plan_->groups.push_back(std::move(plan));
@@ -69,7 +108,7 @@ class Compiler {
         for (const auto* p : by_id(system_.processes)) {
             if (!p->module || !p->module_enabled) continue;
             ModulePlan plan;
-            plan.process = std::string(model::trim(p->name)), plan.process_id = p->id, plan.type_name = p->module->type;
+            plan.process = std::string(model::trim(p->name)), plan.process_id = p->id;
             plan.type = *registry_.module(p->module->type);
             plan.module = plan.type.make();
             model::apply(p->module->settings, plan.type.parameters, plan.module->parameters());
@@ -83,6 +122,9 @@ class Compiler {
                     groups.push_back(group);
                     ports.push_back({r.name, {}, {}});
                     if (group >= 0) {
+                        if (outputs)
+                            budget_.add(1, plan_->groups[static_cast<std::size_t>(group)].cells, r.at,
+                                        fmt::format("output '{}' of process '{}'", r.name, p->name));
                         ports.back().path = plan_->groups[static_cast<std::size_t>(group)].path;
                         ports.back().shape = plan_->groups[static_cast<std::size_t>(group)].shape;
                     }
@@ -115,6 +157,7 @@ class Compiler {
             auto synapses = connectivity::connect(*c, *topology_of_[static_cast<std::size_t>(plan.source)],
                                                   *topology_of_[static_cast<std::size_t>(plan.target)], seed_, diagnostics_);
             if (synapses.size() == 0) continue;  // reported
+            synapses.distance = std::vector<double>();  // attenuation and delay say it all
             plan.synapses = synapses.size();
             plan.type = *registry_.synapse(c->synapse->type);
             plan.synapse = plan.type.make();
@@ -122,38 +165,53 @@ class Compiler {
             plan.effective = target.type.reads[static_cast<std::size_t>(c->kind)];
             const int longest = *std::max_element(synapses.delay.begin(), synapses.delay.end());
             if (plan.type.has_gain) {
-                source.history = std::max(source.history, longest);
-                plan.kernel = make_kernel(synapses, source.shape.cells, target.shape.cells, *plan.synapse, forms_);
+                lengthen(source, *c, longest);
+                if (budget_.exceeded()) continue;
+                plan.kernel = make_kernel(std::move(synapses), source.shape.cells, target.shape.cells, *plan.synapse, forms_);
             } else {
-                feedback_.emplace_back(plan_->connections.size(), feedback_states(*c->synapse, plan.type, target, longest));
-                plastic_synapses_.push_back(std::move(synapses));
+                plan.feedback = feedback_states(*c, plan.type, target, longest);
+                add_synapse_states(*c, plan, longest);
+                if (budget_.exceeded()) continue;
+                auto kernel = std::make_unique<PlasticKernel>(std::move(synapses), target.shape.cells, plan.type, *plan.synapse, plan_->arena);
+                plan.plastic = kernel.get();
+                plan.kernel = std::move(kernel);
             }
             target.incoming.push_back(static_cast<int>(plan_->connections.size()));
             plan_->connections.push_back(std::move(plan));
         }
-        // The kernels refer to the types of their plans, which have their final place only now.
-        for (std::size_t i = 0; i < feedback_.size(); ++i) {
-            auto& c = plan_->connections[feedback_[i].first];
-            auto kernel = std::make_unique<PlasticKernel>(std::move(plastic_synapses_[i]),
-                                                          plan_->groups[static_cast<std::size_t>(c.target)].shape.cells, c.type,
-                                                          *c.synapse, plan_->arena);
-            c.plastic = kernel.get();
-            c.kernel = std::move(kernel);
-        }
+    }
+
+    /// Makes the source keep its activity for a delay.
+    void lengthen(GroupPlan& source, const model::Connection& c, int delay) {
+        if (delay <= source.history) return;
+        budget_.add(delay - source.history, source.cells, c.at,
+                    fmt::format("connection '{}': delay {} x {} cells", c.name, delay, source.cells));
+        source.history = delay;
+    }
+
+    void add_synapse_states(const model::Connection& c, const ConnectionPlan& plan, int longest) {
+        const auto numbers = plan.type.states.size() + plan.type.feedback.size() + 1;
+        const double past = longest > 0 ? longest + 1.0 : 0;
+        budget_.add(static_cast<double>(numbers) + past, static_cast<Index>(plan.synapses), c.at,
+                    fmt::format("connection '{}': ({} numbers + delay {}) x {} synapses", c.name, numbers, longest, plan.synapses));
     }
 
     /// The states of the target that feed back, -1 for an unset one. Their history grows to the longest delay + 1, as
     /// in the original; so an update that reads the state's last value reads one of so many cycles ago.
-    static std::vector<int> feedback_states(const model::SynapseUse& use, const SynapseType& type, GroupPlan& target, int longest) {
+    std::vector<int> feedback_states(const model::Connection& c, const SynapseType& type, GroupPlan& target, int longest) {
         std::vector<int> out;
         for (const auto& f : type.feedback) {
             int state = -1;
-            for (const auto& r : use.feedback)
+            for (const auto& r : c.synapse->feedback)
                 for (std::size_t s = 0; s < target.type.states.size(); ++s)
                     if (r.name == f.name && r.target == target.type.states[s].name) state = static_cast<int>(s);
             if (state >= 0) {
                 auto& depth = target.states[static_cast<std::size_t>(state)].depth;
-                depth = std::max<std::int64_t>(depth, longest + 1);
+                if (depth <= longest) {
+                    budget_.add(static_cast<double>(longest + 1 - depth), target.cells, c.at,
+                                fmt::format("connection '{}': delay {} x {} cells", c.name, longest, target.cells));
+                    depth = longest + 1;
+                }
             }
             out.push_back(state);
         }
@@ -186,11 +244,11 @@ class Compiler {
                 m.out.emplace_back(arena.at(m.output_offsets[i]), g < 0 ? 0 : plan_->groups[static_cast<std::size_t>(g)].cells);
             }
         }
-        for (const auto& [index, states] : feedback_) {
-            auto& c = plan_->connections[index];
+        for (auto& c : plan_->connections) {
+            if (!c.plastic) continue;
             const auto& target = plan_->groups[static_cast<std::size_t>(c.target)];
-            std::vector<Feedback> feedback;
-            for (const int s : states) {
+            std::vector<Ring> feedback;
+            for (const int s : c.feedback) {
                 if (s < 0) feedback.push_back({nullptr, 1, 0});
                 else feedback.push_back({target.states[static_cast<std::size_t>(s)].ring, target.states[static_cast<std::size_t>(s)].depth, target.stride});
             }
@@ -206,8 +264,7 @@ class Compiler {
     std::unique_ptr<Plan> plan_;
     std::map<std::string, int> group_at_;
     std::vector<const model::Topology*> topology_of_;
-    std::vector<std::pair<std::size_t, std::vector<int>>> feedback_;  ///< by connection
-    std::vector<connectivity::Synapses> plastic_synapses_;
+    Budget budget_;
 };
 
 }  // namespace

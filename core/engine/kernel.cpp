@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace forage::engine {
 namespace {
@@ -13,19 +14,29 @@ struct ByTarget {
     std::vector<double> factor;
 };
 
-ByTarget sort_by_target(const connectivity::Synapses& s, int targets) {
+/// values[i] goes to place[i]; what it was is freed.
+template <class T>
+std::vector<T> permuted(std::vector<T> values, const std::vector<int>& place) {
+    std::vector<T> out(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) out[static_cast<std::size_t>(place[i])] = values[i];
+    return out;
+}
+
+ByTarget sort_by_target(connectivity::Synapses s, int targets) {
     ByTarget out;
     out.start.assign(static_cast<std::size_t>(targets) + 1, 0);
     for (const int post : s.post) ++out.start[static_cast<std::size_t>(post) + 1];
     std::partial_sum(out.start.begin(), out.start.end(), out.start.begin());
-    std::vector<int> next(out.start.begin(), out.start.end() - 1);
-    out.pre.resize(s.size()), out.delay.resize(s.size()), out.factor.resize(s.size());
-    for (std::size_t i = 0; i < s.size(); ++i) {
-        const auto place = static_cast<std::size_t>(next[static_cast<std::size_t>(s.post[i])]++);
-        out.pre[place] = s.pre[i];
-        out.delay[place] = s.delay[i];
-        out.factor[place] = s.reference - s.attenuation[i];
+    for (double& a : s.attenuation) a = s.reference - a;
+    if (std::is_sorted(s.post.begin(), s.post.end())) {
+        out.pre = std::move(s.pre), out.delay = std::move(s.delay), out.factor = std::move(s.attenuation);
+        return out;
     }
+    std::vector<int> next(out.start.begin(), out.start.end() - 1);
+    for (int& post : s.post) post = next[static_cast<std::size_t>(post)]++;  // now the synapse's place
+    out.pre = permuted(std::move(s.pre), s.post);
+    out.delay = permuted(std::move(s.delay), s.post);
+    out.factor = permuted(std::move(s.attenuation), s.post);
     return out;
 }
 
@@ -63,9 +74,14 @@ class List final : public Kernel {
   public:
     List(ByTarget s, int source_cells, const SynapseInstance& synapse)
         : synapse_(synapse), s_(std::move(s)), same_delay_(all_equal(s_.delay)), same_factor_(all_equal(s_.factor)),
+          longest_(*std::max_element(s_.delay.begin(), s_.delay.end())), factor_(s_.factor[0]),
           scaled_(static_cast<std::size_t>(source_cells)) {
-        longest_ = *std::max_element(s_.delay.begin(), s_.delay.end());
-        rows_.resize(static_cast<std::size_t>(longest_) + 1);
+        if (same_delay_) {
+            s_.delay = std::vector<int>();  // frees it; = {} would not
+            if (same_factor_) s_.factor = std::vector<double>();
+        } else {
+            rows_.resize(static_cast<std::size_t>(longest_) + 1);
+        }
     }
     void deliver(const History& source, double* target) override {
         const double gain = synapse_.gain();
@@ -75,7 +91,7 @@ class List final : public Kernel {
         Column scaled(scaled_.data(), cells);
         scaled = pre * gain;
         if (same_factor_) {
-            scaled *= s_.factor[0];
+            scaled *= factor_;
             sum(target, [&](std::size_t i) { return scaled_[static_cast<std::size_t>(s_.pre[i])]; });
         } else {
             sum(target, [&](std::size_t i) { return scaled_[static_cast<std::size_t>(s_.pre[i])] * s_.factor[i]; });
@@ -85,7 +101,7 @@ class List final : public Kernel {
 
   private:
     void deliver_delayed(const History& source, double gain, double* target) {
-        for (int d = 0; d <= longest_; ++d) rows_[static_cast<std::size_t>(d)] = source.ago(d);
+        source.past.tabulate(source.cycle, rows_);
         sum(target, [&](std::size_t i) { return (gain * rows_[static_cast<std::size_t>(s_.delay[i])][s_.pre[i]]) * s_.factor[i]; });
     }
     template <class F>
@@ -100,7 +116,8 @@ class List final : public Kernel {
     const SynapseInstance& synapse_;
     ByTarget s_;
     bool same_delay_, same_factor_;
-    int longest_ = 0;
+    int longest_;
+    double factor_;  ///< of every synapse, when it is the same
     std::vector<double> scaled_;
     std::vector<const double*> rows_;
 };
@@ -139,9 +156,9 @@ class Broadcast final : public Kernel {
 
 }  // namespace
 
-std::unique_ptr<Kernel> make_kernel(const connectivity::Synapses& synapses, int source_cells, int target_cells,
+std::unique_ptr<Kernel> make_kernel(connectivity::Synapses synapses, int source_cells, int target_cells,
                                     const SynapseInstance& synapse, Forms forms) {
-    ByTarget sorted = sort_by_target(synapses, target_cells);
+    ByTarget sorted = sort_by_target(std::move(synapses), target_cells);
     if (forms == Forms::fastest) {
         if (OneToOne::fits(sorted, source_cells, target_cells)) return std::make_unique<OneToOne>(sorted, synapse);
         if (Broadcast::fits(sorted, target_cells)) return std::make_unique<Broadcast>(sorted, source_cells, target_cells, synapse);

@@ -4,24 +4,35 @@
 #include <cstdint>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "core/connectivity/connect.h"
 #include "core/types/synapse.h"
 
 namespace forage::engine {
 
+/// Rows of the last `depth` cycles: row t % depth is that of cycle t.
+struct Ring {
+    const double* rows;
+    std::int64_t depth, stride;
+
+    const double* ago(std::uint64_t cycle, int delay) const {
+        const auto row = static_cast<std::int64_t>(cycle % static_cast<std::uint64_t>(depth));
+        return rows + ((row - delay + depth) % depth) * stride;
+    }
+    /// out[d] = ago(cycle, d): what loops over synapses look up, once per cycle.
+    void tabulate(std::uint64_t cycle, std::vector<const double*>& out) const {
+        for (std::size_t d = 0; d < out.size(); ++d) out[d] = ago(cycle, static_cast<int>(d));
+    }
+};
+
 /// The activity of a connection's source in this and in earlier cycles.
 struct History {
-    const double* now;          ///< row of this cycle
-    const double* ring;         ///< rows of the last `depth` cycles, row t % depth is that of cycle t; null: only now
-    std::int64_t depth, stride;
+    const double* now;  ///< row of this cycle
+    Ring past;          ///< rows of this and of earlier cycles; null when no connection of the source has a delay
     std::uint64_t cycle;
 
-    const double* ago(int delay) const {
-        if (!ring) return now;
-        const auto row = static_cast<std::int64_t>(cycle % static_cast<std::uint64_t>(depth));
-        return ring + ((row - delay + depth) % depth) * stride;
-    }
+    const double* ago(int delay) const { return delay == 0 ? now : past.ago(cycle, delay); }
 };
 
 class Kernel {
@@ -38,8 +49,9 @@ enum class Forms {
 };
 
 /// A kernel for synapses that multiply by a constant: psp = (gain * pre) * (reference - attenuation), rounded in this
-/// order. `synapse` stays the owner's: its gain may change between cycles.
-std::unique_ptr<Kernel> make_kernel(const connectivity::Synapses& synapses, int source_cells, int target_cells,
+/// order. `synapse` stays the owner's: its gain may change between cycles. The parts of `synapses` are freed as they are
+/// used.
+std::unique_ptr<Kernel> make_kernel(connectivity::Synapses synapses, int source_cells, int target_cells,
                                     const SynapseInstance& synapse, Forms forms);
 
 }  // namespace forage::engine

@@ -32,7 +32,7 @@ struct GroupPlan {
 };
 
 struct ModulePlan {
-    std::string process, process_id, type_name;
+    std::string process, process_id;
     ModuleType type;
     std::unique_ptr<ModuleInstance> module;
     ModulePorts ports;
@@ -50,6 +50,7 @@ struct ConnectionPlan {
     SynapseType type;
     std::unique_ptr<Kernel> kernel;
     PlasticKernel* plastic = nullptr;  ///< the kernel, when its synapses have states of their own
+    std::vector<int> feedback;         ///< for a plastic one: states of the target, -1 for an unset one
     bool effective = true;             ///< the target's type reads this kind of input
     std::size_t synapses = 0;
 };
@@ -64,7 +65,11 @@ struct Plan {
     Arena arena;
 };
 
-/// Empty when `diagnostics` got an error. The system must have passed model::validate().
+/// What the numbers of a system may take: 16 GiB. Lists of synapses come on top.
+inline constexpr double most_bytes = 16.0 * (1 << 30);
+
+/// Empty when `diagnostics` got an error. The system must have passed model::validate(). Reports one that takes more
+/// than `most_bytes`, before it takes them, or more than there is.
 std::unique_ptr<Plan> compile(const model::System& system, const Registry& registry, std::uint64_t seed, Forms forms,
                               Diagnostics& diagnostics);
 

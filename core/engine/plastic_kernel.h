@@ -6,49 +6,43 @@
 
 namespace forage::engine {
 
-/// A state of the target that the synapses read: its ring of rows.
-struct Feedback {
-    const double* ring;
-    std::int64_t depth, stride;
-    const double* ago(std::uint64_t cycle, int delay) const {
-        const auto row = static_cast<std::int64_t>(cycle % static_cast<std::uint64_t>(depth));
-        return ring + ((row - delay + depth) % depth) * stride;
-    }
-};
-
 class PlasticKernel final : public Kernel {
   public:
-    /// Reserves the synapses' states in `arena`.
+    /// Reserves the synapses' states in `arena`. `synapse` stays the owner's.
     PlasticKernel(connectivity::Synapses synapses, int target_cells, const SynapseType& type, const SynapseInstance& synapse,
                   Arena& arena);
-    /// Once, after the arena is allocated.
-    void place(Arena& arena, std::vector<Feedback> feedback);
+    /// Once, after the arena is allocated. `feedback`: the target's states that the type reads, in order of
+    /// declaration; null rows for one that the file leaves unset, which reads 0.
+    void place(Arena& arena, std::vector<Ring> feedback);
 
+    /// Updates the synapses, in every cycle; deliver() does this first. On its own it is for connections of a kind that
+    /// the target does not read: they learn all the same.
+    void learn(const History& source);
     void deliver(const History& source, double* target) override;
     std::string_view form() const override { return "plastic"; }
 
-    int longest_delay() const { return longest_; }
     /// State `i` of the type, per synapse in synapse order. The output state is what was computed in this cycle,
     /// attenuated.
     ConstColumn state(std::size_t i) const { return {states_[i].data(), states_[i].size()}; }
 
   private:
-    connectivity::Synapses s_;
-    const SynapseType& type_;
     const SynapseInstance& synapse_;
-    Index size_;
-    int longest_;
+    std::size_t output_;                 ///< index of the output state
+    std::vector<int> pre_cell_, post_cell_, delay_;
+    std::vector<double> factor_;         ///< reference - attenuation
+    int longest_;                        ///< delay
+    Index size_, target_cells_;
+    Arena::Offset pre_offset_, psp_offset_ = 0, sum_offset_;
     std::vector<Arena::Offset> state_offsets_, feedback_offsets_;
-    Arena::Offset pre_offset_, psp_offset_, sum_offset_;
-    Index target_cells_;
 
-    double* pre_ = nullptr;
-    double* psp_ring_ = nullptr;  ///< attenuated output of the last longest_ + 1 cycles
-    double* sums_ = nullptr;
-    std::vector<double*> gathered_;
-    std::vector<Feedback> feedback_;
+    double* pre_ = nullptr;       ///< source activity, per synapse
+    double* psp_ring_ = nullptr;  ///< attenuated output of the last longest_ + 1 cycles; null without delays
+    double* sums_ = nullptr;      ///< per target cell
+    std::vector<double*> gathered_;  ///< feedback, per synapse
+    std::vector<Ring> feedback_;
     std::vector<Column> states_;
     std::vector<ConstColumn> feedback_columns_;
+    std::vector<const double*> feedback_rows_, psp_rows_;  ///< by delay; filled anew in each cycle
 };
 
 }  // namespace forage::engine

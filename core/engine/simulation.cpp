@@ -49,13 +49,15 @@ Simulation::~Simulation() = default;
 void Simulation::start() {
     for (auto& m : plan_->modules) {
         try {
+            bind_inputs(m);
             ModuleFrame frame(0, m.in, m.out);
             m.module->start(m.ports, frame);
             deliver_outputs(m, 0);
         } catch (const std::exception& e) {
-            throw RunError(fmt::format("{} of process '{}' could not start: {}", m.type_name, m.process, e.what()));
+            throw RunError(fmt::format("{} of process '{}' could not start: {}", m.type.name, m.process, e.what()));
         }
     }
+    started_ = true;
 }
 
 void Simulation::step() {
@@ -65,6 +67,7 @@ void Simulation::step() {
 }
 
 void Simulation::update_groups() {
+    if (!started_) throw RunError("the simulation is not started");
     shown_ = cycle_;
     const std::size_t now = cycle_ % 2;
     auto update = [this, now](int group, int thread) {
@@ -78,6 +81,15 @@ void Simulation::update_groups() {
         }
     };
     pool_->run(groups(), update);
+}
+
+/// Lets a module see the activity of this cycle; before the first one, zeros.
+void Simulation::bind_inputs(ModulePlan& module) {
+    for (std::size_t i = 0; i < module.in.size(); ++i)
+        if (module.input_groups[i] >= 0) {
+            const auto& g = at(plan_->groups, module.input_groups[i]);
+            new (&module.in[i]) ConstColumn(current_row(g, g.type.output(), cycle_), g.cells);
+        }
 }
 
 /// Adds what a module has written to the excitatory input of its groups; `turn` says which of their two rows.
@@ -100,17 +112,13 @@ void Simulation::update_modules() {
     try {
         for (auto& m : plan_->modules) {
             current = &m;
-            for (std::size_t i = 0; i < m.in.size(); ++i)
-                if (m.input_groups[i] >= 0) {
-                    const auto& g = at(plan_->groups, m.input_groups[i]);
-                    new (&m.in[i]) ConstColumn(current_row(g, g.type.output(), cycle_), g.cells);
-                }
+            bind_inputs(m);
             ModuleFrame frame(cycle_, m.in, m.out);
             m.module->update(frame);
             deliver_outputs(m, next);
         }
     } catch (const std::exception& e) {
-        throw RunError(fmt::format("{} of process '{}' failed in cycle {}: {}", current->type_name, current->process, cycle_, e.what()));
+        throw RunError(fmt::format("{} of process '{}' failed in cycle {}: {}", current->type.name, current->process, cycle_, e.what()));
     }
 }
 
@@ -121,16 +129,15 @@ void Simulation::update_connections() {
             const auto row = static_cast<Index>(cycle_ % static_cast<std::uint64_t>(g.history + 1));
             Column(g.history_ring + row * g.stride, g.cells) = ConstColumn(current_row(g, g.type.output(), cycle_), g.cells);
         }
-    auto deliver = [this, next](int group, int thread) {
+    auto deliver = [this, next](int group, int) {
         auto& target = at(plan_->groups, group);
         for (const int connection : target.incoming) {
             auto& c = at(plan_->connections, connection);
             const auto& source = at(plan_->groups, c.source);
-            const History history{current_row(source, source.type.output(), cycle_), source.history_ring, source.history + 1,
-                                  source.stride, cycle_};
+            const History history{current_row(source, source.type.output(), cycle_), {source.history_ring, source.history + 1, source.stride}, cycle_};
             try {
                 if (c.effective) c.kernel->deliver(history, target.inputs[static_cast<std::size_t>(c.kind)][next]);
-                else if (c.plastic) c.kernel->deliver(history, at(plan_->scratch, thread).data());  // it learns all the same
+                else if (c.plastic) c.plastic->learn(history);
             } catch (const std::exception& e) {
                 throw RunError(fmt::format("{} of connection '{}' failed in cycle {}: {}", c.type.name, c.name, cycle_, e.what()));
             }
@@ -140,6 +147,7 @@ void Simulation::update_connections() {
     ++cycle_;
 }
 
+int Simulation::threads() const { return pool_->threads(); }
 int Simulation::groups() const { return static_cast<int>(plan_->groups.size()); }
 const std::string& Simulation::path(int group) const { return at(plan_->groups, group).path; }
 const std::string& Simulation::id(int group) const { return at(plan_->groups, group).id; }

@@ -48,14 +48,15 @@ class Simulation {
     Simulation& operator=(Simulation&&) noexcept;
     ~Simulation();
 
-    /// Starts the modules; before the first cycle. Throws RunError.
+    /// Starts the modules; once, before the first cycle. Throws RunError.
     void start();
-    /// One cycle. Throws RunError.
+    /// One cycle. Throws RunError, also before start().
     void step();
     void update_groups();
     void update_modules();
     void update_connections();  ///< ends the cycle
 
+    int threads() const;  ///< that share a cycle's loops
     std::uint64_t cycle() const { return cycle_; }  ///< the number of completed cycles; the next one has this number
 
     // Groups, numbered in order of update. What is read here is of the running cycle, or of the last one between
@@ -88,10 +89,12 @@ class Simulation {
 
   private:
     Simulation(std::unique_ptr<Plan> plan, const Options& options);
+    void bind_inputs(ModulePlan& module);
     void deliver_outputs(const ModulePlan& module, std::size_t turn);
 
     std::unique_ptr<Plan> plan_;
     std::unique_ptr<ThreadPool> pool_;
+    bool started_ = false;
     std::uint64_t cycle_ = 0;
     std::uint64_t shown_ = 0;  ///< the cycle whose numbers are looked at
 };

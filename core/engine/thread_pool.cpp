@@ -1,6 +1,8 @@
 #include "core/engine/thread_pool.h"
 
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace forage::engine {
 
@@ -9,10 +11,17 @@ constexpr int spins = 2000;  // some microseconds: the next loop of a cycle usua
 
 ThreadPool::ThreadPool(int threads) {
     failures_.resize(static_cast<std::size_t>(std::max(threads, 1)), {no_item, nullptr});
-    for (int t = 1; t < threads; ++t) workers_.emplace_back([this, t] { serve(t); });
+    try {
+        for (int t = 1; t < threads; ++t) workers_.emplace_back([this, t] { serve(t); });
+    } catch (...) {
+        stop();
+        throw;
+    }
 }
 
-ThreadPool::~ThreadPool() {
+ThreadPool::~ThreadPool() { stop(); }
+
+void ThreadPool::stop() {
     stop_ = true;
     round_.fetch_add(1, std::memory_order_release);
     round_.notify_all();

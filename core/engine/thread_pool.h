@@ -4,8 +4,8 @@
 #include <atomic>
 #include <cstdint>
 #include <exception>
-#include <functional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace forage::engine {
@@ -13,6 +13,7 @@ namespace forage::engine {
 /// Runs loops whose items do not depend on each other. The caller works too; with one thread there is nothing else.
 class ThreadPool {
   public:
+    /// Throws std::system_error when the threads cannot be started.
     explicit ThreadPool(int threads);
     ~ThreadPool();
     ThreadPool(const ThreadPool&) = delete;
@@ -34,6 +35,7 @@ class ThreadPool {
     }
 
   private:
+    void stop();
     void share(int items);
     void serve(int thread);
     void take_items(int thread);

@@ -66,9 +66,10 @@ class NeuronColumns {
         }(std::make_integer_sequence<int, N>{});
     }
 
-    /// One number per cell, uniform in [0, 1), new in each cycle. Valid until the next call.
-    Column uniform() const {
-        random_->uniform(cycle_, {scratch_, static_cast<std::size_t>(size_)});
+    /// One number per cell, uniform in [0, 1), new in each cycle. Another `draw` of the same cycle gives other,
+    /// independent numbers, the same one the same numbers. Valid until the next call.
+    Column uniform(std::uint32_t draw = 0) const {
+        random_->uniform(cycle_, {scratch_, static_cast<std::size_t>(size_)}, draw);
         return {scratch_, size_};
     }
 

@@ -23,8 +23,8 @@ std::uint64_t fnv1a(std::string_view text) {
 }
 
 /// Two 64-bit words: numbers 2*pair and 2*pair+1 of this cycle.
-std::pair<std::uint64_t, std::uint64_t> words(std::uint64_t key, std::uint64_t cycle, std::uint32_t pair) {
-    const Philox::ctr_type counter{{pair, static_cast<std::uint32_t>(cycle), static_cast<std::uint32_t>(cycle >> 32), 0}};
+std::pair<std::uint64_t, std::uint64_t> words(std::uint64_t key, std::uint64_t cycle, std::uint32_t pair, std::uint32_t draw = 0) {
+    const Philox::ctr_type counter{{pair, static_cast<std::uint32_t>(cycle), static_cast<std::uint32_t>(cycle >> 32), draw}};
     const Philox::key_type k{{static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)}};
     const auto r = Philox{}(counter, k);
     return {std::uint64_t{r[0]} << 32 | r[1], std::uint64_t{r[2]} << 32 | r[3]};
@@ -37,8 +37,8 @@ double to_unit(std::uint64_t word) { return static_cast<double>(word >> 11) * 0x
 RandomStream::RandomStream(std::uint64_t seed, std::string_view item, std::uint32_t stream)
     : key_(mix(mix(seed + 0x9e3779b97f4a7c15u) ^ fnv1a(item)) + mix(stream + 0x9e3779b97f4a7c15u)) {}
 
-double RandomStream::uniform(std::uint64_t cycle, std::uint32_t index) const {
-    const auto [a, b] = words(key_, cycle, index / 2);
+double RandomStream::uniform(std::uint64_t cycle, std::uint32_t index, std::uint32_t draw) const {
+    const auto [a, b] = words(key_, cycle, index / 2, draw);
     return to_unit(index % 2 ? b : a);
 }
 
@@ -50,9 +50,9 @@ void RandomStream::bits(std::uint64_t cycle, std::span<std::uint64_t> out) const
     }
 }
 
-void RandomStream::uniform(std::uint64_t cycle, std::span<double> out) const {
+void RandomStream::uniform(std::uint64_t cycle, std::span<double> out, std::uint32_t draw) const {
     for (std::size_t i = 0; i < out.size(); i += 2) {
-        const auto [a, b] = words(key_, cycle, static_cast<std::uint32_t>(i / 2));
+        const auto [a, b] = words(key_, cycle, static_cast<std::uint32_t>(i / 2), draw);
         out[i] = to_unit(a);
         if (i + 1 < out.size()) out[i + 1] = to_unit(b);
     }

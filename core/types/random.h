@@ -8,8 +8,9 @@
 namespace forage {
 
 /// A counter-based random stream (Philox4x32-10; Salmon et al., "Parallel random numbers: as easy as 1, 2, 3",
-/// SC 2011). A number is a function of (seed, item, stream, cycle, index): it does not depend on what was
-/// drawn before, on the number of threads, or on other items of the system.
+/// SC 2011). A number is a function of (seed, item, stream, cycle, index, draw): it does not depend on what was
+/// drawn before, on the number of threads, or on other items of the system. `draw` tells apart several numbers
+/// for one index in one cycle.
 class RandomStream {
   public:
     RandomStream() = default;
@@ -17,9 +18,9 @@ class RandomStream {
     RandomStream(std::uint64_t seed, std::string_view item, std::uint32_t stream = 0);
 
     /// Uniform in [0, 1), 53 bits.
-    double uniform(std::uint64_t cycle, std::uint32_t index) const;
-    /// out[i] = uniform(cycle, i), faster.
-    void uniform(std::uint64_t cycle, std::span<double> out) const;
+    double uniform(std::uint64_t cycle, std::uint32_t index, std::uint32_t draw = 0) const;
+    /// out[i] = uniform(cycle, i, draw), faster.
+    void uniform(std::uint64_t cycle, std::span<double> out, std::uint32_t draw = 0) const;
     /// Standard normal numbers (Box-Muller on uniforms), mean 0, variance 1.
     void normal(std::uint64_t cycle, std::span<double> out) const;
     /// Raw 64-bit words, uniform.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 namespace forage {
@@ -14,14 +15,19 @@ auto find(const Map& map, std::string_view name) -> const typename Map::mapped_t
     return it == map.end() ? nullptr : &it->second;
 }
 
+/// Throws when two of `items` have the same name; `what` they are.
+template <class Items, class Type>
+void require_distinct(const Items& items, const Type& type, std::string_view kind, std::string_view what) {
+    for (std::size_t i = 0; i < items.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (items[i].name == items[j].name)
+                throw std::invalid_argument(fmt::format("{} type '{}' declares the {} '{}' twice", kind, type.name, what, items[i].name));
+}
+
 template <class Map>
 void insert(Map& map, typename Map::mapped_type type, std::string_view kind) {
     if (type.name.empty()) throw std::invalid_argument(fmt::format("a {} type without a name", kind));
-    for (std::size_t i = 0; i < type.parameters.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j)
-            if (type.parameters[i].name == type.parameters[j].name)
-                throw std::invalid_argument(
-                    fmt::format("{} type '{}' declares the parameter '{}' twice", kind, type.name, type.parameters[i].name));
+    require_distinct(type.parameters, type, kind, "parameter");
     const std::string name = type.name;
     if (!map.emplace(name, std::move(type)).second)
         throw std::invalid_argument(fmt::format("there is already a {} type '{}'", kind, name));
@@ -39,13 +45,23 @@ void require_one_output(const Type& type, std::string_view kind) {
 
 void Registry::add(NeuronType type) {
     require_one_output(type, "neuron");
+    require_distinct(type.states, type, "neuron", "state");
     insert(neurons_, std::move(type), "neuron");
 }
 void Registry::add(SynapseType type) {
     require_one_output(type, "synapse");
+    require_distinct(type.states, type, "synapse", "state");
+    require_distinct(type.feedback, type, "synapse", "feedback");
     insert(synapses_, std::move(type), "synapse");
 }
-void Registry::add(ModuleType type) { insert(modules_, std::move(type), "module"); }
+void Registry::add(ModuleType type) {
+    for (const bool outputs : {false, true}) {  // an input and an output may share a name
+        std::vector<ModulePort> ports;
+        std::copy_if(type.ports.begin(), type.ports.end(), std::back_inserter(ports), [&](const auto& p) { return p.is_output == outputs; });
+        require_distinct(ports, type, "module", outputs ? "output" : "input");
+    }
+    insert(modules_, std::move(type), "module");
+}
 
 const NeuronType* Registry::neuron(std::string_view name) const { return find(neurons_, name); }
 const SynapseType* Registry::synapse(std::string_view name) const { return find(synapses_, name); }

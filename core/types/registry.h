@@ -15,7 +15,7 @@ namespace forage {
 class Registry {
   public:
     /// Adds a type. Throws std::invalid_argument when its name is taken or its declaration does not hold
-    /// together (no name, not exactly one output).
+    /// together (no name, not exactly one output, a parameter, state, feedback or port declared twice).
     void add(NeuronType type);
     void add(SynapseType type);
     void add(ModuleType type);

@@ -1,24 +1,7 @@
-#include <cstdlib>
-#include <new>
-
+// Sensing does not allocate: neither Eigen's nor OpenCV's part of it.
 #include "bug_interface/sensing/image_cells.h"
+#include "tests/support/count_allocations.h"
 #include "tests/unit/bug_sensing/arena.h"
-
-namespace {
-
-std::size_t allocations = 0;
-
-}  // namespace
-
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these bring their own
-void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* memory = std::malloc(size ? size : 1)) return memory;
-    throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-#endif
 
 using namespace forage;
 using namespace forage::bug;
@@ -48,8 +31,8 @@ TEST_CASE("Sensing allocates nothing") {
         image_cells(bytes, 32, 28, ColourSpace::rgb, 16, 14, a, b, c);
     };
     sense({0, 0, up}, 0);  // makes the table of normal numbers
-    const std::size_t before = allocations;
+    const std::size_t before = forage::test::allocations();
     sense({0, 0.6, up}, 1);
     sense({0, 2.3, up}, 2);
-    CHECK(allocations == before);
+    CHECK(forage::test::allocations() == before);
 }

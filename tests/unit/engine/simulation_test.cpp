@@ -1,13 +1,14 @@
 #include "core/engine/simulation.h"
 
+#include <bit>
+#include <cmath>
+#include <map>
 #include <random>
 
-#include "core/model/build.h"
-#include "neurons/neurons.h"
-#include "synapses/synapses.h"
-#include "tests/support/catch.h"
+#include "tests/unit/engine/simulations.h"
 
 using namespace forage;
+using namespace forage::test;
 
 namespace {
 
@@ -18,82 +19,89 @@ struct Failing {
     }
 };
 
-/// Counts its own past: act = act of the cycle before + 1. Delays of its connections must not change that.
-struct Counter {
-    static void describe(NeuronSpec<Counter>& s) { s.name("counter", "Counter").output("act", "Activity"); }
-    void update(NeuronColumns& c) const { c.state(0) += 1; }
-};
+/// Groups of similar sizes with random spikes, wired at random with all that a connection can be.
+class RandomSystem {
+  public:
+    explicit RandomSystem(unsigned seed) : random_(seed) {}
 
-Registry registry() {
-    Registry r;
-    add_neurons(r);
-    add_synapses(r);
-    r.add(neuron_type<Failing>());
-    r.add(neuron_type<Counter>());
-    return r;
-}
-
-engine::Simulation build(const model::System& system, const Registry& types, engine::Simulation::Options options = {}) {
-    Diagnostics diagnostics;
-    auto simulation = engine::Simulation::build(system, types, options, diagnostics);
-    INFO(format(diagnostics));
-    REQUIRE(simulation);
-    simulation->start();
-    return std::move(*simulation);
-}
-
-int group(const engine::Simulation& s, std::string_view path) {
-    for (int g = 0; g < s.groups(); ++g)
-        if (s.path(g) == path) return g;
-    FAIL("no group " << path);
-    return -1;
-}
-
-Eigen::ArrayXd activity(const engine::Simulation& s, std::string_view path) {
-    const int g = group(s, path);
-    return s.state(g, s.type(g).output());
-}
-
-model::DistanceFunction uniform(double v) { return {model::UniformFunction{v}, {}}; }
-
-/// Groups of random sizes with random spikes, wired at random with all that a connection can be.
-model::System random_system(unsigned seed, int groups, int side) {
-    std::mt19937 random(seed);
-    const auto upto = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
-    model::System s;
-    const auto p = model::add_process(s, "P");
-    std::vector<std::string> ids;
-    for (int i = 0; i < groups; ++i) {
-        ids.push_back(model::add_group(s, p, "G" + std::to_string(i), side + upto(4), side + upto(4),
-                                       i % 3 == 0 ? "neuronRandomSpike" : i % 3 == 1 ? "neuronLinearThreshold" : "neuronSigmoid"));
-        if (i % 3 == 1) model::set_parameter(model::find_group(s, ids.back())->neuron, "probability", "0.7");
+    model::System make(int groups, int side) {
+        model::System s;
+        const auto p = model::add_process(s, "P");
+        std::vector<std::string> ids;
+        const char* types[] = {"neuronRandomSpike", "neuronLinearThreshold", "neuronSigmoid", "neuronPyramidApicalShunt"};
+        for (int i = 0; i < groups; ++i) {
+            const auto size = [&] { return side + (upto(3) ? 0 : upto(4)); };
+            ids.push_back(model::add_group(s, p, "G" + std::to_string(i), size(), size(), types[i % 4]));
+            auto& neuron = model::find_group(s, ids.back())->neuron;
+            if (i % 4 == 1) model::set_parameter(neuron, "probability", "0.7");
+            if (i % 4 == 3) model::set_parameter(neuron, "threshold", "0.5"), model::set_parameter(neuron, "vmPrs", "0.3");
+        }
+        for (int i = 0; i < 3 * groups; ++i) {
+            const auto& from = ids[static_cast<std::size_t>(upto(groups))];
+            std::string to;
+            do to = ids[static_cast<std::size_t>(upto(groups))];
+            while (model::find_group(s, to)->neuron.type == "neuronRandomSpike");
+            add_connection(s, from, to);
+        }
+        return s;
     }
-    for (int i = 0; i < 3 * groups; ++i) {
-        const auto& from = ids[static_cast<std::size_t>(upto(groups))];
-        std::string to;
-        do to = ids[static_cast<std::size_t>(upto(groups))];
-        while (model::find_group(s, to)->neuron.type == "neuronRandomSpike");
-        auto& c = *model::find_connection(s, model::add_connection(s, from, to, upto(2) ? InputKind::excitatory : InputKind::inhibitory, "synapseFixedWeight"));
-        model::set_parameter(*c.synapse, "weight", std::to_string(0.01 * upto(100)));
+
+  private:
+    int upto(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
+
+    void add_connection(model::System& s, const std::string& from, const std::string& to) {
+        const bool pyramid = model::find_group(s, to)->neuron.type == "neuronPyramidApicalShunt";
+        const std::string type = upto(4) ? "synapseFixedWeight" : pyramid && upto(2) ? "synapseApicalShunt" : "synapseHebbian";
+        const auto kind = upto(8) == 0 ? InputKind::modulatory : upto(3) ? InputKind::excitatory : InputKind::inhibitory;
+        auto& c = connect(s, from, to, kind, type);
+        if (type == "synapseFixedWeight") model::set_parameter(*c.synapse, "weight", std::to_string(0.01 * upto(100)));
+        if (type == "synapseApicalShunt") c.synapse->feedback.push_back({"apicalShunt", "shunt", {}});
+        if (type == "synapseHebbian") {
+            model::set_parameter(*c.synapse, "lrate", "0.01");
+            c.synapse->feedback.push_back({"postact", "act", {}});
+        }
+        c.delay = uniform(upto(4));
+        c.attenuation = uniform(0.1 * upto(5));
+        switch (upto(3)) {
+            case 0: return;  // one to one, where sizes are equal
+            case 1: c.pattern = model::ForeachPattern{}; return;  // all alike
+            default: break;
+        }
         if (upto(2)) c.pattern = model::ForeachPattern{};
         c.arborization.shape = model::RectArbor{1 + upto(3), 1 + upto(3)};
+        if (upto(2)) c.arborization.direction = model::Direction::projective;
         if (upto(2)) c.attenuation = {model::GaussianFunction{0, 1, 1.5}, {}};
-        if (upto(2)) c.delay = {model::LinearFunction{0, 4}, {}};
-        else c.delay = uniform(upto(4));
+        else c.attenuation = {model::RandomFunction{0.5}, {}};
+        if (upto(2)) c.delay = {model::RandomFunction{4}, {}};
     }
-    return s;
-}
 
-/// All activity over the cycles, as one number per group and cycle, exactly.
-std::vector<double> trace(const model::System& system, engine::Simulation::Options options, int cycles) {
-    const Registry types = registry();
-    auto s = build(system, types, options);
-    std::vector<double> out;
+    std::mt19937 random_;
+};
+
+model::System random_system(unsigned seed, int groups, int side) { return RandomSystem(seed).make(groups, side); }
+
+/// All activity over the cycles, exactly; one NaN is like another.
+std::vector<std::uint64_t> trace(engine::Simulation s, int cycles) {
+    std::vector<std::uint64_t> out;
     for (int t = 0; t < cycles; ++t) {
         s.step();
         for (int g = 0; g < s.groups(); ++g)
-            for (const double v : s.state(g, s.type(g).output())) out.push_back(v);
+            for (const double v : s.state(g, s.type(g).output())) out.push_back(std::isnan(v) ? ~0ull : std::bit_cast<std::uint64_t>(v));
     }
+    return out;
+}
+
+std::vector<std::uint64_t> trace(const model::System& system, engine::Simulation::Options options, int cycles) {
+    const Registry types = registry();
+    return trace(run(system, types, options), cycles);
+}
+
+/// Every state of every synapse.
+std::vector<std::uint64_t> synapse_states(const engine::Simulation& s) {
+    std::vector<std::uint64_t> out;
+    for (int c = 0; c < s.connections(); ++c)
+        for (int i = 0; i < static_cast<int>(s.synapse_type(c).states.size()); ++i)
+            for (const double v : s.synapse_state(c, i)) out.push_back(std::bit_cast<std::uint64_t>(v));
     return out;
 }
 
@@ -106,7 +114,7 @@ TEST_CASE("A connection costs one cycle, and its delay more") {
     const int delay = GENERATE(0, 1, 2, 7);
     model::find_connection(s, model::add_connection(s, a, b, InputKind::excitatory, "synapseFixedWeight"))->delay = uniform(delay);
     const Registry types = registry();
-    auto simulation = build(s, types);
+    auto simulation = run(s, types);
     for (int t = 0; t < 30; ++t) {
         simulation.step();
         CHECK(activity(simulation, "P/A")[1] == t + 1);  // a delay leaves the source's own past alone
@@ -121,7 +129,7 @@ TEST_CASE("Loops are legal: two groups pass a spike to and fro") {
     model::add_connection(s, a, b, InputKind::excitatory, "synapseFixedWeight");
     model::add_connection(s, b, a, InputKind::excitatory, "synapseFixedWeight");
     const Registry types = registry();
-    auto simulation = build(s, types);
+    auto simulation = run(s, types);
     simulation.update_groups();
     simulation.output(group(simulation, "P/A"))[0] = 1;
     simulation.update_modules();
@@ -134,9 +142,17 @@ TEST_CASE("Loops are legal: two groups pass a spike to and fro") {
 }
 
 TEST_CASE("Every form of a connection gives the same bits as the list of synapses") {
+    std::map<std::string, int, std::less<>> forms;
+    const Registry types = registry();
     for (unsigned seed = 1; seed <= 20; ++seed) {
-        const auto system = random_system(seed, 6, 3);
-        REQUIRE(trace(system, {.general_forms = false}, 40) == trace(system, {.general_forms = true}, 40));
+        const auto system = random_system(seed, 8, 3);
+        auto fastest = run(system, types);
+        for (int c = 0; c < fastest.connections(); ++c) ++forms[std::string(fastest.connection_form(c))];
+        REQUIRE(trace(std::move(fastest), 40) == trace(system, {.general_forms = true}, 40));
+    }
+    for (const char* form : {"one to one", "broadcast", "list", "plastic"}) {
+        INFO(form << ": " << forms[form]);
+        REQUIRE(forms[form] >= 20);
     }
 }
 
@@ -148,17 +164,35 @@ TEST_CASE("Connections are compiled to the form that fits them") {
     model::find_connection(s, model::add_connection(s, a, b, InputKind::excitatory, "synapseFixedWeight", "2"))->pattern = model::ForeachPattern{};
     model::find_connection(s, model::add_connection(s, a, b, InputKind::excitatory, "synapseFixedWeight", "3"))->arborization.shape = model::RectArbor{3, 3};
     const Registry types = registry();
-    const auto simulation = build(s, types);
+    const auto simulation = run(s, types);
     CHECK(simulation.connection_form(0) == "one to one");
     CHECK(simulation.connection_form(1) == "broadcast");
     CHECK(simulation.connection_form(2) == "list");
 }
 
 TEST_CASE("The number of threads changes no bit") {
-    const auto system = random_system(3, 8, 40);  // large enough to be shared
-    const auto one = trace(system, {.threads = 1}, 12);
-    REQUIRE(one == trace(system, {.threads = 4}, 12));
-    REQUIRE(one == trace(system, {.threads = 4}, 12));  // and again: run, reset, run
+    auto system = random_system(3, 8, 8);
+    const std::string process = system.processes[0].id, from = system.processes[0].groups[0].id, to = system.processes[0].groups[1].id;
+    for (const auto& id : {from, to}) model::find_group(system, id)->topology = model::RectTopology{8, 8};
+    auto& ignored = connect(system, from, to, InputKind::modulatory, "synapseHebbian", "zzz");  // last; `to` reads no modulation
+    ignored.pattern = model::ForeachPattern{};
+    ignored.synapse->feedback.push_back({"postact", "vm", {}});
+    model::ModuleUse echo;
+    echo.type = "moduleEcho";
+    echo.inputs.push_back({"in", from, {}}), echo.outputs.push_back({"out", to, {}});
+    model::find_process(system, process)->module = echo;
+
+    const Registry types = registry();
+    auto one = run(system, types, {.threads = 1}), four = run(system, types, {.threads = 4, .worth_sharing = 0});
+    REQUIRE((one.threads() == 1 && four.threads() == 4));
+    std::map<std::string, std::size_t, std::less<>> synapses;
+    for (int c = 0; c < one.connections(); ++c) synapses[std::string(one.connection_form(c))] += one.synapses(c);
+    INFO(synapses["list"] << " synapses in lists, " << synapses["plastic"] << " plastic");
+    CHECK((synapses["list"] > 10'000 && synapses["list"] < 100'000 && synapses["plastic"] > 1000));
+    for (int t = 0; t < 12; ++t) one.step(), four.step();
+    CHECK(synapse_states(one) == synapse_states(four));
+    CHECK(one.synapse_state(one.connections() - 1, 0).maxCoeff() > 0);  // unheard, but not idle
+    REQUIRE(trace(std::move(one), 12) == trace(std::move(four), 12));
 }
 
 TEST_CASE("Two seeds differ, and adding a group changes nobody's noise") {
@@ -178,8 +212,9 @@ TEST_CASE("An exception in an update names the type, the group and the cycle") {
     model::System s;
     const auto p = model::add_process(s, "Brain");
     model::add_group(s, p, "Weak", 3, 3, "failing");
-    const Registry types = registry();
-    auto simulation = build(s, types);
+    Registry types = registry();
+    types.add(neuron_type<Failing>());
+    auto simulation = run(s, types);
     for (int t = 0; t < 3; ++t) simulation.step();
     CHECK_THROWS_WITH(simulation.step(), "failing of group 'Brain/Weak' failed in cycle 3: out of luck");
 }

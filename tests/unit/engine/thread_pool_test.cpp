@@ -2,8 +2,10 @@
 
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "tests/support/catch.h"
+#include "tests/support/limited_memory.h"
 
 using forage::engine::ThreadPool;
 
@@ -11,11 +13,13 @@ TEST_CASE("Every item is done once, whatever the number of threads") {
     ThreadPool pool(GENERATE(1, 2, 4));
     for (const int items : {0, 1, 2, 3, 1000}) {
         std::vector<std::atomic<int>> done(static_cast<std::size_t>(items));
+        std::atomic<int> strangers{0};  // Catch2 itself is for one thread
         auto work = [&](int item, int thread) {
-            REQUIRE(thread < pool.threads());
+            if (thread < 0 || thread >= pool.threads()) ++strangers;
             ++done[static_cast<std::size_t>(item)];
         };
         for (int round = 0; round < 20; ++round) pool.run(items, work);
+        REQUIRE(strangers == 0);
         for (const auto& n : done) REQUIRE(n == 20);
     }
 }
@@ -28,4 +32,13 @@ TEST_CASE("The exception of the lowest item that fails comes out, and the pool g
     for (int round = 0; round < 20; ++round) CHECK_THROWS_WITH(pool.run(100, work), "7");
     auto fine = [](int, int) {};
     pool.run(100, fine);
+}
+
+TEST_CASE("When a thread cannot be started, those that run are ended and the error comes out") {
+    if (!forage::test::can_limit_memory) {
+        WARN("not tested: a sanitizer needs all memory");
+        return;
+    }
+    const forage::test::LimitedMemory limit(std::size_t{48} << 20);  // room for few stacks
+    CHECK_THROWS_AS(ThreadPool(64), std::system_error);
 }

@@ -75,9 +75,23 @@ TEST_CASE("A registry refuses types whose declaration does not hold together") {
     CHECK_THROWS_WITH(registry.add(neuron("b", 2)),
                       "neuron type 'b' declares 2 output states, it must have exactly one");
     CHECK_THROWS_WITH(registry.add(neuron("b", 1, 2)), "neuron type 'b' declares the parameter '' twice");
+    NeuronType twice = neuron("b", 1);
+    twice.states.push_back({"act0", "", 1});
+    CHECK_THROWS_WITH(registry.add(twice), "neuron type 'b' declares the state 'act0' twice");
     SynapseType synapse;
     synapse.name = "s";
     CHECK_THROWS_AS(registry.add(synapse), std::invalid_argument);
+    synapse.states = {{"psp", "", true}, {"psp", ""}};
+    CHECK_THROWS_WITH(registry.add(synapse), "synapse type 's' declares the state 'psp' twice");
+    synapse.states.pop_back();
+    synapse.feedback = {{"back", ""}, {"back", ""}};
+    CHECK_THROWS_WITH(registry.add(synapse), "synapse type 's' declares the feedback 'back' twice");
+    ModuleType module;
+    module.name = "m";
+    module.ports = {{"a", "", false}, {"a", "", true}, {"a", "", true}};
+    CHECK_THROWS_WITH(registry.add(module), "module type 'm' declares the output 'a' twice");
+    module.ports.pop_back();  // an input and an output may share a name
+    CHECK_NOTHROW(registry.add(module));
     CHECK_THROWS_AS(registry.add(ModuleType{}), std::invalid_argument);
     CHECK(registry.neurons().size() == 1);
     CHECK(registry.synapses().empty());

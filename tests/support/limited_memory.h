@@ -1,0 +1,36 @@
+// Makes the machine small.
+#pragma once
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <fstream>
+
+namespace forage::test {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool can_limit_memory = false;  // sanitizers map the whole address space
+#else
+inline constexpr bool can_limit_memory = true;
+#endif
+
+/// While it lives, the program gets at most so many bytes more than it has.
+class LimitedMemory {
+  public:
+    explicit LimitedMemory(std::size_t more) {
+        std::size_t pages = 0;
+        std::ifstream("/proc/self/statm") >> pages;
+        getrlimit(RLIMIT_AS, &before_);
+        rlimit limit = before_;
+        limit.rlim_cur = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + more;
+        setrlimit(RLIMIT_AS, &limit);
+    }
+    ~LimitedMemory() { setrlimit(RLIMIT_AS, &before_); }
+    LimitedMemory(const LimitedMemory&) = delete;
+    LimitedMemory& operator=(const LimitedMemory&) = delete;
+
+  private:
+    rlimit before_{};
+};
+
+}  // namespace forage::test

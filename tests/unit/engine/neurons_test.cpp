@@ -1,0 +1,65 @@
+// What each neuron type does with an input that is not a number; the random numbers of a group.
+#include <cmath>
+#include <limits>
+
+#include "neurons/neurons.h"
+#include "tests/support/catch.h"
+
+using namespace forage;
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// One group of 2 cells of a type in its first cycle: cell 0 receives NaN, cell 1 receives 5.
+struct Cells {
+    explicit Cells(const NeuronType& type) {
+        std::vector<Eigen::ArrayXd> rings;
+        for (const auto& s : type.states) rings.emplace_back(Eigen::ArrayXd::Zero(s.history * stride));
+        std::vector<NeuronColumns::State> states;
+        for (std::size_t i = 0; i < rings.size(); ++i) states.push_back({rings[i].data(), type.states[i].history});
+        Eigen::ArrayXd excitation(stride), inhibition = Eigen::ArrayXd::Zero(stride), modulation = Eigen::ArrayXd::Zero(stride), scratch(stride);
+        excitation << nan, 5;
+        const RandomStream random(1, "group");
+        NeuronColumns columns(stride, stride, 0, {excitation.data(), inhibition.data(), modulation.data()}, states.data(), &random, scratch.data());
+        type.make()->update(columns);
+        output = rings[static_cast<std::size_t>(type.output())].head(stride);
+        if (type.states[0].name == "vm") potential = rings[0].head(stride);
+    }
+    static constexpr Index stride = 2;
+    Eigen::ArrayXd output, potential;
+};
+
+}  // namespace
+
+TEST_CASE("NaN passes a graded neuron and does not make a spiking one spike") {
+    Registry registry;
+    add_neurons(registry);
+    const std::map<std::string, bool> passes{{"neuronLinearThreshold", true}, {"neuronSigmoid", true},           {"neuronNumeric", true},
+                                             {"neuronIntegrateFire", false},  {"neuronPyramidApicalShunt", false}, {"neuronTDValue", false},
+                                             {"neuronRandomSpike", false}};
+    REQUIRE(passes.size() == registry.neurons().size());
+    for (const auto& [name, type] : registry.neurons()) {
+        INFO(name);
+        const Cells cells(type);
+        CHECK(std::isnan(cells.output[0]) == passes.at(name));
+        CHECK_FALSE(std::isnan(cells.output[1]));
+        if (cells.potential.size()) CHECK(std::isnan(cells.potential[0]));
+        if (type.name == "neuronIntegrateFire" || type.name == "neuronPyramidApicalShunt") {
+            CHECK(cells.output[0] == 0);  // a spike is where vm >= threshold
+            CHECK(cells.output[1] == 1);
+        }
+    }
+}
+
+TEST_CASE("A group gets the same random numbers for the same draw of a cycle, others for another draw or cycle") {
+    const RandomStream random(1, "group");
+    Eigen::ArrayXd scratch(3);
+    const auto draws = [&](std::uint64_t cycle, std::uint32_t draw) -> Eigen::ArrayXd {
+        return NeuronColumns(3, 3, cycle, {}, nullptr, &random, scratch.data()).uniform(draw);
+    };
+    CHECK((draws(5, 0) == NeuronColumns(3, 3, 5, {}, nullptr, &random, scratch.data()).uniform()).all());
+    CHECK((draws(5, 1) == draws(5, 1)).all());
+    CHECK((draws(5, 0) != draws(5, 1)).all());
+    CHECK((draws(5, 1) != draws(6, 1)).all());
+}

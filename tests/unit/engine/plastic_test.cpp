@@ -1,0 +1,117 @@
+// Synapses with states of their own, with numbers computed by hand.
+#include "tests/unit/engine/simulations.h"
+
+using namespace forage;
+using namespace forage::test;
+
+namespace {
+
+/// A counts 1, 2, 3...; B receives it through `teach` and through a Hebbian connection with learning rate 0.5.
+struct Pair {
+    model::System system;
+    Registry types = registry();
+    std::string a, b;
+    Pair() {
+        const auto p = model::add_process(system, "P");
+        a = model::add_group(system, p, "A", 1, 1, "counter"), b = model::add_group(system, p, "B", 1, 1, "neuronNumeric");
+        connect(system, a, b, InputKind::excitatory, "synapseFixedWeight", "teach");
+        auto& learn = connect(system, a, b, InputKind::excitatory, "synapseHebbian", "learn");  // connection 0
+        model::set_parameter(*learn.synapse, "lrate", "0.5");
+        learn.synapse->feedback.push_back({"postact", "act", {}});
+    }
+    model::Connection& learn() { return *model::find_connection(system, "learn"); }
+};
+
+constexpr int weight = 0, synpot = 1;  // states of a Hebbian synapse
+
+}  // namespace
+
+TEST_CASE("A Hebbian weight grows by rate * post * pre of the same cycle and passes weight * pre") {
+    Pair pair;
+    auto s = run(pair.system, pair.types);
+    REQUIRE(s.connection_form(0) == "plastic");
+    const double post[] = {0, 1, 4, 24, 224}, weights[] = {0, 1, 7, 55, 615};
+    for (int t = 0; t < 5; ++t) {
+        s.step();
+        INFO("cycle " << t);
+        CHECK(activity(s, "P/B")[0] == post[t]);
+        CHECK(s.synapse_state(0, weight)[0] == weights[t]);
+        CHECK(s.synapse_state(0, synpot)[0] == weights[t] * (t + 1));
+    }
+}
+
+TEST_CASE("With a delay, a Hebbian synapse reads the target as it was that long ago and delivers that much later") {
+    Pair pair;
+    pair.learn().delay = uniform(2);
+    auto s = run(pair.system, pair.types);
+    const double post[] = {0, 1, 2, 3, 4, 5, 14, 42, 104}, weights[] = {0, 0, 0, 2, 7, 16, 30, 50, 113};
+    for (int t = 0; t < 9; ++t) {
+        s.step();
+        INFO("cycle " << t);
+        CHECK(activity(s, "P/B")[0] == post[t]);
+        CHECK(s.synapse_state(0, weight)[0] == weights[t]);
+        CHECK(s.synapse_state(0, synpot)[0] == weights[t] * (t + 1));
+    }
+}
+
+TEST_CASE("Attenuation acts on what a Hebbian synapse passes, not on what it learns") {
+    Pair pair;
+    pair.learn().attenuation = uniform(0.75);
+    auto s = run(pair.system, pair.types);
+    const double post[] = {0, 1, 2.5, 14.25 / 4 + 3};  // the last one: weight 4.75 * 3 / 4 + 3
+    const double weights[] = {0, 1, 4.75, 17.875};
+    for (int t = 0; t < 4; ++t) {
+        s.step();
+        INFO("cycle " << t);
+        CHECK(activity(s, "P/B")[0] == post[t]);
+        CHECK(s.synapse_state(0, weight)[0] == weights[t]);
+        CHECK(s.synapse_state(0, synpot)[0] == weights[t] * (t + 1) / 4);
+    }
+}
+
+TEST_CASE("A delayed feedback of vm makes vm persist from (delay + 1) cycles ago; what is not read is learnt all the same") {
+    model::System system;
+    const auto p = model::add_process(system, "P");
+    const auto a = model::add_group(system, p, "A", 1, 1, "counter"), b = model::add_group(system, p, "B", 1, 1, "neuronLinearThreshold");
+    model::set_parameter(model::find_group(system, b)->neuron, "vmPrs", "0.5");
+    connect(system, a, b, InputKind::excitatory, "synapseFixedWeight", "teach");
+    auto& learn = connect(system, a, b, InputKind::modulatory, "synapseHebbian", "learn");  // B reads no modulation
+    model::set_parameter(*learn.synapse, "lrate", "1");
+    learn.synapse->feedback.push_back({"postact", "vm", {}});
+    learn.delay = uniform(2);
+    const Registry types = registry();
+    auto s = run(system, types);
+    const double vm[] = {0, 1, 2, 3, 4.5, 6, 7.5, 9.25};  // vm(t) = vm(t - 3) / 2 + t
+    const double weights[] = {0, 0, 0, 4, 14, 32, 63.5, 111.5};
+    for (int t = 0; t < 8; ++t) {
+        s.step();
+        INFO("cycle " << t);
+        CHECK(state(s, "P/B", "vm")[0] == vm[t]);
+        CHECK(s.synapse_state(0, weight)[0] == weights[t]);
+        CHECK(s.input(group(s, "P/B"), InputKind::modulatory)[0] == 0);
+    }
+}
+
+TEST_CASE("An apical synapse passes pre * 1 / (1 - mod) of its target, attenuated") {
+    model::System system;
+    const auto p = model::add_process(system, "P");
+    const auto a = model::add_group(system, p, "A", 1, 1, "one"), b = model::add_group(system, p, "B", 1, 1, "neuronPyramidApicalShunt");
+    model::set_parameter(model::find_group(system, b)->neuron, "threshold", "2");
+    model::set_parameter(model::find_group(system, b)->neuron, "vmReset", "0.5");
+    auto& apical = connect(system, a, b, InputKind::excitatory, "synapseApicalShunt", "apical");
+    apical.synapse->feedback.push_back({"apicalShunt", "shunt", {}});
+    apical.attenuation = uniform(0.25);
+    model::set_parameter(*connect(system, a, b, InputKind::modulatory, "synapseFixedWeight", "shunting").synapse, "weight", "0.75");
+    const Registry types = registry();
+    auto s = run(system, types);
+    const double shunt[] = {1, 4, 4, 4}, psp[] = {0.75, 3, 3, 3}, vm[] = {0, 0.75, 2.5, 2.5}, act[] = {0, 0, 1, 1}, backprop[] = {0, 0, 0, 1};
+    for (int t = 0; t < 4; ++t) {
+        s.step();
+        INFO("cycle " << t);
+        CHECK(state(s, "P/B", "shunt")[0] == shunt[t]);
+        CHECK(s.synapse_state(0, 0)[0] == psp[t]);
+        CHECK(state(s, "P/B", "vm")[0] == vm[t]);
+        CHECK(activity(s, "P/B")[0] == act[t]);
+        CHECK(state(s, "P/B", "backprop")[0] == backprop[t]);
+    }
+}
