@@ -109,9 +109,9 @@ Reset::Phase Reset::substep(const Pose2& pose) {
     return Phase::begin;
 }
 
-Pose2 Reset::draw() {
+Pose2 Reset::draw(std::uint64_t index) const {
     std::array<double, 4> u{};
-    random_.uniform(draws_++, u);
+    random_.uniform(index, u);
     const Pose2& start =
         plan_.starts[static_cast<std::size_t>(u[0] * static_cast<double>(plan_.starts.size()))];
     const auto off = [](double v) { return (2 * v - 1) * jitter; };

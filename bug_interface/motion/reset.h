@@ -45,7 +45,10 @@ class Reset {
     /// To be called once per substep, with the pose at its start.
     Phase substep(const Pose2& pose);
     bool running() const { return left_ > 0; }
-    Pose2 draw();
+    /// Where the robot shows up when it is looked at during a reset.
+    Pose2 glimpse() { return draw(glimpses_++); }
+    /// Where the next trial starts: the n-th start of a seed is the same whatever happened in the trials before.
+    Pose2 start() { return draw(first_start + starts_++); }
 
     const ResetPlan& plan() const { return plan_; }
 
@@ -55,7 +58,9 @@ class Reset {
     ResetPlan plan_;
     RandomStream random_;
     int left_ = 0;
-    std::uint64_t draws_ = 0;
+    static constexpr std::uint64_t first_start = std::uint64_t{1} << 63;  // apart from the glimpses
+    Pose2 draw(std::uint64_t index) const;
+    std::uint64_t glimpses_ = 0, starts_ = 0;
 };
 
 }  // namespace forage::bug

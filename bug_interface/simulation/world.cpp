@@ -123,7 +123,7 @@ void World::advance_bodies() {
             if (!resetting(i)) robots_[i].trials->follow(physics_->pose(i));
     }
     for (std::size_t i = 0; i < robots_.size(); ++i)
-        poses_[i] = robots_[i].pose = resetting(i) ? robots_[i].reset->draw() : physics_->pose(i);
+        poses_[i] = robots_[i].pose = resetting(i) ? robots_[i].reset->glimpse() : physics_->pose(i);
     ++cycle_;
 }
 
@@ -140,7 +140,7 @@ bool World::in_reset(std::size_t bug) {
         case Reset::Phase::hold:
             return true;
         case Reset::Phase::end:
-            physics_->place(bug, robot.reset->draw());
+            physics_->place(bug, robot.reset->start());
             robot.trials->begin(physics_->pose(bug),
                                 substep_ + 1 < substeps_before(cycle_ + 1) ? cycle_ : cycle_ + 1);
             return true;

@@ -62,6 +62,19 @@ TEST_CASE("The same seed gives the same run, another seed another one") {
     CHECK((a.second != c.second).any());
 }
 
+TEST_CASE("The n-th start of a seed is the same whatever the robot does") {
+    ClosedLoop sees({.seed = 4}), blind({.seed = 4, .edit_system = keep_connections({"c.const_speed-explore", "c.explore-motor_in", "c.motor_in-motor"})});
+    sees.run_trials(20);
+    blind.run_trials(20);
+    bool differs = false;
+    for (std::size_t i = 0; i < 20; ++i) {
+        const auto &a = sees.world->trials(0)[i], &b = blind.world->trials(0)[i];
+        CHECK((a.start.x == b.start.x && a.start.y == b.start.y && a.start.yaw == b.start.yaw));
+        differs = differs || a.cycles != b.cycles;
+    }
+    CHECK(differs);
+}
+
 TEST_CASE("Noise can be turned off: then the light group is silent where no light is") {
     ClosedLoop loop({.noise = false});
     for (int i = 0; i < 10; ++i) loop.step();

@@ -53,6 +53,7 @@ int check(const Input& input) {
                counted(static_cast<std::size_t>(simulation->connections()), "connection"), counted(synapses, "synapse"),
                diagnostics.warnings() ? ", " + counted(static_cast<std::size_t>(diagnostics.warnings()), "warning") : "");
     for (const auto& note : notes(loaded->system)) fmt::print("  note: {}\n", note);
+    if (loaded->world) fmt::print("{}", bug::describe(*loaded->world));
     return fine;
 }
 

@@ -10,9 +10,12 @@ namespace {
 
 void describe(const std::string& name, const std::string& label, const std::string& doc, const std::vector<Parameter>& parameters) {
     fmt::print("{} ({})\n  {}\n", name, label, doc);
-    for (const auto& p : parameters)
-        fmt::print("  {:<14} {} Default {}{}.\n", p.name, p.doc, p.kind == ParameterKind::text ? "'" + to_text(p.default_value) + "'" : to_text(p.default_value),
+    for (const auto& p : parameters) {
+        const std::string value = to_text(p.default_value);
+        fmt::print("  {:<14} {} Default {}{}{}.\n", p.name, p.doc, p.kind == ParameterKind::text ? "'" + value + "'" : value,
+                   p.unit.empty() ? "" : " " + p.unit,
                    p.range ? fmt::format(", usual range {} to {}", to_text(p.range->low), to_text(p.range->high)) : "");
+    }
 }
 
 template <class Type>

@@ -115,7 +115,7 @@ TEST_CASE("Start poses are drawn evenly, up to 0.01 m and 0.01 rad off") {
     std::array<int, 3> drawn{};
     Eigen::Array3d sum = Eigen::Array3d::Zero(), squares = sum, farthest = sum;
     for (int i = 0; i < n; ++i) {
-        const Pose2 p = reset.draw();
+        const Pose2 p = reset.start();
         const auto which = static_cast<int>(std::lround(p.x / 1.5)) + 1;
         ++drawn[static_cast<std::size_t>(which)];
         const Eigen::Array3d off(p.x - 1.5 * (which - 1), p.y + 2, p.yaw - 1.57079);
