@@ -1,18 +1,18 @@
 #include "bug_interface/versions.h"
 
 #include <LinearMath/btScalar.h>
-#include <png.h>
-
 #include <opencv2/core/version.hpp>
+#include <png.h>
 #include <sdf/sdf_config.h>
 
 namespace forage::bug {
 
 std::vector<std::pair<std::string, std::string>> library_versions() {
-    return {{"Bullet", std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100)},
-            {"OpenCV", CV_VERSION},
-            {"libpng", PNG_LIBPNG_VER_STRING},
-            {"sdformat", SDF_VERSION_FULL}};
+    return {
+        {"Bullet", std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100)},
+        {"OpenCV", CV_VERSION},
+        {"libpng", PNG_LIBPNG_VER_STRING},
+        {"sdformat", SDF_VERSION_FULL}};
 }
 
 }  // namespace forage::bug

@@ -6,11 +6,18 @@ namespace forage {
 
 void IntegrateFire::describe(NeuronSpec<IntegrateFire>& s) {
     using T = IntegrateFire;
-    s.name("neuronIntegrateFire", "Integrate & fire").doc("Sums its inputs, leaks, spikes and is reset at threshold.");
+    s.name("neuronIntegrateFire", "Integrate & fire")
+        .doc("Sums its inputs, leaks, spikes and is reset at threshold.");
     membrane::describe_potential(s);
     membrane::describe_firing(s);
-    s.param("spkAmpl", &T::amplitude).label("Spike amplitude").range(0, 1).doc("Divides the reset; a spike is always 1.");
-    s.param("vmReset", &T::reset).label("Membrane potential reset").range(0, 1).doc("What a spike takes from vm.");
+    s.param("spkAmpl", &T::amplitude)
+        .label("Spike amplitude")
+        .range(0, 1)
+        .doc("Divides the reset; a spike is always 1.");
+    s.param("vmReset", &T::reset)
+        .label("Membrane potential reset")
+        .range(0, 1)
+        .doc("What a spike takes from vm.");
     s.state("vm", "Membrane potential").output("act", "Activity");
 }
 

@@ -5,7 +5,8 @@
 namespace forage {
 
 /// vm as in the linear threshold type; a cell spikes (act = 1) where vm reaches the threshold, with the given
-/// probability, and a spike lowers vm by vmReset / spkAmpl. The amplitude does not scale the spike, as in the original.
+/// probability, and a spike lowers vm by vmReset / spkAmpl. The amplitude does not scale the spike, as in the
+/// original.
 struct IntegrateFire {
     double exc_gain = 1, inh_gain = 1, persistence = 0;
     bool clip = false;

@@ -5,7 +5,8 @@
 namespace forage {
 
 void LinearThreshold::describe(NeuronSpec<LinearThreshold>& s) {
-    s.name("neuronLinearThreshold", "Linear threshold").doc("Sums its inputs, leaks, silent below threshold.");
+    s.name("neuronLinearThreshold", "Linear threshold")
+        .doc("Sums its inputs, leaks, silent below threshold.");
     membrane::describe_potential(s);
     membrane::describe_firing(s);
     s.state("vm", "Membrane potential").output("act", "Activity");

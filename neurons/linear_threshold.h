@@ -4,8 +4,8 @@
 
 namespace forage {
 
-/// vm = vm * vmPrs + excGain * exc - inhGain * inh, clipped if asked; act = vm where it reaches the threshold,
-/// and 0 elsewhere. With a probability below 1 each cell is silent in a random part of the cycles.
+/// vm = vm * vmPrs + excGain * exc - inhGain * inh, clipped if asked; act = vm where it reaches the
+/// threshold, and 0 elsewhere. With a probability below 1 each cell is silent in a random part of the cycles.
 struct LinearThreshold {
     double exc_gain = 1, inh_gain = 1, persistence = 0;
     bool clip = false;

@@ -10,19 +10,37 @@ namespace forage::membrane {
 template <class T>
 void describe_potential(NeuronSpec<T>& s) {
     s.reads(InputKind::excitatory, InputKind::inhibitory);
-    s.param("excGain", &T::exc_gain).label("Excitatory gain").range(0, 10).doc("Gain of the summed excitation.");
-    s.param("inhGain", &T::inh_gain).label("Inhibitory gain").range(0, 10).doc("Gain of the summed inhibition.");
-    s.param("vmPrs", &T::persistence).label("Membrane persistence").range(0, 1).doc("Part of vm kept per cycle.");
+    s.param("excGain", &T::exc_gain)
+        .label("Excitatory gain")
+        .range(0, 10)
+        .doc("Gain of the summed excitation.");
+    s.param("inhGain", &T::inh_gain)
+        .label("Inhibitory gain")
+        .range(0, 10)
+        .doc("Gain of the summed inhibition.");
+    s.param("vmPrs", &T::persistence)
+        .label("Membrane persistence")
+        .range(0, 1)
+        .doc("Part of vm kept per cycle.");
     s.param("clipVm", &T::clip).label("Clip potential").doc("Keep vm between vmMin and vmMax.");
     s.param("vmMin", &T::minimum).label("Minimum potential").range(0, 1).doc("Lowest vm when it is clipped.");
-    s.param("vmMax", &T::maximum).label("Maximum potential").range(0, 1).doc("Highest vm when it is clipped.");
+    s.param("vmMax", &T::maximum)
+        .label("Maximum potential")
+        .range(0, 1)
+        .doc("Highest vm when it is clipped.");
 }
 
 /// Declares probability and threshold.
 template <class T>
 void describe_firing(NeuronSpec<T>& s) {
-    s.param("probability", &T::probability).label("Probability").range(0, 1).doc("Chance per cycle that a cell is active.");
-    s.param("threshold", &T::threshold).label("Threshold potential").range(0, 1).doc("Potential below which act is 0.");
+    s.param("probability", &T::probability)
+        .label("Probability")
+        .range(0, 1)
+        .doc("Chance per cycle that a cell is active.");
+    s.param("threshold", &T::threshold)
+        .label("Threshold potential")
+        .range(0, 1)
+        .doc("Potential below which act is 0.");
 }
 
 /// vm = ((vm * vmPrs) + exc * excGain) - inh * inhGain, then clipped from below and from above if asked;
@@ -39,9 +57,11 @@ void integrate(const T& p, const NeuronColumns& c, Column& vm, const Previous& p
     }
 }
 
-/// Multiplies `act` by 0 in the cells that stay silent in this cycle. Draws nothing when the probability is 1.
+/// Multiplies `act` by 0 in the cells that stay silent in this cycle. Draws nothing when the probability
+/// is 1.
 inline void silence(const NeuronColumns& c, Column& act, double probability) {
-    if (probability < 1) act *= (c.uniform() * 0.99999999 < 1 - probability).select(0.0, Eigen::ArrayXd::Ones(c.size()));
+    if (probability < 1)
+        act *= (c.uniform() * 0.99999999 < 1 - probability).select(0.0, Eigen::ArrayXd::Ones(c.size()));
 }
 
 }  // namespace forage::membrane

@@ -4,9 +4,9 @@
 
 namespace forage {
 
-/// vm = vm * vmPrs + exc - inh; spikes (act = 1) where vm reaches the threshold, and a spike lowers vm by vmReset.
-/// Offers two states to its synapses: `backprop`, the spikes of the cycle before, and `shunt` = 1 / (1 - mod), infinite
-/// where the modulatory input is 1.
+/// vm = vm * vmPrs + exc - inh; spikes (act = 1) where vm reaches the threshold, and a spike lowers vm by
+/// vmReset. Offers two states to its synapses: `backprop`, the spikes of the cycle before, and `shunt` = 1 /
+/// (1 - mod), infinite where the modulatory input is 1.
 struct PyramidApicalShunt {
     double persistence = 0, threshold = 0, reset = 0;
 
@@ -15,9 +15,18 @@ struct PyramidApicalShunt {
         s.name("neuronPyramidApicalShunt", "Pyramidal with apical shunt");
         s.doc("Spikes at threshold; modulatory input shunts its apical synapses.");
         s.reads(InputKind::excitatory, InputKind::inhibitory, InputKind::modulatory);
-        s.param("vmPrs", &T::persistence).label("Membrane persistence").range(0, 1).doc("Part of vm kept per cycle.");
-        s.param("threshold", &T::threshold).label("Threshold potential").range(0, 1).doc("Potential of a spike.");
-        s.param("vmReset", &T::reset).label("Membrane potential reset").range(0, 1).doc("What a spike takes from vm.");
+        s.param("vmPrs", &T::persistence)
+            .label("Membrane persistence")
+            .range(0, 1)
+            .doc("Part of vm kept per cycle.");
+        s.param("threshold", &T::threshold)
+            .label("Threshold potential")
+            .range(0, 1)
+            .doc("Potential of a spike.");
+        s.param("vmReset", &T::reset)
+            .label("Membrane potential reset")
+            .range(0, 1)
+            .doc("What a spike takes from vm.");
         s.state("vm", "Membrane potential").output("act", "Activity", 2);
         s.feedback("shunt", "Apical shunt").feedback("backprop", "Backpropagating spikes");
     }

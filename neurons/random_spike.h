@@ -11,7 +11,10 @@ struct RandomSpike {
     static void describe(NeuronSpec<RandomSpike>& s) {
         using T = RandomSpike;
         s.name("neuronRandomSpike", "Random spike").doc("Spikes at random, without input.");
-        s.param("probability", &T::probability).label("Probability").range(0, 1).doc("Chance of a spike per cell and cycle.");
+        s.param("probability", &T::probability)
+            .label("Probability")
+            .range(0, 1)
+            .doc("Chance of a spike per cell and cycle.");
         s.param("spkAmpl", &T::amplitude).label("Spike amplitude").range(0, 1).doc("Activity of a spike.");
         s.output("act", "Activity");
     }

@@ -4,7 +4,8 @@
 
 namespace forage {
 
-/// vm = vm * vmPrs + excGain * exc - inhGain * inh, clipped if asked; act = (1 + tanh(2 * slope * (vm - midpoint))) / 2.
+/// vm = vm * vmPrs + excGain * exc - inhGain * inh, clipped if asked; act = (1 + tanh(2 * slope * (vm -
+/// midpoint))) / 2.
 struct Sigmoid {
     double exc_gain = 1, inh_gain = 1, persistence = 0;
     bool clip = false;

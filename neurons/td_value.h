@@ -4,9 +4,10 @@
 
 namespace forage {
 
-/// Learns the value of the cells of its input by temporal differences: when the input changes, each cell that was
-/// active before moves by alpha * delta, delta = reward + gamma * V(now) - V(before), V = sum of value * input. The
-/// modulatory input is reward, that of cell 0 counts. All cells act on each other: one group is one critic.
+/// Learns the value of the cells of its input by temporal differences: when the input changes, each cell that
+/// was active before moves by alpha * delta, delta = reward + gamma * V(now) - V(before), V = sum of value *
+/// input. The modulatory input is reward, that of cell 0 counts. All cells act on each other: one group is
+/// one critic.
 struct TDValue {
     double alpha_plus = 0.5, alpha_minus = 0.1, gamma = 1;
 
@@ -14,10 +15,19 @@ struct TDValue {
         using T = TDValue;
         s.name("neuronTDValue", "TD value").doc("Learns values by temporal differences.");
         s.reads(InputKind::excitatory, InputKind::modulatory);
-        s.param("alphaPlus", &T::alpha_plus).label("Alpha plus").range(0, 1).doc("Learning rate when delta is positive.");
-        s.param("alphaMinus", &T::alpha_minus).label("Alpha minus").range(0, 1).doc("Learning rate otherwise.");
+        s.param("alphaPlus", &T::alpha_plus)
+            .label("Alpha plus")
+            .range(0, 1)
+            .doc("Learning rate when delta is positive.");
+        s.param("alphaMinus", &T::alpha_minus)
+            .label("Alpha minus")
+            .range(0, 1)
+            .doc("Learning rate otherwise.");
         s.param("gamma", &T::gamma).label("Gamma").range(0, 1).doc("Weight of the value to come.");
-        s.state("old", "Previous input").state("curr", "Current input").state("reward", "Reward").output("value", "Value");
+        s.state("old", "Previous input")
+            .state("curr", "Current input")
+            .state("reward", "Reward")
+            .output("value", "Value");
     }
     void update(NeuronColumns& c) const;
 };

@@ -4,16 +4,23 @@
 
 namespace forage {
 
-/// Hebbian learning: weight += (postact * pre) * lrate from 0, then synpot = weight * pre. postact is the state of the
-/// target that the file names, as old as the synapse's delay. Weights do not decay, as in the original.
+/// Hebbian learning: weight += (postact * pre) * lrate from 0, then synpot = weight * pre. postact is the
+/// state of the target that the file names, as old as the synapse's delay. Weights do not decay, as in the
+/// original.
 struct Hebbian {
     double rate = 0.1, decay = 0.1;
 
     static void describe(SynapseSpec<Hebbian>& s) {
         using T = Hebbian;
         s.name("synapseHebbian", "Hebbian").doc("Strengthens where source and target are active together.");
-        s.param("lrate", &T::rate).label("Learning Rate").range(0, 1).doc("Growth per cycle at full activity.");
-        s.param("decay", &T::decay).label("Decay").range(0, 1).doc("Without effect: the original ignores it.");
+        s.param("lrate", &T::rate)
+            .label("Learning Rate")
+            .range(0, 1)
+            .doc("Growth per cycle at full activity.");
+        s.param("decay", &T::decay)
+            .label("Decay")
+            .range(0, 1)
+            .doc("Without effect: the original ignores it.");
         s.state("weight", "Weight").output("synpot", "Synaptic potential");
         s.feedback("postact", "Postsynaptic activity");
     }

@@ -47,7 +47,8 @@ class Reset {
     bool running() const { return left_ > 0; }
     /// Where the robot shows up when it is looked at during a reset.
     Pose2 glimpse() { return draw(glimpses_++); }
-    /// Where the next trial starts: the n-th start of a seed is the same whatever happened in the trials before.
+    /// Where the next trial starts: the n-th start of a seed is the same whatever happened in the trials
+    /// before.
     Pose2 start() { return draw(first_start + starts_++); }
 
     const ResetPlan& plan() const { return plan_; }

@@ -3,10 +3,11 @@
 // World frame: x to the right (east), y up on every map (north), z up; metres, radians, seconds, kilograms.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "core/model/diagnostic.h"
 
@@ -19,7 +20,8 @@ enum class ShapeKind { plane, box, cylinder, sphere };
 
 struct Shape {
     ShapeKind kind = ShapeKind::box;
-    Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< box, plane: full extents (plane: z unused); others: diameters
+    Eigen::Vector3d size =
+        Eigen::Vector3d::Zero();  ///< box, plane: full extents (plane: z unused); others: diameters
 };
 
 /// How a surface reflects light: shade = ambient * scene ambient + diffuse * max(0, normal . light).
@@ -45,15 +47,16 @@ struct Visual {
     Material material;
 };
 
-/// A planar range scanner. Ray i of n points `first + i * (last - first) / (n - 1)` to the left of the sensor's x axis.
+/// A planar range scanner. Ray i of n points `first + i * (last - first) / (n - 1)` to the left of the
+/// sensor's x axis.
 struct RangeSensor {
     Location where;
     std::string name;
     Pose pose = Pose::Identity();
     int rays = 1;
-    double first_angle = 0, last_angle = 0;   ///< rad
-    double min_range = 0, max_range = 1;      ///< m; nearer things are invisible
-    double noise = 0;                         ///< standard deviation, m
+    double first_angle = 0, last_angle = 0;  ///< rad
+    double min_range = 0, max_range = 1;     ///< m; nearer things are invisible
+    double noise = 0;                        ///< standard deviation, m
 };
 
 /// A pinhole camera that looks along its x axis.
@@ -61,10 +64,10 @@ struct CameraSensor {
     Location where;
     std::string name;
     Pose pose = Pose::Identity();
-    double horizontal_fov = 1;   ///< full opening angle, rad
-    int width = 32, height = 28; ///< pixels
-    double far = 20;             ///< nothing is drawn beyond, m
-    double noise = 0;            ///< standard deviation, of a channel in 0..1
+    double horizontal_fov = 1;    ///< full opening angle, rad
+    int width = 32, height = 28;  ///< pixels
+    double far = 20;              ///< nothing is drawn beyond, m
+    double noise = 0;             ///< standard deviation, of a channel in 0..1
 };
 
 struct Link {
@@ -97,9 +100,9 @@ struct Model {
 /// Everything of a world file that Forage uses.
 struct WorldDescription {
     std::string path;
-    double step = 0.001;         ///< physics step, s
-    double update_rate = 1000;   ///< physics steps per second of wall clock that the file asks for
-    float ambient = 0.4f;        ///< light from everywhere, 0..1
+    double step = 0.001;                 ///< physics step, s
+    double update_rate = 1000;           ///< physics steps per second of wall clock that the file asks for
+    float ambient = 0.4f;                ///< light from everywhere, 0..1
     std::optional<Eigen::Vector3d> sun;  ///< unit vector towards a directional light
     std::vector<Model> models;
 };
@@ -110,6 +113,8 @@ struct Pose2 {
 };
 
 inline double yaw_of(const Pose& pose) { return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0)); }
-inline Pose2 in_plane(const Pose& pose) { return {pose.translation().x(), pose.translation().y(), yaw_of(pose)}; }
+inline Pose2 in_plane(const Pose& pose) {
+    return {pose.translation().x(), pose.translation().y(), yaw_of(pose)};
+}
 
 }  // namespace forage::bug

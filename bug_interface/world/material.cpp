@@ -12,9 +12,10 @@ struct NamedMaterial {
 };
 
 // The order is that of `names`.
-const std::array<std::string, 13> names = {"Gazebo/Grey",   "Gazebo/White",  "Gazebo/Black",  "Gazebo/Red",  "Gazebo/Green",
-                                           "Gazebo/Blue",   "Gazebo/Yellow", "Gazebo/Purple", "Gazebo/Orange",
-                                           "Gazebo/DarkGrey", "Gazebo/Turquoise", "Gazebo/RedBright", "Gazebo/Indigo"};
+const std::array<std::string, 13> names = {
+    "Gazebo/Grey",      "Gazebo/White",     "Gazebo/Black",  "Gazebo/Red",    "Gazebo/Green",
+    "Gazebo/Blue",      "Gazebo/Yellow",    "Gazebo/Purple", "Gazebo/Orange", "Gazebo/DarkGrey",
+    "Gazebo/Turquoise", "Gazebo/RedBright", "Gazebo/Indigo"};
 constexpr std::array<NamedMaterial, 13> table = {{
     {{0.3f, 0.3f, 0.3f}, {0.7f, 0.7f, 0.7f}},
     {{1, 1, 1}, {1, 1, 1}},
@@ -49,8 +50,10 @@ std::string texture_in_script(std::string_view script_text, std::string_view nam
     std::string word, value;
     bool ours = false;
     while (in >> word) {
-        if (word == "material" && in >> value) ours = value == name;
-        else if (word == "texture" && ours && in >> value) return value;
+        if (word == "material" && in >> value)
+            ours = value == name;
+        else if (word == "texture" && ours && in >> value)
+            return value;
     }
     return {};
 }

@@ -1,17 +1,19 @@
 #include "bug_interface/world/png.h"
 
-#include <png.h>
-
 #include <stdexcept>
+
+#include <png.h>
 
 namespace forage::bug {
 
 Image read_png(const std::string& path) {
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
-    if (!png_image_begin_read_from_file(&png, path.c_str())) throw std::runtime_error(path + ": " + png.message);
+    if (!png_image_begin_read_from_file(&png, path.c_str()))
+        throw std::runtime_error(path + ": " + png.message);
     png.format = PNG_FORMAT_RGB;
-    Image image{static_cast<int>(png.width), static_cast<int>(png.height), std::vector<std::uint8_t>(PNG_IMAGE_SIZE(png))};
+    Image image{static_cast<int>(png.width), static_cast<int>(png.height),
+                std::vector<std::uint8_t>(PNG_IMAGE_SIZE(png))};
     const png_color black{0, 0, 0};  // behind transparent pixels
     if (!png_image_finish_read(&png, &black, image.rgb.data(), 0, nullptr))
         throw std::runtime_error(path + ": " + png.message);

@@ -13,8 +13,12 @@ struct Image {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgb;
 
-    const std::uint8_t* pixel(int column, int row) const { return &rgb[3 * (std::size_t(row) * std::size_t(width) + std::size_t(column))]; }
-    std::uint8_t* pixel(int column, int row) { return &rgb[3 * (std::size_t(row) * std::size_t(width) + std::size_t(column))]; }
+    const std::uint8_t* pixel(int column, int row) const {
+        return &rgb[3 * (std::size_t(row) * std::size_t(width) + std::size_t(column))];
+    }
+    std::uint8_t* pixel(int column, int row) {
+        return &rgb[3 * (std::size_t(row) * std::size_t(width) + std::size_t(column))];
+    }
 };
 
 /// Throws std::runtime_error with the reason when the file cannot be read.

@@ -21,8 +21,8 @@ struct Attenuation {
 Attenuation attenuation(const model::DistanceFunction& function, std::span<const double> distances,
                         const RandomStream& random);
 
-/// Delays in cycles, at least 0: rounded to the nearest whole number, a half away from 0 as in the recorded cases
-/// delay_linear_0_5 (2.5 gives 3) and delay_linear_2_7 (4.5 gives 5); truncated for Uniform and Block.
+/// Delays in cycles, at least 0: rounded to the nearest whole number, a half away from 0 as in the recorded
+/// cases delay_linear_0_5 (2.5 gives 3) and delay_linear_2_7 (4.5 gives 5); truncated for Uniform and Block.
 std::vector<int> delays(const model::DistanceFunction& function, std::span<const double> distances,
                         const RandomStream& random);
 

@@ -14,7 +14,8 @@ Arena::Offset Arena::reserve(Index cells, Index rows) {
 }
 
 void Arena::allocate() {
-    block_.reset(static_cast<double*>(::operator new[](std::max<std::size_t>(size_, 1) * sizeof(double), alignment)));
+    block_.reset(
+        static_cast<double*>(::operator new[](std::max<std::size_t>(size_, 1) * sizeof(double), alignment)));
     std::fill_n(block_.get(), size_, 0.0);
 }
 

@@ -8,7 +8,8 @@
 
 namespace forage::engine {
 
-/// Rows of doubles in one zeroed block. Each row starts at a multiple of 64 bytes. Reserve first, allocate once.
+/// Rows of doubles in one zeroed block. Each row starts at a multiple of 64 bytes. Reserve first, allocate
+/// once.
 class Arena {
   public:
     using Offset = std::size_t;

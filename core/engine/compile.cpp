@@ -1,8 +1,8 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <new>
+
+#include <fmt/format.h>
 
 #include "core/engine/plan.h"
 #include "core/model/lookup.h"
@@ -30,7 +30,9 @@ class Budget {
     }
     bool exceeded() const { return total_ > most_bytes; }
     void report(Diagnostics& diagnostics) const {
-        diagnostics.error(at_, fmt::format("the system needs {:.4g} GB of memory, the most is {:.4g} GB", total_ / 1e9, most_bytes / 1e9),
+        diagnostics.error(at_,
+                          fmt::format("the system needs {:.4g} GB of memory, the most is {:.4g} GB",
+                                      total_ / 1e9, most_bytes / 1e9),
                           largest());
     }
     void report_exhausted(Diagnostics& diagnostics) const {
@@ -48,8 +50,13 @@ class Budget {
 
 class Compiler {
   public:
-    Compiler(const model::System& system, const Registry& registry, std::uint64_t seed, Forms forms, Diagnostics& diagnostics)
-        : system_(system), registry_(registry), seed_(seed), forms_(forms), diagnostics_(diagnostics),
+    Compiler(const model::System& system, const Registry& registry, std::uint64_t seed, Forms forms,
+             Diagnostics& diagnostics)
+        : system_(system),
+          registry_(registry),
+          seed_(seed),
+          forms_(forms),
+          diagnostics_(diagnostics),
           plan_(std::make_unique<Plan>()) {}
 
     std::unique_ptr<Plan> run() {
@@ -92,7 +99,8 @@ class Compiler {
             for (const auto& s : plan.type.states) plan.states.push_back({nullptr, s.history});
             double rows = 2 * input_kinds;
             for (const auto& s : plan.states) rows += static_cast<double>(s.depth);
-            budget_.add(rows, plan.cells, g->at, fmt::format("group '{}': {} numbers x {} cells", plan.path, rows, plan.cells));
+            budget_.add(rows, plan.cells, g->at,
+                        fmt::format("group '{}': {} numbers x {} cells", plan.path, rows, plan.cells));
             group_at_[g->id] = static_cast<int>(plan_->groups.size());
             topology_of_.push_back(&g->topology);
             plan_->groups.push_back(std::move(plan));
@@ -135,13 +143,15 @@ class Compiler {
     }
 
     /// What the file sets, in the type's order of declaration, or in file order for a type that takes any.
-    static std::vector<model::CrossReference> references(const model::ModuleUse& use, const ModuleType& type, bool outputs) {
+    static std::vector<model::CrossReference> references(const model::ModuleUse& use, const ModuleType& type,
+                                                         bool outputs) {
         const auto& given = outputs ? use.outputs : use.inputs;
         if (type.any_ports) return given;
         std::vector<model::CrossReference> out;
         for (const auto& port : type.ports) {
             if (port.is_output != outputs) continue;
-            const auto it = std::find_if(given.begin(), given.end(), [&](const auto& r) { return r.name == port.name; });
+            const auto it =
+                std::find_if(given.begin(), given.end(), [&](const auto& r) { return r.name == port.name; });
             out.push_back(it != given.end() ? *it : model::CrossReference{port.name, {}, {}});
         }
         return out;
@@ -155,8 +165,9 @@ class Compiler {
             auto& source = plan_->groups[static_cast<std::size_t>(plan.source)];
             auto& target = plan_->groups[static_cast<std::size_t>(plan.target)];
             auto synapses = connectivity::connect(*c, *topology_of_[static_cast<std::size_t>(plan.source)],
-                                                  *topology_of_[static_cast<std::size_t>(plan.target)], seed_, diagnostics_);
-            if (synapses.size() == 0) continue;  // reported
+                                                  *topology_of_[static_cast<std::size_t>(plan.target)], seed_,
+                                                  diagnostics_);
+            if (synapses.size() == 0) continue;         // reported
             synapses.distance = std::vector<double>();  // attenuation and delay say it all
             plan.synapses = synapses.size();
             plan.type = *registry_.synapse(c->synapse->type);
@@ -167,12 +178,14 @@ class Compiler {
             if (plan.type.has_gain) {
                 lengthen(source, *c, longest);
                 if (budget_.exceeded()) continue;
-                plan.kernel = make_kernel(std::move(synapses), source.shape.cells, target.shape.cells, *plan.synapse, forms_);
+                plan.kernel = make_kernel(std::move(synapses), source.shape.cells, target.shape.cells,
+                                          *plan.synapse, forms_);
             } else {
                 plan.feedback = feedback_states(*c, plan.type, target, longest);
                 add_synapse_states(*c, plan, longest);
                 if (budget_.exceeded()) continue;
-                auto kernel = std::make_unique<PlasticKernel>(std::move(synapses), target.shape.cells, plan.type, *plan.synapse, plan_->arena);
+                auto kernel = std::make_unique<PlasticKernel>(std::move(synapses), target.shape.cells,
+                                                              plan.type, *plan.synapse, plan_->arena);
                 plan.plastic = kernel.get();
                 plan.kernel = std::move(kernel);
             }
@@ -193,23 +206,28 @@ class Compiler {
         const auto numbers = plan.type.states.size() + plan.type.feedback.size() + 1;
         const double past = longest > 0 ? longest + 1.0 : 0;
         budget_.add(static_cast<double>(numbers) + past, static_cast<Index>(plan.synapses), c.at,
-                    fmt::format("connection '{}': ({} numbers + delay {}) x {} synapses", c.name, numbers, longest, plan.synapses));
+                    fmt::format("connection '{}': ({} numbers + delay {}) x {} synapses", c.name, numbers,
+                                longest, plan.synapses));
     }
 
-    /// The states of the target that feed back, -1 for an unset one. Their history grows to the longest delay + 1, as
-    /// in the original; so an update that reads the state's last value reads one of so many cycles ago.
-    std::vector<int> feedback_states(const model::Connection& c, const SynapseType& type, GroupPlan& target, int longest) {
+    /// The states of the target that feed back, -1 for an unset one. Their history grows to the longest delay
+    /// + 1, as in the original; so an update that reads the state's last value reads one of so many cycles
+    /// ago.
+    std::vector<int> feedback_states(const model::Connection& c, const SynapseType& type, GroupPlan& target,
+                                     int longest) {
         std::vector<int> out;
         for (const auto& f : type.feedback) {
             int state = -1;
             for (const auto& r : c.synapse->feedback)
                 for (std::size_t s = 0; s < target.type.states.size(); ++s)
-                    if (r.name == f.name && r.target == target.type.states[s].name) state = static_cast<int>(s);
+                    if (r.name == f.name && r.target == target.type.states[s].name)
+                        state = static_cast<int>(s);
             if (state >= 0) {
                 auto& depth = target.states[static_cast<std::size_t>(state)].depth;
                 if (depth <= longest) {
-                    budget_.add(static_cast<double>(longest + 1 - depth), target.cells, c.at,
-                                fmt::format("connection '{}': delay {} x {} cells", c.name, longest, target.cells));
+                    budget_.add(
+                        static_cast<double>(longest + 1 - depth), target.cells, c.at,
+                        fmt::format("connection '{}': delay {} x {} cells", c.name, longest, target.cells));
                     depth = longest + 1;
                 }
             }
@@ -228,7 +246,8 @@ class Compiler {
         }
         for (auto& m : plan_->modules)
             for (const int g : m.output_groups)
-                m.output_offsets.push_back(arena.reserve(g < 0 ? 0 : plan_->groups[static_cast<std::size_t>(g)].cells));
+                m.output_offsets.push_back(
+                    arena.reserve(g < 0 ? 0 : plan_->groups[static_cast<std::size_t>(g)].cells));
         arena.allocate();
 
         for (auto& g : plan_->groups) {
@@ -238,10 +257,12 @@ class Compiler {
             if (g.history > 0) g.history_ring = arena.at(g.history_offset);
         }
         for (auto& m : plan_->modules) {
-            for (const int g : m.input_groups) m.in.emplace_back(nullptr, g < 0 ? 0 : plan_->groups[static_cast<std::size_t>(g)].cells);
+            for (const int g : m.input_groups)
+                m.in.emplace_back(nullptr, g < 0 ? 0 : plan_->groups[static_cast<std::size_t>(g)].cells);
             for (std::size_t i = 0; i < m.output_groups.size(); ++i) {
                 const int g = m.output_groups[i];
-                m.out.emplace_back(arena.at(m.output_offsets[i]), g < 0 ? 0 : plan_->groups[static_cast<std::size_t>(g)].cells);
+                m.out.emplace_back(arena.at(m.output_offsets[i]),
+                                   g < 0 ? 0 : plan_->groups[static_cast<std::size_t>(g)].cells);
             }
         }
         for (auto& c : plan_->connections) {
@@ -249,8 +270,11 @@ class Compiler {
             const auto& target = plan_->groups[static_cast<std::size_t>(c.target)];
             std::vector<Ring> feedback;
             for (const int s : c.feedback) {
-                if (s < 0) feedback.push_back({nullptr, 1, 0});
-                else feedback.push_back({target.states[static_cast<std::size_t>(s)].ring, target.states[static_cast<std::size_t>(s)].depth, target.stride});
+                if (s < 0)
+                    feedback.push_back({nullptr, 1, 0});
+                else
+                    feedback.push_back({target.states[static_cast<std::size_t>(s)].ring,
+                                        target.states[static_cast<std::size_t>(s)].depth, target.stride});
             }
             c.plastic->place(arena, std::move(feedback));
         }
@@ -269,8 +293,8 @@ class Compiler {
 
 }  // namespace
 
-std::unique_ptr<Plan> compile(const model::System& system, const Registry& registry, std::uint64_t seed, Forms forms,
-                              Diagnostics& diagnostics) {
+std::unique_ptr<Plan> compile(const model::System& system, const Registry& registry, std::uint64_t seed,
+                              Forms forms, Diagnostics& diagnostics) {
     return Compiler(system, registry, seed, forms, diagnostics).run();
 }
 

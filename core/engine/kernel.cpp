@@ -49,9 +49,13 @@ bool all_equal(const std::vector<T>& values) {
 class OneToOne final : public Kernel {
   public:
     OneToOne(const ByTarget& s, const SynapseInstance& synapse)
-        : synapse_(synapse), cells_(static_cast<Index>(s.pre.size())), delay_(s.delay[0]), factor_(s.factor[0]) {}
+        : synapse_(synapse),
+          cells_(static_cast<Index>(s.pre.size())),
+          delay_(s.delay[0]),
+          factor_(s.factor[0]) {}
     static bool fits(const ByTarget& s, int source_cells, int target_cells) {
-        if (source_cells != target_cells || s.pre.size() != static_cast<std::size_t>(target_cells)) return false;
+        if (source_cells != target_cells || s.pre.size() != static_cast<std::size_t>(target_cells))
+            return false;
         for (std::size_t i = 0; i < s.pre.size(); ++i)
             if (s.pre[i] != static_cast<int>(i) || s.start[i] != static_cast<int>(i)) return false;
         return all_equal(s.delay) && all_equal(s.factor);
@@ -73,8 +77,12 @@ class OneToOne final : public Kernel {
 class List final : public Kernel {
   public:
     List(ByTarget s, int source_cells, const SynapseInstance& synapse)
-        : synapse_(synapse), s_(std::move(s)), same_delay_(all_equal(s_.delay)), same_factor_(all_equal(s_.factor)),
-          longest_(*std::max_element(s_.delay.begin(), s_.delay.end())), factor_(s_.factor[0]),
+        : synapse_(synapse),
+          s_(std::move(s)),
+          same_delay_(all_equal(s_.delay)),
+          same_factor_(all_equal(s_.factor)),
+          longest_(*std::max_element(s_.delay.begin(), s_.delay.end())),
+          factor_(s_.factor[0]),
           scaled_(static_cast<std::size_t>(source_cells)) {
         if (same_delay_) {
             s_.delay = std::vector<int>();  // frees it; = {} would not
@@ -94,7 +102,8 @@ class List final : public Kernel {
             scaled *= factor_;
             sum(target, [&](std::size_t i) { return scaled_[static_cast<std::size_t>(s_.pre[i])]; });
         } else {
-            sum(target, [&](std::size_t i) { return scaled_[static_cast<std::size_t>(s_.pre[i])] * s_.factor[i]; });
+            sum(target,
+                [&](std::size_t i) { return scaled_[static_cast<std::size_t>(s_.pre[i])] * s_.factor[i]; });
         }
     }
     std::string_view form() const override { return "list"; }
@@ -102,13 +111,17 @@ class List final : public Kernel {
   private:
     void deliver_delayed(const History& source, double gain, double* target) {
         source.past.tabulate(source.cycle, rows_);
-        sum(target, [&](std::size_t i) { return (gain * rows_[static_cast<std::size_t>(s_.delay[i])][s_.pre[i]]) * s_.factor[i]; });
+        sum(target, [&](std::size_t i) {
+            return (gain * rows_[static_cast<std::size_t>(s_.delay[i])][s_.pre[i]]) * s_.factor[i];
+        });
     }
     template <class F>
     void sum(double* target, F psp) const {
         for (std::size_t t = 0; t + 1 < s_.start.size(); ++t) {
             double total = 0;
-            for (auto i = static_cast<std::size_t>(s_.start[t]); i < static_cast<std::size_t>(s_.start[t + 1]); ++i) total += psp(i);
+            for (auto i = static_cast<std::size_t>(s_.start[t]);
+                 i < static_cast<std::size_t>(s_.start[t + 1]); ++i)
+                total += psp(i);
             target[t] += total;
         }
     }
@@ -132,7 +145,8 @@ class Broadcast final : public Kernel {
         if (target_cells < 2 || each * static_cast<std::size_t>(target_cells) != s.pre.size()) return false;
         for (std::size_t i = 0; i < s.pre.size(); ++i) {
             const std::size_t first = i % each;
-            if (s.pre[i] != s.pre[first] || s.delay[i] != s.delay[first] || s.factor[i] != s.factor[first]) return false;
+            if (s.pre[i] != s.pre[first] || s.delay[i] != s.delay[first] || s.factor[i] != s.factor[first])
+                return false;
         }
         for (std::size_t t = 0; t < s.start.size(); ++t)
             if (static_cast<std::size_t>(s.start[t]) != t * each) return false;
@@ -148,7 +162,10 @@ class Broadcast final : public Kernel {
   private:
     static ByTarget first_target(const ByTarget& s) {
         const auto n = s.start[1];
-        return {{0, n}, {s.pre.begin(), s.pre.begin() + n}, {s.delay.begin(), s.delay.begin() + n}, {s.factor.begin(), s.factor.begin() + n}};
+        return {{0, n},
+                {s.pre.begin(), s.pre.begin() + n},
+                {s.delay.begin(), s.delay.begin() + n},
+                {s.factor.begin(), s.factor.begin() + n}};
     }
     List one_;
     Index cells_;
@@ -160,8 +177,10 @@ std::unique_ptr<Kernel> make_kernel(connectivity::Synapses synapses, int source_
                                     const SynapseInstance& synapse, Forms forms) {
     ByTarget sorted = sort_by_target(std::move(synapses), target_cells);
     if (forms == Forms::fastest) {
-        if (OneToOne::fits(sorted, source_cells, target_cells)) return std::make_unique<OneToOne>(sorted, synapse);
-        if (Broadcast::fits(sorted, target_cells)) return std::make_unique<Broadcast>(sorted, source_cells, target_cells, synapse);
+        if (OneToOne::fits(sorted, source_cells, target_cells))
+            return std::make_unique<OneToOne>(sorted, synapse);
+        if (Broadcast::fits(sorted, target_cells))
+            return std::make_unique<Broadcast>(sorted, source_cells, target_cells, synapse);
     }
     return std::make_unique<List>(std::move(sorted), source_cells, synapse);
 }

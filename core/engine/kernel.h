@@ -29,7 +29,7 @@ struct Ring {
 /// The activity of a connection's source in this and in earlier cycles.
 struct History {
     const double* now;  ///< row of this cycle
-    Ring past;          ///< rows of this and of earlier cycles; null when no connection of the source has a delay
+    Ring past;  ///< rows of this and of earlier cycles; null when no connection of the source has a delay
     std::uint64_t cycle;
 
     const double* ago(int delay) const { return delay == 0 ? now : past.ago(cycle, delay); }
@@ -48,9 +48,9 @@ enum class Forms {
     general,  ///< always the list of synapses: what the others are tested against
 };
 
-/// A kernel for synapses that multiply by a constant: psp = (gain * pre) * (reference - attenuation), rounded in this
-/// order. `synapse` stays the owner's: its gain may change between cycles. The parts of `synapses` are freed as they are
-/// used.
+/// A kernel for synapses that multiply by a constant: psp = (gain * pre) * (reference - attenuation), rounded
+/// in this order. `synapse` stays the owner's: its gain may change between cycles. The parts of `synapses`
+/// are freed as they are used.
 std::unique_ptr<Kernel> make_kernel(connectivity::Synapses synapses, int source_cells, int target_cells,
                                     const SynapseInstance& synapse, Forms forms);
 

@@ -25,7 +25,7 @@ struct GroupPlan {
     std::vector<NeuronColumns::State> states;  ///< a state's ring: row t % depth is that of cycle t
     std::array<std::array<Arena::Offset, 2>, input_kinds> input_offsets{};
     std::array<std::array<double*, 2>, input_kinds> inputs{};  ///< of this and of the next cycle, in turns
-    std::vector<int> incoming;  ///< connections that end here, in order
+    std::vector<int> incoming;                                 ///< connections that end here, in order
     int history = 0;  ///< longest delay of outgoing connections; 0: no ring of past activity is kept
     Arena::Offset history_offset = 0;
     double* history_ring = nullptr;  ///< row t % (history + 1) is the activity of cycle t
@@ -55,8 +55,8 @@ struct ConnectionPlan {
     std::size_t synapses = 0;
 };
 
-/// Groups, modules and connections in the order in which a cycle updates them: byte order of their ids (of the
-/// process, for a module).
+/// Groups, modules and connections in the order in which a cycle updates them: byte order of their ids (of
+/// the process, for a module).
 struct Plan {
     std::vector<GroupPlan> groups;
     std::vector<ModulePlan> modules;
@@ -68,9 +68,9 @@ struct Plan {
 /// What the numbers of a system may take: 16 GiB. Lists of synapses come on top.
 inline constexpr double most_bytes = 16.0 * (1 << 30);
 
-/// Empty when `diagnostics` got an error. The system must have passed model::validate(). Reports one that takes more
-/// than `most_bytes`, before it takes them, or more than there is.
-std::unique_ptr<Plan> compile(const model::System& system, const Registry& registry, std::uint64_t seed, Forms forms,
-                              Diagnostics& diagnostics);
+/// Empty when `diagnostics` got an error. The system must have passed model::validate(). Reports one that
+/// takes more than `most_bytes`, before it takes them, or more than there is.
+std::unique_ptr<Plan> compile(const model::System& system, const Registry& registry, std::uint64_t seed,
+                              Forms forms, Diagnostics& diagnostics);
 
 }  // namespace forage::engine

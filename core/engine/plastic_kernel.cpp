@@ -4,11 +4,16 @@
 
 namespace forage::engine {
 
-PlasticKernel::PlasticKernel(connectivity::Synapses s, int target_cells, const SynapseType& type, const SynapseInstance& synapse,
-                             Arena& arena)
-    : synapse_(synapse), output_(static_cast<std::size_t>(type.output())), pre_cell_(std::move(s.pre)),
-      post_cell_(std::move(s.post)), delay_(std::move(s.delay)), factor_(std::move(s.attenuation)),
-      longest_(*std::max_element(delay_.begin(), delay_.end())), size_(static_cast<Index>(pre_cell_.size())),
+PlasticKernel::PlasticKernel(connectivity::Synapses s, int target_cells, const SynapseType& type,
+                             const SynapseInstance& synapse, Arena& arena)
+    : synapse_(synapse),
+      output_(static_cast<std::size_t>(type.output())),
+      pre_cell_(std::move(s.pre)),
+      post_cell_(std::move(s.post)),
+      delay_(std::move(s.delay)),
+      factor_(std::move(s.attenuation)),
+      longest_(*std::max_element(delay_.begin(), delay_.end())),
+      size_(static_cast<Index>(pre_cell_.size())),
       target_cells_(target_cells) {
     for (double& f : factor_) f = s.reference - f;
     for (std::size_t i = 0; i < type.states.size(); ++i) state_offsets_.push_back(arena.reserve(size_));
@@ -39,7 +44,8 @@ void PlasticKernel::learn(const History& source) {
         if (!feedback_[f].rows) continue;
         feedback_[f].tabulate(source.cycle, feedback_rows_);
         double* gathered = gathered_[f];
-        for (std::size_t i = 0; i < n; ++i) gathered[i] = feedback_rows_[static_cast<std::size_t>(delay_[i])][post_cell_[i]];
+        for (std::size_t i = 0; i < n; ++i)
+            gathered[i] = feedback_rows_[static_cast<std::size_t>(delay_[i])][post_cell_[i]];
     }
     SynapseColumns columns(ConstColumn(pre_, size_), states_, feedback_columns_);
     synapse_.update(columns);
@@ -58,7 +64,8 @@ void PlasticKernel::deliver(const History& source, double* target) {
         ring.tabulate(source.cycle, psp_rows_);
         const auto now = static_cast<Index>(source.cycle % static_cast<std::uint64_t>(ring.depth));
         std::copy_n(psp, n, psp_ring_ + now * ring.stride);
-        for (std::size_t i = 0; i < n; ++i) sums_[post_cell_[i]] += psp_rows_[static_cast<std::size_t>(delay_[i])][i];
+        for (std::size_t i = 0; i < n; ++i)
+            sums_[post_cell_[i]] += psp_rows_[static_cast<std::size_t>(delay_[i])][i];
     }
     Column(target, target_cells_) += ConstColumn(sums_, target_cells_);
 }

@@ -9,28 +9,28 @@ namespace forage::engine {
 class PlasticKernel final : public Kernel {
   public:
     /// Reserves the synapses' states in `arena`. `synapse` stays the owner's.
-    PlasticKernel(connectivity::Synapses synapses, int target_cells, const SynapseType& type, const SynapseInstance& synapse,
-                  Arena& arena);
+    PlasticKernel(connectivity::Synapses synapses, int target_cells, const SynapseType& type,
+                  const SynapseInstance& synapse, Arena& arena);
     /// Once, after the arena is allocated. `feedback`: the target's states that the type reads, in order of
     /// declaration; null rows for one that the file leaves unset, which reads 0.
     void place(Arena& arena, std::vector<Ring> feedback);
 
-    /// Updates the synapses, in every cycle; deliver() does this first. On its own it is for connections of a kind that
-    /// the target does not read: they learn all the same.
+    /// Updates the synapses, in every cycle; deliver() does this first. On its own it is for connections of a
+    /// kind that the target does not read: they learn all the same.
     void learn(const History& source);
     void deliver(const History& source, double* target) override;
     std::string_view form() const override { return "plastic"; }
 
-    /// State `i` of the type, per synapse in synapse order. The output state is what was computed in this cycle,
-    /// attenuated.
+    /// State `i` of the type, per synapse in synapse order. The output state is what was computed in this
+    /// cycle, attenuated.
     ConstColumn state(std::size_t i) const { return {states_[i].data(), states_[i].size()}; }
 
   private:
     const SynapseInstance& synapse_;
-    std::size_t output_;                 ///< index of the output state
+    std::size_t output_;  ///< index of the output state
     std::vector<int> pre_cell_, post_cell_, delay_;
-    std::vector<double> factor_;         ///< reference - attenuation
-    int longest_;                        ///< delay
+    std::vector<double> factor_;  ///< reference - attenuation
+    int longest_;                 ///< delay
     Index size_, target_cells_;
     Arena::Offset pre_offset_, psp_offset_ = 0, sum_offset_;
     std::vector<Arena::Offset> state_offsets_, feedback_offsets_;

@@ -1,8 +1,8 @@
 #include "core/engine/simulation.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include <fmt/format.h>
 
 #include "core/engine/plan.h"
 #include "core/engine/thread_pool.h"
@@ -23,12 +23,13 @@ double* current_row(const GroupPlan& g, int state, std::uint64_t cycle) {
 
 }  // namespace
 
-std::optional<Simulation> Simulation::build(const model::System& system, const Registry& registry, Options options,
-                                            Diagnostics& diagnostics) {
+std::optional<Simulation> Simulation::build(const model::System& system, const Registry& registry,
+                                            Options options, Diagnostics& diagnostics) {
     const int errors_before = diagnostics.errors();
     model::validate(system, registry, diagnostics);
     if (diagnostics.errors() > errors_before) return std::nullopt;
-    auto plan = compile(system, registry, options.seed, options.general_forms ? Forms::general : Forms::fastest, diagnostics);
+    auto plan = compile(system, registry, options.seed,
+                        options.general_forms ? Forms::general : Forms::fastest, diagnostics);
     if (!plan) return std::nullopt;
     return Simulation(std::move(plan), options);
 }
@@ -54,7 +55,8 @@ void Simulation::start() {
             m.module->start(m.ports, frame);
             deliver_outputs(m, 0);
         } catch (const std::exception& e) {
-            throw RunError(fmt::format("{} of process '{}' could not start: {}", m.type.name, m.process, e.what()));
+            throw RunError(
+                fmt::format("{} of process '{}' could not start: {}", m.type.name, m.process, e.what()));
         }
     }
     started_ = true;
@@ -73,11 +75,13 @@ void Simulation::update_groups() {
     auto update = [this, now](int group, int thread) {
         auto& g = at(plan_->groups, group);
         try {
-            NeuronColumns columns(g.cells, g.stride, cycle_, {g.inputs[0][now], g.inputs[1][now], g.inputs[2][now]},
-                                  g.states.data(), &g.random, at(plan_->scratch, thread).data());
+            NeuronColumns columns(g.cells, g.stride, cycle_,
+                                  {g.inputs[0][now], g.inputs[1][now], g.inputs[2][now]}, g.states.data(),
+                                  &g.random, at(plan_->scratch, thread).data());
             g.neuron->update(columns);
         } catch (const std::exception& e) {
-            throw RunError(fmt::format("{} of group '{}' failed in cycle {}: {}", g.type.name, g.path, cycle_, e.what()));
+            throw RunError(fmt::format("{} of group '{}' failed in cycle {}: {}", g.type.name, g.path, cycle_,
+                                       e.what()));
         }
     };
     pool_->run(groups(), update);
@@ -118,7 +122,8 @@ void Simulation::update_modules() {
             deliver_outputs(m, next);
         }
     } catch (const std::exception& e) {
-        throw RunError(fmt::format("{} of process '{}' failed in cycle {}: {}", current->type.name, current->process, cycle_, e.what()));
+        throw RunError(fmt::format("{} of process '{}' failed in cycle {}: {}", current->type.name,
+                                   current->process, cycle_, e.what()));
     }
 }
 
@@ -127,19 +132,25 @@ void Simulation::update_connections() {
     for (auto& g : plan_->groups)
         if (g.history > 0) {
             const auto row = static_cast<Index>(cycle_ % static_cast<std::uint64_t>(g.history + 1));
-            Column(g.history_ring + row * g.stride, g.cells) = ConstColumn(current_row(g, g.type.output(), cycle_), g.cells);
+            Column(g.history_ring + row * g.stride, g.cells) =
+                ConstColumn(current_row(g, g.type.output(), cycle_), g.cells);
         }
     auto deliver = [this, next](int group, int) {
         auto& target = at(plan_->groups, group);
         for (const int connection : target.incoming) {
             auto& c = at(plan_->connections, connection);
             const auto& source = at(plan_->groups, c.source);
-            const History history{current_row(source, source.type.output(), cycle_), {source.history_ring, source.history + 1, source.stride}, cycle_};
+            const History history{current_row(source, source.type.output(), cycle_),
+                                  {source.history_ring, source.history + 1, source.stride},
+                                  cycle_};
             try {
-                if (c.effective) c.kernel->deliver(history, target.inputs[static_cast<std::size_t>(c.kind)][next]);
-                else if (c.plastic) c.plastic->learn(history);
+                if (c.effective)
+                    c.kernel->deliver(history, target.inputs[static_cast<std::size_t>(c.kind)][next]);
+                else if (c.plastic)
+                    c.plastic->learn(history);
             } catch (const std::exception& e) {
-                throw RunError(fmt::format("{} of connection '{}' failed in cycle {}: {}", c.type.name, c.name, cycle_, e.what()));
+                throw RunError(fmt::format("{} of connection '{}' failed in cycle {}: {}", c.type.name,
+                                           c.name, cycle_, e.what()));
             }
         }
     };
@@ -178,11 +189,19 @@ ConstColumn Simulation::module_output(int module, int port) const {
 }
 
 int Simulation::connections() const { return static_cast<int>(plan_->connections.size()); }
-const std::string& Simulation::connection_id(int connection) const { return at(plan_->connections, connection).id; }
-const std::string& Simulation::connection_name(int connection) const { return at(plan_->connections, connection).name; }
-std::string_view Simulation::connection_form(int connection) const { return at(plan_->connections, connection).kernel->form(); }
+const std::string& Simulation::connection_id(int connection) const {
+    return at(plan_->connections, connection).id;
+}
+const std::string& Simulation::connection_name(int connection) const {
+    return at(plan_->connections, connection).name;
+}
+std::string_view Simulation::connection_form(int connection) const {
+    return at(plan_->connections, connection).kernel->form();
+}
 std::size_t Simulation::synapses(int connection) const { return at(plan_->connections, connection).synapses; }
-const SynapseType& Simulation::synapse_type(int connection) const { return at(plan_->connections, connection).type; }
+const SynapseType& Simulation::synapse_type(int connection) const {
+    return at(plan_->connections, connection).type;
+}
 ConstColumn Simulation::synapse_state(int connection, int state) const {
     const auto& c = at(plan_->connections, connection);
     return c.plastic ? c.plastic->state(static_cast<std::size_t>(state)) : ConstColumn(nullptr, 0);

@@ -18,7 +18,8 @@ struct ModulePlan;
 struct Plan;
 class ThreadPool;
 
-/// A type's update or a module's start failed; the message names the type, its place in the system and the cycle.
+/// A type's update or a module's start failed; the message names the type, its place in the system and the
+/// cycle.
 class RunError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -29,21 +30,22 @@ class RunError : public std::runtime_error {
 ///     update_modules()      each module reads this cycle's activity of its input groups
 ///     update_connections()  each connection delivers what its target reads in the next cycle
 ///
-/// each in byte order of ids. So A's activity of cycle t is B's input of cycle t + 1, plus the connection's delay; what
-/// a module writes in t is excitatory input of t + 1. An input is the sum of what modules write, in the order of
-/// their cross references, and then of what connections deliver. Between the phases, states may be looked at and,
-/// after update_groups(), activities may be overwritten.
+/// each in byte order of ids. So A's activity of cycle t is B's input of cycle t + 1, plus the connection's
+/// delay; what a module writes in t is excitatory input of t + 1. An input is the sum of what modules write,
+/// in the order of their cross references, and then of what connections deliver. Between the phases, states
+/// may be looked at and, after update_groups(), activities may be overwritten.
 class Simulation {
   public:
     struct Options {
         std::uint64_t seed = 1;
-        int threads = 1;  ///< at most, for a cycle's loops; the numbers do not depend on it
+        int threads = 1;                    ///< at most, for a cycle's loops; the numbers do not depend on it
         std::size_t worth_sharing = 20000;  ///< cells and synapses; smaller systems are faster on one thread
-        bool general_forms = false;  ///< compile every connection to a list of synapses (slower, same numbers)
+        bool general_forms =
+            false;  ///< compile every connection to a list of synapses (slower, same numbers)
     };
     /// Checks the system and builds it. Empty when `diagnostics` got an error.
-    static std::optional<Simulation> build(const model::System& system, const Registry& registry, Options options,
-                                           Diagnostics& diagnostics);
+    static std::optional<Simulation> build(const model::System& system, const Registry& registry,
+                                           Options options, Diagnostics& diagnostics);
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
     ~Simulation();
@@ -57,10 +59,12 @@ class Simulation {
     void update_connections();  ///< ends the cycle
 
     int threads() const;  ///< that share a cycle's loops
-    std::uint64_t cycle() const { return cycle_; }  ///< the number of completed cycles; the next one has this number
+    std::uint64_t cycle() const {
+        return cycle_;
+    }  ///< the number of completed cycles; the next one has this number
 
-    // Groups, numbered in order of update. What is read here is of the running cycle, or of the last one between
-    // cycles.
+    // Groups, numbered in order of update. What is read here is of the running cycle, or of the last one
+    // between cycles.
     int groups() const;
     const std::string& path(int group) const;  ///< "Process/Group", with "#id" where that is ambiguous
     const std::string& id(int group) const;

@@ -35,7 +35,8 @@ void ThreadPool::share(int items) {
     round_.fetch_add(1, std::memory_order_release);
     round_.notify_all();
     take_items(0);
-    for (int n = busy_.load(std::memory_order_acquire), spun = 0; n != 0; n = busy_.load(std::memory_order_acquire))
+    for (int n = busy_.load(std::memory_order_acquire), spun = 0; n != 0;
+         n = busy_.load(std::memory_order_acquire))
         if (++spun > spins) busy_.wait(n, std::memory_order_acquire);
 
     std::pair<int, std::exception_ptr> first{no_item, nullptr};

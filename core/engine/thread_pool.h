@@ -10,7 +10,8 @@
 
 namespace forage::engine {
 
-/// Runs loops whose items do not depend on each other. The caller works too; with one thread there is nothing else.
+/// Runs loops whose items do not depend on each other. The caller works too; with one thread there is nothing
+/// else.
 class ThreadPool {
   public:
     /// Throws std::system_error when the threads cannot be started.
@@ -21,8 +22,9 @@ class ThreadPool {
 
     int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
-    /// Calls work(item, thread) for each item from 0 to `items` - 1, on any thread (0: the caller's), and waits for
-    /// all. Allocates nothing. When several items throw, the exception of the lowest one is thrown again.
+    /// Calls work(item, thread) for each item from 0 to `items` - 1, on any thread (0: the caller's), and
+    /// waits for all. Allocates nothing. When several items throw, the exception of the lowest one is thrown
+    /// again.
     template <class Work>
     void run(int items, Work& work) {
         if (workers_.empty() || items < 2) {

@@ -1,10 +1,10 @@
 #include "core/model/build.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <set>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 namespace forage::model {
 namespace {
@@ -33,7 +33,8 @@ std::string claim(const System& system, std::string id, const std::string& wish)
 }
 
 void forget_groups(System& system, const std::set<std::string, std::less<>>& ids) {
-    std::erase_if(system.connections, [&](const Connection& c) { return ids.contains(c.source) || ids.contains(c.target); });
+    std::erase_if(system.connections,
+                  [&](const Connection& c) { return ids.contains(c.source) || ids.contains(c.target); });
     for (auto& p : system.processes) {
         if (!p.module) continue;
         for (auto* references : {&p.module->inputs, &p.module->outputs})
@@ -103,9 +104,12 @@ Group* find_group(System& system, std::string_view id) {
 Connection* find_connection(System& system, std::string_view id) { return find_in(system.connections, id); }
 
 void set_parameter(TypeUse& use, std::string name, std::string value) {
-    const auto it = std::find_if(use.settings.begin(), use.settings.end(), [&](const auto& s) { return s.name == name; });
-    if (it == use.settings.end()) use.settings.push_back({std::move(name), std::move(value), {}, {}});
-    else it->value = std::move(value), it->value_at = {};
+    const auto it =
+        std::find_if(use.settings.begin(), use.settings.end(), [&](const auto& s) { return s.name == name; });
+    if (it == use.settings.end())
+        use.settings.push_back({std::move(name), std::move(value), {}, {}});
+    else
+        it->value = std::move(value), it->value_at = {};
 }
 
 void remove(System& system, std::string_view id) {
@@ -135,7 +139,8 @@ std::string import_process(System& system, ProcessFile file) {
     }();
     std::string prefix;
     const auto clashes = [&] {
-        return std::any_of(ids.begin(), ids.end(), [&](const auto* id) { return taken.contains(prefix + *id); });
+        return std::any_of(ids.begin(), ids.end(),
+                           [&](const auto* id) { return taken.contains(prefix + *id); });
     };
     for (int n = 1; prefix.empty() || clashes(); ++n) prefix = fmt::format("CB{}", n);
 
@@ -157,7 +162,8 @@ std::string import_process(System& system, ProcessFile file) {
 }
 
 ProcessFile extract_process(const System& system, std::string_view id) {
-    const auto it = std::find_if(system.processes.begin(), system.processes.end(), [&](const auto& p) { return p.id == id; });
+    const auto it = std::find_if(system.processes.begin(), system.processes.end(),
+                                 [&](const auto& p) { return p.id == id; });
     if (it == system.processes.end()) no_item("process", id);
     ProcessFile out{*it, {}};
     out.process.path.clear();
@@ -178,10 +184,14 @@ void embed_links(System& system) {
 }
 
 void rename(System& system, std::string_view id, std::string name) {
-    if (auto* p = find_process(system, id)) p->name = std::move(name);
-    else if (auto* g = find_group(system, id)) g->name = std::move(name);
-    else if (auto* c = find_connection(system, id)) c->name = std::move(name);
-    else no_item("process, group or connection", id);
+    if (auto* p = find_process(system, id))
+        p->name = std::move(name);
+    else if (auto* g = find_group(system, id))
+        g->name = std::move(name);
+    else if (auto* c = find_connection(system, id))
+        c->name = std::move(name);
+    else
+        no_item("process, group or connection", id);
 }
 
 }  // namespace forage::model

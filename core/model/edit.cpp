@@ -71,8 +71,7 @@ void set(System& system, const Registry& registry, std::string_view assignment, 
     const std::string value(trim(assignment.substr(equals + 1)));
 
     const auto owners = find_owners(system, registry, where);
-    if (owners.empty())
-        return problem(fmt::format("there is no '{}'", where), suggest_owner(where, system));
+    if (owners.empty()) return problem(fmt::format("there is no '{}'", where), suggest_owner(where, system));
     if (owners.size() > 1)
         return problem(fmt::format("'{}' names {} things", where, owners.size()),
                        "add '#' and the id of the group you mean, or use the id of the connection");

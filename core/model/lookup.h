@@ -25,8 +25,8 @@ class GroupIndex {
     std::unordered_map<std::string_view, Entry> entries_;
 };
 
-/// "Process/Group", or "Process/Group#id" where several groups share that path. Blanks at the ends of names are
-/// left out.
+/// "Process/Group", or "Process/Group#id" where several groups share that path. Blanks at the ends of names
+/// are left out.
 std::string path(const System& system, const Process& process, const Group& group);
 
 /// The paths of all groups, in file order.

@@ -36,7 +36,8 @@ struct List {
 
 using Population = std::variant<All, Region, List>;
 
-/// The smaller population is laid over the larger one; each cell is paired with the place where it comes to lie.
+/// The smaller population is laid over the larger one; each cell is paired with the place where it comes to
+/// lie.
 struct MappedPattern {
     bool all = false;  ///< pair with every cell under the projected rectangle, not only with its centre
     Population source, target;

@@ -94,7 +94,8 @@ struct Process {
     std::optional<Icon> icon;
     std::vector<std::string> comments;
     std::vector<Group> groups;
-    bool linked = false;  ///< its content, except the icon, comes from the file `path`, relative to the system's
+    bool linked =
+        false;  ///< its content, except the icon, comes from the file `path`, relative to the system's
     Location at, path_at;
     friend bool operator==(const Process&, const Process&) = default;
 };

@@ -1,9 +1,9 @@
 #include "core/model/validate.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include <fmt/format.h>

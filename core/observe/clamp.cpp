@@ -12,9 +12,12 @@ void Clamp::apply(engine::Simulation& simulation) {
     const auto now = static_cast<std::int64_t>(simulation.cycle());
     while (!waiting_.empty() && waiting_.begin()->first <= now) {
         Entry& entry = waiting_.begin()->second;
-        const auto held = std::find_if(held_.begin(), held_.end(), [&](const Entry& e) { return e.group == entry.group; });
-        if (held != held_.end()) *held = std::move(entry);
-        else held_.push_back(std::move(entry));
+        const auto held =
+            std::find_if(held_.begin(), held_.end(), [&](const Entry& e) { return e.group == entry.group; });
+        if (held != held_.end())
+            *held = std::move(entry);
+        else
+            held_.push_back(std::move(entry));
         waiting_.erase(waiting_.begin());
     }
     for (const Entry& e : held_)

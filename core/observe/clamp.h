@@ -11,8 +11,8 @@ namespace forage::observe {
 
 class Clamp {
   public:
-    /// From `cycle` on the group's activity is `values`, one per cell, until other values of a later cycle replace
-    /// them. Of values for one cycle the last ones count.
+    /// From `cycle` on the group's activity is `values`, one per cell, until other values of a later cycle
+    /// replace them. Of values for one cycle the last ones count.
     void add(std::int64_t cycle, int group, std::vector<double> values);
 
     /// Between update_groups() and update_modules() of each cycle.

@@ -1,9 +1,9 @@
 #include "core/observe/column.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
+
+#include <fmt/format.h>
 
 #include "core/model/lookup.h"
 
@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::array<std::string_view, input_kinds> inputs = {"excIn", "inhIn", "modIn"};
 
-/// The groups that a person may mean by `path`: the one of exactly this path, or all of it without "#id", or the one
-/// of this id, written alone, as "#id" or as "Process/Group#id".
+/// The groups that a person may mean by `path`: the one of exactly this path, or all of it without "#id", or
+/// the one of this id, written alone, as "#id" or as "Process/Group#id".
 std::vector<int> groups_named(const engine::Simulation& s, std::string_view path) {
     path = model::trim(path);
     std::vector<int> out;
@@ -30,8 +30,8 @@ std::vector<int> groups_named(const engine::Simulation& s, std::string_view path
 
 }  // namespace
 
-std::optional<ColumnRef> find_column(const engine::Simulation& s, std::string_view text, std::string_view what,
-                                     Diagnostics& diagnostics) {
+std::optional<ColumnRef> find_column(const engine::Simulation& s, std::string_view text,
+                                     std::string_view what, Diagnostics& diagnostics) {
     std::string_view path = text, state;
     auto found = groups_named(s, path);  // a name may contain ':'
     if (const auto colon = text.rfind(':'); found.empty() && colon != std::string_view::npos) {
@@ -44,24 +44,35 @@ std::optional<ColumnRef> find_column(const engine::Simulation& s, std::string_vi
         if (found.empty())
             for (int g = 0; g < s.groups(); ++g) names.push_back(s.path(g));
         for (const int g : found) names.push_back(s.path(g));
-        diagnostics.error({}, fmt::format("{} '{}': {}", what, text, found.empty() ? fmt::format("there is no group '{}'", path)
-                                                                                      : fmt::format("'{}' names {} groups", path, found.size())),
-                          found.empty() ? model::suggest_group(path, names) : fmt::format("use one of '{}'", fmt::join(names, "', '")));
+        diagnostics.error(
+            {},
+            fmt::format("{} '{}': {}", what, text,
+                        found.empty() ? fmt::format("there is no group '{}'", path)
+                                      : fmt::format("'{}' names {} groups", path, found.size())),
+            found.empty() ? model::suggest_group(path, names)
+                          : fmt::format("use one of '{}'", fmt::join(names, "', '")));
         return std::nullopt;
     }
     const int group = found.front();
     const auto& type = s.type(group);
-    if (state.empty()) return ColumnRef{group, type.output(), {}, s.path(group) + ":" + type.states[static_cast<std::size_t>(type.output())].name};
+    if (state.empty())
+        return ColumnRef{group,
+                         type.output(),
+                         {},
+                         s.path(group) + ":" + type.states[static_cast<std::size_t>(type.output())].name};
     std::vector<std::string> known;
     for (std::size_t i = 0; i < type.states.size(); ++i) {
         known.push_back(type.states[i].name);
-        if (known.back() == state) return ColumnRef{group, static_cast<int>(i), {}, s.path(group) + ":" + known.back()};
+        if (known.back() == state)
+            return ColumnRef{group, static_cast<int>(i), {}, s.path(group) + ":" + known.back()};
     }
     for (std::size_t k = 0; k < inputs.size(); ++k) {
         known.emplace_back(inputs[k]);
-        if (inputs[k] == state) return ColumnRef{group, -1, static_cast<InputKind>(k), s.path(group) + ":" + known.back()};
+        if (inputs[k] == state)
+            return ColumnRef{group, -1, static_cast<InputKind>(k), s.path(group) + ":" + known.back()};
     }
-    diagnostics.error({}, fmt::format("{} '{}': {} has no state '{}'", what, text, type.name, state), suggest(state, known));
+    diagnostics.error({}, fmt::format("{} '{}': {} has no state '{}'", what, text, type.name, state),
+                      suggest(state, known));
     return std::nullopt;
 }
 

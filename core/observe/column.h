@@ -17,11 +17,11 @@ struct ColumnRef {
     std::string name;  ///< "Process/Group:state"
 };
 
-/// The column that `text` names: "Process/Group:state", or "Process/Group" for the activity. States are those of the
-/// group's type, and excIn, inhIn, modIn. Reports what is not there, with the names there are; `what` says where
-/// the text stands ("--record").
-std::optional<ColumnRef> find_column(const engine::Simulation& simulation, std::string_view text, std::string_view what,
-                                     Diagnostics& diagnostics);
+/// The column that `text` names: "Process/Group:state", or "Process/Group" for the activity. States are those
+/// of the group's type, and excIn, inhIn, modIn. Reports what is not there, with the names there are; `what`
+/// says where the text stands ("--record").
+std::optional<ColumnRef> find_column(const engine::Simulation& simulation, std::string_view text,
+                                     std::string_view what, Diagnostics& diagnostics);
 
 /// Its values in the running cycle, or the last one between cycles.
 inline ConstColumn values(const engine::Simulation& simulation, const ColumnRef& c) {

@@ -1,24 +1,26 @@
 #include "core/observe/recorder.h"
 
-#include <fmt/format.h>
-
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 namespace forage::observe {
 
 constexpr std::size_t block = 1 << 16;
 
-Recorder::Recorder(std::string path, const engine::Simulation& simulation, ColumnRef column, std::uint64_t every)
+Recorder::Recorder(std::string path, const engine::Simulation& simulation, ColumnRef column,
+                   std::uint64_t every)
     : path_(std::move(path)), column_(std::move(column)), every_(every), out_(path_, std::ios::binary) {
     if (!out_) throw std::runtime_error(fmt::format("cannot write '{}': {}", path_, std::strerror(errno)));
     const GroupShape shape = simulation.shape(column_.group);
     const bool full = shape.cells == shape.width * shape.height;
     buffer_ = "cycle";
     for (int i = 0; i < shape.cells; ++i)
-        buffer_ += full ? fmt::format(",x{}_y{}", i % shape.width + 1, i / shape.width + 1) : fmt::format(",cell{}", i + 1);
+        buffer_ += full ? fmt::format(",x{}_y{}", i % shape.width + 1, i / shape.width + 1)
+                        : fmt::format(",cell{}", i + 1);
     buffer_ += '\n';
 }
 

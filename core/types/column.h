@@ -1,9 +1,10 @@
 // Columns: how a type sees numbers. One entry per cell of a group, in cell order (row by row).
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <string>
+
+#include <Eigen/Core>
 
 namespace forage {
 

@@ -6,7 +6,8 @@
 //     void check(const ModulePorts&, Problems&);     // optional: sizes that belong together
 //     void start(const ModulePorts&);                // optional: once, before the first cycle; or
 //     void start(const ModulePorts&, ModuleFrame&);  // ... what it writes is received in cycle 0
-//     void update(ModuleFrame&);                     // once per cycle, after the groups, before the connections
+//     void update(ModuleFrame&);                     // once per cycle, after the groups, before the
+//     connections
 //
 // A module reads the output activity of its input groups of this cycle. What it writes into an output is
 // excitatory input of that group in the next cycle. An output keeps its values until it is written again.
@@ -26,10 +27,10 @@ namespace forage {
 
 /// A cross reference that a module declares: a named place for one group.
 struct ModulePort {
-    std::string name;        ///< as in the file's <XRef name="..">
-    std::string label;       ///< as shown to people
-    bool is_output = false;  ///< written by the module (<XRefHolder name="OutputToGroup">)
-    bool optional = false;   ///< may be absent or unset; the original refuses a system with an unset one
+    std::string name;           ///< as in the file's <XRef name="..">
+    std::string label;          ///< as shown to people
+    bool is_output = false;     ///< written by the module (<XRefHolder name="OutputToGroup">)
+    bool optional = false;      ///< may be absent or unset; the original refuses a system with an unset one
     int width = 0, height = 0;  ///< required size of the group, 0: any
     int cells = 0;              ///< required number of cells, 0: any
 };
@@ -47,7 +48,8 @@ struct ModulePorts {
     RandomStream random;  ///< the module's own stream
 };
 
-/// What a module finds wrong with its parameters or groups before the run; reported to the author of the file.
+/// What a module finds wrong with its parameters or groups before the run; reported to the author of the
+/// file.
 struct Problems {
     struct Problem {
         std::string message;
@@ -121,8 +123,12 @@ class ModuleSpec {
         type_.parameters.push_back(detail::make_parameter(std::move(name), member));
         return {type_.parameters, type_.parameters.size() - 1};
     }
-    PortBuilder input(std::string name, std::string label) { return port(std::move(name), std::move(label), false); }
-    PortBuilder output(std::string name, std::string label) { return port(std::move(name), std::move(label), true); }
+    PortBuilder input(std::string name, std::string label) {
+        return port(std::move(name), std::move(label), false);
+    }
+    PortBuilder output(std::string name, std::string label) {
+        return port(std::move(name), std::move(label), true);
+    }
     ModuleSpec& any_ports() { return type_.any_ports = true, *this; }
 
   private:
@@ -148,8 +154,10 @@ class ModuleModel final : public ModuleInstance {
         if constexpr (requires { value_.check(ports, problems); }) value_.check(ports, problems);
     }
     void start(const ModulePorts& ports, ModuleFrame& frame) override {
-        if constexpr (requires { value_.start(ports, frame); }) value_.start(ports, frame);
-        else if constexpr (requires { value_.start(ports); }) value_.start(ports);
+        if constexpr (requires { value_.start(ports, frame); })
+            value_.start(ports, frame);
+        else if constexpr (requires { value_.start(ports); })
+            value_.start(ports);
     }
     void update(ModuleFrame& frame) override { value_.update(frame); }
 
@@ -159,8 +167,8 @@ class ModuleModel final : public ModuleInstance {
 
 }  // namespace detail
 
-/// The descriptor of module type T. `prototype` carries what is not a parameter (the world, a file's content):
-/// every module of a system starts as a copy of it.
+/// The descriptor of module type T. `prototype` carries what is not a parameter (the world, a file's
+/// content): every module of a system starts as a copy of it.
 template <class T>
 ModuleType module_type(T prototype = {}) {
     ModuleType type;

@@ -43,7 +43,12 @@ class NeuronColumns {
 
     NeuronColumns(Index size, Index stride, std::uint64_t cycle, std::array<double*, input_kinds> inputs,
                   const State* states, const RandomStream* random, double* scratch)
-        : size_(size), stride_(stride), cycle_(cycle), inputs_(inputs), states_(states), random_(random),
+        : size_(size),
+          stride_(stride),
+          cycle_(cycle),
+          inputs_(inputs),
+          states_(states),
+          random_(random),
           scratch_(scratch) {}
 
     Index size() const { return size_; }  ///< number of cells
@@ -63,11 +68,12 @@ class NeuronColumns {
     std::array<Column, N> states() const {
         return [this]<int... I>(std::integer_sequence<int, I...>) {
             return std::array<Column, N>{state(I)...};
-        }(std::make_integer_sequence<int, N>{});
+        }
+        (std::make_integer_sequence<int, N>{});
     }
 
-    /// One number per cell, uniform in [0, 1), new in each cycle. Another `draw` of the same cycle gives other,
-    /// independent numbers, the same one the same numbers. Valid until the next call.
+    /// One number per cell, uniform in [0, 1), new in each cycle. Another `draw` of the same cycle gives
+    /// other, independent numbers, the same one the same numbers. Valid until the next call.
     Column uniform(std::uint32_t draw = 0) const {
         random_->uniform(cycle_, {scratch_, static_cast<std::size_t>(size_)}, draw);
         return {scratch_, size_};

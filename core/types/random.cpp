@@ -1,9 +1,9 @@
 #include "core/types/random.h"
 
-#include <Random123/philox.h>
-
 #include <cmath>
 #include <numbers>
+
+#include <Random123/philox.h>
 
 namespace forage {
 namespace {
@@ -23,8 +23,10 @@ std::uint64_t fnv1a(std::string_view text) {
 }
 
 /// Two 64-bit words: numbers 2*pair and 2*pair+1 of this cycle.
-std::pair<std::uint64_t, std::uint64_t> words(std::uint64_t key, std::uint64_t cycle, std::uint32_t pair, std::uint32_t draw = 0) {
-    const Philox::ctr_type counter{{pair, static_cast<std::uint32_t>(cycle), static_cast<std::uint32_t>(cycle >> 32), draw}};
+std::pair<std::uint64_t, std::uint64_t> words(std::uint64_t key, std::uint64_t cycle, std::uint32_t pair,
+                                              std::uint32_t draw = 0) {
+    const Philox::ctr_type counter{
+        {pair, static_cast<std::uint32_t>(cycle), static_cast<std::uint32_t>(cycle >> 32), draw}};
     const Philox::key_type k{{static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)}};
     const auto r = Philox{}(counter, k);
     return {std::uint64_t{r[0]} << 32 | r[1], std::uint64_t{r[2]} << 32 | r[3]};

@@ -7,10 +7,10 @@
 
 namespace forage {
 
-/// A counter-based random stream (Philox4x32-10; Salmon et al., "Parallel random numbers: as easy as 1, 2, 3",
-/// SC 2011). A number is a function of (seed, item, stream, cycle, index, draw): it does not depend on what was
-/// drawn before, on the number of threads, or on other items of the system. `draw` tells apart several numbers
-/// for one index in one cycle.
+/// A counter-based random stream (Philox4x32-10; Salmon et al., "Parallel random numbers: as easy as 1, 2,
+/// 3", SC 2011). A number is a function of (seed, item, stream, cycle, index, draw): it does not depend on
+/// what was drawn before, on the number of threads, or on other items of the system. `draw` tells apart
+/// several numbers for one index in one cycle.
 class RandomStream {
   public:
     RandomStream() = default;

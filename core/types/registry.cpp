@@ -1,10 +1,10 @@
 #include "core/types/registry.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 namespace forage {
 namespace {
@@ -21,7 +21,8 @@ void require_distinct(const Items& items, const Type& type, std::string_view kin
     for (std::size_t i = 0; i < items.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (items[i].name == items[j].name)
-                throw std::invalid_argument(fmt::format("{} type '{}' declares the {} '{}' twice", kind, type.name, what, items[i].name));
+                throw std::invalid_argument(fmt::format("{} type '{}' declares the {} '{}' twice", kind,
+                                                        type.name, what, items[i].name));
 }
 
 template <class Map>
@@ -35,10 +36,11 @@ void insert(Map& map, typename Map::mapped_type type, std::string_view kind) {
 
 template <class Type>
 void require_one_output(const Type& type, std::string_view kind) {
-    const auto outputs = std::count_if(type.states.begin(), type.states.end(), [](const auto& s) { return s.output; });
+    const auto outputs =
+        std::count_if(type.states.begin(), type.states.end(), [](const auto& s) { return s.output; });
     if (outputs != 1)
-        throw std::invalid_argument(
-            fmt::format("{} type '{}' declares {} output states, it must have exactly one", kind, type.name, outputs));
+        throw std::invalid_argument(fmt::format(
+            "{} type '{}' declares {} output states, it must have exactly one", kind, type.name, outputs));
 }
 
 }  // namespace
@@ -57,7 +59,8 @@ void Registry::add(SynapseType type) {
 void Registry::add(ModuleType type) {
     for (const bool outputs : {false, true}) {  // an input and an output may share a name
         std::vector<ModulePort> ports;
-        std::copy_if(type.ports.begin(), type.ports.end(), std::back_inserter(ports), [&](const auto& p) { return p.is_output == outputs; });
+        std::copy_if(type.ports.begin(), type.ports.end(), std::back_inserter(ports),
+                     [&](const auto& p) { return p.is_output == outputs; });
         require_distinct(ports, type, "module", outputs ? "output" : "input");
     }
     insert(modules_, std::move(type), "module");

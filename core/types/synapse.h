@@ -4,8 +4,9 @@
 //     static void describe(SynapseSpec<T>&);
 //     void update(SynapseColumns&) const;     // one cycle, for all synapses of a connection
 //
-// A type that only multiplies its input by a constant declares that constant with `gain` and needs no update().
-// The engine then attenuates and delays what the type puts out; synapses/fixed_weight.h is the example to copy.
+// A type that only multiplies its input by a constant declares that constant with `gain` and needs no
+// update(). The engine then attenuates and delays what the type puts out; synapses/fixed_weight.h is the
+// example to copy.
 #pragma once
 
 #include <functional>
@@ -28,7 +29,7 @@ struct SynapseStateInfo {
 
 /// A state of the target's neuron that the synapse reads, `delay` cycles old.
 struct FeedbackInfo {
-    std::string name;   ///< as in <XRefHolder name="Freedback"><XRef name="..">
+    std::string name;  ///< as in <XRefHolder name="Freedback"><XRef name="..">
     std::string label;
     bool required = true;
 };
@@ -36,10 +37,11 @@ struct FeedbackInfo {
 /// What a synapse type's update sees: one entry per synapse, in the connection's synapse order.
 class SynapseColumns {
   public:
-    SynapseColumns(ConstColumn pre, const std::vector<Column>& states, const std::vector<ConstColumn>& feedback)
+    SynapseColumns(ConstColumn pre, const std::vector<Column>& states,
+                   const std::vector<ConstColumn>& feedback)
         : pre_(pre), states_(states), feedback_(feedback) {}
-    const ConstColumn& pre() const { return pre_; }             ///< source cell's activity of this cycle
-    Column state(std::size_t i) const { return states_[i]; }    ///< own states, in order of declaration
+    const ConstColumn& pre() const { return pre_; }           ///< source cell's activity of this cycle
+    Column state(std::size_t i) const { return states_[i]; }  ///< own states, in order of declaration
     const ConstColumn& feedback(std::size_t i) const { return feedback_[i]; }
 
   private:
@@ -108,8 +110,10 @@ class SynapseModel final : public SynapseInstance {
         if constexpr (requires { value_.update(columns); }) value_.update(columns);
     }
     double gain() const override {
-        if constexpr (requires { value_.gain(); }) return value_.gain();
-        else return 1;
+        if constexpr (requires { value_.gain(); })
+            return value_.gain();
+        else
+            return 1;
     }
 
   private:

@@ -17,7 +17,8 @@ class Checker {
   public:
     Checker(const Document& document, Diagnostics& out) : document_(document), out_(out) {}
 
-    /// Whether a model of the document is wrong only where that was reported: nothing is missing from it, and no cell.
+    /// Whether a model of the document is wrong only where that was reported: nothing is missing from it, and
+    /// no cell.
     bool sound() const { return sound_; }
 
     void element(const tinyxml2::XMLElement& e, const ElementRule& rule) {
@@ -119,7 +120,8 @@ class Checker {
             if (const AttributeRule* r = rule.attribute(a->Name())) {
                 const int before = out_.errors();
                 value(*a, *r);
-                // A wrong size would make groups look wrong where they are used, a wrong holder its references unset.
+                // A wrong size would make groups look wrong where they are used, a wrong holder its
+                // references unset.
                 if (out_.errors() > before &&
                     (rule.name == "TopologyRect" || rule.name == "Point" || rule.name == "XRefHolder"))
                     sound_ = false;

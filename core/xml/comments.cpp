@@ -1,8 +1,8 @@
 #include "core/xml/comments.h"
 
-#include <tinyxml2.h>
-
 #include <string_view>
+
+#include <tinyxml2.h>
 
 namespace forage::xml {
 namespace {

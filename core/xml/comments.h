@@ -12,8 +12,8 @@ class XMLNode;
 
 namespace forage::xml {
 
-/// A comment belongs to the process, group or connection that it stands before; elsewhere, to the one that it stands
-/// in, or to the file's root.
+/// A comment belongs to the process, group or connection that it stands before; elsewhere, to the one that it
+/// stands in, or to the file's root.
 class Comments {
   public:
     explicit Comments(const tinyxml2::XMLElement& root);

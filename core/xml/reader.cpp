@@ -305,8 +305,12 @@ class Linker {
         const auto file = (directory_ / place.path).string();
         std::error_code ignored;
         if (!std::filesystem::is_regular_file(file, ignored)) {
-            out_.error(place.path_at, fmt::format("process '{}' is linked to '{}', which cannot be read", place.name, place.path),
-                       fmt::format("the path is relative to the system file: '{}'; empty it to use what this file says", file));
+            out_.error(
+                place.path_at,
+                fmt::format("process '{}' is linked to '{}', which cannot be read", place.name, place.path),
+                fmt::format(
+                    "the path is relative to the system file: '{}'; empty it to use what this file says",
+                    file));
             return;
         }
         auto content = read_process(file, out_);
@@ -333,7 +337,8 @@ class Linker {
     Diagnostics& out_;
 };
 
-std::optional<model::System> build(const std::string& path, const std::optional<Document>& document, Diagnostics& diagnostics) {
+std::optional<model::System> build(const std::string& path, const std::optional<Document>& document,
+                                   Diagnostics& diagnostics) {
     if (!document || !check(*document, "System", diagnostics)) return std::nullopt;
     const int errors_before = diagnostics.errors();
     auto system = Reader(*document, diagnostics).system(document->root());

@@ -8,9 +8,10 @@
 
 namespace forage::xml {
 
-/// Reads a system file, and the files of its linked processes, and reports every problem of its form. Where that left no doubt what the rest of the file says,
-/// the system is returned in spite of errors, so that model::validate() can report what else is wrong: only a system
-/// without errors in `diagnostics` is fit to run.
+/// Reads a system file, and the files of its linked processes, and reports every problem of its form. Where
+/// that left no doubt what the rest of the file says, the system is returned in spite of errors, so that
+/// model::validate() can report what else is wrong: only a system without errors in `diagnostics` is fit to
+/// run.
 std::optional<model::System> read_system(const std::string& path, Diagnostics& diagnostics);
 
 /// The same for a text that a person knows as `path`. Links are relative to the directory of `path`.

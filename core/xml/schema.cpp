@@ -51,9 +51,12 @@ class Schema {
         open("define"), attribute("name", rule.name);
         open("element"), attribute("name", rule.name);
         documentation(rule.doc);
-        if (rule.name == "Neuron") of_types(registry_.neurons());
-        else if (rule.name == "Synapse") of_types(registry_.synapses());
-        else if (rule.name == "Module") of_types(registry_.modules());
+        if (rule.name == "Neuron")
+            of_types(registry_.neurons());
+        else if (rule.name == "Synapse")
+            of_types(registry_.synapses());
+        else if (rule.name == "Module")
+            of_types(registry_.modules());
         else {
             for (const auto& a : rule.attributes) attribute_of(a);
             content(rule);
@@ -66,9 +69,15 @@ class Schema {
         open("attribute"), attribute("name", rule.name);
         documentation(rule.doc);
         switch (rule.kind) {
-            case ValueKind::text: open("text"), close(); break;
-            case ValueKind::boolean: choice_of({"true", "false"}); break;
-            case ValueKind::choice: choice_of(rule.choices); break;
+            case ValueKind::text:
+                open("text"), close();
+                break;
+            case ValueKind::boolean:
+                choice_of({"true", "false"});
+                break;
+            case ValueKind::choice:
+                choice_of(rule.choices);
+                break;
             case ValueKind::whole:
             case ValueKind::number:
                 open("data"), attribute("type", rule.kind == ValueKind::whole ? "integer" : "double");
@@ -81,22 +90,27 @@ class Schema {
     }
 
     void content(const ElementRule& rule) {
-        if (rule.has_text) open("text"), close();
-        else if (rule.children.empty()) open("empty"), close();
+        if (rule.has_text)
+            open("text"), close();
+        else if (rule.children.empty())
+            open("empty"), close();
         else if (rule.choose > 0)
             for (int i = 0; i < rule.choose; ++i) {
                 open("choice");
                 for (const auto& c : rule.children) reference(c.name);
                 close();
             }
-        else interleaved(rule.children);
+        else
+            interleaved(rule.children);
     }
 
     /// The children in any order, each as often as its rule says.
     void interleaved(const std::vector<ChildRule>& children) {
         open("interleave");
         for (const auto& c : children) {
-            const char* often = c.most > 1 ? (c.least ? "oneOrMore" : "zeroOrMore") : c.least ? nullptr : "optional";
+            const char* often = c.most > 1 ? (c.least ? "oneOrMore" : "zeroOrMore")
+                                : c.least  ? nullptr
+                                           : "optional";
             if (often) open(often);
             reference(c.name);
             if (often) close();
@@ -136,10 +150,17 @@ class Schema {
             close();
             open("attribute"), attribute("name", "value");
             switch (p.kind) {
-                case ParameterKind::boolean: choice_of({"true", "false"}); break;
-                case ParameterKind::real: data("double"); break;
-                case ParameterKind::integer: data("integer"); break;
-                case ParameterKind::text: open("text"), close();
+                case ParameterKind::boolean:
+                    choice_of({"true", "false"});
+                    break;
+                case ParameterKind::real:
+                    data("double");
+                    break;
+                case ParameterKind::integer:
+                    data("integer");
+                    break;
+                case ParameterKind::text:
+                    open("text"), close();
             }
             close();
             close();
@@ -153,7 +174,8 @@ class Schema {
     void holder(const char* name, const std::vector<Place>& places, bool any) {
         open("element"), attribute("name", "XRefHolder");
         open("attribute"), attribute("name", "name"), value(name), close();
-        if (any) open("zeroOrMore"), reference("XRef"), close();
+        if (any)
+            open("zeroOrMore"), reference("XRef"), close();
         else if (!places.empty()) {
             open("zeroOrMore"), open("element"), attribute("name", "XRef");
             open("attribute"), attribute("name", "name"), open("choice");
@@ -164,7 +186,8 @@ class Schema {
             close(), close();
             open("attribute"), attribute("name", "target"), open("text"), close(), close();
             close(), close();
-        } else open("empty"), close();
+        } else
+            open("empty"), close();
         close();
     }
     void holders(const NeuronType&) {}

@@ -7,8 +7,9 @@
 
 namespace forage::xml {
 
-/// A RELAX NG grammar of .iqr and .iqrProcess files, made from the format table and the types of `registry`: elements,
-/// attributes and their ranges, and for each type its parameters and cross references, with their documentation.
+/// A RELAX NG grammar of .iqr and .iqrProcess files, made from the format table and the types of `registry`:
+/// elements, attributes and their ranges, and for each type its parameters and cross references, with their
+/// documentation.
 std::string relax_ng(const Registry& registry);
 
 }  // namespace forage::xml

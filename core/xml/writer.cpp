@@ -1,8 +1,8 @@
 #include "core/xml/writer.h"
 
-#include <tinyxml2.h>
-
 #include <array>
+
+#include <tinyxml2.h>
 
 #include "core/types/parameter.h"
 
@@ -65,7 +65,8 @@ class Writer {
     }
     void icon(const std::optional<model::Icon>& i) {
         if (i)
-            leaf("DiagramIcon", std::pair("x", i->x), std::pair("y", i->y), std::pair("width", i->width), std::pair("height", i->height));
+            leaf("DiagramIcon", std::pair("x", i->x), std::pair("y", i->y), std::pair("width", i->width),
+                 std::pair("height", i->height));
     }
 
     void process(const model::Process& p, bool link_only) {
@@ -88,7 +89,8 @@ class Writer {
 
     void settings(const model::TypeUse& use) {
         attribute("name", use.type);
-        for (const auto& s : use.settings) leaf("Parameter", std::pair("name", s.name), std::pair("value", s.value));
+        for (const auto& s : use.settings)
+            leaf("Parameter", std::pair("name", s.name), std::pair("value", s.value));
     }
     void references(const char* holder, const std::vector<model::CrossReference>& all) {
         if (all.empty()) return;
@@ -116,7 +118,8 @@ class Writer {
         if (const auto* rect = std::get_if<model::RectTopology>(&g.topology))
             leaf("TopologyRect", std::pair("hcount", rect->width), std::pair("vcount", rect->height),
                  std::pair("cylinderHor", rect->wrap_y), std::pair("cylinderVert", rect->wrap_x));
-        else points("TopologySparse", std::get<model::SparseTopology>(g.topology).points);
+        else
+            points("TopologySparse", std::get<model::SparseTopology>(g.topology).points);
         close();
         open("Neuron");
         settings(g.neuron);
@@ -136,9 +139,12 @@ class Writer {
 
     void population(const model::Population& p) {
         if (const auto* r = std::get_if<model::Region>(&p))
-            leaf("Region", std::pair("xstart", r->x), std::pair("ystart", r->y), std::pair("width", r->width), std::pair("height", r->height));
-        else if (const auto* l = std::get_if<model::List>(&p)) points("List", l->points);
-        else leaf("All");
+            leaf("Region", std::pair("xstart", r->x), std::pair("ystart", r->y), std::pair("width", r->width),
+                 std::pair("height", r->height));
+        else if (const auto* l = std::get_if<model::List>(&p))
+            points("List", l->points);
+        else
+            leaf("All");
     }
 
     void pattern(const model::Pattern& pattern) {
@@ -162,8 +168,12 @@ class Writer {
         close();
     }
 
-    void shape(const model::RectArbor& a) { open("ArbRect"), attribute("width", a.width), attribute("height", a.height); }
-    void shape(const model::EllipseArbor& a) { open("ArbEllipse"), attribute("width", a.width), attribute("height", a.height); }
+    void shape(const model::RectArbor& a) {
+        open("ArbRect"), attribute("width", a.width), attribute("height", a.height);
+    }
+    void shape(const model::EllipseArbor& a) {
+        open("ArbEllipse"), attribute("width", a.width), attribute("height", a.height);
+    }
     void shape(const model::RectWindowArbor& a) { open("ArbRectWindow"), window(a); }
     void shape(const model::EllipseWindowArbor& a) { open("ArbEllipseWindow"), window(a); }
     void shape(const model::AllArbor&) { open("ArbAll"); }
@@ -175,7 +185,9 @@ class Writer {
     }
 
     void form(const model::UniformFunction& f) { leaf("FunUniform", std::pair("value", f.value)); }
-    void form(const model::LinearFunction& f) { leaf("FunLinear", std::pair("min", f.min), std::pair("max", f.max)); }
+    void form(const model::LinearFunction& f) {
+        leaf("FunLinear", std::pair("min", f.min), std::pair("max", f.max));
+    }
     void form(const model::GaussianFunction& f) {
         leaf("FunGaussian", std::pair("min", f.min), std::pair("max", f.max), std::pair("sigma", f.sigma));
     }
@@ -237,7 +249,8 @@ constexpr const char* declaration = "<?xml version=\"1.0\" encoding=\"UTF-8\" st
 std::string write_system(const model::System& system) {
     Writer writer;
     writer.system(system);
-    return std::string(declaration) + "<!DOCTYPE System PUBLIC '-//INI/iqr421' 'iqrSystem.dtd'>\n" + writer.text();
+    return std::string(declaration) + "<!DOCTYPE System PUBLIC '-//INI/iqr421' 'iqrSystem.dtd'>\n" +
+           writer.text();
 }
 
 std::string write_process(const model::ProcessFile& file) {

@@ -7,8 +7,8 @@
 
 namespace forage::xml {
 
-/// The text of a system file. Reading it gives an equal system; writing that gives the same text. Of a linked process
-/// only the link is written: its content lives in its own file.
+/// The text of a system file. Reading it gives an equal system; writing that gives the same text. Of a linked
+/// process only the link is written: its content lives in its own file.
 std::string write_system(const model::System& system);
 
 /// The text of a process file: a process and the connections among its groups.

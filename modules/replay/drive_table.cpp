@@ -1,11 +1,11 @@
 #include "modules/replay/drive_table.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 namespace forage::replay {
 namespace {
@@ -31,7 +31,8 @@ N number(std::string_view text, const std::string& name, int line) {
     N value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size())
-        throw std::runtime_error(fmt::format("{}:{}: '{}' is not a {}", name, line, text, std::is_integral_v<N> ? "whole number" : "number"));
+        throw std::runtime_error(fmt::format("{}:{}: '{}' is not a {}", name, line, text,
+                                             std::is_integral_v<N> ? "whole number" : "number"));
     return value;
 }
 
@@ -47,14 +48,25 @@ DriveTable DriveTable::parse(std::istream& in, const std::string& name) {
         if (content.empty() || content.starts_with('#') || content.starts_with("cycle")) continue;
         const auto fields = fields_of(content);
         if (fields.size() < 4 || fields[1].empty() || fields[2].empty())
-            throw std::runtime_error(fmt::format("{}:{}: a row is cycle,process,target,v0,v1,...", name, line));
-        Row row{number<std::int64_t>(fields[0], name, line), std::string(fields[1]), std::string(fields[2]), {}, line};
-        if (row.cycle < -1) throw std::runtime_error(fmt::format("{}:{}: there is no cycle {}; -1 means from the start", name, line, row.cycle));
-        for (std::size_t i = 3; i < fields.size(); ++i) row.values.push_back(number<double>(fields[i], name, line));
+            throw std::runtime_error(
+                fmt::format("{}:{}: a row is cycle,process,target,v0,v1,...", name, line));
+        Row row{number<std::int64_t>(fields[0], name, line),
+                std::string(fields[1]),
+                std::string(fields[2]),
+                {},
+                line};
+        if (row.cycle < -1)
+            throw std::runtime_error(
+                fmt::format("{}:{}: there is no cycle {}; -1 means from the start", name, line, row.cycle));
+        for (std::size_t i = 3; i < fields.size(); ++i)
+            row.values.push_back(number<double>(fields[i], name, line));
         table.rows_.push_back(std::move(row));
     }
-    if (table.rows_.empty()) throw std::runtime_error(fmt::format("'{}' holds no rows: a row is cycle,process,target,v0,v1,...", name));
-    std::stable_sort(table.rows_.begin(), table.rows_.end(), [](const Row& a, const Row& b) { return a.cycle < b.cycle; });
+    if (table.rows_.empty())
+        throw std::runtime_error(
+            fmt::format("'{}' holds no rows: a row is cycle,process,target,v0,v1,...", name));
+    std::stable_sort(table.rows_.begin(), table.rows_.end(),
+                     [](const Row& a, const Row& b) { return a.cycle < b.cycle; });
     return table;
 }
 

@@ -9,9 +9,9 @@
 
 namespace forage::replay {
 
-/// Rows `cycle,process,target,v0,v1,...`, one value per cell. `process` is a name, or `*` for any; `target` is a cross
-/// reference's name or a group's. A row of cycle -1 counts from the start. Blanks around fields do not matter; empty
-/// lines, lines that begin with '#' and a header that begins with `cycle` are skipped.
+/// Rows `cycle,process,target,v0,v1,...`, one value per cell. `process` is a name, or `*` for any; `target`
+/// is a cross reference's name or a group's. A row of cycle -1 counts from the start. Blanks around fields do
+/// not matter; empty lines, lines that begin with '#' and a header that begins with `cycle` are skipped.
 class DriveTable {
   public:
     struct Row {
@@ -22,8 +22,8 @@ class DriveTable {
     };
 
     DriveTable() = default;
-    /// Rows in order of cycle; rows of one cycle stay in file order. Throws std::runtime_error that names `name`, the
-    /// line and what is wrong with it.
+    /// Rows in order of cycle; rows of one cycle stay in file order. Throws std::runtime_error that names
+    /// `name`, the line and what is wrong with it.
     static DriveTable parse(std::istream& in, const std::string& name);
     static DriveTable read(const std::string& path);
 

@@ -1,8 +1,8 @@
 #include "modules/replay/replay.h"
 
-#include <fmt/format.h>
-
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 namespace forage::replay {
 namespace {
@@ -10,22 +10,27 @@ namespace {
 void require_sizes(const DriveTable& table, const ModulePorts& ports) {
     for (const auto& row : table.rows())
         for (const auto& output : ports.outputs)
-            if (plays(row, ports.process, output) && row.values.size() != static_cast<std::size_t>(output.shape.cells))
-                throw std::runtime_error(fmt::format("{}:{}: {} values for '{}', which has {} cells", table.name(), row.line,
-                                                     row.values.size(), output.path, output.shape.cells));
+            if (plays(row, ports.process, output) &&
+                row.values.size() != static_cast<std::size_t>(output.shape.cells))
+                throw std::runtime_error(fmt::format("{}:{}: {} values for '{}', which has {} cells",
+                                                     table.name(), row.line, row.values.size(), output.path,
+                                                     output.shape.cells));
 }
 
 }  // namespace
 
 bool plays(const DriveTable::Row& row, std::string_view process, const ModulePorts::Group& output) {
     const auto group = std::string_view(output.path).substr(output.path.find('/') + 1);
-    return (row.process == "*" || row.process == process) && (row.target == output.port || row.target == group);
+    return (row.process == "*" || row.process == process) &&
+           (row.target == output.port || row.target == group);
 }
 
 void Replay::check(const ModulePorts& ports, Problems& problems) {
     try {
-        if (!file.empty()) require_sizes(DriveTable::read(file), ports);
-        else if (table) require_sizes(*table, ports);
+        if (!file.empty())
+            require_sizes(DriveTable::read(file), ports);
+        else if (table)
+            require_sizes(*table, ports);
     } catch (const std::exception& e) {
         problems.all.push_back({e.what(), {}, "file", {}});
     }
@@ -48,7 +53,8 @@ void Replay::play(std::int64_t until, ModuleFrame& frame) {
     for (std::size_t i = 0; i < cursors_.size(); ++i) {
         auto& [rows, next] = cursors_[i];
         for (; next < rows.size() && rows[next]->cycle <= until; ++next)
-            frame.output(i) = ConstColumn(rows[next]->values.data(), static_cast<Index>(rows[next]->values.size()));
+            frame.output(i) =
+                ConstColumn(rows[next]->values.data(), static_cast<Index>(rows[next]->values.size()));
     }
 }
 

@@ -11,16 +11,19 @@ namespace forage::replay {
 /// Whether a row is played into an output of the module of process `process`.
 bool plays(const DriveTable::Row& row, std::string_view process, const ModulePorts::Group& output);
 
-/// Takes any cross references. In cycle t it writes the row of cycle t into the output that the row names (by cross
-/// reference or group), so the group receives it in cycle t + 1; a row of cycle -1 is received in cycle 0.
-/// Outputs hold their last row.
+/// Takes any cross references. In cycle t it writes the row of cycle t into the output that the row names (by
+/// cross reference or group), so the group receives it in cycle t + 1; a row of cycle -1 is received in cycle
+/// 0. Outputs hold their last row.
 struct Replay {
     std::string file;
     std::shared_ptr<const DriveTable> table;  ///< what is played when `file` is empty
 
     static void describe(ModuleSpec<Replay>& s) {
         s.name("moduleReplay", "Replay").doc("Plays the rows of a table into its output groups.").any_ports();
-        s.param("file", &Replay::file).label("File").path().doc("Table of rows cycle,process,target,v0,v1,...");
+        s.param("file", &Replay::file)
+            .label("File")
+            .path()
+            .doc("Table of rows cycle,process,target,v0,v1,...");
     }
     void check(const ModulePorts& ports, Problems& problems);
     void start(const ModulePorts& ports, ModuleFrame& frame);

@@ -2,15 +2,15 @@
 //
 //     bench_closed_loop [SYSTEM.iqr WORLD.world]
 //
-// Without arguments: the reactive system in the basic arena, where it drives and sees but touches nothing, and in the
-// open one, where it ends up at a wall. Last result: see README.md.
-#include <fmt/format.h>
-
+// Without arguments: the reactive system in the basic arena, where it drives and sees but touches nothing,
+// and in the open one, where it ends up at a wall. Last result: see README.md.
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "bug_interface/module/gazebo_bug.h"
 #include "bug_interface/simulation/world.h"
@@ -26,7 +26,8 @@ namespace {
 using namespace forage;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::array<const char*, 6> parts = {"groups", "modules", "connections", "physics", "rays", "camera"};
+constexpr std::array<const char*, 6> parts = {"groups",  "modules", "connections",
+                                              "physics", "rays",    "camera"};
 constexpr int blocks = 20, cycles_per_block = 2000;
 
 double median(std::vector<double> v) {
@@ -89,9 +90,13 @@ bool measure(const std::string& system_file, const std::string& world_file) {
     }
     const double cycle = median(whole);
     fmt::print("{} in {}\n", system_file, world_file);
-    fmt::print("  {:.0f} cycles/s, {:.0f} x real time ({:g} ms of the world per cycle), {:.1f} us per cycle; median of {} blocks of {} cycles\n",
-               1 / cycle, world->seconds_per_cycle() / cycle, 1000 * world->seconds_per_cycle(), 1e6 * cycle, blocks, cycles_per_block);
-    for (std::size_t p = 0; p < parts.size(); ++p) fmt::print("  {:<12} {:6.2f} us\n", parts[p], 1e6 * median(by_part[p]));
+    fmt::print(
+        "  {:.0f} cycles/s, {:.0f} x real time ({:g} ms of the world per cycle), {:.1f} us per cycle; median "
+        "of {} blocks of {} cycles\n",
+        1 / cycle, world->seconds_per_cycle() / cycle, 1000 * world->seconds_per_cycle(), 1e6 * cycle, blocks,
+        cycles_per_block);
+    for (std::size_t p = 0; p < parts.size(); ++p)
+        fmt::print("  {:<12} {:6.2f} us\n", parts[p], 1e6 * median(by_part[p]));
     return true;
 }
 

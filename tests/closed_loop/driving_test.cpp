@@ -20,7 +20,8 @@ TEST_CASE("Without connections to the motors the robot stands still") {
 }
 
 TEST_CASE("With Explore connected to the motors alone the robot drives straight, past the light") {
-    const auto only_explore = keep_connections({"c.const_speed-explore", "c.explore-motor_in", "c.motor_in-motor"});
+    const auto only_explore =
+        keep_connections({"c.const_speed-explore", "c.explore-motor_in", "c.motor_in-motor"});
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         ClosedLoop loop({.seed = seed, .edit_system = only_explore, .edit_world = start_at(-1.5, -2, up)});
         loop.run_trials(1);
@@ -48,7 +49,8 @@ TEST_CASE("The robot turns towards the light: right when it is on the right, lef
         ClosedLoop loop({.seed = seed, .edit_world = start_at(side, 1.0, up)});
         loop.run_trials(1);
         const auto& end = loop.world->trials(0).front().end;
-        turned += side < 0 ? end.yaw < up - 0.3 && end.x > side + 0.5 : end.yaw > up + 0.3 && end.x < side - 0.5;
+        turned +=
+            side < 0 ? end.yaw < up - 0.3 && end.x > side + 0.5 : end.yaw > up + 0.3 && end.x < side - 0.5;
     }
     INFO("turned in " << turned << " of " << runs);
     CHECK(turned >= 19);

@@ -23,8 +23,8 @@ std::optional<std::pair<int, int>> lit_rows(const ConstColumn& cells, int width)
     return out;
 }
 
-/// The row in which a point of the floor on the robot's axis lies, `ahead` metres from its middle: the inverse of the
-/// camera's projection (0.2 m ahead, 0.35 m high, looking 1.1 rad down).
+/// The row in which a point of the floor on the robot's axis lies, `ahead` metres from its middle: the
+/// inverse of the camera's projection (0.2 m ahead, 0.35 m high, looking 1.1 rad down).
 double row_of(double ahead) {
     constexpr double height = 0.35, forward = 0.2, pitch = 1.1, hfov = 0.8047, rows = 28, columns = 32;
     const double below = std::atan2(height, ahead - forward);  // angle under the horizon
@@ -44,7 +44,8 @@ TEST_CASE("A patch ahead comes in at the top row and moves down as geometry says
         loop.step();
         y.push_back(loop.pose().y);
         if (y.size() < 3) continue;
-        // What the camera saw at the end of cycle t, the module reads in t + 1 and the group receives in t + 2.
+        // What the camera saw at the end of cycle t, the module reads in t + 1 and the group receives in t
+        // + 2.
         const double robot = y[y.size() - 3];
         const double top = row_of(far_edge - robot), bottom = row_of(near_edge - robot);
         const auto rows = lit_rows(loop.activity("Bug/Blue - Value"), 32);

@@ -63,7 +63,10 @@ TEST_CASE("The same seed gives the same run, another seed another one") {
 }
 
 TEST_CASE("The n-th start of a seed is the same whatever the robot does") {
-    ClosedLoop sees({.seed = 4}), blind({.seed = 4, .edit_system = keep_connections({"c.const_speed-explore", "c.explore-motor_in", "c.motor_in-motor"})});
+    ClosedLoop sees({.seed = 4}),
+        blind({.seed = 4,
+               .edit_system =
+                   keep_connections({"c.const_speed-explore", "c.explore-motor_in", "c.motor_in-motor"})});
     sees.run_trials(20);
     blind.run_trials(20);
     bool differs = false;

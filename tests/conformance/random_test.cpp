@@ -23,8 +23,9 @@ struct Activity {
 
 TEST_CASE("Cells that fire at random do so as often, and as strongly, as recorded") {
     if (absent(conformance_dir())) return;
-    const std::string name = GENERATE("neuron_random_spike_prob0.3_RANDOM", "neuron_linear_threshold_prob0.5_RANDOM",
-                                      "neuron_integrate_fire_prob0.5_RANDOM");
+    const std::string name =
+        GENERATE("neuron_random_spike_prob0.3_RANDOM", "neuron_linear_threshold_prob0.5_RANDOM",
+                 "neuron_integrate_fire_prob0.5_RANDOM");
     const auto path = conformance_dir() / name;
     Registry registry;
     add_neurons(registry);
@@ -53,11 +54,13 @@ TEST_CASE("Cells that fire at random do so as often, and as strongly, as recorde
     REQUIRE(!by_group.empty());
     for (const auto& [group, activity] : by_group) {
         const auto& [ours, recorded] = activity;
-        INFO(name << " " << group << ": active " << ours.rate() << ", recorded " << recorded.rate() << " of " << ours.cells);
+        INFO(name << " " << group << ": active " << ours.rate() << ", recorded " << recorded.rate() << " of "
+                  << ours.cells);
         // Two samples of a proportion: four standard errors of their difference.
         const double p = recorded.rate();
         const double error = 4 * std::sqrt(2 * std::max(p * (1 - p), 1e-9) / static_cast<double>(ours.cells));
         CHECK(std::abs(ours.rate() - recorded.rate()) <= error);
-        CHECK(std::abs(ours.mean() - recorded.mean()) <= 4 * std::sqrt(2.0 / static_cast<double>(ours.cells)));
+        CHECK(std::abs(ours.mean() - recorded.mean()) <=
+              4 * std::sqrt(2.0 / static_cast<double>(ours.cells)));
     }
 }

@@ -1,4 +1,6 @@
 // The recorded states of synapses: of those that learn or read their target, and what all of them pass.
+#include "synapses/synapses.h"
+
 #include <array>
 
 #include "core/connectivity/connect.h"
@@ -7,7 +9,6 @@
 #include "core/xml/reader.h"
 #include "modules/replay/replay.h"
 #include "neurons/neurons.h"
-#include "synapses/synapses.h"
 #include "tests/support/catch.h"
 #include "tests/support/recorded_run.h"
 
@@ -28,7 +29,8 @@ class Potentials {
         for (const auto& c : system.connections) {
             Diagnostics diagnostics;
             auto& one = all_[c.id];
-            one.synapses = connectivity::connect(c, groups_.find(c.source).group->topology, groups_.find(c.target).group->topology, 1, diagnostics);
+            one.synapses = connectivity::connect(c, groups_.find(c.source).group->topology,
+                                                 groups_.find(c.target).group->topology, 1, diagnostics);
             one.source = c.source;
             const SynapseType& type = *registry.synapse(c.synapse->type);
             const auto synapse = type.make();
@@ -36,8 +38,8 @@ class Potentials {
             one.gain = synapse->gain();
         }
     }
-    /// For a type that only multiplies and so keeps no state: psp = (gain * pre) * (reference - attenuation) from the
-    /// source's activity of this cycle.
+    /// For a type that only multiplies and so keeps no state: psp = (gain * pre) * (reference - attenuation)
+    /// from the source's activity of this cycle.
     Eigen::ArrayXd of(const engine::Simulation& s, const std::string& id) const {
         const auto& one = all_.at(id);
         int source = 0;
@@ -45,7 +47,8 @@ class Potentials {
         const ConstColumn pre = s.state(source, s.type(source).output());
         Eigen::ArrayXd out(static_cast<Index>(one.synapses.size()));
         for (std::size_t i = 0; i < one.synapses.size(); ++i)
-            out[static_cast<Index>(i)] = (one.gain * pre[one.synapses.pre[i]]) * (one.synapses.reference - one.synapses.attenuation[i]);
+            out[static_cast<Index>(i)] = (one.gain * pre[one.synapses.pre[i]]) *
+                                         (one.synapses.reference - one.synapses.attenuation[i]);
         return out;
     }
 
@@ -98,7 +101,8 @@ TEST_CASE("Weights and potentials of synapses are those recorded") {
 
         Rows rows(file);
         for (std::vector<std::string_view> f; rows.next(f);) {
-            ExpectedRow row{number<std::uint64_t>(f[0]), std::string(f[1]), std::string(f[2]), std::string(f[3]), {}};
+            ExpectedRow row{
+                number<std::uint64_t>(f[0]), std::string(f[1]), std::string(f[2]), std::string(f[3]), {}};
             for (std::size_t i = 5; i < f.size(); ++i) row.values.push_back(number(f[i]));
             while (simulation->cycle() <= row.cycle) simulation->step();
             const int index = connection(*simulation, row.process);
@@ -110,8 +114,10 @@ TEST_CASE("Weights and potentials of synapses are those recorded") {
             const int state = state_index(type, row.state);
             const bool has_states = simulation->connection_form(index) == "plastic";
             Eigen::ArrayXd ours;
-            if (has_states) ours = simulation->synapse_state(index, state);
-            else ours = potentials.of(*simulation, row.process);
+            if (has_states)
+                ours = simulation->synapse_state(index, state);
+            else
+                ours = potentials.of(*simulation, row.process);
             const std::string problem = difference(ConstColumn(ours.data(), ours.size()), row);
             INFO(problem);
             REQUIRE(problem.empty());

@@ -32,10 +32,13 @@ Registry registry_for(const Case& c) {
 class Clamp {
   public:
     explicit Clamp(const Case& c) {
-        if (std::filesystem::exists(c.path / "clamp.csv")) table_ = replay::DriveTable::read(c.path / "clamp.csv");
+        if (std::filesystem::exists(c.path / "clamp.csv"))
+            table_ = replay::DriveTable::read(c.path / "clamp.csv");
     }
     void apply(engine::Simulation& s) {
-        for (; next_ < table_.rows().size() && table_.rows()[next_].cycle <= static_cast<std::int64_t>(s.cycle()); ++next_) {
+        for (; next_ < table_.rows().size() &&
+               table_.rows()[next_].cycle <= static_cast<std::int64_t>(s.cycle());
+             ++next_) {
             const auto& row = table_.rows()[next_];
             for (int g = 0; g < s.groups(); ++g)
                 if (s.path(g) == row.process + "/" + row.target) held_[g] = &row;
@@ -55,7 +58,9 @@ std::string run(const Case& c, bool general_forms) {
     Diagnostics diagnostics;
     const auto system = xml::read_system(c.path / "input.iqr", diagnostics);
     const Registry registry = registry_for(c);
-    auto simulation = system ? engine::Simulation::build(*system, registry, {.general_forms = general_forms}, diagnostics) : std::nullopt;
+    auto simulation =
+        system ? engine::Simulation::build(*system, registry, {.general_forms = general_forms}, diagnostics)
+               : std::nullopt;
     if (c.status != "ok") return simulation || !diagnostics.failed() ? "not refused" : "";
     if (!simulation) return format(diagnostics);
     if (c.name.ends_with("_RANDOM")) return {};  // its statistics: random_test.cpp
@@ -69,8 +74,11 @@ std::string run(const Case& c, bool general_forms) {
             simulation->update_modules();
             simulation->update_connections();
         }
-        const bool of_disabled_module = row.group.starts_with("@module:") && find_column(*simulation, row).size() == 0;
-        if (of_disabled_module && std::all_of(row.values.begin(), row.values.end(), [](double v) { return v == 0; })) continue;
+        const bool of_disabled_module =
+            row.group.starts_with("@module:") && find_column(*simulation, row).size() == 0;
+        if (of_disabled_module &&
+            std::all_of(row.values.begin(), row.values.end(), [](double v) { return v == 0; }))
+            continue;
         const auto problem = difference(find_column(*simulation, row), row);
         if (!problem.empty()) return problem;
     }

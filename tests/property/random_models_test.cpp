@@ -23,7 +23,9 @@ std::uint64_t models() {
 /// Every state of every group over some cycles, as bytes: NaN counts like any other.
 std::string trace(const model::System& system, const Registry& registry, int threads) {
     Diagnostics diagnostics;
-    auto s = engine::Simulation::build(system, registry, {.seed = test::RandomModel::connection_seed, .threads = threads, .worth_sharing = 0}, diagnostics);
+    auto s = engine::Simulation::build(
+        system, registry,
+        {.seed = test::RandomModel::connection_seed, .threads = threads, .worth_sharing = 0}, diagnostics);
     INFO(format(diagnostics));
     REQUIRE(s);
     s->start();
@@ -33,7 +35,8 @@ std::string trace(const model::System& system, const Registry& registry, int thr
         for (int g = 0; g < s->groups(); ++g)
             for (int i = 0; i < static_cast<int>(s->type(g).states.size()); ++i) {
                 const ConstColumn column = s->state(g, i);
-                out.append(reinterpret_cast<const char*>(column.data()), static_cast<std::size_t>(column.size()) * sizeof(double));
+                out.append(reinterpret_cast<const char*>(column.data()),
+                           static_cast<std::size_t>(column.size()) * sizeof(double));
             }
     }
     return out;

@@ -79,7 +79,8 @@ class ClosedLoop {
 /// Keeps only the connections with these ids.
 inline auto keep_connections(std::vector<std::string> ids) {
     return [ids = std::move(ids)](model::System& system) {
-        std::erase_if(system.connections, [&](const auto& c) { return std::find(ids.begin(), ids.end(), c.id) == ids.end(); });
+        std::erase_if(system.connections,
+                      [&](const auto& c) { return std::find(ids.begin(), ids.end(), c.id) == ids.end(); });
     };
 }
 

@@ -1,5 +1,5 @@
-// Counts what a program takes from the heap: operator new, Eigen, and the libraries that it uses. Replaces the C
-// library's functions, so it is included by one file of a test program.
+// Counts what a program takes from the heap: operator new, Eigen, and the libraries that it uses. Replaces
+// the C library's functions, so it is included by one file of a test program.
 #pragma once
 
 #include <atomic>
@@ -34,8 +34,12 @@ void* __libc_realloc(void*, std::size_t);
 void* __libc_memalign(std::size_t, std::size_t);
 
 void* malloc(std::size_t size) noexcept { return ++forage::test::allocation_count, __libc_malloc(size); }
-void* calloc(std::size_t n, std::size_t size) noexcept { return ++forage::test::allocation_count, __libc_calloc(n, size); }
-void* realloc(void* p, std::size_t size) noexcept { return ++forage::test::allocation_count, __libc_realloc(p, size); }
+void* calloc(std::size_t n, std::size_t size) noexcept {
+    return ++forage::test::allocation_count, __libc_calloc(n, size);
+}
+void* realloc(void* p, std::size_t size) noexcept {
+    return ++forage::test::allocation_count, __libc_realloc(p, size);
+}
 void* memalign(std::size_t alignment, std::size_t size) noexcept {
     return ++forage::test::allocation_count, __libc_memalign(alignment, size);
 }
@@ -60,7 +64,9 @@ TEST_CASE("Counting sees operator new, Eigen's temporaries and aligned memory") 
     double sum = 0;
     CHECK(counted([&] { sum += (Eigen::ArrayXd::Ones(size) * 2).eval()[0]; }) == 1);
     CHECK(counted([&] { ::operator delete(::operator new(64)); }) == 1);
-    CHECK(counted([&] { ::operator delete(::operator new(64, std::align_val_t{64}), std::align_val_t{64}); }) == 1);
+    CHECK(counted([&] {
+              ::operator delete (::operator new (64, std::align_val_t{64}), std::align_val_t{64});
+          }) == 1);
     void* p = nullptr;
     CHECK(counted([&] { sum += posix_memalign(&p, 64, 64); }) == 1);
     std::free(p);

@@ -1,10 +1,10 @@
 // Makes the machine small.
 #pragma once
 
+#include <fstream>
+
 #include <sys/resource.h>
 #include <unistd.h>
-
-#include <fstream>
 
 namespace forage::test {
 

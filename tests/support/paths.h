@@ -10,7 +10,8 @@ namespace forage::test {
 
 inline std::filesystem::path source_dir() { return FORAGE_SOURCE_DIR; }
 
-/// The recorded traces and files of the original: $FORAGE_SHARED, or `shared` beside the project. May be absent.
+/// The recorded traces and files of the original: $FORAGE_SHARED, or `shared` beside the project. May be
+/// absent.
 inline std::filesystem::path shared_dir() {
     if (const char* given = std::getenv("FORAGE_SHARED")) return given;
     return source_dir().parent_path() / "shared";
@@ -19,7 +20,8 @@ inline std::filesystem::path shared_dir() {
 /// Says that a test has nothing to read, and returns true, when `path` is absent.
 inline bool absent(const std::filesystem::path& path) {
     if (std::filesystem::exists(path)) return false;
-    std::fprintf(stderr, "SKIPPED: '%s' is absent (recorded data of the original; see docs/design.md)\n", path.c_str());
+    std::fprintf(stderr, "SKIPPED: '%s' is absent (recorded data of the original; see docs/design.md)\n",
+                 path.c_str());
     return true;
 }
 

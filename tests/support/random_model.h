@@ -33,7 +33,9 @@ class RandomModel {
     int below(int n) { return std::uniform_int_distribution<int>(0, n - 1)(random_); }
     int from_to(int low, int high) { return low + below(high - low + 1); }
     bool chance(double p) { return std::bernoulli_distribution(p)(random_); }
-    double real(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+    double real(double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random_);
+    }
     template <class T>
     T pick(std::initializer_list<T> values) {
         return *(values.begin() + below(static_cast<int>(values.size())));
@@ -43,7 +45,8 @@ class RandomModel {
     std::string text() {
         std::string out;
         for (int n = below(4); n > 0; --n)
-            out += pick<std::string>({"Motor", " ", "<b>", "&amp;", "\"", "'", "größer", "前", "a\nb", "x > y", "]]>", "#1", "%"});
+            out += pick<std::string>(
+                {"Motor", " ", "<b>", "&amp;", "\"", "'", "größer", "前", "a\nb", "x > y", "]]>", "#1", "%"});
         return out + "t";
     }
     std::optional<std::string> maybe_text() {
@@ -59,7 +62,9 @@ class RandomModel {
         if (chance(0.3)) return std::nullopt;
         return model::Icon{from_to(-50, 500), from_to(-50, 500), from_to(10, 90), from_to(10, 90)};
     }
-    std::string number(double low, double high) { return to_text(chance(0.3) ? pick({0.0, 0.5, 1.0}) : real(low, high)); }
+    std::string number(double low, double high) {
+        return to_text(chance(0.3) ? pick({0.0, 0.5, 1.0}) : real(low, high));
+    }
 
     void add_process(model::System& s) {
         auto& p = *model::find_process(s, model::add_process(s, text()));
@@ -74,11 +79,15 @@ class RandomModel {
     }
 
     void add_group(model::System& s, const std::string& process) {
-        const auto type = pick<std::string>({"neuronLinearThreshold", "neuronRandomSpike", "neuronIntegrateFire", "neuronSigmoid",
+        const auto type = pick<std::string>({"neuronLinearThreshold", "neuronRandomSpike",
+                                             "neuronIntegrateFire", "neuronSigmoid",
                                              "neuronPyramidApicalShunt", "neuronNumeric", "neuronTDValue"});
-        auto& g = *model::find_group(s, model::add_group(s, process, text(), from_to(1, 7), from_to(1, 7), type));
-        if (chance(0.2)) g.topology = sparse();
-        else if (auto* rect = std::get_if<model::RectTopology>(&g.topology)) rect->wrap_x = chance(0.2), rect->wrap_y = chance(0.2);
+        auto& g =
+            *model::find_group(s, model::add_group(s, process, text(), from_to(1, 7), from_to(1, 7), type));
+        if (chance(0.2))
+            g.topology = sparse();
+        else if (auto* rect = std::get_if<model::RectTopology>(&g.topology))
+            rect->wrap_x = chance(0.2), rect->wrap_y = chance(0.2);
         g.color = chance(0.5) ? "#FFFFFF" : "";
         g.note = maybe_text();
         g.icon = icon();
@@ -104,7 +113,8 @@ class RandomModel {
     }
 
     model::Point point_in(const model::Topology& t) {
-        if (const auto* s = std::get_if<model::SparseTopology>(&t)) return s->points[static_cast<std::size_t>(below(static_cast<int>(s->points.size())))];
+        if (const auto* s = std::get_if<model::SparseTopology>(&t))
+            return s->points[static_cast<std::size_t>(below(static_cast<int>(s->points.size())))];
         const auto& r = std::get<model::RectTopology>(t);
         return {from_to(1, r.width), from_to(1, r.height), {}};
     }
@@ -127,20 +137,25 @@ class RandomModel {
         std::vector<std::pair<std::string, model::Group>> groups;
         for (const auto& p : s.processes)
             for (const auto& g : p.groups) groups.emplace_back(g.id, g);
-        const auto any = [&] { return groups[static_cast<std::size_t>(below(static_cast<int>(groups.size())))]; };
+        const auto any = [&] {
+            return groups[static_cast<std::size_t>(below(static_cast<int>(groups.size())))];
+        };
         const auto [source_id, source] = any();
         const auto [target_id, target] = any();
         const bool pyramid = target.neuron.type == "neuronPyramidApicalShunt";
         const auto kind = pick({InputKind::excitatory, InputKind::inhibitory, InputKind::modulatory});
-        const auto id = model::add_connection(s, source_id, target_id, kind,
-                                              pick<std::string>({"synapseFixedWeight", "synapseFixedWeight", "synapseUniformFixedWeight", "synapseHebbian",
-                                                                 pyramid ? "synapseApicalShunt" : "synapseFixedWeight"}));
+        const auto id = model::add_connection(
+            s, source_id, target_id, kind,
+            pick<std::string>({"synapseFixedWeight", "synapseFixedWeight", "synapseUniformFixedWeight",
+                               "synapseHebbian", pyramid ? "synapseApicalShunt" : "synapseFixedWeight"}));
         auto& c = *model::find_connection(s, id);
         c.name = text();
         if (c.synapse->type.ends_with("Weight")) model::set_parameter(*c.synapse, "weight", number(-1, 1));
         if (c.synapse->type == "synapseHebbian")
-            c.synapse->feedback.push_back({"postact", target.neuron.type == "neuronTDValue" ? "value" : "act", {}});
-        if (c.synapse->type == "synapseApicalShunt") c.synapse->feedback.push_back({"apicalShunt", "shunt", {}});
+            c.synapse->feedback.push_back(
+                {"postact", target.neuron.type == "neuronTDValue" ? "value" : "act", {}});
+        if (c.synapse->type == "synapseApicalShunt")
+            c.synapse->feedback.push_back({"apicalShunt", "shunt", {}});
         c.synapse->note = maybe_text();
         c.note = maybe_text();
         c.comments = comments();
@@ -148,8 +163,10 @@ class RandomModel {
         c.arborization = arborization();
         c.attenuation = function(false);
         c.delay = function(true);
-        if (chance(0.2)) c.line.reset();
-        else c.line = model::Line{below(16), below(16), points_in(source.topology)};
+        if (chance(0.2))
+            c.line.reset();
+        else
+            c.line = model::Line{below(16), below(16), points_in(source.topology)};
         Diagnostics diagnostics;
         connectivity::connect(c, source.topology, target.topology, connection_seed, diagnostics);
         if (diagnostics.failed()) model::remove(s, id);  // no synapses
@@ -157,11 +174,15 @@ class RandomModel {
 
     model::Pattern pattern(const model::Topology& source, const model::Topology& target) {
         switch (below(3)) {
-            case 0: return model::MappedPattern{chance(0.5), population(source, false), population(target, false)};
-            case 1: return model::ForeachPattern{population(source, true), population(target, true)};
+            case 0:
+                return model::MappedPattern{chance(0.5), population(source, false),
+                                            population(target, false)};
+            case 1:
+                return model::ForeachPattern{population(source, true), population(target, true)};
             default: {
                 model::TuplesPattern out;
-                for (int n = from_to(1, 3); n > 0; --n) out.tuples.push_back({points_in(source), points_in(target)});
+                for (int n = from_to(1, 3); n > 0; --n)
+                    out.tuples.push_back({points_in(source), points_in(target)});
                 return out;
             }
         }
@@ -170,12 +191,23 @@ class RandomModel {
     model::Arborization arborization() {
         model::Arborization a;
         switch (below(6)) {
-            case 0: a.shape = model::RectArbor{from_to(1, 4), from_to(1, 4)}; break;
-            case 1: a.shape = model::EllipseArbor{from_to(1, 5), from_to(1, 5)}; break;
-            case 2: a.shape = model::RectWindowArbor{1, from_to(1, 2), 3, from_to(3, 4)}; break;
-            case 3: a.shape = model::EllipseWindowArbor{1, 1, from_to(3, 5), from_to(3, 5)}; break;
-            case 4: a.shape = model::AllArbor{}; break;
-            default: a.shape = model::RandomArbor{from_to(1, 4)};
+            case 0:
+                a.shape = model::RectArbor{from_to(1, 4), from_to(1, 4)};
+                break;
+            case 1:
+                a.shape = model::EllipseArbor{from_to(1, 5), from_to(1, 5)};
+                break;
+            case 2:
+                a.shape = model::RectWindowArbor{1, from_to(1, 2), 3, from_to(3, 4)};
+                break;
+            case 3:
+                a.shape = model::EllipseWindowArbor{1, 1, from_to(3, 5), from_to(3, 5)};
+                break;
+            case 4:
+                a.shape = model::AllArbor{};
+                break;
+            default:
+                a.shape = model::RandomArbor{from_to(1, 4)};
         }
         if (chance(0.4)) a.direction = model::Direction::projective;
         if (chance(0.3)) a.probability = real(0.2, 1);
@@ -185,11 +217,16 @@ class RandomModel {
     model::DistanceFunction function(bool delay) {
         const double low = delay ? from_to(0, 3) : real(0, 0.5), high = delay ? from_to(3, 7) : real(0.5, 1);
         switch (below(5)) {
-            case 0: return {model::UniformFunction{low}, {}};
-            case 1: return {model::LinearFunction{low, high}, {}};
-            case 2: return {model::GaussianFunction{low, high, real(0.5, 3)}, {}};
-            case 3: return {model::BlockFunction{low, high, from_to(0, 5), chance(0.3) ? 2 : 0}, {}};
-            default: return {model::RandomFunction{high}, {}};
+            case 0:
+                return {model::UniformFunction{low}, {}};
+            case 1:
+                return {model::LinearFunction{low, high}, {}};
+            case 2:
+                return {model::GaussianFunction{low, high, real(0.5, 3)}, {}};
+            case 3:
+                return {model::BlockFunction{low, high, from_to(0, 5), chance(0.3) ? 2 : 0}, {}};
+            default:
+                return {model::RandomFunction{high}, {}};
         }
     }
 

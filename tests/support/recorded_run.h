@@ -1,10 +1,10 @@
 // Runs a system against a recorded trace and finds the first number that differs.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
+
+#include <fmt/format.h>
 
 #include "core/engine/simulation.h"
 #include "tests/support/golden.h"
@@ -23,7 +23,8 @@ inline std::vector<ExpectedRow> expected_rows(const std::filesystem::path& path)
     Rows rows(path);
     for (std::vector<std::string_view> f; rows.next(f);) {
         if (f.size() < 5) continue;
-        ExpectedRow row{number<std::uint64_t>(f[0]), std::string(f[1]), std::string(f[2]), std::string(f[3]), {}};
+        ExpectedRow row{
+            number<std::uint64_t>(f[0]), std::string(f[1]), std::string(f[2]), std::string(f[3]), {}};
         for (std::size_t i = 5; i < f.size(); ++i) row.values.push_back(number(f[i]));
         out.push_back(std::move(row));
     }
@@ -48,7 +49,8 @@ inline ConstColumn find_column(const engine::Simulation& s, const ExpectedRow& r
     const auto hash = row.group.rfind('#');
     for (int g = 0; g < s.groups(); ++g) {
         const std::string path = trimmed(row.process) + "/" + trimmed(row.group);
-        if (s.path(g) != path && !(hash != std::string::npos && s.id(g) == row.group.substr(hash + 1))) continue;
+        if (s.path(g) != path && !(hash != std::string::npos && s.id(g) == row.group.substr(hash + 1)))
+            continue;
         if (row.state == "excIn") return s.input(g, InputKind::excitatory);
         if (row.state == "inhIn") return s.input(g, InputKind::inhibitory);
         if (row.state == "modIn") return s.input(g, InputKind::modulatory);
@@ -66,7 +68,8 @@ inline std::string difference(ConstColumn ours, const ExpectedRow& row, double t
         return fmt::format("{}: {} cells, recorded {}", where, ours.size(), row.values.size());
     for (Index i = 0; i < ours.size(); ++i)
         if (!same(ours[i], row.values[static_cast<std::size_t>(i)], tolerance))
-            return fmt::format("{}, cell {}: {}, recorded {}", where, i, ours[i], row.values[static_cast<std::size_t>(i)]);
+            return fmt::format("{}, cell {}: {}, recorded {}", where, i, ours[i],
+                               row.values[static_cast<std::size_t>(i)]);
     return {};
 }
 

@@ -1,7 +1,7 @@
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <set>
+
+#include <fmt/format.h>
 
 #include "core/engine/simulation.h"
 #include "core/model/lookup.h"
@@ -14,7 +14,8 @@ std::string counted(std::size_t n, std::string_view one, std::string_view many =
     return fmt::format("{} {}{}", n, n == 1 || many.empty() ? one : many, n == 1 || !many.empty() ? "" : "s");
 }
 
-/// What is legal, and yet perhaps not meant: modules that are off, groups that nothing reaches or that lead nowhere.
+/// What is legal, and yet perhaps not meant: modules that are off, groups that nothing reaches or that lead
+/// nowhere.
 std::vector<std::string> notes(const model::System& system) {
     std::vector<std::string> out;
     std::set<std::string> written, read;
@@ -23,12 +24,15 @@ std::vector<std::string> notes(const model::System& system) {
         if (!p.module) continue;
         for (const auto& r : p.module->inputs) read.insert(r.target);
         for (const auto& r : p.module->outputs) written.insert(r.target);
-        if (!p.module_enabled) out.push_back(fmt::format("the module of process '{}' is disabled", model::trim(p.name)));
+        if (!p.module_enabled)
+            out.push_back(fmt::format("the module of process '{}' is disabled", model::trim(p.name)));
     }
     for (const auto& p : system.processes)
         for (const auto& g : p.groups)
             if (!read.contains(g.id) && !written.contains(g.id))
-                out.push_back(fmt::format("group '{}/{}' stands alone: nothing leads to it, and it leads nowhere", model::trim(p.name), model::trim(g.name)));
+                out.push_back(
+                    fmt::format("group '{}/{}' stands alone: nothing leads to it, and it leads nowhere",
+                                model::trim(p.name), model::trim(g.name)));
     return out;
 }
 
@@ -38,20 +42,27 @@ int check(const Input& input) {
     Diagnostics diagnostics;
     const auto loaded = load(input, diagnostics);
     std::optional<engine::Simulation> simulation;
-    if (loaded) simulation = engine::Simulation::build(loaded->system, loaded->registry, {input.seed}, diagnostics);
+    if (loaded)
+        simulation = engine::Simulation::build(loaded->system, loaded->registry, {input.seed}, diagnostics);
     fmt::print(stderr, "{}", format(diagnostics));
     if (!simulation) {
-        fmt::print(stderr, "{}: {}, {}\n", input.system, counted(static_cast<std::size_t>(diagnostics.errors()), "error"),
+        fmt::print(stderr, "{}: {}, {}\n", input.system,
+                   counted(static_cast<std::size_t>(diagnostics.errors()), "error"),
                    counted(static_cast<std::size_t>(diagnostics.warnings()), "warning"));
         return bad_input;
     }
     std::size_t cells = 0, synapses = 0;
-    for (int g = 0; g < simulation->groups(); ++g) cells += static_cast<std::size_t>(simulation->shape(g).cells);
+    for (int g = 0; g < simulation->groups(); ++g)
+        cells += static_cast<std::size_t>(simulation->shape(g).cells);
     for (int c = 0; c < simulation->connections(); ++c) synapses += simulation->synapses(c);
-    fmt::print("{}: fine: {}, {}, {}, {}, {}{}\n", input.system, counted(loaded->system.processes.size(), "process", "processes"),
+    fmt::print("{}: fine: {}, {}, {}, {}, {}{}\n", input.system,
+               counted(loaded->system.processes.size(), "process", "processes"),
                counted(static_cast<std::size_t>(simulation->groups()), "group"), counted(cells, "cell"),
-               counted(static_cast<std::size_t>(simulation->connections()), "connection"), counted(synapses, "synapse"),
-               diagnostics.warnings() ? ", " + counted(static_cast<std::size_t>(diagnostics.warnings()), "warning") : "");
+               counted(static_cast<std::size_t>(simulation->connections()), "connection"),
+               counted(synapses, "synapse"),
+               diagnostics.warnings()
+                   ? ", " + counted(static_cast<std::size_t>(diagnostics.warnings()), "warning")
+                   : "");
     for (const auto& note : notes(loaded->system)) fmt::print("  note: {}\n", note);
     if (loaded->world) fmt::print("{}", bug::describe(*loaded->world));
     return fine;

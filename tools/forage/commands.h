@@ -1,5 +1,5 @@
-// The commands of the program. Each takes its options and returns the exit status: 0 fine, 1 the run failed, 2 bad
-// usage or bad input.
+// The commands of the program. Each takes its options and returns the exit status: 0 fine, 1 the run failed,
+// 2 bad usage or bad input.
 #pragma once
 
 #include <cstdint>

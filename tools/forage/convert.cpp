@@ -1,7 +1,7 @@
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <filesystem>
+
+#include <fmt/format.h>
 
 #include "core/model/build.h"
 #include "core/model/lookup.h"
@@ -44,7 +44,8 @@ std::string converted(const ConvertOptions& o, Diagnostics& diagnostics) {
         if (!file) return {};
         if (!to_process || !o.imports.empty() || !o.extract.empty() || o.embed) {
             diagnostics.error({}, fmt::format("'{}' is a process file", o.input),
-                              "it can be written as one (OUT.iqrProcess), or imported into a system: forage convert SYSTEM.iqr OUT.iqr --import FILE");
+                              "it can be written as one (OUT.iqrProcess), or imported into a system: forage "
+                              "convert SYSTEM.iqr OUT.iqr --import FILE");
             return {};
         }
         return xml::write_process(*file);
@@ -52,14 +53,17 @@ std::string converted(const ConvertOptions& o, Diagnostics& diagnostics) {
     auto system = xml::read_system(o.input, diagnostics);
     if (!system) return {};
     for (const auto& path : o.imports)
-        if (auto file = xml::read_process(path, diagnostics); file && !diagnostics.failed()) model::import_process(*system, std::move(*file));
+        if (auto file = xml::read_process(path, diagnostics); file && !diagnostics.failed())
+            model::import_process(*system, std::move(*file));
     if (o.embed) model::embed_links(*system);
     if (!to_process) {
         move_links(*system, o.input, o.output);
         return xml::write_system(*system);
     }
     if (o.extract.empty()) {
-        diagnostics.error({}, fmt::format("'{}' is a system, '{}' would be a process file", o.input, o.output), "name the process to write with --extract");
+        diagnostics.error({},
+                          fmt::format("'{}' is a system, '{}' would be a process file", o.input, o.output),
+                          "name the process to write with --extract");
         return {};
     }
     const std::string id = process_id(*system, o.extract, diagnostics);

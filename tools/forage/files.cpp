@@ -1,15 +1,14 @@
 #include "tools/forage/files.h"
 
-#include <fmt/format.h>
-
-#include <unistd.h>
-
 #include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+
+#include <fmt/format.h>
+#include <unistd.h>
 
 namespace forage::tool {
 
@@ -37,7 +36,8 @@ void write_file(const std::string& path, std::string_view text) {
 void make_directory(const std::string& path) {
     std::error_code error;
     std::filesystem::create_directories(path, error);
-    if (error) throw std::runtime_error(fmt::format("cannot make the directory '{}': {}", path, error.message()));
+    if (error)
+        throw std::runtime_error(fmt::format("cannot make the directory '{}': {}", path, error.message()));
     if (access(path.c_str(), W_OK) != 0)
         throw std::runtime_error(fmt::format("cannot write into '{}': {}", path, std::strerror(errno)));
 }

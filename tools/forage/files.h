@@ -12,7 +12,8 @@ std::string partial(const std::string& path);
 void finish(const std::string& path);
 /// Writes `text` to `path` by way of partial(path). Throws std::runtime_error.
 void write_file(const std::string& path, std::string_view text);
-/// Makes a directory and those above it. Throws std::runtime_error, also when it is there and cannot be written.
+/// Makes a directory and those above it. Throws std::runtime_error, also when it is there and cannot be
+/// written.
 void make_directory(const std::string& path);
 /// `text` with everything but letters, digits, '.', '-' and '_' replaced by '_'.
 std::string file_name(std::string_view text);

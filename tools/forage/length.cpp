@@ -1,8 +1,8 @@
 #include "tools/forage/length.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 
 namespace forage::tool {
 namespace {
@@ -19,33 +19,43 @@ std::uint64_t cycles_in(double seconds, double seconds_per_cycle) {
 void check_length(const RunOptions& o, const bug::World* world, Diagnostics& diagnostics) {
     if (!o.trials) return;
     if (!world) {
-        diagnostics.error({}, "--trials needs a world", "add --world FILE.world, or give the length with --cycles");
+        diagnostics.error({}, "--trials needs a world",
+                          "add --world FILE.world, or give the length with --cycles");
     } else if (world->bugs() == 0) {
-        diagnostics.error({}, "--trials: there is no robot in the world", "give the length with --cycles or --seconds");
+        diagnostics.error({}, "--trials: there is no robot in the world",
+                          "give the length with --cycles or --seconds");
     } else if (!world->reset_plan()) {
         diagnostics.error({}, "--trials: this world never resets the robot, so it has no trials",
-                          "give the length with --cycles or --seconds, or add models named Reset_0, Reset_1, ... to the world");
+                          "give the length with --cycles or --seconds, or add models named Reset_0, Reset_1, "
+                          "... to the world");
     } else if (world->seconds_per_cycle() > 1) {
-        diagnostics.error({}, fmt::format("--trials: a cycle takes {:g} s of the world, longer than a reset", world->seconds_per_cycle()),
+        diagnostics.error({},
+                          fmt::format("--trials: a cycle takes {:g} s of the world, longer than a reset",
+                                      world->seconds_per_cycle()),
                           "choose a smaller --world-pace");
     }
 }
 
 Length::Length(const RunOptions& o, const bug::World* world, double seconds_per_cycle)
     : world_(world), longest_seconds_(o.longest_trial) {
-    if (o.cycles) cycles_ = *o.cycles;
-    else if (!o.trials) cycles_ = cycles_in(o.seconds.value_or(default_seconds), seconds_per_cycle);
+    if (o.cycles)
+        cycles_ = *o.cycles;
+    else if (!o.trials)
+        cycles_ = cycles_in(o.seconds.value_or(default_seconds), seconds_per_cycle);
     if (o.trials) {
         trials_ = *o.trials;
         longest_trial_ = cycles_in(o.longest_trial, seconds_per_cycle);
     }
 }
 
-bool Length::over(std::uint64_t cycle) const { return cycles_ ? cycle >= *cycles_ : world_->trials(0).size() >= trials_; }
+bool Length::over(std::uint64_t cycle) const {
+    return cycles_ ? cycle >= *cycles_ : world_->trials(0).size() >= trials_;
+}
 
 std::string Length::hopeless() const {
     if (cycles_ || world_->current_trial(0).cycles < longest_trial_) return {};
-    return fmt::format("trial {} did not end within {:g} s (--longest-trial)", world_->trials(0).size() + 1, longest_seconds_);
+    return fmt::format("trial {} did not end within {:g} s (--longest-trial)", world_->trials(0).size() + 1,
+                       longest_seconds_);
 }
 
 double Length::done(std::uint64_t cycle) const {
@@ -57,7 +67,8 @@ std::string Length::text() const {
     if (!world_ || world_->bugs() == 0 || !world_->reset_plan()) return {};
     std::size_t reached = 0;
     for (const auto& t : world_->trials(0)) reached += t.target();
-    return fmt::format("{}{} trials, {} at the target", world_->trials(0).size(), cycles_ ? "" : fmt::format("/{}", trials_), reached);
+    return fmt::format("{}{} trials, {} at the target", world_->trials(0).size(),
+                       cycles_ ? "" : fmt::format("/{}", trials_), reached);
 }
 
 }  // namespace forage::tool

@@ -39,7 +39,9 @@ Registry shipped_types(bug::World* world, std::shared_ptr<const replay::DriveTab
     return registry;
 }
 
-double cycles_per_second(const model::System& system) { return system.cycles_per_second > 0 ? system.cycles_per_second : 25; }
+double cycles_per_second(const model::System& system) {
+    return system.cycles_per_second > 0 ? system.cycles_per_second : 25;
+}
 
 std::optional<Loaded> load(const Input& input, Diagnostics& diagnostics) {
     diagnostics.lenient = input.lenient;
@@ -60,8 +62,10 @@ std::optional<Loaded> load(const Input& input, Diagnostics& diagnostics) {
 
     out.registry = shipped_types(out.world.get(), out.drive);
     if (system) {
-        for (const auto& assignment : input.settings) model::set(out.system, out.registry, assignment, diagnostics);
-        if (diagnostics.failed()) model::validate(out.system, out.registry, diagnostics);  // say all of it at once
+        for (const auto& assignment : input.settings)
+            model::set(out.system, out.registry, assignment, diagnostics);
+        if (diagnostics.failed())
+            model::validate(out.system, out.registry, diagnostics);  // say all of it at once
     }
     if (diagnostics.failed()) return std::nullopt;
     return out;

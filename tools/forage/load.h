@@ -20,7 +20,8 @@ struct Input {
     std::string drive;                  ///< table for moduleReplay; none when empty
     bool lenient = false;
     std::uint64_t seed = 1;
-    std::optional<double> world_pace;   ///< seconds of the world per second of the clock, instead of the world's own
+    std::optional<double>
+        world_pace;  ///< seconds of the world per second of the clock, instead of the world's own
     bool noise = true;
 };
 

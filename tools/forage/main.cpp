@@ -1,11 +1,11 @@
 // forage: run and check iqr systems from the command line.
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string_view>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "core/model/diagnostic.h"
 #include "core/types/parameter.h"
@@ -20,7 +20,8 @@ CLI::Validator number_that(bool (*fits)(double), const char* description) {
     return CLI::Validator(
         [=](std::string& text) {
             const auto value = forage::parse_parameter(forage::ParameterKind::real, text);
-            return value && fits(std::get<double>(*value)) ? std::string() : fmt::format("'{}' is not {}", text, description);
+            return value && fits(std::get<double>(*value)) ? std::string()
+                                                           : fmt::format("'{}' is not {}", text, description);
         },
         "");
 }
@@ -28,10 +29,12 @@ CLI::Validator positive() {
     return number_that([](double v) { return v > 0; }, "a number above 0");
 }
 CLI::Validator count() {
-    return number_that([](double v) { return v >= 1 && v <= 1e15 && v == std::floor(v); }, "a whole number, at least 1");
+    return number_that([](double v) { return v >= 1 && v <= 1e15 && v == std::floor(v); },
+                       "a whole number, at least 1");
 }
 CLI::Validator seed() {
-    return number_that([](double v) { return v >= 0 && v < 1.8e19 && v == std::floor(v); }, "a whole number, at least 0");
+    return number_that([](double v) { return v >= 0 && v < 1.8e19 && v == std::floor(v); },
+                       "a whole number, at least 0");
 }
 
 CLI::Option* repeated(CLI::Option* option) {
@@ -40,12 +43,16 @@ CLI::Option* repeated(CLI::Option* option) {
 
 void add_input(CLI::App& command, Input& input) {
     command.add_option("SYSTEM", input.system, "System file (.iqr)")->required()->option_text("FILE");
-    command.add_option("-w,--world", input.world, "World in which the robot lives (.world)")->option_text("FILE");
-    repeated(command.add_option("-s,--set", input.settings,
-                                "Change a parameter: 'Process/Group.parameter=value', 'Process.parameter=value' for a module, "
-                                "'Connection.parameter=value' for a synapse; may be repeated"))
+    command.add_option("-w,--world", input.world, "World in which the robot lives (.world)")
+        ->option_text("FILE");
+    repeated(
+        command.add_option(
+            "-s,--set", input.settings,
+            "Change a parameter: 'Process/Group.parameter=value', 'Process.parameter=value' for a module, "
+            "'Connection.parameter=value' for a synapse; may be repeated"))
         ->option_text("WHERE=VALUE");
-    command.add_flag("--lenient", input.lenient, "Unknown parameters and attributes are warnings, not errors");
+    command.add_flag("--lenient", input.lenient,
+                     "Unknown parameters and attributes are warnings, not errors");
 }
 
 void add_run(CLI::App& app, RunOptions& o) {
@@ -55,39 +62,71 @@ void add_run(CLI::App& app, RunOptions& o) {
         "Example:\n"
         "  forage run systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world --trials 30");
     add_input(run, o.input);
-    auto* cycles = run.add_option("-c,--cycles", o.cycles, "Stop after so many cycles")->check(count())->option_text("N");
-    auto* seconds = run.add_option("--seconds", o.seconds, "Stop after so many seconds of the world")->check(positive())->option_text("S");
-    auto* trials = run.add_option("-t,--trials", o.trials, "Stop after so many trials; a trial ends when the robot is reset")
-                       ->check(count())->option_text("N");
+    auto* cycles = run.add_option("-c,--cycles", o.cycles, "Stop after so many cycles")
+                       ->check(count())
+                       ->option_text("N");
+    auto* seconds = run.add_option("--seconds", o.seconds, "Stop after so many seconds of the world")
+                        ->check(positive())
+                        ->option_text("S");
+    auto* trials = run.add_option("-t,--trials", o.trials,
+                                  "Stop after so many trials; a trial ends when the robot is reset")
+                       ->check(count())
+                       ->option_text("N");
     cycles->excludes(seconds)->excludes(trials);
     seconds->excludes(trials);
-    run.add_option("--longest-trial", o.longest_trial, "Give up when a trial takes longer, in seconds of the world [300]")
-        ->check(positive())->option_text("S")->needs(trials);
+    run.add_option("--longest-trial", o.longest_trial,
+                   "Give up when a trial takes longer, in seconds of the world [300]")
+        ->check(positive())
+        ->option_text("S")
+        ->needs(trials);
     run.add_option("--seed", o.input.seed, "Decides everything random [1]")->check(seed())->option_text("N");
     auto* record = repeated(run.add_option("-r,--record", o.recordings,
-                                           "Write 'Process/Group' (its activity) or 'Process/Group:state' to a CSV file; may be repeated"))
+                                           "Write 'Process/Group' (its activity) or 'Process/Group:state' to "
+                                           "a CSV file; may be repeated"))
                        ->option_text("COLUMN");
-    run.add_option("--every", o.every, "Record every K-th cycle [1]")->check(count())->option_text("K")->needs(record);
-    run.add_option("--drive", o.input.drive, "Table that modules of type moduleReplay play: cycle,process,target,v0,v1,...")->option_text("FILE");
-    repeated(run.add_option("--clamp", o.clamp,
-                            "Overwrite the activity of a group: 'Process/Group(x,y)=value' for one of its cells, from the start, with "
-                            "all others 0; or a table of rows cycle,process,group,v0,v1,...; may be repeated"))
+    run.add_option("--every", o.every, "Record every K-th cycle [1]")
+        ->check(count())
+        ->option_text("K")
+        ->needs(record);
+    run.add_option("--drive", o.input.drive,
+                   "Table that modules of type moduleReplay play: cycle,process,target,v0,v1,...")
+        ->option_text("FILE");
+    repeated(
+        run.add_option("--clamp", o.clamp,
+                       "Overwrite the activity of a group: 'Process/Group(x,y)=value' for one of its cells, "
+                       "from the start, with "
+                       "all others 0; or a table of rows cycle,process,group,v0,v1,...; may be repeated"))
         ->option_text("CELL|FILE");
-    run.add_option("-o,--output", o.directory, "Directory for results [forage-out]; '' for none")->option_text("DIR");
-    run.add_option("--world-pace", o.input.world_pace, "Seconds of the world per second of the clock, instead of the world's own")
-        ->check(positive())->option_text("X")->needs("--world");
-    run.add_flag_callback("--no-noise", [&o] { o.input.noise = false; }, "Motors and sensors without noise; start positions still vary");
-    run.add_option("--threads", o.threads, "For large systems; the numbers do not depend on it [1]")->check(count())->option_text("N");
+    run.add_option("-o,--output", o.directory, "Directory for results [forage-out]; '' for none")
+        ->option_text("DIR");
+    run.add_option("--world-pace", o.input.world_pace,
+                   "Seconds of the world per second of the clock, instead of the world's own")
+        ->check(positive())
+        ->option_text("X")
+        ->needs("--world");
+    run.add_flag_callback(
+        "--no-noise", [&o] { o.input.noise = false; },
+        "Motors and sensors without noise; start positions still vary");
+    run.add_option("--threads", o.threads, "For large systems; the numbers do not depend on it [1]")
+        ->check(count())
+        ->option_text("N");
     run.add_flag("--realtime", o.real_time, "No faster than the clock: one second of the world per second");
     run.add_flag("-q,--quiet", o.quiet, "Print errors only");
 }
 
 void add_convert(CLI::App& app, ConvertOptions& o) {
-    auto& convert = *app.add_subcommand("convert", "Read a system or process file and write it in the standard layout");
+    auto& convert =
+        *app.add_subcommand("convert", "Read a system or process file and write it in the standard layout");
     convert.add_option("IN", o.input, "File to read (.iqr or .iqrProcess)")->required()->option_text("FILE");
-    convert.add_option("OUT", o.output, "File to write (.iqr or .iqrProcess); may be the same")->required()->option_text("FILE");
-    repeated(convert.add_option("--import", o.imports, "Add a copy of a process from an .iqrProcess file; may be repeated"))->option_text("FILE");
-    convert.add_option("--extract", o.extract, "Write this process alone, with the connections among its groups")->option_text("PROCESS");
+    convert.add_option("OUT", o.output, "File to write (.iqr or .iqrProcess); may be the same")
+        ->required()
+        ->option_text("FILE");
+    repeated(convert.add_option("--import", o.imports,
+                                "Add a copy of a process from an .iqrProcess file; may be repeated"))
+        ->option_text("FILE");
+    convert
+        .add_option("--extract", o.extract, "Write this process alone, with the connections among its groups")
+        ->option_text("PROCESS");
     convert.add_flag("--embed", o.embed, "Write the content of linked processes instead of the links");
     convert.add_flag("--lenient", o.lenient, "Unknown parameters and attributes are warnings, and left out");
 }
@@ -95,7 +134,8 @@ void add_convert(CLI::App& app, ConvertOptions& o) {
 /// What was probably meant by the first word of the command line that does not exist; empty when all do.
 std::string suggestion(const CLI::App& app, int argc, char** argv) {
     std::vector<std::string> commands, options;
-    for (const auto* c : app.get_subcommands([](const CLI::App*) { return true; })) commands.push_back(c->get_name());
+    for (const auto* c : app.get_subcommands([](const CLI::App*) { return true; }))
+        commands.push_back(c->get_name());
     if (argc < 2) return {};
     const auto found = app.get_subcommands([&](const CLI::App* c) { return c->get_name() == argv[1]; });
     const CLI::App* command = found.empty() ? nullptr : found.front();
@@ -105,7 +145,9 @@ std::string suggestion(const CLI::App& app, int argc, char** argv) {
     for (int i = 2; i < argc; ++i) {
         const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
         if (word.starts_with("--") && std::find(options.begin(), options.end(), word) == options.end())
-            return fmt::format("there is no option '{}'{}", word, forage::nearest(word, options).empty() ? "" : ", " + forage::suggest(word, options));
+            return fmt::format(
+                "there is no option '{}'{}", word,
+                forage::nearest(word, options).empty() ? "" : ", " + forage::suggest(word, options));
     }
     return {};
 }
@@ -124,9 +166,11 @@ int main(int argc, char** argv) {
     std::string type;
     add_run(app, run_options);
     add_convert(app, convert_options);
-    auto& check_command = *app.add_subcommand("check", "Check a system (and world) and say everything that is wrong with it");
+    auto& check_command =
+        *app.add_subcommand("check", "Check a system (and world) and say everything that is wrong with it");
     add_input(check_command, check_input);
-    auto& types_command = *app.add_subcommand("types", "List the neuron, synapse and module types, or describe one");
+    auto& types_command =
+        *app.add_subcommand("types", "List the neuron, synapse and module types, or describe one");
     types_command.add_option("NAME", type, "The type to describe")->option_text(" ");
     app.add_subcommand("schema", "Print a RELAX NG schema of system files, for editors");
 
@@ -142,14 +186,17 @@ int main(int argc, char** argv) {
     } catch (const CLI::RequiredError& e) {
         const bool no_command = app.get_subcommands().empty() && !std::string_view(argv[1]).starts_with("-");
         const std::string meant = suggestion(app, argc, argv);
-        fmt::print(stderr, "error: {}\n  hint: {}\n", no_command ? fmt::format("there is no command '{}'", argv[1]) : e.what(),
+        fmt::print(stderr, "error: {}\n  hint: {}\n",
+                   no_command ? fmt::format("there is no command '{}'", argv[1]) : e.what(),
                    meant.empty() ? "'forage --help' lists what there is" : meant);
         return bad_input;
     } catch (const CLI::ParseError& e) {
         const std::string meant = suggestion(app, argc, argv);
         const auto parsed = app.get_subcommands();
         fmt::print(stderr, "error: {}\n  hint: {}\n", e.what(),
-                   !meant.empty() ? meant : fmt::format("'forage {}--help' lists what there is", parsed.empty() ? "" : parsed.front()->get_name() + " "));
+                   !meant.empty() ? meant
+                                  : fmt::format("'forage {}--help' lists what there is",
+                                                parsed.empty() ? "" : parsed.front()->get_name() + " "));
         return bad_input;
     }
     try {

@@ -1,14 +1,16 @@
 #include "tools/forage/paths.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 
 namespace forage::tool {
 
 constexpr std::size_t most_points = 1'000'000;
 
-PathLog::PathLog(const bug::World& world, std::size_t robot) : world_(world), robot_(robot) { add(0, world.pose(robot), true); }
+PathLog::PathLog(const bug::World& world, std::size_t robot) : world_(world), robot_(robot) {
+    add(0, world.pose(robot), true);
+}
 
 void PathLog::add(std::uint64_t cycle, const bug::Pose2& pose, bool always) {
     if (!current_.points.empty()) {
@@ -72,7 +74,8 @@ std::string PathLog::csv() const {
     std::string out = "trial,cycle,x,y,yaw\n";
     const auto add_trial = [&](std::size_t number, const Trial& t) {
         for (const auto& p : t.points)
-            fmt::format_to(std::back_inserter(out), "{},{},{},{},{}\n", number, p.cycle, p.pose.x, p.pose.y, p.pose.yaw);
+            fmt::format_to(std::back_inserter(out), "{},{},{},{},{}\n", number, p.cycle, p.pose.x, p.pose.y,
+                           p.pose.yaw);
     };
     for (std::size_t i = 0; i < finished_.size(); ++i) add_trial(i + 1, finished_[i]);
     if (!world_.resetting(robot_)) add_trial(finished_.size() + 1, current_);

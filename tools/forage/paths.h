@@ -9,8 +9,8 @@
 
 namespace forage::tool {
 
-/// Collects a robot's path, trial by trial, in points some distance apart: 1 cm, and twice as much each time there are
-/// more than a million of them.
+/// Collects a robot's path, trial by trial, in points some distance apart: 1 cm, and twice as much each time
+/// there are more than a million of them.
 class PathLog {
   public:
     PathLog(const bug::World& world, std::size_t robot);

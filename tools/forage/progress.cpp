@@ -1,13 +1,13 @@
 #include "tools/forage/progress.h"
 
-#include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 namespace forage::tool {
 
@@ -22,19 +22,24 @@ bool can_redraw() {
 
 Progress::Progress(bool wanted) : shown_(wanted && can_redraw()) {}
 
-double Progress::elapsed() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+double Progress::elapsed() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
 
 void Progress::draw(const State& s) {
     next_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(100);
     const double elapsed = std::max(this->elapsed(), 1e-9), done = std::clamp(s.done, 0.0, 1.0);
-    std::string text = fmt::format("{:3.0f} %  {}{}{:.0f} x real time  {:.0f} cycles/s", 100 * done, s.text, s.text.empty() ? "" : "  ",
-                                   s.seconds / elapsed, static_cast<double>(s.cycles) / elapsed);
+    std::string text =
+        fmt::format("{:3.0f} %  {}{}{:.0f} x real time  {:.0f} cycles/s", 100 * done, s.text,
+                    s.text.empty() ? "" : "  ", s.seconds / elapsed, static_cast<double>(s.cycles) / elapsed);
     winsize size{};
-    const int columns = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1 : 79;
+    const int columns =
+        ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1 : 79;
     // What is left beside the text is the bar's, if it is enough to see something.
     const int width = std::min(columns - static_cast<int>(text.size()) - 3, 40);
     const int filled = static_cast<int>(done * width);
-    std::string line = width < 5 ? text.substr(0, static_cast<std::size_t>(columns)) : fmt::format("[{:=<{}}{:{}}] {}", "", filled, "", width - filled, text);
+    std::string line = width < 5 ? text.substr(0, static_cast<std::size_t>(columns))
+                                 : fmt::format("[{:=<{}}{:{}}] {}", "", filled, "", width - filled, text);
     fmt::print(stderr, "\r{}\x1b[K", line);
     std::fflush(stderr);
 }

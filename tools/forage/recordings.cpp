@@ -8,7 +8,8 @@
 namespace forage::tool {
 
 std::map<std::string, observe::ColumnRef> recorded_columns(const std::vector<std::string>& names,
-                                                           const engine::Simulation& simulation, Diagnostics& diagnostics) {
+                                                           const engine::Simulation& simulation,
+                                                           Diagnostics& diagnostics) {
     std::map<std::string, observe::ColumnRef> out;
     for (const auto& name : names) {
         auto column = observe::find_column(simulation, name, "--record", diagnostics);
@@ -21,8 +22,8 @@ std::map<std::string, observe::ColumnRef> recorded_columns(const std::vector<std
     return out;
 }
 
-Recordings::Recordings(std::map<std::string, observe::ColumnRef> columns, std::uint64_t every, const std::string& directory,
-                       const engine::Simulation& simulation) {
+Recordings::Recordings(std::map<std::string, observe::ColumnRef> columns, std::uint64_t every,
+                       const std::string& directory, const engine::Simulation& simulation) {
     try {
         for (auto& [name, column] : columns) {
             const std::string path = directory + "/" + name;

@@ -11,20 +11,21 @@ namespace forage::tool {
 
 /// The columns that a person names, by the file name that each one gets. Reports those that are not there.
 std::map<std::string, observe::ColumnRef> recorded_columns(const std::vector<std::string>& names,
-                                                           const engine::Simulation& simulation, Diagnostics& diagnostics);
+                                                           const engine::Simulation& simulation,
+                                                           Diagnostics& diagnostics);
 
 class Recordings {
   public:
     /// Throws std::runtime_error when a file cannot be opened; none is left then.
-    Recordings(std::map<std::string, observe::ColumnRef> columns, std::uint64_t every, const std::string& directory,
-               const engine::Simulation& simulation);
+    Recordings(std::map<std::string, observe::ColumnRef> columns, std::uint64_t every,
+               const std::string& directory, const engine::Simulation& simulation);
 
     /// After each cycle. Throws std::runtime_error when a file cannot be written.
     void record(const engine::Simulation& simulation) {
         for (auto& r : all_) r.recorder.record(simulation);
     }
-    /// Closes every file and gives it its name, also when one of them fails. Returns what went wrong; empty when
-    /// nothing did.
+    /// Closes every file and gives it its name, also when one of them fails. Returns what went wrong; empty
+    /// when nothing did.
     std::string finish();
 
     std::vector<std::string> files() const;  ///< their names within the directory

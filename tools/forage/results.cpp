@@ -1,13 +1,13 @@
 #include "tools/forage/results.h"
 
-#include <fmt/format.h>
-
-#include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <cmath>
+
+#include <Eigen/Core>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "bug_interface/versions.h"
@@ -25,7 +25,8 @@ std::string_view outcome_of(const bug::Trial& t, bool finished) {
 nlohmann::ordered_json input_file(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
     std::uint64_t hash = 0xcbf29ce484222325u;
-    for (std::istreambuf_iterator<char> at(in), end; at != end; ++at) hash = (hash ^ static_cast<unsigned char>(*at)) * 0x100000001b3u;
+    for (std::istreambuf_iterator<char> at(in), end; at != end; ++at)
+        hash = (hash ^ static_cast<unsigned char>(*at)) * 0x100000001b3u;
     return {{"file", path}, {"fnv1a64", fmt::format("{:016x}", hash)}};
 }
 
@@ -37,16 +38,19 @@ std::string by_start(const bug::World& world, const Trials& trials) {
     if (!plan || plan->starts.size() < 2) return {};
     std::vector<std::pair<int, int>> counts(plan->starts.size());
     for (const auto& t : trials.finished) {
-        const auto nearest = std::min_element(plan->starts.begin(), plan->starts.end(), [&](const auto& a, const auto& b) {
-            return std::hypot(a.x - t.start.x, a.y - t.start.y) < std::hypot(b.x - t.start.x, b.y - t.start.y);
-        });
+        const auto nearest =
+            std::min_element(plan->starts.begin(), plan->starts.end(), [&](const auto& a, const auto& b) {
+                return std::hypot(a.x - t.start.x, a.y - t.start.y) <
+                       std::hypot(b.x - t.start.x, b.y - t.start.y);
+            });
         auto& [reached, all] = counts[static_cast<std::size_t>(nearest - plan->starts.begin())];
         ++all, reached += t.target();
     }
     std::string out;
     for (std::size_t i = 0; i < counts.size(); ++i)
         if (counts[i].second)
-            out += fmt::format("{}{} of {} from ({:g}, {:g})", out.empty() ? "" : ", ", counts[i].first, counts[i].second, plan->starts[i].x, plan->starts[i].y);
+            out += fmt::format("{}{} of {} from ({:g}, {:g})", out.empty() ? "" : ", ", counts[i].first,
+                               counts[i].second, plan->starts[i].x, plan->starts[i].y);
     return out;
 }
 
@@ -62,24 +66,29 @@ void robot_summary(const bug::World& world, std::size_t robot, const Line& line)
                                           cycles / static_cast<double>(n) * world.seconds_per_cycle()));
         if (world.targets().empty()) return;
         const std::string starts = by_start(world, trials);
-        line(name + "at the target", fmt::format("{} of {} ({:.0f} %){}", trials.reached(), n,
-                                                 100.0 * static_cast<double>(trials.reached()) / static_cast<double>(n),
-                                                 starts.empty() ? "" : ": " + starts));
+        line(name + "at the target",
+             fmt::format("{} of {} ({:.0f} %){}", trials.reached(), n,
+                         100.0 * static_cast<double>(trials.reached()) / static_cast<double>(n),
+                         starts.empty() ? "" : ": " + starts));
     } else if (trials.running) {
         const auto& t = *trials.running;
         const auto place = [](const bug::Pose2& p) {  // + 0.0: no minus before a zero
-            return fmt::format("({:.2f}, {:.2f})", std::round(p.x * 100) / 100 + 0.0, std::round(p.y * 100) / 100 + 0.0);
+            return fmt::format("({:.2f}, {:.2f})", std::round(p.x * 100) / 100 + 0.0,
+                               std::round(p.y * 100) / 100 + 0.0);
         };
         line(name + "robot", fmt::format("from {} to {}, {:.2f} m apart", place(t.start), place(t.end),
                                          std::hypot(t.end.x - t.start.x, t.end.y - t.start.y)));
-        if (!world.targets().empty()) line(name + "target", fmt::format("{:.2f} m away at the nearest{}", t.smallest_distance, t.target() ? ": reached" : ""));
+        if (!world.targets().empty())
+            line(name + "target", fmt::format("{:.2f} m away at the nearest{}", t.smallest_distance,
+                                              t.target() ? ": reached" : ""));
     }
 }
 
 }  // namespace
 
 std::size_t Trials::reached() const {
-    return static_cast<std::size_t>(std::count_if(finished.begin(), finished.end(), [](const auto& t) { return t.target(); }));
+    return static_cast<std::size_t>(
+        std::count_if(finished.begin(), finished.end(), [](const auto& t) { return t.target(); }));
 }
 
 Trials trials_of(const bug::World& world, std::size_t robot) {
@@ -90,10 +99,12 @@ Trials trials_of(const bug::World& world, std::size_t robot) {
 }
 
 std::string trials_csv(const Trials& trials) {
-    std::string out = "trial,start_x,start_y,start_yaw,cycles,smallest_distance,outcome,first_cycle,end_x,end_y,end_yaw\n";
+    std::string out =
+        "trial,start_x,start_y,start_yaw,cycles,smallest_distance,outcome,first_cycle,end_x,end_y,end_yaw\n";
     const auto add = [&](const bug::Trial& t, bool finished) {
-        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", t.number, t.start.x, t.start.y, t.start.yaw, t.cycles, t.smallest_distance,
-                           outcome_of(t, finished), t.first_cycle, t.end.x, t.end.y, t.end.yaw);
+        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", t.number, t.start.x, t.start.y, t.start.yaw,
+                           t.cycles, t.smallest_distance, outcome_of(t, finished), t.first_cycle, t.end.x,
+                           t.end.y, t.end.yaw);
     };
     for (const auto& t : trials.finished) add(t, true);
     if (trials.running) add(*trials.running, false);
@@ -103,7 +114,8 @@ std::string trials_csv(const Trials& trials) {
 std::string run_json(const RunOptions& o, const Loaded& loaded, const Outcome& outcome) {
     nlohmann::ordered_json json;
     json["forage"] = FORAGE_VERSION;
-    json["libraries"]["Eigen"] = fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
+    json["libraries"]["Eigen"] =
+        fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
     for (const auto& [name, version] : bug::library_versions()) json["libraries"][name] = version;
     json["compiler"] = __VERSION__;
     json["system"] = input_file(o.input.system);
@@ -131,7 +143,9 @@ std::string run_json(const RunOptions& o, const Loaded& loaded, const Outcome& o
     if (loaded.world)
         for (std::size_t i = 0; i < loaded.world->bugs(); ++i) {
             const Trials trials = trials_of(*loaded.world, i);
-            result["robots"].push_back({{"name", loaded.world->bug_names()[i]}, {"trials", trials.finished.size()}, {"at_target", trials.reached()}});
+            result["robots"].push_back({{"name", loaded.world->bug_names()[i]},
+                                        {"trials", trials.finished.size()},
+                                        {"at_target", trials.reached()}});
         }
     result["files"] = outcome.files;
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -149,19 +163,25 @@ std::vector<std::string> files_of_last_run(const std::string& directory) {
 }
 
 std::string picture_title(const RunOptions& o, const Loaded& loaded) {
-    return fmt::format("{}{}, seed {}", base_name(o.input.system), loaded.world ? " in " + base_name(o.input.world) : "", o.input.seed);
+    return fmt::format("{}{}, seed {}", base_name(o.input.system),
+                       loaded.world ? " in " + base_name(o.input.world) : "", o.input.seed);
 }
 
 std::string summary(const RunOptions& o, const Loaded& loaded, const Outcome& outcome) {
     std::string out = picture_title(o, loaded) + "\n";
-    const auto line = [&](std::string_view name, const std::string& text) { out += fmt::format("  {:<14} {}\n", name, text); };
+    const auto line = [&](std::string_view name, const std::string& text) {
+        out += fmt::format("  {:<14} {}\n", name, text);
+    };
     if (!outcome.stopped.empty()) line("stopped", outcome.stopped);
-    line("cycles", fmt::format("{} ({:.1f} s {})", outcome.cycles, outcome.seconds, loaded.world ? "in the world" : "at the system's pace"));
-    line("speed", fmt::format("{:.0f} cycles/s, {:.0f} x real time ({:.2f} s)", static_cast<double>(outcome.cycles) / outcome.clock,
+    line("cycles", fmt::format("{} ({:.1f} s {})", outcome.cycles, outcome.seconds,
+                               loaded.world ? "in the world" : "at the system's pace"));
+    line("speed", fmt::format("{:.0f} cycles/s, {:.0f} x real time ({:.2f} s)",
+                              static_cast<double>(outcome.cycles) / outcome.clock,
                               outcome.seconds / outcome.clock, outcome.clock));
     if (loaded.world)
         for (std::size_t i = 0; i < loaded.world->bugs(); ++i) robot_summary(*loaded.world, i, line);
-    if (!outcome.files.empty()) line("written", fmt::format("{}: {}", o.directory, fmt::join(outcome.files, ", ")));
+    if (!outcome.files.empty())
+        line("written", fmt::format("{}: {}", o.directory, fmt::join(outcome.files, ", ")));
     return out;
 }
 

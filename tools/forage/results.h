@@ -13,9 +13,9 @@ namespace forage::tool {
 struct Outcome {
     std::optional<std::uint64_t> length;  ///< cycles that were asked for; empty when trials end the run
     std::uint64_t cycles = 0;
-    double seconds = 0;     ///< of the world
-    double clock = 0;       ///< s of the clock
-    std::string stopped;    ///< why it ended before its time; empty when it did not
+    double seconds = 0;   ///< of the world
+    double clock = 0;     ///< s of the clock
+    std::string stopped;  ///< why it ended before its time; empty when it did not
     std::vector<std::string> files;
 };
 
@@ -28,11 +28,12 @@ struct Trials {
 };
 Trials trials_of(const bug::World& world, std::size_t robot);
 
-/// trial,start_x,start_y,start_yaw,cycles,smallest_distance,outcome,first_cycle,end_x,end_y,end_yaw in m and rad
+/// trial,start_x,start_y,start_yaw,cycles,smallest_distance,outcome,first_cycle,end_x,end_y,end_yaw in m and
+/// rad
 std::string trials_csv(const Trials& trials);
 
-/// Versions, seed and settings: what is needed to repeat the run, and what came of it. No times and no dates: the
-/// same run gives the same text.
+/// Versions, seed and settings: what is needed to repeat the run, and what came of it. No times and no dates:
+/// the same run gives the same text.
 std::string run_json(const RunOptions& options, const Loaded& loaded, const Outcome& outcome);
 
 /// The files that the run before left in a directory, by its run.json; empty when there is none to be read.

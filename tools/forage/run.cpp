@@ -1,10 +1,10 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <optional>
 #include <thread>
+
+#include <fmt/format.h>
 
 #include "core/engine/simulation.h"
 #include "tools/forage/commands.h"
@@ -30,14 +30,15 @@ struct Running {
     std::vector<PathLog> paths;            ///< one per robot, when there is a directory
 };
 
-/// Reads, checks and starts everything. Whatever is wrong with what a person gave is found here, before the first
-/// cycle and before anything is written.
+/// Reads, checks and starts everything. Whatever is wrong with what a person gave is found here, before the
+/// first cycle and before anything is written.
 std::optional<Running> prepare(const RunOptions& o, Diagnostics& diagnostics) {
     auto loaded = load(o.input, diagnostics);
     if (!loaded) return std::nullopt;
     check_length(o, loaded->world.get(), diagnostics);
     if (loaded->drive) check_drive(*loaded->drive, loaded->system, diagnostics);
-    auto simulation = engine::Simulation::build(loaded->system, loaded->registry, {.seed = o.input.seed, .threads = o.threads}, diagnostics);
+    auto simulation = engine::Simulation::build(loaded->system, loaded->registry,
+                                                {.seed = o.input.seed, .threads = o.threads}, diagnostics);
     if (!simulation) return std::nullopt;
     auto clamped = clamp(o.clamp, *simulation, diagnostics);
     auto columns = recorded_columns(o.recordings, *simulation, diagnostics);
@@ -51,7 +52,8 @@ std::optional<Running> prepare(const RunOptions& o, Diagnostics& diagnostics) {
             make_directory(o.directory);
             out.recordings.emplace(std::move(columns), o.every, o.directory, out.simulation);
             if (out.loaded.world)
-                for (std::size_t i = 0; i < out.loaded.world->bugs(); ++i) out.paths.emplace_back(*out.loaded.world, i);
+                for (std::size_t i = 0; i < out.loaded.world->bugs(); ++i)
+                    out.paths.emplace_back(*out.loaded.world, i);
         }
         return out;
     } catch (const std::exception& e) {
@@ -61,7 +63,8 @@ std::optional<Running> prepare(const RunOptions& o, Diagnostics& diagnostics) {
 }
 
 /// One pass of the loop is one cycle: the system, then its world. Throws what a cycle or a recording throws.
-void loop(const RunOptions& o, Running& r, const Length& length, double seconds_per_cycle, Progress& progress, Outcome& outcome) {
+void loop(const RunOptions& o, Running& r, const Length& length, double seconds_per_cycle, Progress& progress,
+          Outcome& outcome) {
     auto& simulation = r.simulation;
     while (!length.over(simulation.cycle())) {
         simulation.update_groups();
@@ -74,15 +77,17 @@ void loop(const RunOptions& o, Running& r, const Length& length, double seconds_
 
         const double seconds = static_cast<double>(simulation.cycle()) * seconds_per_cycle;
         if (o.real_time)
-            if (const double ahead = seconds - progress.elapsed(); ahead > 0) std::this_thread::sleep_for(std::chrono::duration<double>(ahead));
-        if (progress.due()) progress.draw({length.done(simulation.cycle()), simulation.cycle(), seconds, length.text()});
+            if (const double ahead = seconds - progress.elapsed(); ahead > 0)
+                std::this_thread::sleep_for(std::chrono::duration<double>(ahead));
+        if (progress.due())
+            progress.draw({length.done(simulation.cycle()), simulation.cycle(), seconds, length.text()});
         outcome.stopped = noted_signal() ? stopped_by(noted_signal()) : length.hopeless();
         if (!outcome.stopped.empty()) return;
     }
 }
 
-/// Writes what a run leaves behind; what cannot be written does not keep the rest from being written. Returns what
-/// went wrong.
+/// Writes what a run leaves behind; what cannot be written does not keep the rest from being written. Returns
+/// what went wrong.
 std::vector<std::string> write_results(const RunOptions& o, Running& r, Outcome& outcome) {
     std::vector<std::string> problems;
     const auto attempt = [&](const std::string& name, auto write) {
@@ -99,8 +104,10 @@ std::vector<std::string> write_results(const RunOptions& o, Running& r, Outcome&
     const auto& world = r.loaded.world;
     for (std::size_t i = 0; i < r.paths.size(); ++i) {
         const std::string robot = r.paths.size() > 1 ? "_" + file_name(world->bug_names()[i]) : "";
-        attempt("trials" + robot + ".csv", [&](const std::string& path) { write_file(path, trials_csv(trials_of(*world, i))); });
-        attempt("trajectory" + robot + ".csv", [&](const std::string& path) { write_file(path, r.paths[i].csv()); });
+        attempt("trials" + robot + ".csv",
+                [&](const std::string& path) { write_file(path, trials_csv(trials_of(*world, i))); });
+        attempt("trajectory" + robot + ".csv",
+                [&](const std::string& path) { write_file(path, r.paths[i].csv()); });
         attempt("trajectory" + robot + ".png", [&](const std::string& path) {
             plot::draw_trajectory(*world, r.paths[i].paths(), picture_title(o, r.loaded), partial(path));
             finish(path);
@@ -108,7 +115,8 @@ std::vector<std::string> write_results(const RunOptions& o, Running& r, Outcome&
     }
     attempt("run.json", [&](const std::string& path) { write_file(path, run_json(o, r.loaded, outcome)); });
     for (const auto& name : earlier)
-        if (std::find(outcome.files.begin(), outcome.files.end(), name) == outcome.files.end()) std::remove((o.directory + "/" + name).c_str());
+        if (std::find(outcome.files.begin(), outcome.files.end(), name) == outcome.files.end())
+            std::remove((o.directory + "/" + name).c_str());
     return problems;
 }
 
@@ -122,7 +130,8 @@ int run(const RunOptions& options) {
 
     note_signals();
     const auto* world = running->loaded.world.get();
-    const double seconds_per_cycle = world ? world->seconds_per_cycle() : 1 / cycles_per_second(running->loaded.system);
+    const double seconds_per_cycle =
+        world ? world->seconds_per_cycle() : 1 / cycles_per_second(running->loaded.system);
     const Length length(options, world, seconds_per_cycle);
     Progress progress(!options.quiet);
     Outcome outcome;
@@ -141,7 +150,8 @@ int run(const RunOptions& options) {
 
     if (!options.directory.empty())
         for (auto& problem : write_results(options, *running, outcome))
-            if (std::find(problems.begin(), problems.end(), problem) == problems.end()) problems.push_back(std::move(problem));
+            if (std::find(problems.begin(), problems.end(), problem) == problems.end())
+                problems.push_back(std::move(problem));
     if (!options.quiet) fmt::print("{}", summary(options, running->loaded, outcome));
     for (const auto& problem : problems) fmt::print(stderr, "error: {}\n", problem);
     if (!problems.empty()) return run_failed;

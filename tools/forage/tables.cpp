@@ -1,11 +1,11 @@
 #include "tools/forage/tables.h"
 
-#include <fmt/format.h>
-
 #include <charconv>
 #include <filesystem>
 #include <map>
 #include <set>
+
+#include <fmt/format.h>
 
 #include "core/model/lookup.h"
 #include "core/observe/column.h"
@@ -19,12 +19,14 @@ int group_of(std::string_view name, const engine::Simulation& s, Diagnostics& di
     const auto column = observe::find_column(s, name, "--clamp", diagnostics);
     if (!column) return -1;
     if (column->state == s.type(column->group).output()) return column->group;
-    diagnostics.error({}, fmt::format("--clamp '{}': only the activity of a group can be overwritten", name), "leave out the state");
+    diagnostics.error({}, fmt::format("--clamp '{}': only the activity of a group can be overwritten", name),
+                      "leave out the state");
     return -1;
 }
 
 /// The groups that a row names.
-std::vector<int> groups_of(const replay::DriveTable::Row& row, const engine::Simulation& s, Diagnostics& diagnostics) {
+std::vector<int> groups_of(const replay::DriveTable::Row& row, const engine::Simulation& s,
+                           Diagnostics& diagnostics) {
     if (row.process != "*") {
         const int group = group_of(row.process + "/" + row.target, s, diagnostics);
         return group < 0 ? std::vector<int>() : std::vector{group};
@@ -32,18 +34,23 @@ std::vector<int> groups_of(const replay::DriveTable::Row& row, const engine::Sim
     std::vector<int> out;
     for (int g = 0; g < s.groups(); ++g)
         if (s.path(g).substr(s.path(g).find('/') + 1) == row.target) out.push_back(g);
-    if (out.empty()) diagnostics.error({}, fmt::format("--clamp, line {}: no process has a group '{}'", row.line, row.target));
+    if (out.empty())
+        diagnostics.error({},
+                          fmt::format("--clamp, line {}: no process has a group '{}'", row.line, row.target));
     return out;
 }
 
-void add_table(const replay::DriveTable& table, const engine::Simulation& s, observe::Clamp& out, Diagnostics& diagnostics) {
+void add_table(const replay::DriveTable& table, const engine::Simulation& s, observe::Clamp& out,
+               Diagnostics& diagnostics) {
     for (const auto& row : table.rows())
         for (const int group : groups_of(row, s, diagnostics)) {
             const int cells = s.shape(group).cells;
-            if (row.values.size() == static_cast<std::size_t>(cells)) out.add(row.cycle, group, row.values);
+            if (row.values.size() == static_cast<std::size_t>(cells))
+                out.add(row.cycle, group, row.values);
             else
-                diagnostics.error({}, fmt::format("{}:{}: {} values for '{}', which has {} cells", table.name(), row.line, row.values.size(),
-                                                  s.path(group), cells));
+                diagnostics.error(
+                    {}, fmt::format("{}:{}: {} values for '{}', which has {} cells", table.name(), row.line,
+                                    row.values.size(), s.path(group), cells));
         }
 }
 
@@ -64,16 +71,21 @@ std::optional<Cell> parse_cell(std::string_view text) {
     const auto y = parse_parameter(ParameterKind::integer, model::trim(inside.substr(comma + 1)));
     const auto value = parse_parameter(ParameterKind::real, model::trim(text.substr(close + 2)));
     if (!x || !y || !value) return std::nullopt;
-    return Cell{std::string(text.substr(0, open)), std::get<int>(*x), std::get<int>(*y), std::get<double>(*value)};
+    return Cell{std::string(text.substr(0, open)), std::get<int>(*x), std::get<int>(*y),
+                std::get<double>(*value)};
 }
 
-void add_cell(const Cell& cell, const engine::Simulation& s, std::map<int, std::vector<double>>& rows, Diagnostics& diagnostics) {
+void add_cell(const Cell& cell, const engine::Simulation& s, std::map<int, std::vector<double>>& rows,
+              Diagnostics& diagnostics) {
     const int group = group_of(cell.group, s, diagnostics);
     if (group < 0) return;
     const GroupShape shape = s.shape(group);
-    if (cell.x < 1 || cell.y < 1 || cell.x > shape.width || cell.y > shape.height || shape.cells != shape.width * shape.height) {
-        diagnostics.error({}, fmt::format("--clamp: '{}' has no cell ({}, {})", s.path(group), cell.x, cell.y),
-                          fmt::format("it has {} columns and {} rows; cells count from (1, 1), at the upper left", shape.width, shape.height));
+    if (cell.x < 1 || cell.y < 1 || cell.x > shape.width || cell.y > shape.height ||
+        shape.cells != shape.width * shape.height) {
+        diagnostics.error(
+            {}, fmt::format("--clamp: '{}' has no cell ({}, {})", s.path(group), cell.x, cell.y),
+            fmt::format("it has {} columns and {} rows; cells count from (1, 1), at the upper left",
+                        shape.width, shape.height));
         return;
     }
     auto& values = rows.try_emplace(group, static_cast<std::size_t>(shape.cells), 0.0).first->second;
@@ -82,7 +94,8 @@ void add_cell(const Cell& cell, const engine::Simulation& s, std::map<int, std::
 
 }  // namespace
 
-observe::Clamp clamp(const std::vector<std::string>& wishes, const engine::Simulation& simulation, Diagnostics& diagnostics) {
+observe::Clamp clamp(const std::vector<std::string>& wishes, const engine::Simulation& simulation,
+                     Diagnostics& diagnostics) {
     observe::Clamp out;
     std::map<int, std::vector<double>> rows;
     for (const auto& wish : wishes) {
@@ -93,7 +106,9 @@ observe::Clamp clamp(const std::vector<std::string>& wishes, const engine::Simul
         try {
             add_table(replay::DriveTable::read(wish), simulation, out, diagnostics);
         } catch (const std::exception& e) {
-            diagnostics.error({}, fmt::format("--clamp: {}", e.what()), "a clamp is a file of rows cycle,process,group,v0,v1,... or 'Process/Group(x,y)=value'");
+            diagnostics.error(
+                {}, fmt::format("--clamp: {}", e.what()),
+                "a clamp is a file of rows cycle,process,group,v0,v1,... or 'Process/Group(x,y)=value'");
         }
     }
     for (auto& [group, values] : rows) out.add(-1, group, std::move(values));
@@ -109,21 +124,29 @@ void check_drive(const replay::DriveTable& table, const model::System& system, D
         for (const auto& r : p.module->outputs)
             if (const auto entry = groups.find(r.target); entry.group) {
                 const auto process = std::string(model::trim(p.name));
-                outputs.push_back({process, {r.name, std::string(model::trim(entry.process->name)) + "/" + std::string(model::trim(entry.group->name)), {}}});
+                outputs.push_back({process,
+                                   {r.name,
+                                    std::string(model::trim(entry.process->name)) + "/" +
+                                        std::string(model::trim(entry.group->name)),
+                                    {}}});
                 names.push_back(process + "," + r.name);
             }
     }
     if (outputs.empty()) {
-        diagnostics.error({}, fmt::format("--drive '{}': no process has an enabled moduleReplay to play it", table.name()),
-                          "--clamp overwrites the activity of any group");
+        diagnostics.error(
+            {}, fmt::format("--drive '{}': no process has an enabled moduleReplay to play it", table.name()),
+            "--clamp overwrites the activity of any group");
         return;
     }
     std::set<std::string> reported;
     for (const auto& row : table.rows()) {
-        const bool played = std::any_of(outputs.begin(), outputs.end(), [&](const auto& o) { return replay::plays(row, o.first, o.second); });
+        const bool played = std::any_of(outputs.begin(), outputs.end(),
+                                        [&](const auto& o) { return replay::plays(row, o.first, o.second); });
         const std::string target = row.process + "," + row.target;
         if (!played && reported.insert(target).second)
-            diagnostics.error({}, fmt::format("{}:{}: no moduleReplay plays '{}'", table.name(), row.line, target), suggest(target, names));
+            diagnostics.error(
+                {}, fmt::format("{}:{}: no moduleReplay plays '{}'", table.name(), row.line, target),
+                suggest(target, names));
     }
 }
 

@@ -11,9 +11,10 @@
 
 namespace forage::tool {
 
-/// What --clamp asks for: files of rows, and cells 'Process/Group(x,y)=value', which hold from the start while the
-/// group's other cells are 0. Reports what cannot be.
-observe::Clamp clamp(const std::vector<std::string>& wishes, const engine::Simulation& simulation, Diagnostics& diagnostics);
+/// What --clamp asks for: files of rows, and cells 'Process/Group(x,y)=value', which hold from the start
+/// while the group's other cells are 0. Reports what cannot be.
+observe::Clamp clamp(const std::vector<std::string>& wishes, const engine::Simulation& simulation,
+                     Diagnostics& diagnostics);
 
 /// Reports the rows of --drive that no moduleReplay of the system plays.
 void check_drive(const replay::DriveTable& table, const model::System& system, Diagnostics& diagnostics);

@@ -1,6 +1,6 @@
-#include <fmt/format.h>
-
 #include <cstdio>
+
+#include <fmt/format.h>
 
 #include "core/xml/schema.h"
 #include "tools/forage/commands.h"
@@ -8,19 +8,23 @@
 namespace forage::tool {
 namespace {
 
-void describe(const std::string& name, const std::string& label, const std::string& doc, const std::vector<Parameter>& parameters) {
+void describe(const std::string& name, const std::string& label, const std::string& doc,
+              const std::vector<Parameter>& parameters) {
     fmt::print("{} ({})\n  {}\n", name, label, doc);
     for (const auto& p : parameters) {
         const std::string value = to_text(p.default_value);
-        fmt::print("  {:<14} {} Default {}{}{}.\n", p.name, p.doc, p.kind == ParameterKind::text ? "'" + value + "'" : value,
-                   p.unit.empty() ? "" : " " + p.unit,
-                   p.range ? fmt::format(", usual range {} to {}", to_text(p.range->low), to_text(p.range->high)) : "");
+        fmt::print(
+            "  {:<14} {} Default {}{}{}.\n", p.name, p.doc,
+            p.kind == ParameterKind::text ? "'" + value + "'" : value, p.unit.empty() ? "" : " " + p.unit,
+            p.range ? fmt::format(", usual range {} to {}", to_text(p.range->low), to_text(p.range->high))
+                    : "");
     }
 }
 
 template <class Type>
 void describe_states(const Type& type) {
-    for (const auto& s : type.states) fmt::print("  state {:<8} {}{}\n", s.name, s.label, s.output ? " (output)" : "");
+    for (const auto& s : type.states)
+        fmt::print("  state {:<8} {}{}\n", s.name, s.label, s.output ? " (output)" : "");
 }
 
 template <class Map>
@@ -59,7 +63,8 @@ int types(const std::string& name) {
     if (const auto* module = registry.module(name)) {
         describe(module->name, module->label, module->doc, module->parameters);
         for (const auto& p : module->ports)
-            fmt::print("  {} {:<18} {}{}\n", p.is_output ? "output" : "input ", p.name, p.label, p.optional ? " (optional)" : "");
+            fmt::print("  {} {:<18} {}{}\n", p.is_output ? "output" : "input ", p.name, p.label,
+                       p.optional ? " (optional)" : "");
         return fine;
     }
     std::vector<std::string> all = names(registry.neurons());

@@ -1,13 +1,13 @@
 #include "tools/plot/trajectory.h"
 
-#include <cairo.h>
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+
+#include <cairo.h>
+#include <fmt/format.h>
 
 #include "bug_interface/world/png.h"
 
@@ -23,15 +23,20 @@ struct Free {
 using Surface = std::unique_ptr<cairo_surface_t, Free>;
 
 /// Dark to light, perceptually even (samples of matplotlib's plasma, from where it shows on black).
-constexpr std::array<std::array<double, 3>, 6> path_colours = {{{0.55, 0.20, 0.75}, {0.78, 0.25, 0.63}, {0.92, 0.40, 0.46},
-                                                                {0.98, 0.57, 0.28}, {0.99, 0.76, 0.19}, {0.94, 0.97, 0.30}}};
+constexpr std::array<std::array<double, 3>, 6> path_colours = {{{0.55, 0.20, 0.75},
+                                                                {0.78, 0.25, 0.63},
+                                                                {0.92, 0.40, 0.46},
+                                                                {0.98, 0.57, 0.28},
+                                                                {0.99, 0.76, 0.19},
+                                                                {0.94, 0.97, 0.30}}};
 
 std::array<double, 3> path_colour(double part) {
     const double place = std::clamp(part, 0.0, 1.0) * static_cast<double>(path_colours.size() - 1);
     const auto low = std::min(static_cast<std::size_t>(place), path_colours.size() - 2);
     const double f = place - static_cast<double>(low);
     std::array<double, 3> out{};
-    for (std::size_t i = 0; i < 3; ++i) out[i] = (1 - f) * path_colours[low][i] + f * path_colours[low + 1][i];
+    for (std::size_t i = 0; i < 3; ++i)
+        out[i] = (1 - f) * path_colours[low][i] + f * path_colours[low + 1][i];
     return out;
 }
 
@@ -45,7 +50,8 @@ double tick_step(double extent, int count) {
 
 class Drawing {
   public:
-    Drawing(const bug::World& world, const std::vector<Path>& paths) : world_(world), paths_(paths), view_(view()) {
+    Drawing(const bug::World& world, const std::vector<Path>& paths)
+        : world_(world), paths_(paths), view_(view()) {
         scale_ = 760 / std::max(view_.sizes().x(), view_.sizes().y());
         width_ = left + static_cast<int>(view_.sizes().x() * scale_) + right;
         height_ = top + static_cast<int>(view_.sizes().y() * scale_) + bottom;
@@ -122,7 +128,8 @@ class Drawing {
         for (int y = 0; y < image.height; ++y)
             for (int x = 0; x < image.width; ++x) {
                 const auto* p = image.pixel(x, y);
-                reinterpret_cast<std::uint32_t*>(data + y * stride)[x] = std::uint32_t{p[0]} << 16 | std::uint32_t{p[1]} << 8 | p[2];
+                reinterpret_cast<std::uint32_t*>(data + y * stride)[x] =
+                    std::uint32_t{p[0]} << 16 | std::uint32_t{p[1]} << 8 | p[2];
             }
         cairo_surface_mark_dirty(texture.get());
         cairo_save(c());
@@ -140,8 +147,10 @@ class Drawing {
         cairo_translate(c(), px(at.x()), py(at.y()));
         cairo_rotate(c(), -bug::yaw_of(d.solid.pose));
         const double w = d.solid.size.x() * scale_, h = d.solid.size.y() * scale_;
-        if (d.solid.kind == bug::ShapeKind::box) cairo_rectangle(c(), -w / 2, -h / 2, w, h);
-        else cairo_arc(c(), 0, 0, w / 2, 0, 2 * M_PI);
+        if (d.solid.kind == bug::ShapeKind::box)
+            cairo_rectangle(c(), -w / 2, -h / 2, w, h);
+        else
+            cairo_arc(c(), 0, 0, w / 2, 0, 2 * M_PI);
         cairo_set_source_rgb(c(), d.colour[0], d.colour[1], d.colour[2]);
         cairo_fill(c());
         cairo_restore(c());
@@ -154,8 +163,8 @@ class Drawing {
         cairo_set_dash(c(), dash, 2, 0);
         cairo_set_line_width(c(), 1);
         cairo_set_source_rgb(c(), 0.65, 0.65, 0.65);
-        cairo_rectangle(c(), px(plan->bounds.min().x()), py(plan->bounds.max().y()), plan->bounds.sizes().x() * scale_,
-                        plan->bounds.sizes().y() * scale_);
+        cairo_rectangle(c(), px(plan->bounds.min().x()), py(plan->bounds.max().y()),
+                        plan->bounds.sizes().x() * scale_, plan->bounds.sizes().y() * scale_);
         cairo_stroke(c());
         cairo_set_dash(c(), nullptr, 0, 0);
     }
@@ -192,7 +201,8 @@ class Drawing {
     void draw_path(std::size_t i) {
         const auto& points = paths_[i].points;
         if (points.empty()) return;
-        const auto colour = path_colour(paths_.size() > 1 ? static_cast<double>(i) / static_cast<double>(paths_.size() - 1) : 1);
+        const auto colour = path_colour(
+            paths_.size() > 1 ? static_cast<double>(i) / static_cast<double>(paths_.size() - 1) : 1);
         const double width = paths_.size() > 60 ? 1 : 1.6;
         for (const bool halo : {true, false}) {  // a dark rim keeps a path visible on bright patches
             cairo_set_source_rgb(c(), halo ? 0 : colour[0], halo ? 0 : colour[1], halo ? 0 : colour[2]);
@@ -205,7 +215,9 @@ class Drawing {
     }
 
     enum class End { reached, missed, unfinished };
-    static End end_of(const Path& p) { return p.reached ? End::reached : p.finished ? End::missed : End::unfinished; }
+    static End end_of(const Path& p) {
+        return p.reached ? End::reached : p.finished ? End::missed : End::unfinished;
+    }
 
     void draw_end(double x, double y, End end, const std::array<double, 3>& colour) {
         for (const bool halo : {true, false}) {
@@ -281,9 +293,15 @@ class Drawing {
             text(x + 20, y + 4, what, 12, 0);
             y += 24;
         };
-        const auto count = [&](End end) { return std::count_if(paths_.begin(), paths_.end(), [&](const Path& p) { return end_of(p) == end; }); };
-        for (const auto& [end, name] : {std::pair{End::reached, "at the target"}, {End::missed, "missed"}, {End::unfinished, "unfinished"}})
-            if (const auto n = count(end)) entry(fmt::format("{} {}", n, name), [&, e = end] { draw_end(x + 7, y, e, path_colour(1)); });
+        const auto count = [&](End end) {
+            return std::count_if(paths_.begin(), paths_.end(),
+                                 [&](const Path& p) { return end_of(p) == end; });
+        };
+        for (const auto& [end, name] : {std::pair{End::reached, "at the target"},
+                                        {End::missed, "missed"},
+                                        {End::unfinished, "unfinished"}})
+            if (const auto n = count(end))
+                entry(fmt::format("{} {}", n, name), [&, e = end] { draw_end(x + 7, y, e, path_colour(1)); });
         const auto outline = [&](double dash, auto shape) {
             const double dashes[] = {dash, dash};
             cairo_set_dash(c(), dashes, 2, 0);
@@ -295,7 +313,8 @@ class Drawing {
         };
         if (!world_.targets().empty())
             entry("target", [&] { outline(2, [&] { cairo_arc(c(), x + 7, y, 6, 0, 2 * M_PI); }); });
-        if (world_.reset_plan()) entry("bounds", [&] { outline(3, [&] { cairo_rectangle(c(), x + 1, y - 6, 12, 12); }); });
+        if (world_.reset_plan())
+            entry("bounds", [&] { outline(3, [&] { cairo_rectangle(c(), x + 1, y - 6, 12, 12); }); });
     }
 
     const bug::World& world_;
@@ -309,7 +328,8 @@ class Drawing {
 
 }  // namespace
 
-void draw_trajectory(const bug::World& world, const std::vector<Path>& paths, const std::string& title, const std::string& png) {
+void draw_trajectory(const bug::World& world, const std::vector<Path>& paths, const std::string& title,
+                     const std::string& png) {
     Drawing drawing(world, paths);
     drawing.draw(title);
     drawing.write(png);

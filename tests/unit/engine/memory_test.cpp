@@ -11,7 +11,8 @@ namespace {
 model::System large(int side, int delay, const std::string& type = "synapseFixedWeight") {
     model::System s;
     const auto p = model::add_process(s, "P");
-    const auto a = model::add_group(s, p, "A", side, side, "neuronRandomSpike"), b = model::add_group(s, p, "B", side, side, "neuronNumeric");
+    const auto a = model::add_group(s, p, "A", side, side, "neuronRandomSpike"),
+               b = model::add_group(s, p, "B", side, side, "neuronNumeric");
     connect(s, a, b, InputKind::excitatory, "synapseFixedWeight", "1").name = "short";
     auto& c = connect(s, a, b, InputKind::excitatory, type, "2");
     c.name = "long";
@@ -30,12 +31,18 @@ std::string refusal(const model::System& system) {
 
 }  // namespace
 
-TEST_CASE("A system that needs more memory than is allowed is refused before it is taken, and its largest part is named") {
+TEST_CASE(
+    "A system that needs more memory than is allowed is refused before it is taken, and its largest part is "
+    "named") {
     const std::string wired = refusal(large(300, 100'000));
     CHECK_THAT(wired, Catch::Contains("the system needs 72.01 GB of memory, the most is 17.18 GB"));
-    CHECK_THAT(wired, Catch::Contains("the largest part is connection 'long': delay 100000 x 90000 cells = 72 GB"));
+    CHECK_THAT(wired,
+               Catch::Contains("the largest part is connection 'long': delay 100000 x 90000 cells = 72 GB"));
     const std::string plastic = refusal(large(200, 30'000, "synapseHebbian"));
-    CHECK_THAT(plastic, Catch::Contains("the largest part is connection 'long': (4 numbers + delay 30000) x 40000 synapses = 9.602 GB"));
+    CHECK_THAT(
+        plastic,
+        Catch::Contains(
+            "the largest part is connection 'long': (4 numbers + delay 30000) x 40000 synapses = 9.602 GB"));
 }
 
 TEST_CASE("A system for which there is not enough memory is refused with words") {

@@ -38,8 +38,8 @@ struct Say {
     void update(ModuleFrame& frame) { frame.output(0) = value; }
 };
 
-void use_module(model::System& s, const std::string& process, const std::string& type, std::vector<model::CrossReference> inputs,
-                std::vector<model::CrossReference> outputs) {
+void use_module(model::System& s, const std::string& process, const std::string& type,
+                std::vector<model::CrossReference> inputs, std::vector<model::CrossReference> outputs) {
     model::ModuleUse use;
     use.type = type, use.inputs = std::move(inputs), use.outputs = std::move(outputs);
     model::find_process(s, process)->module = use;
@@ -52,7 +52,8 @@ struct WriterSystem {
     std::string process;
     WriterSystem() {
         process = model::add_process(system, "P");
-        const auto a = model::add_group(system, process, "A", 2, 1, "counter"), b = model::add_group(system, process, "B", 2, 1, "neuronNumeric");
+        const auto a = model::add_group(system, process, "A", 2, 1, "counter"),
+                   b = model::add_group(system, process, "B", 2, 1, "neuronNumeric");
         use_module(system, process, "writer", {{"in", a, {}}}, {{"out", b, {}}});
         types.add(module_type(Writer{log}));
     }
@@ -62,7 +63,9 @@ std::string text(double v) { return to_text(ParameterValue(v)); }
 
 }  // namespace
 
-TEST_CASE("A module reads this cycle's activity; what it writes is received in the next cycle, and held until written again") {
+TEST_CASE(
+    "A module reads this cycle's activity; what it writes is received in the next cycle, and held until "
+    "written again") {
     WriterSystem w;
     auto s = run(w.system, w.types);
     const double received[] = {100, 1, 1, 1, 4, 4, 4, 7};  // what start() wrote, in cycle 0
@@ -104,15 +107,19 @@ TEST_CASE("Inputs are summed from modules first, then from connections, in byte 
     do {
         model::System system;
         const auto q = model::add_process(system, "Q", "q");
-        const auto a = model::add_group(system, q, "A", 1, 1, "one"), b = model::add_group(system, q, "B", 1, 1, "neuronNumeric");
+        const auto a = model::add_group(system, q, "A", 1, 1, "one"),
+                   b = model::add_group(system, q, "B", 1, 1, "neuronNumeric");
         const auto weigh = [&](const char* id, double value) {
-            model::set_parameter(*connect(system, a, b, InputKind::excitatory, "synapseFixedWeight", id).synapse, "weight", text(value));
+            model::set_parameter(
+                *connect(system, a, b, InputKind::excitatory, "synapseFixedWeight", id).synapse, "weight",
+                text(value));
         };
         weigh("9", values[3]), weigh("10", values[2]);  // not in order
         for (const int i : {1, 0}) {
             const auto p = model::add_process(system, "P" + std::to_string(i), "p" + std::to_string(i));
             use_module(system, p, "say", {}, {{"out", b, {}}});
-            model::set_parameter(*model::find_process(system, p)->module, "value", text(values[static_cast<std::size_t>(i)]));
+            model::set_parameter(*model::find_process(system, p)->module, "value",
+                                 text(values[static_cast<std::size_t>(i)]));
         }
         auto s = run(system, types);
         s.step(), s.step();

@@ -1,8 +1,9 @@
 // What each neuron type does with an input that is not a number; the random numbers of a group.
+#include "neurons/neurons.h"
+
 #include <cmath>
 #include <limits>
 
-#include "neurons/neurons.h"
 #include "tests/support/catch.h"
 
 using namespace forage;
@@ -17,11 +18,14 @@ struct Cells {
         std::vector<Eigen::ArrayXd> rings;
         for (const auto& s : type.states) rings.emplace_back(Eigen::ArrayXd::Zero(s.history * stride));
         std::vector<NeuronColumns::State> states;
-        for (std::size_t i = 0; i < rings.size(); ++i) states.push_back({rings[i].data(), type.states[i].history});
-        Eigen::ArrayXd excitation(stride), inhibition = Eigen::ArrayXd::Zero(stride), modulation = Eigen::ArrayXd::Zero(stride), scratch(stride);
+        for (std::size_t i = 0; i < rings.size(); ++i)
+            states.push_back({rings[i].data(), type.states[i].history});
+        Eigen::ArrayXd excitation(stride), inhibition = Eigen::ArrayXd::Zero(stride),
+                                           modulation = Eigen::ArrayXd::Zero(stride), scratch(stride);
         excitation << nan, 5;
         const RandomStream random(1, "group");
-        NeuronColumns columns(stride, stride, 0, {excitation.data(), inhibition.data(), modulation.data()}, states.data(), &random, scratch.data());
+        NeuronColumns columns(stride, stride, 0, {excitation.data(), inhibition.data(), modulation.data()},
+                              states.data(), &random, scratch.data());
         type.make()->update(columns);
         output = rings[static_cast<std::size_t>(type.output())].head(stride);
         if (type.states[0].name == "vm") potential = rings[0].head(stride);
@@ -35,8 +39,12 @@ struct Cells {
 TEST_CASE("NaN passes a graded neuron and does not make a spiking one spike") {
     Registry registry;
     add_neurons(registry);
-    const std::map<std::string, bool> passes{{"neuronLinearThreshold", true}, {"neuronSigmoid", true},           {"neuronNumeric", true},
-                                             {"neuronIntegrateFire", false},  {"neuronPyramidApicalShunt", false}, {"neuronTDValue", false},
+    const std::map<std::string, bool> passes{{"neuronLinearThreshold", true},
+                                             {"neuronSigmoid", true},
+                                             {"neuronNumeric", true},
+                                             {"neuronIntegrateFire", false},
+                                             {"neuronPyramidApicalShunt", false},
+                                             {"neuronTDValue", false},
                                              {"neuronRandomSpike", false}};
     REQUIRE(passes.size() == registry.neurons().size());
     for (const auto& [name, type] : registry.neurons()) {
@@ -52,7 +60,8 @@ TEST_CASE("NaN passes a graded neuron and does not make a spiking one spike") {
     }
 }
 
-TEST_CASE("A group gets the same random numbers for the same draw of a cycle, others for another draw or cycle") {
+TEST_CASE(
+    "A group gets the same random numbers for the same draw of a cycle, others for another draw or cycle") {
     const RandomStream random(1, "group");
     Eigen::ArrayXd scratch(3);
     const auto draws = [&](std::uint64_t cycle, std::uint32_t draw) -> Eigen::ArrayXd {

@@ -6,16 +6,19 @@ using namespace forage::test;
 
 namespace {
 
-/// A counts 1, 2, 3...; B receives it through `teach` and through a Hebbian connection with learning rate 0.5.
+/// A counts 1, 2, 3...; B receives it through `teach` and through a Hebbian connection with learning rate
+/// 0.5.
 struct Pair {
     model::System system;
     Registry types = registry();
     std::string a, b;
     Pair() {
         const auto p = model::add_process(system, "P");
-        a = model::add_group(system, p, "A", 1, 1, "counter"), b = model::add_group(system, p, "B", 1, 1, "neuronNumeric");
+        a = model::add_group(system, p, "A", 1, 1, "counter"),
+        b = model::add_group(system, p, "B", 1, 1, "neuronNumeric");
         connect(system, a, b, InputKind::excitatory, "synapseFixedWeight", "teach");
-        auto& learn = connect(system, a, b, InputKind::excitatory, "synapseHebbian", "learn");  // connection 0
+        auto& learn =
+            connect(system, a, b, InputKind::excitatory, "synapseHebbian", "learn");  // connection 0
         model::set_parameter(*learn.synapse, "lrate", "0.5");
         learn.synapse->feedback.push_back({"postact", "act", {}});
     }
@@ -40,7 +43,8 @@ TEST_CASE("A Hebbian weight grows by rate * post * pre of the same cycle and pas
     }
 }
 
-TEST_CASE("With a delay, a Hebbian synapse reads the target as it was that long ago and delivers that much later") {
+TEST_CASE(
+    "With a delay, a Hebbian synapse reads the target as it was that long ago and delivers that much later") {
     Pair pair;
     pair.learn().delay = uniform(2);
     auto s = run(pair.system, pair.types);
@@ -69,13 +73,17 @@ TEST_CASE("Attenuation acts on what a Hebbian synapse passes, not on what it lea
     }
 }
 
-TEST_CASE("A delayed feedback of vm makes vm persist from (delay + 1) cycles ago; what is not read is learnt all the same") {
+TEST_CASE(
+    "A delayed feedback of vm makes vm persist from (delay + 1) cycles ago; what is not read is learnt all "
+    "the same") {
     model::System system;
     const auto p = model::add_process(system, "P");
-    const auto a = model::add_group(system, p, "A", 1, 1, "counter"), b = model::add_group(system, p, "B", 1, 1, "neuronLinearThreshold");
+    const auto a = model::add_group(system, p, "A", 1, 1, "counter"),
+               b = model::add_group(system, p, "B", 1, 1, "neuronLinearThreshold");
     model::set_parameter(model::find_group(system, b)->neuron, "vmPrs", "0.5");
     connect(system, a, b, InputKind::excitatory, "synapseFixedWeight", "teach");
-    auto& learn = connect(system, a, b, InputKind::modulatory, "synapseHebbian", "learn");  // B reads no modulation
+    auto& learn =
+        connect(system, a, b, InputKind::modulatory, "synapseHebbian", "learn");  // B reads no modulation
     model::set_parameter(*learn.synapse, "lrate", "1");
     learn.synapse->feedback.push_back({"postact", "vm", {}});
     learn.delay = uniform(2);
@@ -95,16 +103,20 @@ TEST_CASE("A delayed feedback of vm makes vm persist from (delay + 1) cycles ago
 TEST_CASE("An apical synapse passes pre * 1 / (1 - mod) of its target, attenuated") {
     model::System system;
     const auto p = model::add_process(system, "P");
-    const auto a = model::add_group(system, p, "A", 1, 1, "one"), b = model::add_group(system, p, "B", 1, 1, "neuronPyramidApicalShunt");
+    const auto a = model::add_group(system, p, "A", 1, 1, "one"),
+               b = model::add_group(system, p, "B", 1, 1, "neuronPyramidApicalShunt");
     model::set_parameter(model::find_group(system, b)->neuron, "threshold", "2");
     model::set_parameter(model::find_group(system, b)->neuron, "vmReset", "0.5");
     auto& apical = connect(system, a, b, InputKind::excitatory, "synapseApicalShunt", "apical");
     apical.synapse->feedback.push_back({"apicalShunt", "shunt", {}});
     apical.attenuation = uniform(0.25);
-    model::set_parameter(*connect(system, a, b, InputKind::modulatory, "synapseFixedWeight", "shunting").synapse, "weight", "0.75");
+    model::set_parameter(
+        *connect(system, a, b, InputKind::modulatory, "synapseFixedWeight", "shunting").synapse, "weight",
+        "0.75");
     const Registry types = registry();
     auto s = run(system, types);
-    const double shunt[] = {1, 4, 4, 4}, psp[] = {0.75, 3, 3, 3}, vm[] = {0, 0.75, 2.5, 2.5}, act[] = {0, 0, 1, 1}, backprop[] = {0, 0, 0, 1};
+    const double shunt[] = {1, 4, 4, 4}, psp[] = {0.75, 3, 3, 3}, vm[] = {0, 0.75, 2.5, 2.5},
+                 act[] = {0, 0, 1, 1}, backprop[] = {0, 0, 0, 1};
     for (int t = 0; t < 4; ++t) {
         s.step();
         INFO("cycle " << t);

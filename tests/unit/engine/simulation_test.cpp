@@ -28,13 +28,16 @@ class RandomSystem {
         model::System s;
         const auto p = model::add_process(s, "P");
         std::vector<std::string> ids;
-        const char* types[] = {"neuronRandomSpike", "neuronLinearThreshold", "neuronSigmoid", "neuronPyramidApicalShunt"};
+        const char* types[] = {"neuronRandomSpike", "neuronLinearThreshold", "neuronSigmoid",
+                               "neuronPyramidApicalShunt"};
         for (int i = 0; i < groups; ++i) {
             const auto size = [&] { return side + (upto(3) ? 0 : upto(4)); };
             ids.push_back(model::add_group(s, p, "G" + std::to_string(i), size(), size(), types[i % 4]));
             auto& neuron = model::find_group(s, ids.back())->neuron;
             if (i % 4 == 1) model::set_parameter(neuron, "probability", "0.7");
-            if (i % 4 == 3) model::set_parameter(neuron, "threshold", "0.5"), model::set_parameter(neuron, "vmPrs", "0.3");
+            if (i % 4 == 3)
+                model::set_parameter(neuron, "threshold", "0.5"),
+                    model::set_parameter(neuron, "vmPrs", "0.3");
         }
         for (int i = 0; i < 3 * groups; ++i) {
             const auto& from = ids[static_cast<std::size_t>(upto(groups))];
@@ -51,10 +54,15 @@ class RandomSystem {
 
     void add_connection(model::System& s, const std::string& from, const std::string& to) {
         const bool pyramid = model::find_group(s, to)->neuron.type == "neuronPyramidApicalShunt";
-        const std::string type = upto(4) ? "synapseFixedWeight" : pyramid && upto(2) ? "synapseApicalShunt" : "synapseHebbian";
-        const auto kind = upto(8) == 0 ? InputKind::modulatory : upto(3) ? InputKind::excitatory : InputKind::inhibitory;
+        const std::string type = upto(4)              ? "synapseFixedWeight"
+                                 : pyramid && upto(2) ? "synapseApicalShunt"
+                                                      : "synapseHebbian";
+        const auto kind = upto(8) == 0 ? InputKind::modulatory
+                          : upto(3)    ? InputKind::excitatory
+                                       : InputKind::inhibitory;
         auto& c = connect(s, from, to, kind, type);
-        if (type == "synapseFixedWeight") model::set_parameter(*c.synapse, "weight", std::to_string(0.01 * upto(100)));
+        if (type == "synapseFixedWeight")
+            model::set_parameter(*c.synapse, "weight", std::to_string(0.01 * upto(100)));
         if (type == "synapseApicalShunt") c.synapse->feedback.push_back({"apicalShunt", "shunt", {}});
         if (type == "synapseHebbian") {
             model::set_parameter(*c.synapse, "lrate", "0.01");
@@ -63,22 +71,30 @@ class RandomSystem {
         c.delay = uniform(upto(4));
         c.attenuation = uniform(0.1 * upto(5));
         switch (upto(3)) {
-            case 0: return;  // one to one, where sizes are equal
-            case 1: c.pattern = model::ForeachPattern{}; return;  // all alike
-            default: break;
+            case 0:
+                return;  // one to one, where sizes are equal
+            case 1:
+                c.pattern = model::ForeachPattern{};
+                return;  // all alike
+            default:
+                break;
         }
         if (upto(2)) c.pattern = model::ForeachPattern{};
         c.arborization.shape = model::RectArbor{1 + upto(3), 1 + upto(3)};
         if (upto(2)) c.arborization.direction = model::Direction::projective;
-        if (upto(2)) c.attenuation = {model::GaussianFunction{0, 1, 1.5}, {}};
-        else c.attenuation = {model::RandomFunction{0.5}, {}};
+        if (upto(2))
+            c.attenuation = {model::GaussianFunction{0, 1, 1.5}, {}};
+        else
+            c.attenuation = {model::RandomFunction{0.5}, {}};
         if (upto(2)) c.delay = {model::RandomFunction{4}, {}};
     }
 
     std::mt19937 random_;
 };
 
-model::System random_system(unsigned seed, int groups, int side) { return RandomSystem(seed).make(groups, side); }
+model::System random_system(unsigned seed, int groups, int side) {
+    return RandomSystem(seed).make(groups, side);
+}
 
 /// All activity over the cycles, exactly; one NaN is like another.
 std::vector<std::uint64_t> trace(engine::Simulation s, int cycles) {
@@ -86,12 +102,14 @@ std::vector<std::uint64_t> trace(engine::Simulation s, int cycles) {
     for (int t = 0; t < cycles; ++t) {
         s.step();
         for (int g = 0; g < s.groups(); ++g)
-            for (const double v : s.state(g, s.type(g).output())) out.push_back(std::isnan(v) ? ~0ull : std::bit_cast<std::uint64_t>(v));
+            for (const double v : s.state(g, s.type(g).output()))
+                out.push_back(std::isnan(v) ? ~0ull : std::bit_cast<std::uint64_t>(v));
     }
     return out;
 }
 
-std::vector<std::uint64_t> trace(const model::System& system, engine::Simulation::Options options, int cycles) {
+std::vector<std::uint64_t> trace(const model::System& system, engine::Simulation::Options options,
+                                 int cycles) {
     const Registry types = registry();
     return trace(run(system, types, options), cycles);
 }
@@ -110,9 +128,11 @@ std::vector<std::uint64_t> synapse_states(const engine::Simulation& s) {
 TEST_CASE("A connection costs one cycle, and its delay more") {
     model::System s;
     const auto p = model::add_process(s, "P");
-    const auto a = model::add_group(s, p, "A", 2, 1, "counter"), b = model::add_group(s, p, "B", 2, 1, "neuronLinearThreshold");
+    const auto a = model::add_group(s, p, "A", 2, 1, "counter"),
+               b = model::add_group(s, p, "B", 2, 1, "neuronLinearThreshold");
     const int delay = GENERATE(0, 1, 2, 7);
-    model::find_connection(s, model::add_connection(s, a, b, InputKind::excitatory, "synapseFixedWeight"))->delay = uniform(delay);
+    model::find_connection(s, model::add_connection(s, a, b, InputKind::excitatory, "synapseFixedWeight"))
+        ->delay = uniform(delay);
     const Registry types = registry();
     auto simulation = run(s, types);
     for (int t = 0; t < 30; ++t) {
@@ -125,7 +145,8 @@ TEST_CASE("A connection costs one cycle, and its delay more") {
 TEST_CASE("Loops are legal: two groups pass a spike to and fro") {
     model::System s;
     const auto p = model::add_process(s, "P");
-    const auto a = model::add_group(s, p, "A", 1, 1, "neuronLinearThreshold"), b = model::add_group(s, p, "B", 1, 1, "neuronLinearThreshold");
+    const auto a = model::add_group(s, p, "A", 1, 1, "neuronLinearThreshold"),
+               b = model::add_group(s, p, "B", 1, 1, "neuronLinearThreshold");
     model::add_connection(s, a, b, InputKind::excitatory, "synapseFixedWeight");
     model::add_connection(s, b, a, InputKind::excitatory, "synapseFixedWeight");
     const Registry types = registry();
@@ -159,10 +180,15 @@ TEST_CASE("Every form of a connection gives the same bits as the list of synapse
 TEST_CASE("Connections are compiled to the form that fits them") {
     model::System s;
     const auto p = model::add_process(s, "P");
-    const auto a = model::add_group(s, p, "A", 4, 4, "neuronRandomSpike"), b = model::add_group(s, p, "B", 4, 4, "neuronLinearThreshold");
+    const auto a = model::add_group(s, p, "A", 4, 4, "neuronRandomSpike"),
+               b = model::add_group(s, p, "B", 4, 4, "neuronLinearThreshold");
     model::add_connection(s, a, b, InputKind::excitatory, "synapseFixedWeight", "1");
-    model::find_connection(s, model::add_connection(s, a, b, InputKind::excitatory, "synapseFixedWeight", "2"))->pattern = model::ForeachPattern{};
-    model::find_connection(s, model::add_connection(s, a, b, InputKind::excitatory, "synapseFixedWeight", "3"))->arborization.shape = model::RectArbor{3, 3};
+    model::find_connection(s,
+                           model::add_connection(s, a, b, InputKind::excitatory, "synapseFixedWeight", "2"))
+        ->pattern = model::ForeachPattern{};
+    model::find_connection(s,
+                           model::add_connection(s, a, b, InputKind::excitatory, "synapseFixedWeight", "3"))
+        ->arborization.shape = model::RectArbor{3, 3};
     const Registry types = registry();
     const auto simulation = run(s, types);
     CHECK(simulation.connection_form(0) == "one to one");
@@ -172,9 +198,11 @@ TEST_CASE("Connections are compiled to the form that fits them") {
 
 TEST_CASE("The number of threads changes no bit") {
     auto system = random_system(3, 8, 8);
-    const std::string process = system.processes[0].id, from = system.processes[0].groups[0].id, to = system.processes[0].groups[1].id;
+    const std::string process = system.processes[0].id, from = system.processes[0].groups[0].id,
+                      to = system.processes[0].groups[1].id;
     for (const auto& id : {from, to}) model::find_group(system, id)->topology = model::RectTopology{8, 8};
-    auto& ignored = connect(system, from, to, InputKind::modulatory, "synapseHebbian", "zzz");  // last; `to` reads no modulation
+    auto& ignored = connect(system, from, to, InputKind::modulatory, "synapseHebbian",
+                            "zzz");  // last; `to` reads no modulation
     ignored.pattern = model::ForeachPattern{};
     ignored.synapse->feedback.push_back({"postact", "vm", {}});
     model::ModuleUse echo;
@@ -183,10 +211,12 @@ TEST_CASE("The number of threads changes no bit") {
     model::find_process(system, process)->module = echo;
 
     const Registry types = registry();
-    auto one = run(system, types, {.threads = 1}), four = run(system, types, {.threads = 4, .worth_sharing = 0});
+    auto one = run(system, types, {.threads = 1}),
+         four = run(system, types, {.threads = 4, .worth_sharing = 0});
     REQUIRE((one.threads() == 1 && four.threads() == 4));
     std::map<std::string, std::size_t, std::less<>> synapses;
-    for (int c = 0; c < one.connections(); ++c) synapses[std::string(one.connection_form(c))] += one.synapses(c);
+    for (int c = 0; c < one.connections(); ++c)
+        synapses[std::string(one.connection_form(c))] += one.synapses(c);
     INFO(synapses["list"] << " synapses in lists, " << synapses["plastic"] << " plastic");
     CHECK((synapses["list"] > 10'000 && synapses["list"] < 100'000 && synapses["plastic"] > 1000));
     for (int t = 0; t < 12; ++t) one.step(), four.step();
@@ -200,7 +230,8 @@ TEST_CASE("Two seeds differ, and adding a group changes nobody's noise") {
     const auto a = trace(system, {.seed = 1}, 20);
     CHECK(a != trace(system, {.seed = 2}, 20));
     const std::size_t before = a.size() / 20;
-    const auto extra = model::add_group(system, system.processes[0].id, "Z", 2, 2, "neuronRandomSpike", "zzz");  // last in order
+    const auto extra = model::add_group(system, system.processes[0].id, "Z", 2, 2, "neuronRandomSpike",
+                                        "zzz");  // last in order
     const auto b = trace(system, {.seed = 1}, 20);
     const std::size_t after = b.size() / 20;
     REQUIRE(after == before + 4);

@@ -33,7 +33,8 @@ inline Registry registry() {
 }
 
 /// Built, and started.
-inline engine::Simulation run(const model::System& system, const Registry& types, engine::Simulation::Options options = {}) {
+inline engine::Simulation run(const model::System& system, const Registry& types,
+                              engine::Simulation::Options options = {}) {
     Diagnostics diagnostics;
     auto simulation = engine::Simulation::build(system, types, options, diagnostics);
     INFO(format(diagnostics));
@@ -65,8 +66,8 @@ inline Eigen::ArrayXd activity(const engine::Simulation& s, std::string_view pat
 inline model::DistanceFunction uniform(double v) { return {model::UniformFunction{v}, {}}; }
 
 /// Adds a connection, and gives it back to be changed until the next one is added.
-inline model::Connection& connect(model::System& s, const std::string& from, const std::string& to, InputKind kind,
-                                  const std::string& type, const std::string& id = {}) {
+inline model::Connection& connect(model::System& s, const std::string& from, const std::string& to,
+                                  InputKind kind, const std::string& type, const std::string& id = {}) {
     return *model::find_connection(s, model::add_connection(s, from, to, kind, type, id));
 }
 

@@ -31,11 +31,14 @@ struct Folder {
 };
 
 /// The first process of the small system, as a file of its own, with a connection.
-std::string process_text() { return xml::write_process(model::extract_process(system_of(small_system), "p")); }
+std::string process_text() {
+    return xml::write_process(model::extract_process(system_of(small_system), "p"));
+}
 
 std::string linking_system(const std::string& path) {
     return "<System id=\"s\" name=\"S\" author=\"\" date=\"\" cylesPerSecond=\"25\">\n"
-           "  <Process id=\"p\" name=\"placeholder\" path=\"" + path + "\"><DiagramIcon x=\"7\" y=\"8\"/></Process>\n</System>\n";
+           "  <Process id=\"p\" name=\"placeholder\" path=\"" +
+           path + "\"><DiagramIcon x=\"7\" y=\"8\"/></Process>\n</System>\n";
 }
 
 }  // namespace
@@ -46,13 +49,16 @@ TEST_CASE("Every element and attribute survives writing and reading") {
     CHECK(system_of(text) == s);
     CHECK(xml::write_system(system_of(text)) == text);
     CHECK(text.find("<!DOCTYPE System PUBLIC '-//INI/iqr421' 'iqrSystem.dtd'>") != std::string::npos);
-    for (const char* kept : {"About &lt;this&gt;", "hostname=\"host\"", "#00FF00", "enableModule=\"false\"", "Line 1\nLine 2", "height=\"7\"", "APTarget=\"15\""})
+    for (const char* kept : {"About &lt;this&gt;", "hostname=\"host\"", "#00FF00", "enableModule=\"false\"",
+                             "Line 1\nLine 2", "height=\"7\"", "APTarget=\"15\""})
         CHECK(text.find(kept) != std::string::npos);
 }
 
 TEST_CASE("Two systems that differ anywhere are not equal") {
     const model::System s = system_of(small_system);
-    const auto differs = [&](const std::string& what, const std::string& by) { return !(system_of(replaced(small_system, what, by)) == s); };
+    const auto differs = [&](const std::string& what, const std::string& by) {
+        return !(system_of(replaced(small_system, what, by)) == s);
+    };
     CHECK(differs("x=\"-10\"", "x=\"-11\""));
     CHECK(differs("Line 2", "Line 3"));
     CHECK(differs("value=\"-0.25\"", "value=\"-0.250\""));  // parameters stay as they were written
@@ -76,7 +82,8 @@ TEST_CASE("Comments stay with the process, group or connection that they stand b
 }
 
 TEST_CASE("A note that a comment or CDATA divides is read whole") {
-    const auto s = system_of(replaced(small_system, "Line 1\nLine 2", "one <!-- x -->two <![CDATA[<three>]]>"));
+    const auto s =
+        system_of(replaced(small_system, "Line 1\nLine 2", "one <!-- x -->two <![CDATA[<three>]]>"));
     CHECK(s.processes[0].groups[1].note == "one two <three>");
     CHECK(system_of(xml::write_system(s)) == s);
 }
@@ -116,12 +123,17 @@ TEST_CASE("What is wrong with a linked process is said with the file where it is
         return format(diagnostics);
     };
     const auto file = folder.write("system.iqr", linking_system("absent.iqrProcess"));
-    CHECK(say(file).find("system.iqr:2:44: error: process 'placeholder' is linked to 'absent.iqrProcess'") != std::string::npos);
+    CHECK(say(file).find("system.iqr:2:44: error: process 'placeholder' is linked to 'absent.iqrProcess'") !=
+          std::string::npos);
     folder.write("bad.iqrProcess", replaced(process_text(), "hcount", "hcout"));
-    CHECK(say(folder.write("system.iqr", linking_system("bad.iqrProcess"))).find("bad.iqrProcess:") != std::string::npos);
-    folder.write("self.iqrProcess", replaced(process_text(), "enableModule=\"false\"", "enableModule=\"false\" path=\"self.iqrProcess\""));
-    CHECK(say(folder.write("system.iqr", linking_system("self.iqrProcess"))).find("is linked itself") != std::string::npos);
-    CHECK(say(folder.write("system.iqr", linking_system("system.iqr"))).find("this is a system file, not a part of one") != std::string::npos);
+    CHECK(say(folder.write("system.iqr", linking_system("bad.iqrProcess"))).find("bad.iqrProcess:") !=
+          std::string::npos);
+    folder.write("self.iqrProcess", replaced(process_text(), "enableModule=\"false\"",
+                                             "enableModule=\"false\" path=\"self.iqrProcess\""));
+    CHECK(say(folder.write("system.iqr", linking_system("self.iqrProcess"))).find("is linked itself") !=
+          std::string::npos);
+    CHECK(say(folder.write("system.iqr", linking_system("system.iqr")))
+              .find("this is a system file, not a part of one") != std::string::npos);
 }
 
 TEST_CASE("A process file is read, written and read again") {
@@ -151,7 +163,8 @@ TEST_CASE("An imported process gets new ids, and its connections and references 
     registry.add(neuron_type<RandomSpike>());
     registry.add(synapse_type<FixedWeight>());
     model::validate(s, registry, diagnostics);
-    for (const auto& d : diagnostics.all()) CHECK(d.severity == Severity::warning);  // the module type is not there, and disabled
+    for (const auto& d : diagnostics.all())
+        CHECK(d.severity == Severity::warning);  // the module type is not there, and disabled
 }
 
 TEST_CASE("The original's systems and processes are equal after writing and reading") {
@@ -175,7 +188,8 @@ TEST_CASE("The original's systems and processes are equal after writing and read
             const auto p = xml::read_process(path.string(), diagnostics);
             REQUIRE(p);
             const Folder folder;
-            const auto again = xml::read_process(folder.write("p.iqrProcess", xml::write_process(*p)), diagnostics);
+            const auto again =
+                xml::read_process(folder.write("p.iqrProcess", xml::write_process(*p)), diagnostics);
             REQUIRE(again);
             CHECK(*again == *p);
             ++files;
