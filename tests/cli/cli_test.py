@@ -431,6 +431,17 @@ class Original(Cli):
         self.assertEqual(result["robots"][0]["trials"], 30)
         self.assertGreaterEqual(result["robots"][0]["at_target"], 25)
 
+    def test_every_system_and_process_of_the_original_is_fine_and_runs(self):
+        worlds = {"DAC_files": "DAC_basic_arena.world", "SDIC_challenge": "SDIC_one_robot_arena.world"}
+        files = sorted(p for p in (SHARED / "original").rglob("*.iqr*"))
+        self.assertGreaterEqual(len(files), 7)
+        for file in files:
+            world = ["--world", file.parent / worlds[file.parent.name]] if file.suffix == ".iqr" else []
+            with self.subTest(file.name):
+                self.assertEqual(self.forage("check", file, *world).stderr, "")
+                self.forage("run", file, *world, "--cycles", 1000, "-q", "-o", "out")
+                self.assertEqual(json.loads((self.here / "out/run.json").read_text())["result"]["cycles"], 1000)
+
     def test_the_tutorials_incomplete_system_stands_still(self):
         result = self.run_original("DACReactiveBug_ex.iqr", "--trials", 30)
         self.assertEqual(result["robots"][0]["trials"], 0)

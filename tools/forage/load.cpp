@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "bug_interface/module/gazebo_bug.h"
 #include "bug_interface/world/sdf_reader.h"
 #include "core/model/edit.h"
@@ -25,6 +27,18 @@ std::shared_ptr<const replay::DriveTable> read_table(const std::string& path, Di
     }
 }
 
+/// A system, or a process file as a system of one process.
+std::optional<model::System> read(const std::string& path, Diagnostics& diagnostics) {
+    if (std::filesystem::path(path).extension() != ".iqrProcess") return xml::read_system(path, diagnostics);
+    auto file = xml::read_process(path, diagnostics);
+    if (!file) return std::nullopt;
+    model::System system;
+    system.name = file->process.name;
+    system.processes.push_back(std::move(file->process));
+    system.connections = std::move(file->connections);
+    return system;
+}
+
 }  // namespace
 
 Registry shipped_types(bug::World* world, std::shared_ptr<const replay::DriveTable> drive) {
@@ -46,7 +60,7 @@ double cycles_per_second(const model::System& system) {
 std::optional<Loaded> load(const Input& input, Diagnostics& diagnostics) {
     diagnostics.lenient = input.lenient;
     Loaded out;
-    auto system = xml::read_system(input.system, diagnostics);
+    auto system = read(input.system, diagnostics);
     if (system) out.system = std::move(*system);
 
     if (!input.world.empty()) {

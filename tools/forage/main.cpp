@@ -42,7 +42,7 @@ CLI::Option* repeated(CLI::Option* option) {
 }
 
 void add_input(CLI::App& command, Input& input) {
-    command.add_option("SYSTEM", input.system, "System file (.iqr)")->required()->option_text("FILE");
+    command.add_option("SYSTEM", input.system, "System file (.iqr), or a process on its own (.iqrProcess)")->required()->option_text("FILE");
     command.add_option("-w,--world", input.world, "World in which the robot lives (.world)")
         ->option_text("FILE");
     repeated(
