@@ -146,8 +146,11 @@ std::string import_process(System& system, ProcessFile file) {
 
     std::set<std::string, std::less<>> groups;
     for (const auto& g : file.process.groups) groups.insert(g.id);
+    for (const auto& c : file.connections)
+        if (!groups.contains(c.source) || !groups.contains(c.target))
+            throw std::invalid_argument(fmt::format("connection '{}' leads out of the process", c.name));
     const auto follow = [&](std::string& reference) {
-        if (groups.contains(reference)) reference = prefix + reference;
+        reference = groups.contains(reference) ? prefix + reference : std::string();
     };
     if (file.process.module)
         for (auto* references : {&file.process.module->inputs, &file.process.module->outputs})
@@ -170,6 +173,10 @@ ProcessFile extract_process(const System& system, std::string_view id) {
     out.process.linked = false;
     std::set<std::string, std::less<>> groups;
     for (const auto& g : it->groups) groups.insert(g.id);
+    if (out.process.module)
+        for (auto* references : {&out.process.module->inputs, &out.process.module->outputs})
+            for (auto& r : *references)
+                if (!groups.contains(r.target)) r.target.clear();
     for (const auto& c : system.connections)
         if (groups.contains(c.source) && groups.contains(c.target)) {
             out.connections.push_back(c);

@@ -44,10 +44,12 @@ void remove(System& system, std::string_view id);
 void rename(System& system, std::string_view id, std::string name);
 
 /// Adds a copy of a process with its connections. All its ids get a prefix CB<n> that makes them new, as in
-/// the original. Returns the id of the new process.
+/// the original; references to groups outside of it become unset. Returns the id of the new process. Throws
+/// std::invalid_argument when a connection leads out of the process.
 std::string import_process(System& system, ProcessFile file);
 
-/// A process with the connections among its groups, as a file of its own says it. Throws
+/// A process with the connections among its groups, as a file of its own says it; its module's references to groups
+/// outside become unset. Throws
 /// std::invalid_argument when there is none of this id.
 ProcessFile extract_process(const System& system, std::string_view id);
 

@@ -24,7 +24,7 @@ AttributeRule choice(std::string name, std::string doc, std::vector<std::string>
 }
 
 AttributeRule direction() {
-    return choice("direction", "RF: around the source cell; PF: around the target cell", {"RF", "PF"});
+    return choice("direction", "RF: around the source cell; PF: around the target cell", {"RF", "PF"}, false);
 }
 AttributeRule probability() {
     return number("initialization_probability", "chance that a point of the arborization becomes a synapse",
@@ -134,7 +134,7 @@ std::vector<ElementRule> make_table() {
         {"PatternMapped",
          "the smaller population laid over the larger",
          {choice("type", "pair with the centre of the projection, or with all cells under it",
-                 {"center", "all"})},
+                 {"center", "all"}, false)},
          populations,
          false,
          2},
@@ -182,7 +182,7 @@ std::vector<ElementRule> make_table() {
         {"Synapse",
          "the type of a connection's synapses",
          {text("name", "the synapse type", true)},
-         {{"Parameter", 0, many}, {"XRefHolder"}, {"Note"}}},
+         {{"Parameter", 0, many}, {"XRefHolder", 0, many}, {"Note"}}},
         {"DiagramLine",
          "the line that draws a connection",
          {whole("APSource", "where it leaves the source's icon, 16 points around it", 0, 15, false),

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
+#include "core/model/lookup.h"
 #include "core/types/parameter.h"
 #include "core/xml/check.h"
 #include "core/xml/comments.h"
@@ -79,7 +80,7 @@ class Reader {
         std::string out;
         for (const auto* node = n->FirstChild(); node; node = node->NextSibling())
             if (node->ToText()) out += node->Value();
-        return out;
+        return model::trim(out).empty() ? std::string() : out;  // blanks alone say nothing
     }
     static std::optional<model::Icon> icon(const XMLElement& e) {
         const auto* i = e.FirstChildElement("DiagramIcon");

@@ -194,7 +194,7 @@ class Schema {
     void holders(const SynapseType& type) {
         std::vector<Place> places;
         for (const auto& f : type.feedback) places.push_back({f.name, f.label});
-        open("optional");
+        open("zeroOrMore");
         holder("Freedback", places, false);
         close();
     }

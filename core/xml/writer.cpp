@@ -1,5 +1,6 @@
 #include "core/xml/writer.h"
 
+#include <algorithm>
 #include <array>
 
 #include <tinyxml2.h>
@@ -36,12 +37,24 @@ class Writer {
         close();
     }
 
-    std::string text() const { return std::string(out_.CStr()); }
+    std::string text() const {
+        std::string out;
+        for (const char* c = out_.CStr(); *c; ++c) {
+            if (*c == carriage_return) out += "&#13;";
+            else if (*c == line_feed) out += "&#10;";
+            else if (*c == tab) out += "&#9;";
+            else out += *c;
+        }
+        return out;
+    }
 
   private:
     void open(const char* name) { out_.OpenElement(name); }
     void close() { out_.CloseElement(); }
-    void attribute(const char* name, const std::string& value) { out_.PushAttribute(name, value.c_str()); }
+    void attribute(const char* name, std::string value) {
+        for (char& c : value) c = c == '\r' ? carriage_return : c == '\n' ? line_feed : c == '\t' ? tab : c;
+        out_.PushAttribute(name, value.c_str());
+    }
     void attribute(const char* name, const char* value) { out_.PushAttribute(name, value); }
     void attribute(const char* name, bool value) { attribute(name, value ? "true" : "false"); }
     void attribute(const char* name, int value) { attribute(name, to_text(value)); }
@@ -60,7 +73,11 @@ class Writer {
     void note(const std::optional<std::string>& n) {
         if (!n) return;
         open("Note");
-        if (!n->empty()) out_.PushText(n->c_str());
+        if (!n->empty()) {
+            std::string content = *n;
+            std::replace(content.begin(), content.end(), '\r', carriage_return);
+            out_.PushText(content.c_str());
+        }
         close();
     }
     void icon(const std::optional<model::Icon>& i) {
@@ -239,6 +256,9 @@ class Writer {
         close();
     }
 
+    // The printer writes these as they are, and a reader would take them for blanks (in a text, a carriage return for a
+    // line end): they pass it as characters that no XML holds.
+    static constexpr char carriage_return = 1, line_feed = 2, tab = 3;
     tinyxml2::XMLPrinter out_;
 };
 

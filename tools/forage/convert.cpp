@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -16,6 +18,16 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_process_file(const std::string& path) { return fs::path(path).extension() == ".iqrProcess"; }
+
+/// Says what of a process is not extracted: its connections to groups outside.
+void warn_of_loss(const model::System& system, const model::ProcessFile& file, Diagnostics& diagnostics) {
+    std::set<std::string> groups;
+    for (const auto& g : file.process.groups) groups.insert(g.id);
+    const auto lost = std::count_if(system.connections.begin(), system.connections.end(), [&](const auto& c) {
+        return groups.contains(c.source) != groups.contains(c.target);
+    });
+    if (lost) diagnostics.warning({}, fmt::format("--extract: connections from or to other processes are left out: {}", lost));
+}
 
 /// Links are relative to the system file: makes them lead from `to` where they led from `from`.
 void move_links(model::System& system, const std::string& from, const std::string& to) {
@@ -38,7 +50,7 @@ std::string process_id(const model::System& system, const std::string& wanted, D
 
 /// The text of the file to write; whatever it is when there are errors.
 std::string converted(const ConvertOptions& o, Diagnostics& diagnostics) {
-    const bool to_process = is_process_file(o.output) || !o.extract.empty();
+    const bool to_process = is_process_file(o.output);
     if (is_process_file(o.input)) {
         const auto file = xml::read_process(o.input, diagnostics);
         if (!file) return {};
@@ -56,6 +68,10 @@ std::string converted(const ConvertOptions& o, Diagnostics& diagnostics) {
         if (auto file = xml::read_process(path, diagnostics); file && !diagnostics.failed())
             model::import_process(*system, std::move(*file));
     if (o.embed) model::embed_links(*system);
+    if (!to_process && !o.extract.empty()) {
+        diagnostics.error({}, fmt::format("--extract writes a process file, '{}' would be a system", o.output), "name it .iqrProcess");
+        return {};
+    }
     if (!to_process) {
         move_links(*system, o.input, o.output);
         return xml::write_system(*system);
@@ -67,7 +83,10 @@ std::string converted(const ConvertOptions& o, Diagnostics& diagnostics) {
         return {};
     }
     const std::string id = process_id(*system, o.extract, diagnostics);
-    return id.empty() ? std::string() : xml::write_process(model::extract_process(*system, id));
+    if (id.empty()) return {};
+    const auto file = model::extract_process(*system, id);
+    warn_of_loss(*system, file, diagnostics);
+    return xml::write_process(file);
 }
 
 }  // namespace

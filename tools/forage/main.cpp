@@ -128,7 +128,7 @@ void add_convert(CLI::App& app, ConvertOptions& o) {
         .add_option("--extract", o.extract, "Write this process alone, with the connections among its groups")
         ->option_text("PROCESS");
     convert.add_flag("--embed", o.embed, "Write the content of linked processes instead of the links");
-    convert.add_flag("--lenient", o.lenient, "Unknown parameters and attributes are warnings, and left out");
+    convert.add_flag("--lenient", o.lenient, "Unknown elements and attributes are warnings, and left out");
 }
 
 /// What was probably meant by the first word of the command line that does not exist; empty when all do.
