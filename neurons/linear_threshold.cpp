@@ -12,6 +12,8 @@ void LinearThreshold::describe(NeuronSpec<LinearThreshold>& s) {
     s.state("vm", "Membrane potential").output("act", "Activity");
 }
 
+void LinearThreshold::check(Problems& problems) const { membrane::check_bounds(*this, problems); }
+
 void LinearThreshold::update(NeuronColumns& c) const {
     auto [vm, act] = c.states<2>();
     membrane::integrate(*this, c, vm, vm);

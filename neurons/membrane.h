@@ -43,6 +43,14 @@ void describe_firing(NeuronSpec<T>& s) {
         .doc("Potential below which act is 0.");
 }
 
+/// Finds clipping between bounds that are the wrong way round: then vm is always the maximum.
+template <class T>
+void check_bounds(const T& p, Problems& problems) {
+    if (p.clip && p.minimum > p.maximum)
+        problems.all.push_back(
+            {"vmMin is above vmMax: the potential is always vmMax", "exchange them", "vmMin", {}});
+}
+
 /// vm = ((vm * vmPrs) + exc * excGain) - inh * inhGain, then clipped from below and from above if asked;
 /// `previous` is the potential that persists. NaN passes.
 template <class T, class Previous>

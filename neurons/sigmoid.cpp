@@ -13,6 +13,8 @@ void Sigmoid::describe(NeuronSpec<Sigmoid>& s) {
     s.state("vm", "Membrane potential", 2).output("act", "Activity");
 }
 
+void Sigmoid::check(Problems& problems) const { membrane::check_bounds(*this, problems); }
+
 void Sigmoid::update(NeuronColumns& c) const {
     auto [vm, act] = c.states<2>();
     membrane::integrate(*this, c, vm, c.past(0, 1));

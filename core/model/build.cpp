@@ -43,6 +43,13 @@ void forget_groups(System& system, const std::set<std::string, std::less<>>& ids
     }
 }
 
+/// The content of a linked process lives in its own file: changes to it here would be lost.
+void refuse_linked(const Process& p) {
+    if (p.linked())
+        throw std::invalid_argument(
+            fmt::format("process '{}' is linked to '{}': embed_links() first", p.name, p.path));
+}
+
 [[noreturn]] void no_item(std::string_view what, std::string_view id) {
     throw std::invalid_argument(fmt::format("there is no {} with the id '{}'", what, id));
 }
@@ -69,6 +76,7 @@ std::string add_group(System& system, std::string_view process, std::string name
                       std::string neuron_type, std::string id) {
     Process* p = find_process(system, process);
     if (!p) no_item("process", process);
+    refuse_linked(*p);
     Group g;
     g.id = claim(system, std::move(id), "group");
     g.name = std::move(name);
@@ -117,6 +125,7 @@ void remove(System& system, std::string_view id) {
     if (std::erase_if(system.connections, is_it)) return;
     for (auto& p : system.processes)
         if (find_in(p.groups, id)) {
+            refuse_linked(p);
             forget_groups(system, {std::string(id)});
             std::erase_if(p.groups, is_it);
             return;
@@ -158,7 +167,7 @@ std::string import_process(System& system, ProcessFile file) {
     for (auto& c : file.connections) follow(c.source), follow(c.target), c.linked = false;
     for (auto* id : ids) *id = prefix + *id;
     file.process.path.clear();
-    file.process.linked = false;
+    file.process.placeholder.clear();
     system.processes.push_back(std::move(file.process));
     for (auto& c : file.connections) system.connections.push_back(std::move(c));
     return system.processes.back().id;
@@ -170,7 +179,7 @@ ProcessFile extract_process(const System& system, std::string_view id) {
     if (it == system.processes.end()) no_item("process", id);
     ProcessFile out{*it, {}};
     out.process.path.clear();
-    out.process.linked = false;
+    out.process.placeholder.clear();
     std::set<std::string, std::less<>> groups;
     for (const auto& g : it->groups) groups.insert(g.id);
     if (out.process.module)
@@ -186,7 +195,7 @@ ProcessFile extract_process(const System& system, std::string_view id) {
 }
 
 void embed_links(System& system) {
-    for (auto& p : system.processes) p.path.clear(), p.linked = false;
+    for (auto& p : system.processes) p.path.clear(), p.placeholder.clear();
     for (auto& c : system.connections) c.linked = false;
 }
 

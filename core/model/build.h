@@ -16,7 +16,7 @@ namespace forage::model {
 std::string add_process(System& system, std::string name, std::string id = {});
 
 /// Adds a group of width x height cells with the defaults of its neuron type; returns its id. Throws
-/// std::invalid_argument when there is no such process or the id is taken.
+/// std::invalid_argument when there is no such process, when it is linked, or the id is taken.
 std::string add_group(System& system, std::string_view process, std::string name, int width, int height,
                       std::string neuron_type, std::string id = {});
 
@@ -48,9 +48,8 @@ void rename(System& system, std::string_view id, std::string name);
 /// std::invalid_argument when a connection leads out of the process.
 std::string import_process(System& system, ProcessFile file);
 
-/// A process with the connections among its groups, as a file of its own says it; its module's references to groups
-/// outside become unset. Throws
-/// std::invalid_argument when there is none of this id.
+/// A process with the connections among its groups, as a file of its own says it; its module's references to
+/// groups outside become unset. Throws std::invalid_argument when there is none of this id.
 ProcessFile extract_process(const System& system, std::string_view id);
 
 /// Makes the content of linked processes part of the system: no process is linked any more.

@@ -94,8 +94,10 @@ struct Process {
     std::optional<Icon> icon;
     std::vector<std::string> comments;
     std::vector<Group> groups;
-    bool linked =
-        false;  ///< its content, except the icon, comes from the file `path`, relative to the system's
+    /// Of a process that is linked to the file `path` (relative to the system's), whose content stands here:
+    /// what the system itself says of it, one element, and what is written. Empty for others.
+    std::vector<Process> placeholder;
+    bool linked() const { return !placeholder.empty(); }
     Location at, path_at;
     friend bool operator==(const Process&, const Process&) = default;
 };
@@ -124,6 +126,7 @@ struct Connection {
 };
 
 struct System {
+    std::vector<std::string> instructions;  ///< processing instructions before the root, such as xml-model
     std::string id, name, author, date, port;
     double cycles_per_second = 25;  ///< pace of the original; 0: as fast as it goes
     bool sync_plots = false;

@@ -109,10 +109,27 @@ class Validator {
         }
     }
 
+    /// Lets a neuron or synapse type look at its parameters: what it finds is legal, and perhaps not meant.
+    template <class Type>
+    void check_with_type(const TypeUse& use, const Type& type) {
+        if (!type.check) return;
+        const auto object = type.make();
+        apply(use.settings, type.parameters, object->parameters());
+        Problems problems;
+        type.check(object->parameters(), problems);
+        for (const auto& problem : problems.all) {
+            Location at = use.at;
+            for (const auto& s : use.settings)
+                if (s.name == problem.parameter) at = s.value_at;
+            out_.warning(at, problem.message, problem.hint);
+        }
+    }
+
     void check_group(const Group& group) {
-        if (const NeuronType* type = registry_.neuron(group.neuron.type))
+        if (const NeuronType* type = registry_.neuron(group.neuron.type)) {
             check_settings(group.neuron, type->parameters);
-        else
+            check_with_type(group.neuron, *type);
+        } else
             out_.error(group.neuron.at, fmt::format("there is no neuron type '{}'", group.neuron.type),
                        suggest(group.neuron.type, names(registry_.neurons())));
         check_topology(group);
@@ -253,6 +270,7 @@ class Validator {
                        "add <Synapse name=\"synapseFixedWeight\"/>");
         } else if (const SynapseType* type = registry_.synapse(c.synapse->type)) {
             check_settings(*c.synapse, type->parameters);
+            check_with_type(*c.synapse, *type);
             check_feedback(*c.synapse, *type, target);
         } else {
             out_.error(c.synapse->at, fmt::format("there is no synapse type '{}'", c.synapse->type),

@@ -21,6 +21,7 @@
 
 #include "core/types/column.h"
 #include "core/types/parameter.h"
+#include "core/types/problems.h"
 #include "core/types/random.h"
 
 namespace forage {
@@ -46,18 +47,6 @@ struct ModulePorts {
     std::vector<Group> inputs;  ///< in order of declaration (of the file, for a type that takes any)
     std::vector<Group> outputs;
     RandomStream random;  ///< the module's own stream
-};
-
-/// What a module finds wrong with its parameters or groups before the run; reported to the author of the
-/// file.
-struct Problems {
-    struct Problem {
-        std::string message;
-        std::string hint;
-        std::string parameter;  ///< the parameter to point at, if any
-        std::string port;       ///< the cross reference to point at, if any
-    };
-    std::vector<Problem> all;
 };
 
 /// What a module sees in one cycle.

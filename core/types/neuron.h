@@ -2,7 +2,8 @@
 // parameters, with
 //
 //     static void describe(NeuronSpec<T>&);      // name, parameters, states: the only place that lists them
-//     void update(NeuronColumns&) const;         // one cycle, for all cells of a group
+//     void check(Problems&) const;               // optional: parameters that say something else than they
+//     seem to void update(NeuronColumns&) const;         // one cycle, for all cells of a group
 //
 // neurons/linear_threshold.h is the example to copy.
 #pragma once
@@ -17,6 +18,7 @@
 
 #include "core/types/column.h"
 #include "core/types/parameter.h"
+#include "core/types/problems.h"
 #include "core/types/random.h"
 
 namespace forage {
@@ -109,6 +111,7 @@ struct NeuronType {
     std::vector<StateInfo> states;
     std::array<bool, input_kinds> reads{};  ///< which kinds of input the type uses; the others stay 0
     std::function<std::unique_ptr<NeuronInstance>()> make;
+    std::function<void(const void*, Problems&)> check;  ///< of an object's parameters; may be empty
 
     int output() const {  ///< index of the output state
         for (int i = 0; i < static_cast<int>(states.size()); ++i)
@@ -169,6 +172,10 @@ NeuronType neuron_type() {
     NeuronSpec<T> spec(type);
     T::describe(spec);
     type.make = [] { return std::make_unique<detail::NeuronModel<T>>(); };
+    if constexpr (requires(const T t, Problems p) { t.check(p); })
+        type.check = [](const void* object, Problems& problems) {
+            static_cast<const T*>(object)->check(problems);
+        };
     return type;
 }
 

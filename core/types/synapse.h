@@ -2,7 +2,8 @@
 // its parameters, with
 //
 //     static void describe(SynapseSpec<T>&);
-//     void update(SynapseColumns&) const;     // one cycle, for all synapses of a connection
+//     void check(Problems&) const;               // optional: parameters that say something else than they
+//     seem to void update(SynapseColumns&) const;     // one cycle, for all synapses of a connection
 //
 // A type that only multiplies its input by a constant declares that constant with `gain` and needs no
 // update(). The engine then attenuates and delays what the type puts out; synapses/fixed_weight.h is the
@@ -17,6 +18,7 @@
 
 #include "core/types/column.h"
 #include "core/types/parameter.h"
+#include "core/types/problems.h"
 
 namespace forage {
 
@@ -65,6 +67,7 @@ struct SynapseType {
     std::vector<FeedbackInfo> feedback;
     bool has_gain = false;
     std::function<std::unique_ptr<SynapseInstance>()> make;
+    std::function<void(const void*, Problems&)> check;  ///< of an object's parameters; may be empty
 
     int output() const {
         for (int i = 0; i < static_cast<int>(states.size()); ++i)
@@ -129,6 +132,10 @@ SynapseType synapse_type() {
     T::describe(spec);
     type.has_gain = requires(const T t) { t.gain(); };
     type.make = [] { return std::make_unique<detail::SynapseModel<T>>(); };
+    if constexpr (requires(const T t, Problems p) { t.check(p); })
+        type.check = [](const void* object, Problems& problems) {
+            static_cast<const T*>(object)->check(problems);
+        };
     return type;
 }
 

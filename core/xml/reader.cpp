@@ -31,6 +31,9 @@ class Reader {
         s.sync_plots = flag(e, "syncPlots", false);
         s.note = note(e);
         s.comments = comments_.of(e);
+        for (const auto* n = e.GetDocument()->FirstChild(); n; n = n->NextSibling())
+            if (n->ToDeclaration() && !std::string_view(n->Value()).starts_with("xml "))
+                s.instructions.emplace_back(n->Value());
         each(e, "Process", [&](const XMLElement& p) { s.processes.push_back(process(p)); });
         each(e, "Connection", [&](const XMLElement& c) { s.connections.push_back(connection(c)); });
         return s;
@@ -323,9 +326,8 @@ class Linker {
         }
         content->process.path = place.path;
         content->process.path_at = place.path_at;
-        content->process.linked = true;
         if (place.icon) content->process.icon = place.icon;
-        content->process.comments.swap(place.comments);
+        content->process.placeholder.push_back(std::move(place));
         place = std::move(content->process);
         for (auto& c : content->connections) {
             c.linked = true;

@@ -23,7 +23,7 @@ class Writer {
         attribute("syncPlots", s.sync_plots);
         if (!s.port.empty()) attribute("port", s.port);
         note(s.note);
-        for (const auto& p : s.processes) process(p, p.linked);
+        for (const auto& p : s.processes) process(p.linked() ? p.placeholder.front() : p);
         for (const auto& c : s.connections)
             if (!c.linked) connection(c);
         close();
@@ -32,7 +32,7 @@ class Writer {
     void process_file(const model::ProcessFile& f) {
         open("iqrEntity");
         attribute("type", "Process");
-        process(f.process, false);
+        process(f.process);
         for (const auto& c : f.connections) connection(c);
         close();
     }
@@ -40,10 +40,14 @@ class Writer {
     std::string text() const {
         std::string out;
         for (const char* c = out_.CStr(); *c; ++c) {
-            if (*c == carriage_return) out += "&#13;";
-            else if (*c == line_feed) out += "&#10;";
-            else if (*c == tab) out += "&#9;";
-            else out += *c;
+            if (*c == carriage_return)
+                out += "&#13;";
+            else if (*c == line_feed)
+                out += "&#10;";
+            else if (*c == tab)
+                out += "&#9;";
+            else
+                out += *c;
         }
         return out;
     }
@@ -86,7 +90,7 @@ class Writer {
                  std::pair("height", i->height));
     }
 
-    void process(const model::Process& p, bool link_only) {
+    void process(const model::Process& p) {
         comments(p.comments);
         open("Process");
         attribute("id", p.id);
@@ -96,11 +100,10 @@ class Writer {
         attribute("enableModule", p.module_enabled);
         if (!p.path.empty()) attribute("path", p.path);
         if (!p.color.empty()) attribute("color", p.color);
-        if (p.module && !link_only) module(*p.module);
-        if (!link_only) note(p.note);
+        if (p.module) module(*p.module);
+        note(p.note);
         icon(p.icon);
-        if (!link_only)
-            for (const auto& g : p.groups) group(g);
+        for (const auto& g : p.groups) group(g);
         close();
     }
 
@@ -256,8 +259,8 @@ class Writer {
         close();
     }
 
-    // The printer writes these as they are, and a reader would take them for blanks (in a text, a carriage return for a
-    // line end): they pass it as characters that no XML holds.
+    // The printer writes these as they are, and a reader would take them for blanks (in a text, a carriage
+    // return for a line end): they pass it as characters that no XML holds.
     static constexpr char carriage_return = 1, line_feed = 2, tab = 3;
     tinyxml2::XMLPrinter out_;
 };
@@ -269,7 +272,9 @@ constexpr const char* declaration = "<?xml version=\"1.0\" encoding=\"UTF-8\" st
 std::string write_system(const model::System& system) {
     Writer writer;
     writer.system(system);
-    return std::string(declaration) + "<!DOCTYPE System PUBLIC '-//INI/iqr421' 'iqrSystem.dtd'>\n" +
+    std::string instructions;
+    for (const auto& i : system.instructions) instructions += "<?" + i + "?>\n";
+    return declaration + instructions + "<!DOCTYPE System PUBLIC '-//INI/iqr421' 'iqrSystem.dtd'>\n" +
            writer.text();
 }
 

@@ -26,16 +26,30 @@ void warn_of_loss(const model::System& system, const model::ProcessFile& file, D
     const auto lost = std::count_if(system.connections.begin(), system.connections.end(), [&](const auto& c) {
         return groups.contains(c.source) != groups.contains(c.target);
     });
-    if (lost) diagnostics.warning({}, fmt::format("--extract: connections from or to other processes are left out: {}", lost));
+    if (lost)
+        diagnostics.warning(
+            {}, fmt::format("--extract: connections from or to other processes are left out: {}", lost));
 }
 
-/// Links are relative to the system file: makes them lead from `to` where they led from `from`.
-void move_links(model::System& system, const std::string& from, const std::string& to) {
+/// Links and file names are relative to the system file: makes them lead from `to` where they led from
+/// `from`.
+void move_files(model::System& system, const std::string& from, const std::string& to) {
     const fs::path old_place = fs::absolute(from).parent_path(), new_place = fs::absolute(to).parent_path();
     if (fs::weakly_canonical(old_place) == fs::weakly_canonical(new_place)) return;
-    for (auto& p : system.processes)
-        if (p.linked && fs::path(p.path).is_relative())
-            p.path = fs::relative(old_place / p.path, new_place).generic_string();
+    const auto move = [&](std::string& path) {
+        if (!path.empty() && fs::path(path).is_relative())
+            path = fs::relative(old_place / path, new_place).generic_string();
+    };
+    const Registry registry = shipped_types(nullptr, nullptr);
+    for (auto& p : system.processes) {
+        auto& written = p.linked() ? p.placeholder.front() : p;
+        move(written.path);
+        const ModuleType* type = written.module ? registry.module(written.module->type) : nullptr;
+        if (!type) continue;
+        for (auto& s : written.module->settings)
+            for (const auto& parameter : type->parameters)
+                if (parameter.is_path && parameter.name == s.name) move(s.value);
+    }
 }
 
 std::string process_id(const model::System& system, const std::string& wanted, Diagnostics& diagnostics) {
@@ -69,11 +83,13 @@ std::string converted(const ConvertOptions& o, Diagnostics& diagnostics) {
             model::import_process(*system, std::move(*file));
     if (o.embed) model::embed_links(*system);
     if (!to_process && !o.extract.empty()) {
-        diagnostics.error({}, fmt::format("--extract writes a process file, '{}' would be a system", o.output), "name it .iqrProcess");
+        diagnostics.error({},
+                          fmt::format("--extract writes a process file, '{}' would be a system", o.output),
+                          "name it .iqrProcess");
         return {};
     }
     if (!to_process) {
-        move_links(*system, o.input, o.output);
+        move_files(*system, o.input, o.output);
         return xml::write_system(*system);
     }
     if (o.extract.empty()) {

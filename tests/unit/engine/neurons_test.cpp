@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/model/build.h"
+#include "core/model/validate.h"
 #include "tests/support/catch.h"
 
 using namespace forage;
@@ -71,4 +73,32 @@ TEST_CASE(
     CHECK((draws(5, 1) == draws(5, 1)).all());
     CHECK((draws(5, 0) != draws(5, 1)).all());
     CHECK((draws(5, 1) != draws(6, 1)).all());
+}
+
+TEST_CASE("Parameters that say something else than they seem to are warned of") {
+    model::System system;
+    const auto p = model::add_process(system, "P");
+    const auto add = [&](const char* type, const char* parameter, const char* value) {
+        auto& neuron = model::find_group(system, model::add_group(system, p, "G", 1, 1, type))->neuron;
+        model::set_parameter(neuron, parameter, value);
+        return &neuron;
+    };
+    Registry registry;
+    add_neurons(registry);
+    const auto warnings = [&] {
+        Diagnostics diagnostics;
+        model::validate(system, registry, diagnostics);
+        REQUIRE_FALSE(diagnostics.failed());
+        return diagnostics.warnings();
+    };
+    add("neuronIntegrateFire", "spkAmpl", "1");
+    add("neuronLinearThreshold", "vmMin", "2");  // not clipped: no matter
+    CHECK(warnings() == 0);
+    add("neuronIntegrateFire", "spkAmpl", "0.5");
+    CHECK(warnings() == 1);
+    auto* clipped = add("neuronSigmoid", "vmMin", "0.8");
+    model::set_parameter(*clipped, "vmMax", "0.2");
+    CHECK(warnings() == 1);
+    model::set_parameter(*clipped, "clipVm", "true");
+    CHECK(warnings() == 2);
 }

@@ -81,6 +81,32 @@ TEST_CASE("Comments stay with the process, group or connection that they stand b
     CHECK(system_of(xml::write_system(s)) == s);
 }
 
+TEST_CASE(
+    "Line ends and tabs in attributes and notes survive, a processing instruction before the root too") {
+    std::string text = replaced(small_system, "name=\"Small\"", "name=\"a&#13;b&#10;c&#9;d\"");
+    text = replaced(text, "About &lt;this&gt;", "one&#13;two");
+    text = replaced(text, "<!DOCTYPE", "<?xml-model href=\"iqr.rng\"?>\n<!DOCTYPE");
+    const auto s = system_of(text);
+    CHECK(s.name == "a\rb\nc\td");
+    const std::string written = xml::write_system(s);
+    CHECK(written.find("a&#13;b&#10;c&#9;d") != std::string::npos);
+    CHECK(written.find("<?xml-model href=\"iqr.rng\"?>") != std::string::npos);
+    CHECK(system_of(written) == s);
+}
+
+TEST_CASE("A process leaves and enters a system without references to groups that are not its own") {
+    model::System s = system_of(small_system);
+    const auto q = model::add_process(s, "Q");
+    const auto g = model::add_group(s, q, "G", 3, 2, "neuronLinearThreshold", "g");
+    model::add_connection(s, g, "a", InputKind::excitatory, "synapseFixedWeight");
+    s.processes[0].module->outputs[0].target = g;
+    auto file = model::extract_process(s, "p");
+    CHECK(file.process.module->outputs[0].target.empty());
+    CHECK(file.connections.size() == 1);
+    file.connections[0].source = "elsewhere";
+    CHECK_THROWS_AS(model::import_process(s, file), std::invalid_argument);
+}
+
 TEST_CASE("A note that a comment or CDATA divides is read whole") {
     const auto s =
         system_of(replaced(small_system, "Line 1\nLine 2", "one <!-- x -->two <![CDATA[<three>]]>"));
@@ -103,6 +129,7 @@ TEST_CASE("A linked process is read from its file, with its connections, and wri
     CHECK(s->connections.size() == 1);
     const std::string written = xml::write_system(*s);
     CHECK(written.find("path=\"brain.iqrProcess\"") != std::string::npos);
+    CHECK(written.find("name=\"placeholder\"") != std::string::npos);  // as the system says it
     CHECK(written.find("<Group") == std::string::npos);
     CHECK(written.find("<Connection") == std::string::npos);
     folder.write("again.iqr", written);
@@ -110,6 +137,9 @@ TEST_CASE("A linked process is read from its file, with its connections, and wri
     REQUIRE(again);
     CHECK(*again == *s);
 
+    model::System changed = *s;
+    CHECK_THROWS_AS(model::add_group(changed, "p", "G", 1, 1, "neuronNumeric"), std::invalid_argument);
+    CHECK_THROWS_AS(model::remove(changed, "a"), std::invalid_argument);
     model::System embedded = *s;
     model::embed_links(embedded);
     CHECK(xml::write_system(embedded).find("<Connection") != std::string::npos);
