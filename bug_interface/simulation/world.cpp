@@ -186,6 +186,17 @@ void World::need_image(std::size_t bug, bool needed) {
     if (needed) image(bug);
 }
 
+Eigen::Vector2d World::looks_at(std::size_t bug) const {
+    const Robot& robot = robots_[bug];
+    const Eigen::Vector2d here(robot.pose.x, robot.pose.y);
+    if (!robot.camera_sensor) return here;
+    const Pose camera = robot.link_pose * robot.camera_sensor->pose;
+    const Eigen::Vector3d axis = camera.linear().col(0), at = camera.translation();
+    if (axis.z() >= 0) return here;
+    const Eigen::Vector3d floor = at - at.z() / axis.z() * axis;
+    return here + Eigen::Rotation2Dd(robot.pose.yaw) * floor.head<2>();
+}
+
 std::shared_ptr<void> World::claim(std::size_t bug) {
     if (!robots_[bug].claim.expired()) return nullptr;
     auto token = std::make_shared<int>();

@@ -72,6 +72,9 @@ class World {
     std::shared_ptr<void> claim(std::size_t bug);
 
     const Pose2& pose(std::size_t bug) const { return robots_[bug].pose; }
+    /// The point of the floor (z = 0) in the middle of its camera's picture; where it stands itself, for a
+    /// robot without a camera or with one that does not look down. World frame, m.
+    Eigen::Vector2d looks_at(std::size_t bug) const;
     /// Whether this robot is put back to a start pose when it leaves the bounds.
     bool has_trials(std::size_t bug) const { return robots_[bug].reset.has_value(); }
     bool resetting(std::size_t bug) const { return robots_[bug].reset && robots_[bug].reset->running(); }

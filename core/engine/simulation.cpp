@@ -182,6 +182,7 @@ Column Simulation::output(int group) {
 
 int Simulation::modules() const { return static_cast<int>(plan_->modules.size()); }
 const std::string& Simulation::module_process(int module) const { return at(plan_->modules, module).process; }
+const std::string& Simulation::module_type(int module) const { return at(plan_->modules, module).type.name; }
 const ModulePorts& Simulation::module_ports(int module) const { return at(plan_->modules, module).ports; }
 ConstColumn Simulation::module_output(int module, int port) const {
     const auto& out = at(plan_->modules, module).out[static_cast<std::size_t>(port)];

@@ -78,6 +78,7 @@ class Simulation {
     // Modules that are enabled, in order of update.
     int modules() const;
     const std::string& module_process(int module) const;
+    const std::string& module_type(int module) const;  ///< name of the type
     const ModulePorts& module_ports(int module) const;
     ConstColumn module_output(int module, int port) const;
 

@@ -1,7 +1,5 @@
 #include "tools/forage/results.h"
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -16,11 +14,6 @@
 namespace forage::tool {
 namespace {
 
-std::string_view outcome_of(const bug::Trial& t, bool finished) {
-    if (t.target()) return "target";
-    return finished ? "missed" : "unfinished";
-}
-
 /// A file that a run has read, with a digest (64-bit FNV-1a) that tells whether it has changed since.
 nlohmann::ordered_json input_file(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
@@ -32,84 +25,7 @@ nlohmann::ordered_json input_file(const std::string& path) {
 
 std::string base_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
-/// "8 of 8 from (-1.5, -2), ..." by start position, for worlds that reset the robot to several.
-std::string by_start(const bug::World& world, const Trials& trials) {
-    const auto plan = world.reset_plan();
-    if (!plan || plan->starts.size() < 2) return {};
-    std::vector<std::pair<int, int>> counts(plan->starts.size());
-    for (const auto& t : trials.finished) {
-        const auto nearest =
-            std::min_element(plan->starts.begin(), plan->starts.end(), [&](const auto& a, const auto& b) {
-                return std::hypot(a.x - t.start.x, a.y - t.start.y) <
-                       std::hypot(b.x - t.start.x, b.y - t.start.y);
-            });
-        auto& [reached, all] = counts[static_cast<std::size_t>(nearest - plan->starts.begin())];
-        ++all, reached += t.target();
-    }
-    std::string out;
-    for (std::size_t i = 0; i < counts.size(); ++i)
-        if (counts[i].second)
-            out += fmt::format("{}{} of {} from ({:g}, {:g})", out.empty() ? "" : ", ", counts[i].first,
-                               counts[i].second, plan->starts[i].x, plan->starts[i].y);
-    return out;
-}
-
-/// The lines of a summary about one robot.
-template <class Line>
-void robot_summary(const bug::World& world, std::size_t robot, const Line& line) {
-    const Trials trials = trials_of(world, robot);
-    const std::string name = world.bugs() > 1 ? world.bug_names()[robot] + " " : "";
-    if (const auto n = trials.finished.size()) {
-        double cycles = 0;
-        for (const auto& t : trials.finished) cycles += static_cast<double>(t.cycles);
-        line(name + "trials", fmt::format("{}, {:.1f} s each on average, and 1 s to put the robot back", n,
-                                          cycles / static_cast<double>(n) * world.seconds_per_cycle()));
-        if (world.targets().empty()) return;
-        const std::string starts = by_start(world, trials);
-        line(name + "at the target",
-             fmt::format("{} of {} ({:.0f} %){}", trials.reached(), n,
-                         100.0 * static_cast<double>(trials.reached()) / static_cast<double>(n),
-                         starts.empty() ? "" : ": " + starts));
-    } else if (trials.running) {
-        const auto& t = *trials.running;
-        const auto place = [](const bug::Pose2& p) {  // + 0.0: no minus before a zero
-            return fmt::format("({:.2f}, {:.2f})", std::round(p.x * 100) / 100 + 0.0,
-                               std::round(p.y * 100) / 100 + 0.0);
-        };
-        line(name + "robot", fmt::format("from {} to {}, {:.2f} m apart", place(t.start), place(t.end),
-                                         std::hypot(t.end.x - t.start.x, t.end.y - t.start.y)));
-        if (!world.targets().empty())
-            line(name + "target", fmt::format("{:.2f} m away at the nearest{}", t.smallest_distance,
-                                              t.target() ? ": reached" : ""));
-    }
-}
-
 }  // namespace
-
-std::size_t Trials::reached() const {
-    return static_cast<std::size_t>(
-        std::count_if(finished.begin(), finished.end(), [](const auto& t) { return t.target(); }));
-}
-
-Trials trials_of(const bug::World& world, std::size_t robot) {
-    Trials out{world.trials(robot), std::nullopt};
-    const auto running = world.current_trial(robot);
-    if (running.cycles > 0) out.running = running;
-    return out;
-}
-
-std::string trials_csv(const Trials& trials) {
-    std::string out =
-        "trial,start_x,start_y,start_yaw,cycles,smallest_distance,outcome,first_cycle,end_x,end_y,end_yaw\n";
-    const auto add = [&](const bug::Trial& t, bool finished) {
-        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", t.number, t.start.x, t.start.y, t.start.yaw,
-                           t.cycles, t.smallest_distance, outcome_of(t, finished), t.first_cycle, t.end.x,
-                           t.end.y, t.end.yaw);
-    };
-    for (const auto& t : trials.finished) add(t, true);
-    if (trials.running) add(*trials.running, false);
-    return out;
-}
 
 std::string run_json(const RunOptions& o, const Loaded& loaded, const Outcome& outcome) {
     nlohmann::ordered_json json;
@@ -142,10 +58,13 @@ std::string run_json(const RunOptions& o, const Loaded& loaded, const Outcome& o
     if (!outcome.stopped.empty()) result["stopped"] = outcome.stopped;
     if (loaded.world)
         for (std::size_t i = 0; i < loaded.world->bugs(); ++i) {
-            const Trials trials = trials_of(*loaded.world, i);
-            result["robots"].push_back({{"name", loaded.world->bug_names()[i]},
-                                        {"trials", trials.finished.size()},
-                                        {"at_target", trials.reached()}});
+            const Trials& trials = outcome.trials[i];
+            auto& robot = result["robots"].emplace_back();
+            robot["name"] = loaded.world->bug_names()[i];
+            robot["trials"] = trials.finished.size();
+            robot["at_target"] = trials.reached();
+            if (!trials.finished.empty())
+                robot["recent_success"] = trials.recent_success(trials.finished.size());
         }
     result["files"] = outcome.files;
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -179,7 +98,11 @@ std::string summary(const RunOptions& o, const Loaded& loaded, const Outcome& ou
                               static_cast<double>(outcome.cycles) / outcome.clock,
                               outcome.seconds / outcome.clock, outcome.clock));
     if (loaded.world)
-        for (std::size_t i = 0; i < loaded.world->bugs(); ++i) robot_summary(*loaded.world, i, line);
+        for (std::size_t i = 0; i < loaded.world->bugs(); ++i) {
+            const std::string name = loaded.world->bugs() > 1 ? loaded.world->bug_names()[i] + " " : "";
+            for (const auto& [what, text] : trials_summary(*loaded.world, outcome.trials[i]))
+                line(name + what, text);
+        }
     if (!outcome.files.empty())
         line("written", fmt::format("{}: {}", o.directory, fmt::join(outcome.files, ", ")));
     return out;

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "bug_interface/simulation/world.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/trials.h"
 
 namespace forage::tool {
 
@@ -17,20 +17,8 @@ struct Outcome {
     double clock = 0;     ///< s of the clock
     std::string stopped;  ///< why it ended before its time; empty when it did not
     std::vector<std::string> files;
+    std::vector<Trials> trials;  ///< of each robot of the world
 };
-
-/// The trials of a robot: the finished ones and, if it had begun, the one that ran at the end.
-struct Trials {
-    std::vector<bug::Trial> finished;
-    std::optional<bug::Trial> running;
-
-    std::size_t reached() const;
-};
-Trials trials_of(const bug::World& world, std::size_t robot);
-
-/// trial,start_x,start_y,start_yaw,cycles,smallest_distance,outcome,first_cycle,end_x,end_y,end_yaw in m and
-/// rad
-std::string trials_csv(const Trials& trials);
 
 /// Versions, seed and settings: what is needed to repeat the run, and what came of it. No times and no dates:
 /// the same run gives the same text.

@@ -10,6 +10,7 @@
 #include "tools/forage/commands.h"
 #include "tools/forage/files.h"
 #include "tools/forage/length.h"
+#include "tools/forage/measures.h"
 #include "tools/forage/paths.h"
 #include "tools/forage/progress.h"
 #include "tools/forage/recordings.h"
@@ -27,6 +28,7 @@ struct Running {
     engine::Simulation simulation;
     observe::Clamp clamp;
     std::optional<Recordings> recordings;  ///< none without a directory
+    std::vector<Measures> measures;        ///< one per robot
     std::vector<PathLog> paths;            ///< one per robot, when there is a directory
 };
 
@@ -47,7 +49,10 @@ std::optional<Running> prepare(const RunOptions& o, Diagnostics& diagnostics) {
     if (diagnostics.failed()) return std::nullopt;
     try {
         simulation->start();
-        Running out{std::move(*loaded), std::move(*simulation), std::move(clamped), std::nullopt, {}};
+        Running out{std::move(*loaded), std::move(*simulation), std::move(clamped), std::nullopt, {}, {}};
+        if (out.loaded.world)
+            for (std::size_t i = 0; i < out.loaded.world->bugs(); ++i)
+                out.measures.emplace_back(*out.loaded.world, i, out.simulation);
         if (!o.directory.empty()) {
             make_directory(o.directory);
             out.recordings.emplace(std::move(columns), o.every, o.directory, out.simulation);
@@ -73,6 +78,7 @@ void loop(const RunOptions& o, Running& r, const Length& length, double seconds_
         simulation.update_connections();
         if (r.loaded.world) r.loaded.world->step();
         if (r.recordings) r.recordings->record(simulation);
+        for (auto& m : r.measures) m.follow(simulation);
         for (auto& p : r.paths) p.follow();
 
         const double seconds = static_cast<double>(simulation.cycle()) * seconds_per_cycle;
@@ -105,7 +111,7 @@ std::vector<std::string> write_results(const RunOptions& o, Running& r, Outcome&
     for (std::size_t i = 0; i < r.paths.size(); ++i) {
         const std::string robot = r.paths.size() > 1 ? "_" + file_name(world->bug_names()[i]) : "";
         attempt("trials" + robot + ".csv",
-                [&](const std::string& path) { write_file(path, trials_csv(trials_of(*world, i))); });
+                [&](const std::string& path) { write_file(path, trials_csv(outcome.trials[i])); });
         attempt("trajectory" + robot + ".csv",
                 [&](const std::string& path) { write_file(path, r.paths[i].csv()); });
         attempt("trajectory" + robot + ".png", [&](const std::string& path) {
@@ -147,6 +153,8 @@ int run(const RunOptions& options) {
     outcome.seconds = static_cast<double>(outcome.cycles) * seconds_per_cycle;
     outcome.clock = std::max(progress.elapsed(), 1e-9);
     progress.clear();
+    for (std::size_t i = 0; i < running->measures.size(); ++i)
+        outcome.trials.push_back(trials_of(*world, i, running->measures[i], running->simulation));
 
     if (!options.directory.empty())
         for (auto& problem : write_results(options, *running, outcome))

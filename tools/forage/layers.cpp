@@ -1,0 +1,56 @@
+#include "tools/forage/layers.h"
+
+#include <string_view>
+
+namespace forage::tool {
+namespace {
+
+int find_module(const engine::Simulation& simulation, std::string_view type) {
+    for (int i = 0; i < simulation.modules(); ++i)
+        if (simulation.module_type(i) == type) return i;
+    return -1;
+}
+
+int find_output(const engine::Simulation& simulation, int module, std::string_view port) {
+    if (module < 0) return -1;
+    const auto& outputs = simulation.module_ports(module).outputs;
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+        if (outputs[i].port == port && outputs[i].shape.cells > 0) return static_cast<int>(i);
+    return -1;
+}
+
+}  // namespace
+
+Layers::Layers(const engine::Simulation& simulation)
+    : adaptive_(find_module(simulation, "moduleAL")),
+      contextual_(find_module(simulation, "moduleCL")),
+      discrepancy_(find_output(simulation, adaptive_, "descripancy")),
+      prototype_(find_output(simulation, adaptive_, "prototype")),
+      empty_(find_output(simulation, contextual_, "empty")),
+      distance_(find_output(simulation, contextual_, "distance")) {}
+
+double Layers::discrepancy(const engine::Simulation& simulation) const {
+    return simulation.module_output(adaptive_, discrepancy_)[0];
+}
+
+double Layers::prototype_peak(const engine::Simulation& simulation) const {
+    return simulation.module_output(adaptive_, prototype_).maxCoeff();
+}
+
+MemoryFill Layers::memory(const engine::Simulation& simulation) const {
+    if (empty_ < 0 || distance_ < 0) return {};
+    const auto& shape = simulation.module_ports(contextual_).outputs[static_cast<std::size_t>(empty_)].shape;
+    MemoryFill out{0, 0, static_cast<std::size_t>(shape.height), static_cast<std::size_t>(shape.cells)};
+    const ConstColumn empty = simulation.module_output(contextual_, empty_);
+    // Before the layer opens it writes nothing: both displays are 0 then. Later one of them is 1 in an unused
+    // segment, and the distance in a used one is 0 only where the robot sees the very same again.
+    if ((empty == 0).all() && (simulation.module_output(contextual_, distance_) == 0).all()) return out;
+    for (int row = 0; row < shape.height; ++row) {
+        const auto line = empty.segment(row * shape.width, shape.width);
+        out.sequences += line[0] == 0;
+        out.segments += static_cast<std::size_t>((line == 0).count());
+    }
+    return out;
+}
+
+}  // namespace forage::tool

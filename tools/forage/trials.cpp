@@ -1,0 +1,182 @@
+#include "tools/forage/trials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace forage::tool {
+namespace {
+
+using Lines = std::vector<std::pair<std::string, std::string>>;
+
+std::string_view outcome_of(const bug::Trial& t, bool finished) {
+    if (t.target()) return "target";
+    return finished ? "missed" : "unfinished";
+}
+
+/// How many reached the target, of how many.
+struct Count {
+    std::size_t reached = 0, all = 0;
+    void add(const MeasuredTrial& t) { ++all, reached += t.trial.target(); }
+    double percent() const { return 100.0 * static_cast<double>(reached) / static_cast<double>(all); }
+};
+
+/// "8 of 8 from (-1.5, -2), ..." by start position, for worlds that reset the robot to several.
+std::string by_start(const bug::World& world, const Trials& trials) {
+    const auto plan = world.reset_plan();
+    if (!plan || plan->starts.size() < 2) return {};
+    std::map<int, Count> counts;
+    for (const auto& t : trials.finished) counts[t.measures.start].add(t);
+    std::vector<std::string> out;
+    for (const auto& [start, count] : counts) {
+        const auto& pose = plan->starts[static_cast<std::size_t>(start - 1)];
+        out.push_back(fmt::format("{} of {} from ({:g}, {:g})", count.reached, count.all, pose.x, pose.y));
+    }
+    return fmt::format("{}", fmt::join(out, ", "));
+}
+
+/// "88 96 100 %": the success ratio of one window after the other.
+std::string over_time(const Trials& trials) {
+    std::vector<std::string> out;
+    for (std::size_t end = Trials::window; end <= trials.finished.size(); end += Trials::window)
+        out.push_back(fmt::format("{:.0f}", 100 * trials.recent_success(end)));
+    return fmt::format("{} % at the target, {} trials after {}", fmt::join(out, " "), Trials::window,
+                       Trials::window);
+}
+
+/// "cyan > red 31 of 33, ...", the most frequent first.
+std::string by_route(const Trials& trials) {
+    constexpr std::size_t most = 6;
+    std::map<std::string, Count> counts;
+    for (const auto& t : trials.finished) counts[t.route.empty() ? "none" : t.route].add(t);
+    std::vector<std::pair<std::string, Count>> sorted(counts.begin(), counts.end());
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const auto& a, const auto& b) { return a.second.all > b.second.all; });
+    std::vector<std::string> out;
+    for (std::size_t i = 0; i < std::min(most, sorted.size()); ++i)
+        out.push_back(
+            fmt::format("{} {} of {}", sorted[i].first, sorted[i].second.reached, sorted[i].second.all));
+    if (sorted.size() > most) out.push_back(fmt::format("and {} others", sorted.size() - most));
+    return fmt::format("{}", fmt::join(out, ", "));
+}
+
+void adaptive_lines(const std::vector<MeasuredTrial>& trials, Lines& lines) {
+    if (!trials.back().measures.discrepancy) return;
+    constexpr double low = 0.1;
+    const auto below = std::find_if(trials.begin(), trials.end(),
+                                    [](const auto& t) { return *t.measures.discrepancy < low; });
+    lines.emplace_back("discrepancy",
+                       fmt::format("{:.3f} after the first trial, {:.3f} after the last; {}",
+                                   *trials.front().measures.discrepancy, *trials.back().measures.discrepancy,
+                                   below == trials.end()
+                                       ? fmt::format("never below {}", low)
+                                       : fmt::format("below {} after trial {}", low, below->trial.number)));
+    double cue = 0, distractor = 0;
+    for (auto t = trials.end() - static_cast<std::ptrdiff_t>(std::min(trials.size(), Trials::window));
+         t != trials.end(); ++t)
+        if (const auto peaks = t->measures.peaks()) cue += peaks->cue, distractor += peaks->distractor;
+    if (distractor > 0)
+        lines.emplace_back("prototypes",
+                           fmt::format("{:.2f} times as strong at the last patch as at those before (peaks, "
+                                       "mean of the last {} trials)",
+                                       cue / distractor, std::min(trials.size(), Trials::window)));
+}
+
+void memory_line(const std::vector<MeasuredTrial>& trials, Lines& lines) {
+    const auto& memory = trials.back().measures.memory;
+    if (!memory || !memory->all_sequences) return;
+    const auto full = std::find_if(trials.begin(), trials.end(), [](const auto& t) {
+        return t.measures.memory->sequences == t.measures.memory->all_sequences;
+    });
+    lines.emplace_back(
+        "memory",
+        fmt::format("{} of {} sequences, of {:.1f} segments on average{}", memory->sequences,
+                    memory->all_sequences, memory->mean_length(),
+                    full == trials.end() ? "" : fmt::format("; full after trial {}", full->trial.number)));
+}
+
+Lines running_lines(const bug::World& world, const bug::Trial& t) {
+    const auto place = [](const bug::Pose2& p) {  // + 0.0: no minus before a zero
+        return fmt::format("({:.2f}, {:.2f})", std::round(p.x * 100) / 100 + 0.0,
+                           std::round(p.y * 100) / 100 + 0.0);
+    };
+    Lines lines{{"robot", fmt::format("from {} to {}, {:.2f} m apart", place(t.start), place(t.end),
+                                      std::hypot(t.end.x - t.start.x, t.end.y - t.start.y))}};
+    if (!world.targets().empty())
+        lines.emplace_back("target", fmt::format("{:.2f} m away at the nearest{}", t.smallest_distance,
+                                                 t.target() ? ": reached" : ""));
+    return lines;
+}
+
+}  // namespace
+
+std::size_t Trials::reached() const {
+    return static_cast<std::size_t>(
+        std::count_if(finished.begin(), finished.end(), [](const auto& t) { return t.trial.target(); }));
+}
+
+double Trials::recent_success(std::size_t count) const {
+    Count out;
+    for (std::size_t i = count - std::min(count, window); i < count; ++i) out.add(finished[i]);
+    return out.percent() / 100;
+}
+
+Trials trials_of(const bug::World& world, std::size_t robot, const Measures& measures,
+                 const engine::Simulation& simulation) {
+    Trials out;
+    const auto measured = measures.trials(simulation);
+    const auto& finished = world.trials(robot);
+    for (std::size_t i = 0; i < finished.size(); ++i)
+        out.finished.push_back({finished[i], measured[i], measures.route(measured[i])});
+    if (const auto running = world.current_trial(robot); running.cycles > 0)
+        out.running = {running, measured.back(), measures.route(measured.back())};
+    return out;
+}
+
+std::string trials_csv(const Trials& trials) {
+    std::string out =
+        "trial,start_x,start_y,start_yaw,cycles,smallest_distance,outcome,first_cycle,end_x,end_y,end_yaw,"
+        "start,patches,"
+        "recent_success,discrepancy,cue_peak,distractor_peak,sequences,segments\n";
+    const auto add = [&](const MeasuredTrial& measured, const std::string& recent) {
+        const auto& [t, m, route] = measured;
+        const auto peaks = m.peaks();
+        out += fmt::format(
+            "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", t.number, t.start.x, t.start.y,
+            t.start.yaw, t.cycles, t.smallest_distance, outcome_of(t, !recent.empty()), t.first_cycle,
+            t.end.x, t.end.y, t.end.yaw, m.start ? fmt::format("{}", m.start) : "", route, recent,
+            m.discrepancy ? fmt::format("{}", *m.discrepancy) : "",
+            peaks ? fmt::format("{}", peaks->cue) : "", peaks ? fmt::format("{}", peaks->distractor) : "",
+            m.memory ? fmt::format("{}", m.memory->sequences) : "",
+            m.memory ? fmt::format("{}", m.memory->segments) : "");
+    };
+    for (std::size_t i = 0; i < trials.finished.size(); ++i)
+        add(trials.finished[i], fmt::format("{}", trials.recent_success(i + 1)));
+    if (trials.running) add(*trials.running, "");
+    return out;
+}
+
+Lines trials_summary(const bug::World& world, const Trials& trials) {
+    const auto n = trials.finished.size();
+    if (n == 0) return trials.running ? running_lines(world, trials.running->trial) : Lines{};
+    double cycles = 0;
+    for (const auto& t : trials.finished) cycles += static_cast<double>(t.trial.cycles);
+    Lines lines{{"trials", fmt::format("{}, {:.1f} s each on average, and 1 s to put the robot back", n,
+                                       cycles / static_cast<double>(n) * world.seconds_per_cycle())}};
+    if (world.targets().empty()) return lines;
+    const std::string starts = by_start(world, trials);
+    lines.emplace_back("at the target",
+                       fmt::format("{} of {} ({:.0f} %){}", trials.reached(), n,
+                                   100.0 * static_cast<double>(trials.reached()) / static_cast<double>(n),
+                                   starts.empty() ? "" : ": " + starts));
+    if (n >= 2 * Trials::window) lines.emplace_back("over time", over_time(trials));
+    lines.emplace_back("patches seen", by_route(trials));
+    adaptive_lines(trials.finished, lines);
+    memory_line(trials.finished, lines);
+    return lines;
+}
+
+}  // namespace forage::tool
