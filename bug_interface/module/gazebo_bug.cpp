@@ -51,6 +51,7 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
         .doc("The senses and motors of a robot in the simulated world, in lock-step with the system.");
     s.param("device_name", &T::device_name)
         .label("Device name")
+        .at_start()
         .doc("Name of the robot: of its model in the world file.");
     s.param("cps", &T::cps)
         .label("Cycles per second")
@@ -61,6 +62,7 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
         .doc("Robots with the same key hear each other. No effect yet.");
     s.param("gripper", &T::gripper)
         .label("Has gripper")
+        .at_start()
         .doc("Whether the robot has a gripper; its groups need their sizes only then.");
     s.param("grayscale", &T::grayscale)
         .label("Grayscale")

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/model/edit.h"
 #include "core/model/system.h"
 #include "core/types/registry.h"
 
@@ -62,6 +64,15 @@ class Simulation {
     std::uint64_t cycle() const {
         return cycle_;
     }  ///< the number of completed cycles; the next one has this number
+
+    // Parameters while the system runs. An assignment names something by its id in the system that was built.
+
+    /// Reports what set() would refuse, and what the types find wrong when these are made in this order.
+    void check(std::span<const model::Assignment> changes, Diagnostics& diagnostics) const;
+    /// Changes a parameter; to be called between phases. Its type reads it from the next update on: of the
+    /// running cycle, if that is still to come. Throws RunError for parameters that are read at start only
+    /// and for modules that are disabled.
+    void set(const model::Assignment& change);
 
     // Groups, numbered in order of update. What is read here is of the running cycle, or of the last one
     // between cycles.

@@ -1,6 +1,7 @@
 #include "core/model/edit.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -10,36 +11,36 @@
 namespace forage::model {
 namespace {
 
-/// The things of a system that have parameters, by the name that a person writes before the dot.
+/// A thing of a system that has parameters, found by the name that a person writes before the dot.
 struct Owner {
-    TypeUse* use = nullptr;
-    const std::vector<Parameter>* parameters = nullptr;
-    Process* process = nullptr;  ///< when the owner is a process
+    Assignment::Owner kind;
+    std::string id;
+    const TypeUse* use = nullptr;                        ///< null: a process without a module
+    const std::vector<Parameter>* parameters = nullptr;  ///< null: of no known type
 };
 
-std::vector<Owner> find_owners(System& system, const Registry& registry, std::string_view where) {
+template <class Type>
+const std::vector<Parameter>* parameters_of(const Type* type) {
+    return type ? &type->parameters : nullptr;
+}
+
+std::vector<Owner> find_owners(const System& system, const Registry& registry, std::string_view where) {
     std::vector<Owner> owners;
-    for (const auto& entry : find_groups(system, where)) {
-        auto& use =
-            const_cast<Group*>(entry.group)->neuron;  // entry points into `system`, which we may change
-        const NeuronType* type = registry.neuron(use.type);
-        owners.push_back({&use, type ? &type->parameters : nullptr, nullptr});
-    }
-    if (Group* by_id = find_group(system, where); owners.empty() && by_id) {
-        const NeuronType* type = registry.neuron(by_id->neuron.type);
-        owners.push_back({&by_id->neuron, type ? &type->parameters : nullptr, nullptr});
-    }
+    const auto add_group = [&](const Group& g) {
+        owners.push_back(
+            {Assignment::Owner::group, g.id, &g.neuron, parameters_of(registry.neuron(g.neuron.type))});
+    };
+    for (const auto& entry : find_groups(system, where)) add_group(*entry.group);
+    if (const auto* by_id = GroupIndex(system).find(where).group; owners.empty() && by_id) add_group(*by_id);
     if (!owners.empty()) return owners;
-    for (auto& p : system.processes)
-        if (trim(p.name) == trim(where) || p.id == where) {
-            const ModuleType* type = p.module ? registry.module(p.module->type) : nullptr;
-            owners.push_back({p.module ? &*p.module : nullptr, type ? &type->parameters : nullptr, &p});
-        }
-    for (auto& c : system.connections)
-        if (c.synapse && (trim(c.name) == trim(where) || c.id == where)) {
-            const SynapseType* type = registry.synapse(c.synapse->type);
-            owners.push_back({&*c.synapse, type ? &type->parameters : nullptr, nullptr});
-        }
+    for (const auto& p : system.processes)
+        if (trim(p.name) == trim(where) || p.id == where)
+            owners.push_back({Assignment::Owner::process, p.id, p.module ? &*p.module : nullptr,
+                              p.module ? parameters_of(registry.module(p.module->type)) : nullptr});
+    for (const auto& c : system.connections)
+        if (c.synapse && (trim(c.name) == trim(where) || c.id == where))
+            owners.push_back({Assignment::Owner::connection, c.id, &*c.synapse,
+                              parameters_of(registry.synapse(c.synapse->type))});
     return owners;
 }
 
@@ -53,35 +54,52 @@ std::string suggest_owner(std::string_view where, const System& system) {
     return near_a_group ? by_name : suggest(where, all);
 }
 
+/// A hint for a name that several things have.
+std::string which(const std::vector<Owner>& owners, std::string_view where) {
+    std::vector<std::string> names;
+    for (const auto& o : owners)
+        names.push_back(o.kind == Assignment::Owner::group ? fmt::format("{}#{}", trim(where), o.id) : o.id);
+    return fmt::format("use one of '{}'", fmt::join(names, "', '"));
+}
+
+/// A path as seen from the working directory.
+std::string resolved(const std::string& path, const Location& at) {
+    if (path.empty() || !at.file) return path;
+    return (std::filesystem::path(at.file->path).parent_path() / path).string();
+}
+
 }  // namespace
 
-void set(System& system, const Registry& registry, std::string_view assignment, Diagnostics& diagnostics) {
+std::optional<Assignment> parse_assignment(const System& system, const Registry& registry,
+                                           std::string_view text, std::string_view what,
+                                           Diagnostics& diagnostics, Location at) {
     const auto problem = [&](std::string message, std::string hint) {
-        diagnostics.error({}, fmt::format("--set '{}': {}", assignment, message), std::move(hint));
+        diagnostics.error(at, fmt::format("{} '{}': {}", what, text, message), std::move(hint));
+        return std::nullopt;
     };
-    const auto equals = assignment.find('=');
-    const auto dot = assignment.rfind('.', equals);
-    if (equals == std::string_view::npos || dot == std::string_view::npos || dot == 0) {
-        problem("not an assignment",
-                "write Process/Group.parameter=value, for example 'Reactive Layer/Approach.threshold=0.3'");
-        return;
-    }
-    const std::string_view where = trim(assignment.substr(0, dot));
-    const std::string name(trim(assignment.substr(dot + 1, equals - dot - 1)));
-    const std::string value(trim(assignment.substr(equals + 1)));
+    const auto equals = text.find('=');
+    const auto dot = text.rfind('.', equals);
+    if (equals == std::string_view::npos || dot == std::string_view::npos || dot == 0)
+        return problem(
+            "not an assignment",
+            "write Process/Group.parameter=value, for example 'Reactive Layer/Approach.threshold=0.3'");
+    const std::string_view where = trim(text.substr(0, dot));
+    const std::string name(trim(text.substr(dot + 1, equals - dot - 1)));
+    const std::string value(trim(text.substr(equals + 1)));
 
     const auto owners = find_owners(system, registry, where);
     if (owners.empty()) return problem(fmt::format("there is no '{}'", where), suggest_owner(where, system));
     if (owners.size() > 1)
-        return problem(fmt::format("'{}' names {} things", where, owners.size()),
-                       "add '#' and the id of the group you mean, or use the id of the connection");
+        return problem(fmt::format("'{}' names {} things", where, owners.size()), which(owners, where));
     const Owner& owner = owners.front();
 
-    if (owner.process && name == "enableModule") {
+    Assignment out{owner.kind, owner.id, nullptr, {}, std::string(text), at};
+    const bool is_process = owner.kind == Assignment::Owner::process;
+    if (is_process && name == "enableModule") {
         const auto flag = parse_parameter(ParameterKind::boolean, value);
         if (!flag) return problem(fmt::format("'{}' is not true or false", value), "");
-        owner.process->module_enabled = std::get<bool>(*flag);
-        return;
+        out.value = *flag;
+        return out;
     }
     if (!owner.parameters)
         return problem(owner.use ? fmt::format("the type '{}' is not known", owner.use->type)
@@ -92,15 +110,44 @@ void set(System& system, const Registry& registry, std::string_view assignment, 
     if (it == owner.parameters->end()) {
         std::vector<std::string> known;
         for (const auto& p : *owner.parameters) known.push_back(p.name);
-        if (owner.process) known.emplace_back("enableModule");
+        if (is_process) known.emplace_back("enableModule");
         return problem(fmt::format("{} has no parameter '{}'", owner.use->type, name), suggest(name, known));
     }
     const auto parsed = parse_parameter(it->kind, value);
     if (!parsed) return problem(fmt::format("'{}' is not {}", value, describe(it->kind)), it->doc);
     if (outside(*parsed, it->range))
-        diagnostics.warning({}, fmt::format("--set '{}': outside the usual range {} to {}", assignment,
+        diagnostics.warning(at, fmt::format("{} '{}': outside the usual range {} to {}", what, text,
                                             to_text(it->range->low), to_text(it->range->high)));
-    set_parameter(*owner.use, name, value);
+    out.parameter = &*it;
+    out.value = it->is_path ? ParameterValue(resolved(value, at)) : *parsed;
+    return out;
+}
+
+void set(System& system, const Assignment& a) {
+    if (a.owner == Assignment::Owner::process && !a.parameter) {
+        find_process(system, a.id)->module_enabled = std::get<bool>(a.value);
+        return;
+    }
+    TypeUse* use = nullptr;
+    switch (a.owner) {
+        case Assignment::Owner::group:
+            use = &find_group(system, a.id)->neuron;
+            break;
+        case Assignment::Owner::process:
+            use = &*find_process(system, a.id)->module;
+            break;
+        case Assignment::Owner::connection:
+            use = &*find_connection(system, a.id)->synapse;
+            break;
+    }
+    const bool as_written = !a.parameter->is_path;
+    set_parameter(*use, a.parameter->name,
+                  as_written ? std::string(trim(std::string_view(a.text).substr(a.text.find('=') + 1)))
+                             : to_text(a.value));
+}
+
+void set(System& system, const Registry& registry, std::string_view assignment, Diagnostics& diagnostics) {
+    if (const auto a = parse_assignment(system, registry, assignment, "--set", diagnostics)) set(system, *a);
 }
 
 }  // namespace forage::model

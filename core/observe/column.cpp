@@ -31,7 +31,7 @@ std::vector<int> groups_named(const engine::Simulation& s, std::string_view path
 }  // namespace
 
 std::optional<ColumnRef> find_column(const engine::Simulation& s, std::string_view text,
-                                     std::string_view what, Diagnostics& diagnostics) {
+                                     std::string_view what, Diagnostics& diagnostics, Location at) {
     std::string_view path = text, state;
     auto found = groups_named(s, path);  // a name may contain ':'
     if (const auto colon = text.rfind(':'); found.empty() && colon != std::string_view::npos) {
@@ -45,7 +45,7 @@ std::optional<ColumnRef> find_column(const engine::Simulation& s, std::string_vi
             for (int g = 0; g < s.groups(); ++g) names.push_back(s.path(g));
         for (const int g : found) names.push_back(s.path(g));
         diagnostics.error(
-            {},
+            at,
             fmt::format("{} '{}': {}", what, text,
                         found.empty() ? fmt::format("there is no group '{}'", path)
                                       : fmt::format("'{}' names {} groups", path, found.size())),
@@ -71,7 +71,7 @@ std::optional<ColumnRef> find_column(const engine::Simulation& s, std::string_vi
         if (inputs[k] == state)
             return ColumnRef{group, -1, static_cast<InputKind>(k), s.path(group) + ":" + known.back()};
     }
-    diagnostics.error({}, fmt::format("{} '{}': {} has no state '{}'", what, text, type.name, state),
+    diagnostics.error(at, fmt::format("{} '{}': {} has no state '{}'", what, text, type.name, state),
                       suggest(state, known));
     return std::nullopt;
 }

@@ -21,7 +21,7 @@ struct ColumnRef {
 /// of the group's type, and excIn, inhIn, modIn. Reports what is not there, with the names there are; `what`
 /// says where the text stands ("--record").
 std::optional<ColumnRef> find_column(const engine::Simulation& simulation, std::string_view text,
-                                     std::string_view what, Diagnostics& diagnostics);
+                                     std::string_view what, Diagnostics& diagnostics, Location at = {});
 
 /// Its values in the running cycle, or the last one between cycles.
 inline ConstColumn values(const engine::Simulation& simulation, const ColumnRef& c) {

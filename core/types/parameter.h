@@ -30,7 +30,8 @@ struct Parameter {
     ParameterKind kind;
     ParameterValue default_value;
     std::optional<ParameterRange> range;
-    bool is_path = false;  ///< a file's name: relative to the file in which it is written
+    bool is_path = false;   ///< a file's name: relative to the file in which it is written
+    bool at_start = false;  ///< read when the run starts and never again; all others anew in each update
     std::function<void(void*, const ParameterValue&)> set;
     std::function<ParameterValue(const void*)> get;
 };
@@ -60,6 +61,7 @@ class ParameterBuilder {
     ParameterBuilder& doc(std::string text) { return all_[index_].doc = std::move(text), *this; }
     ParameterBuilder& unit(std::string text) { return all_[index_].unit = std::move(text), *this; }
     ParameterBuilder& path() { return all_[index_].is_path = true, *this; }
+    ParameterBuilder& at_start() { return all_[index_].at_start = true, *this; }
     ParameterBuilder& range(double low, double high) {
         return all_[index_].range = ParameterRange{low, high}, *this;
     }

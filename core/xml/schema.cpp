@@ -145,7 +145,8 @@ class Schema {
         for (const auto& p : all) {
             open("group");
             open("attribute"), attribute("name", "name");
-            documentation(p.label + ". " + p.doc + " Default " + to_text(p.default_value) + ".");
+            documentation(p.label + ". " + p.doc + " Default " + to_text(p.default_value) + "." +
+                          (p.at_start ? " Read at start." : ""));
             value(p.name);
             close();
             open("attribute"), attribute("name", "value");

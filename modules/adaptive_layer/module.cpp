@@ -49,6 +49,7 @@ void AdaptiveLayerModule::describe(ModuleSpec<AdaptiveLayerModule>& s) {
     s.param("init", &T::init)
         .label("init value weights")
         .range(0, 1)
+        .at_start()
         .doc("The weights begin uniformly distributed between plus and minus this value.");
     s.param("discTime", &T::disc_time)
         .label("discrepancy time constant")

@@ -21,11 +21,13 @@ void ContextualLayerModule::describe(ModuleSpec<ContextualLayerModule>& s) {
     s.param("Memory Height", &T::height)
         .label("Memory height")
         .range(0, 1000)
-        .doc("Number of sequences, and the most segments a sequence has; read at start.");
+        .at_start()
+        .doc("Number of sequences, and the most segments a sequence has.");
     s.param("Memory Width", &T::width)
         .label("Memory width")
         .range(0, 1000)
-        .doc("Segments per sequence that the memory's pictures show; read at start.");
+        .at_start()
+        .doc("Segments per sequence that the memory's pictures show.");
     s.param("Memory Threshold", &T::threshold)
         .label("Memory threshold")
         .range(0, 2)

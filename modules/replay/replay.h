@@ -23,6 +23,7 @@ struct Replay {
         s.param("file", &Replay::file)
             .label("File")
             .path()
+            .at_start()
             .doc("Table of rows cycle,process,target,v0,v1,...");
     }
     void check(const ModulePorts& ports, Problems& problems);

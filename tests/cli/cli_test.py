@@ -159,6 +159,29 @@ class Run(Cli):
         rows = self.table("out/Bug_Motor_act.csv")[1:]
         self.assertTrue(all(float(v) == 0 for r in rows for v in r[1:]))
 
+    def test_at_changes_a_parameter_in_exactly_one_cycle(self):
+        (self.here / "small.iqr").write_text(SMALL_SYSTEM)
+        (self.here / "d.csv").write_text("-1,*,out,1,2\n4,*,out,3,2\n")
+        done = self.forage("run", "small.iqr", "--cycles", 9, "--drive", "d.csv", "-r", "P/A", "-o", "out",
+                           "--at", "cycle 2: P/A.excGain=10", "--at", "P/A(1,1) > 20 && cycle > 3: P/A.excGain = 0",
+                           "--at", "0.28 s: P/A.excGain=0.5", "--at", "cycle 9: P/A.excGain=7")
+        self.assertEqual([r[1] for r in self.table("out/P_A_act.csv")[1:]], ["1", "1", "10", "10", "10", "30", "0", "1.5", "1.5"])
+        self.assertIn("in cycle 6, at P/A(1,1) > 20 && cycle > 3: P/A.excGain = 0", done.stdout)
+        self.assertIn("not changed    at cycle 9: P/A.excGain=7: it never was", done.stdout)
+        result = json.loads((self.here / "out/run.json").read_text())["result"]
+        self.assertEqual([c["cycle"] for c in result["changes"]], [2, 6, 7, None])
+
+    def test_at_a_trial(self):
+        self.run_robot("--trials", 3, "-r", "Bug/Motor", "--at", "trial 3: Motor In to Motor.weight=0", "--longest-trial", 20)
+        cycle = json.loads((self.here / "out/run.json").read_text())["result"]["changes"][0]["cycle"]
+        trials = self.table("out/trials.csv")[1:]
+        third = int(trials[2][7])  # first_cycle
+        self.assertLess(int(trials[1][7]) + int(trials[1][4]), cycle + 1)  # the second is over
+        self.assertLessEqual(cycle, third)
+        motor = {int(r[0]): [float(v) for v in r[1:]] for r in self.table("out/Bug_Motor_act.csv")[1:]}
+        self.assertTrue(any(motor[cycle]))  # what was delivered before
+        self.assertFalse(any(any(row) for c, row in motor.items() if c > cycle))
+
     def test_the_exercise_stands_still_and_the_run_ends(self):
         done = self.run_robot("--trials", 2, "--longest-trial", 20, system=EXERCISE)
         self.assertIn("did not end within 20 s", done.stdout)
@@ -266,6 +289,13 @@ class Mistakes(Cli):
             (["--clamp", "Bug/Motor(10,1)=1"], "it has 9 columns and 9 rows"),
             (["--clamp", "Bug/Motr(1,1)=1"], "did you mean 'Bug/Motor'"),
             (["--clamp", "Bug/Motor:vm(1,1)=1"], "only the activity"),
+            (["--at", "trial 5"], "hint: for example 'trial >= 200: Selection/Adaptive.excGain=0'"),
+            (["--at", "trial 5: Bug/Light.thresold=1"], "did you mean 'threshold'"),
+            (["--at", "trail 5: Bug/Light.threshold=1"], "there is no group 'trail 5'"),
+            (["--at", "max(Bug/Ligth) > 5: Bug/Light.threshold=1"], "did you mean 'Bug/Light'"),
+            (["--at", "cycle 5: Bug.device_name=x"], "'device_name' is read at start only"),
+            (["--at", "cycle 5: Bug.placeSigma=0"], "must be above 0"),
+            (["--at", "cycle 5: Bug.enableModule=false"], "cannot be switched on or off"),
         ):
             done = self.run_robot("--cycles", 1, *arguments, status=2)
             self.assertIn("error:", done.stderr)

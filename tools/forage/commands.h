@@ -21,6 +21,7 @@ struct RunOptions {
     double longest_trial = 300;  ///< s of the world
     std::vector<std::string> recordings;
     std::uint64_t every = 1;
+    std::vector<std::string> at;     ///< "WHEN: WHERE.parameter=value"
     std::vector<std::string> clamp;  ///< files, or 'Process/Group(x,y)=value'
     int threads = 1;
     std::string directory = "forage-out";

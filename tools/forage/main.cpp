@@ -42,7 +42,9 @@ CLI::Option* repeated(CLI::Option* option) {
 }
 
 void add_input(CLI::App& command, Input& input) {
-    command.add_option("SYSTEM", input.system, "System file (.iqr), or a process on its own (.iqrProcess)")->required()->option_text("FILE");
+    command.add_option("SYSTEM", input.system, "System file (.iqr), or a process on its own (.iqrProcess)")
+        ->required()
+        ->option_text("FILE");
     command.add_option("-w,--world", input.world, "World in which the robot lives (.world)")
         ->option_text("FILE");
     repeated(
@@ -60,7 +62,9 @@ void add_run(CLI::App& app, RunOptions& o) {
     run.footer(
         "Without --cycles, --seconds or --trials it runs for 60 seconds of the world.\n"
         "Example:\n"
-        "  forage run systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world --trials 30");
+        "  forage run systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world --trials 30\n"
+        "  ... --at 'trial 10: Motor In to Motor.weight=0.5' --at 'max(Bug/Light) > 0.9: "
+        "Bug/Light.threshold=1'");
     add_input(run, o.input);
     auto* cycles = run.add_option("-c,--cycles", o.cycles, "Stop after so many cycles")
                        ->check(count())
@@ -88,6 +92,12 @@ void add_run(CLI::App& app, RunOptions& o) {
         ->check(count())
         ->option_text("K")
         ->needs(record);
+    repeated(run.add_option(
+                 "--at", o.at,
+                 "Change a parameter while it runs, when a condition first holds: 'cycle N', 'trial N', "
+                 "'N s', or comparisons of cycle, trial, seconds, cells 'Process/Group(x,y)' and "
+                 "mean(Process/Group), also sum, min and max, joined by && and ||; may be repeated"))
+        ->option_text("'WHEN: WHERE=VALUE'");
     run.add_option("--drive", o.input.drive,
                    "Table that modules of type moduleReplay play: cycle,process,target,v0,v1,...")
         ->option_text("FILE");

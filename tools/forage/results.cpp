@@ -50,12 +50,16 @@ std::string run_json(const RunOptions& o, const Loaded& loaded, const Outcome& o
     json["record"] = o.recordings;
     json["every"] = o.every;
     if (!o.input.drive.empty()) json["drive"] = input_file(o.input.drive);
+    if (!o.at.empty()) json["at"] = o.at;
     if (!o.clamp.empty()) json["clamp"] = o.clamp;
     json["lenient"] = o.input.lenient;
     auto& result = json["result"];
     result["cycles"] = outcome.cycles;
     result["seconds"] = outcome.seconds;
     if (!outcome.stopped.empty()) result["stopped"] = outcome.stopped;
+    for (const auto& [text, cycle] : outcome.changes)
+        result["changes"].push_back(
+            {{"at", text}, {"cycle", cycle ? nlohmann::ordered_json(*cycle) : nlohmann::ordered_json()}});
     if (loaded.world)
         for (std::size_t i = 0; i < loaded.world->bugs(); ++i) {
             const Trials& trials = outcome.trials[i];
@@ -97,6 +101,9 @@ std::string summary(const RunOptions& o, const Loaded& loaded, const Outcome& ou
     line("speed", fmt::format("{:.0f} cycles/s, {:.0f} x real time ({:.2f} s)",
                               static_cast<double>(outcome.cycles) / outcome.clock,
                               outcome.seconds / outcome.clock, outcome.clock));
+    for (const auto& [text, cycle] : outcome.changes)
+        line(cycle ? "changed" : "not changed", cycle ? fmt::format("in cycle {}, at {}", *cycle, text)
+                                                      : fmt::format("at {}: it never was", text));
     if (loaded.world)
         for (std::size_t i = 0; i < loaded.world->bugs(); ++i) {
             const std::string name = loaded.world->bugs() > 1 ? loaded.world->bug_names()[i] + " " : "";

@@ -13,8 +13,10 @@ namespace forage::tool {
 struct Outcome {
     std::optional<std::uint64_t> length;  ///< cycles that were asked for; empty when trials end the run
     std::uint64_t cycles = 0;
-    double seconds = 0;   ///< of the world
-    double clock = 0;     ///< s of the clock
+    double seconds = 0;  ///< of the world
+    double clock = 0;    ///< s of the clock
+    std::vector<std::pair<std::string, std::optional<std::uint64_t>>>
+        changes;          ///< of --at, and the first cycle in which each acted; empty: it never did
     std::string stopped;  ///< why it ended before its time; empty when it did not
     std::vector<std::string> files;
     std::vector<Trials> trials;  ///< of each robot of the world

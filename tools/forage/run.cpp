@@ -15,6 +15,7 @@
 #include "tools/forage/progress.h"
 #include "tools/forage/recordings.h"
 #include "tools/forage/results.h"
+#include "tools/forage/schedule.h"
 #include "tools/forage/stop.h"
 #include "tools/forage/tables.h"
 #include "tools/plot/trajectory.h"
@@ -26,6 +27,7 @@ namespace {
 struct Running {
     Loaded loaded;
     engine::Simulation simulation;
+    observe::Schedule schedule;
     observe::Clamp clamp;
     std::optional<Recordings> recordings;  ///< none without a directory
     std::vector<Measures> measures;        ///< one per robot
@@ -42,6 +44,7 @@ std::optional<Running> prepare(const RunOptions& o, Diagnostics& diagnostics) {
     auto simulation = engine::Simulation::build(loaded->system, loaded->registry,
                                                 {.seed = o.input.seed, .threads = o.threads}, diagnostics);
     if (!simulation) return std::nullopt;
+    auto scheduled = schedule(o.at, *loaded, *simulation, diagnostics);
     auto clamped = clamp(o.clamp, *simulation, diagnostics);
     auto columns = recorded_columns(o.recordings, *simulation, diagnostics);
     if (!columns.empty() && o.directory.empty())
@@ -49,7 +52,13 @@ std::optional<Running> prepare(const RunOptions& o, Diagnostics& diagnostics) {
     if (diagnostics.failed()) return std::nullopt;
     try {
         simulation->start();
-        Running out{std::move(*loaded), std::move(*simulation), std::move(clamped), std::nullopt, {}, {}};
+        Running out{std::move(*loaded),
+                    std::move(*simulation),
+                    std::move(scheduled),
+                    std::move(clamped),
+                    std::nullopt,
+                    {},
+                    {}};
         if (out.loaded.world)
             for (std::size_t i = 0; i < out.loaded.world->bugs(); ++i)
                 out.measures.emplace_back(*out.loaded.world, i, out.simulation);
@@ -72,6 +81,8 @@ void loop(const RunOptions& o, Running& r, const Length& length, double seconds_
           Outcome& outcome) {
     auto& simulation = r.simulation;
     while (!length.over(simulation.cycle())) {
+        if (r.schedule.waiting())
+            r.schedule.apply(simulation, moment(r.loaded, simulation, seconds_per_cycle));
         simulation.update_groups();
         r.clamp.apply(simulation);
         simulation.update_modules();
@@ -151,6 +162,7 @@ int run(const RunOptions& options) {
     }
     outcome.cycles = running->simulation.cycle();
     outcome.seconds = static_cast<double>(outcome.cycles) * seconds_per_cycle;
+    for (const auto& e : running->schedule.entries()) outcome.changes.push_back({e.text, e.cycle});
     outcome.clock = std::max(progress.elapsed(), 1e-9);
     progress.clear();
     for (std::size_t i = 0; i < running->measures.size(); ++i)

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/model/lookup.h"
+#include "core/observe/cell.h"
 #include "core/observe/column.h"
 #include "modules/replay/replay.h"
 
@@ -64,32 +65,20 @@ struct Cell {
 std::optional<Cell> parse_cell(std::string_view text) {
     const auto open = text.rfind('('), close = text.find(")=", open == std::string_view::npos ? 0 : open);
     if (open == std::string_view::npos || close == std::string_view::npos) return std::nullopt;
-    const auto inside = text.substr(open + 1, close - open - 1);
-    const auto comma = inside.find(',');
-    if (comma == std::string_view::npos) return std::nullopt;
-    const auto x = parse_parameter(ParameterKind::integer, model::trim(inside.substr(0, comma)));
-    const auto y = parse_parameter(ParameterKind::integer, model::trim(inside.substr(comma + 1)));
+    const auto place = observe::parse_cell(text.substr(open + 1, close - open - 1));
     const auto value = parse_parameter(ParameterKind::real, model::trim(text.substr(close + 2)));
-    if (!x || !y || !value) return std::nullopt;
-    return Cell{std::string(text.substr(0, open)), std::get<int>(*x), std::get<int>(*y),
-                std::get<double>(*value)};
+    if (!place || !value) return std::nullopt;
+    return Cell{std::string(text.substr(0, open)), place->first, place->second, std::get<double>(*value)};
 }
 
 void add_cell(const Cell& cell, const engine::Simulation& s, std::map<int, std::vector<double>>& rows,
               Diagnostics& diagnostics) {
     const int group = group_of(cell.group, s, diagnostics);
     if (group < 0) return;
-    const GroupShape shape = s.shape(group);
-    if (cell.x < 1 || cell.y < 1 || cell.x > shape.width || cell.y > shape.height ||
-        shape.cells != shape.width * shape.height) {
-        diagnostics.error(
-            {}, fmt::format("--clamp: '{}' has no cell ({}, {})", s.path(group), cell.x, cell.y),
-            fmt::format("it has {} columns and {} rows; cells count from (1, 1), at the upper left",
-                        shape.width, shape.height));
-        return;
-    }
-    auto& values = rows.try_emplace(group, static_cast<std::size_t>(shape.cells), 0.0).first->second;
-    values[static_cast<std::size_t>((cell.y - 1) * shape.width + cell.x - 1)] = cell.value;
+    const auto index = observe::find_cell(s, group, cell.x, cell.y, "--clamp", diagnostics);
+    if (!index) return;
+    const auto cells = static_cast<std::size_t>(s.shape(group).cells);
+    rows.try_emplace(group, cells, 0.0).first->second[static_cast<std::size_t>(*index)] = cell.value;
 }
 
 }  // namespace

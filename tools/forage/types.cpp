@@ -14,10 +14,11 @@ void describe(const std::string& name, const std::string& label, const std::stri
     for (const auto& p : parameters) {
         const std::string value = to_text(p.default_value);
         fmt::print(
-            "  {:<14} {} Default {}{}{}.\n", p.name, p.doc,
+            "  {:<14} {} Default {}{}{}{}.\n", p.name, p.doc,
             p.kind == ParameterKind::text ? "'" + value + "'" : value, p.unit.empty() ? "" : " " + p.unit,
             p.range ? fmt::format(", usual range {} to {}", to_text(p.range->low), to_text(p.range->high))
-                    : "");
+                    : "",
+            p.at_start ? "; read at start" : "");
     }
 }
 

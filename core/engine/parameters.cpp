@@ -1,0 +1,131 @@
+// Parameters that change while the system runs.
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "core/engine/plan.h"
+#include "core/engine/simulation.h"
+
+namespace forage::engine {
+namespace {
+
+using model::Assignment;
+
+template <class Items, class Id>
+auto* find(Items& items, Id id, const std::string& wanted) {
+    const auto it = std::find_if(items.begin(), items.end(), [&](const auto& i) { return i.*id == wanted; });
+    return it == items.end() ? nullptr : &*it;
+}
+
+/// The object that holds the parameter; null when its module is disabled.
+void* holder(Plan& plan, const Assignment& a) {
+    switch (a.owner) {
+        case Assignment::Owner::group:
+            return find(plan.groups, &GroupPlan::id, a.id)->neuron->parameters();
+        case Assignment::Owner::connection:
+            return find(plan.connections, &ConnectionPlan::id, a.id)->synapse->parameters();
+        case Assignment::Owner::process:
+            break;
+    }
+    ModulePlan* module = find(plan.modules, &ModulePlan::process_id, a.id);
+    return module ? module->module->parameters() : nullptr;
+}
+
+struct Refusal {
+    std::string why, hint;
+};
+
+/// Why a parameter cannot change while the system runs; empty when it can.
+std::optional<Refusal> refusal(const Assignment& a, const void* holder) {
+    const std::string before = "set it before the run";
+    if (!a.parameter) return Refusal{"a module cannot be switched on or off while the system runs", before};
+    if (!holder) return Refusal{"the module is disabled", "enable it: enableModule=true"};
+    if (a.parameter->at_start)
+        return Refusal{fmt::format("'{}' is read at start only", a.parameter->name), before};
+    return std::nullopt;
+}
+
+/// Copies of what holds parameters, in which changes are tried.
+class Rehearsal {
+  public:
+    Rehearsal(Plan& plan, Diagnostics& diagnostics) : plan_(plan), diagnostics_(diagnostics) {}
+
+    void make(const Assignment& a) {
+        switch (a.owner) {
+            case Assignment::Owner::group:
+                return with_type(neurons_, *find(plan_.groups, &GroupPlan::id, a.id), &GroupPlan::neuron, a);
+            case Assignment::Owner::connection:
+                return with_type(synapses_, *find(plan_.connections, &ConnectionPlan::id, a.id),
+                                 &ConnectionPlan::synapse, a);
+            case Assignment::Owner::process:
+                break;
+        }
+        const ModulePlan& m = *find(plan_.modules, &ModulePlan::process_id, a.id);
+        ModuleInstance& copy = copied(modules_, m, &ModulePlan::module);
+        a.parameter->set(copy.parameters(), a.value);
+        Problems problems;
+        copy.check(m.ports, problems);
+        for (const auto& p : problems.all) diagnostics_.error(a.at, said(a, p), p.hint);
+    }
+
+  private:
+    template <class T>
+    using Copies = std::map<std::string, std::unique_ptr<T>>;
+
+    template <class T, class Item>
+    static T& copied(Copies<T>& copies, const Item& item, std::unique_ptr<T> Item::*instance) {
+        auto& copy = copies[key(item)];
+        if (!copy) {
+            copy = item.type.make();
+            for (const auto& p : item.type.parameters)
+                p.set(copy->parameters(), p.get((item.*instance)->parameters()));
+        }
+        return *copy;
+    }
+    static const std::string& key(const GroupPlan& g) { return g.id; }
+    static const std::string& key(const ModulePlan& m) { return m.process_id; }
+    static const std::string& key(const ConnectionPlan& c) { return c.id; }
+
+    template <class T, class Item>
+    void with_type(Copies<T>& copies, const Item& item, std::unique_ptr<T> Item::*instance,
+                   const Assignment& a) {
+        T& copy = copied(copies, item, instance);
+        a.parameter->set(copy.parameters(), a.value);
+        if (!item.type.check) return;
+        Problems problems;
+        item.type.check(copy.parameters(), problems);
+        for (const auto& p : problems.all) diagnostics_.warning(a.at, said(a, p), p.hint);
+    }
+    static std::string said(const Assignment& a, const Problems::Problem& p) {
+        return fmt::format("'{}': {}", a.text, p.message);
+    }
+
+    Plan& plan_;
+    Diagnostics& diagnostics_;
+    Copies<NeuronInstance> neurons_;
+    Copies<SynapseInstance> synapses_;
+    Copies<ModuleInstance> modules_;
+};
+
+}  // namespace
+
+void Simulation::check(std::span<const Assignment> changes, Diagnostics& diagnostics) const {
+    Rehearsal rehearsal(*plan_, diagnostics);
+    for (const auto& a : changes) {
+        if (const auto refused = refusal(a, holder(*plan_, a)))
+            diagnostics.error(a.at, fmt::format("'{}': {}", a.text, refused->why), refused->hint);
+        else
+            rehearsal.make(a);
+    }
+}
+
+void Simulation::set(const Assignment& a) {
+    void* object = holder(*plan_, a);
+    if (const auto refused = refusal(a, object))
+        throw RunError(fmt::format("'{}': {}", a.text, refused->why));
+    a.parameter->set(object, a.value);
+}
+
+}  // namespace forage::engine

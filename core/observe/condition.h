@@ -1,0 +1,66 @@
+// Conditions on a run, such as `trial >= 50 && Contextual/Stats(1,1) > 0.5`.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/observe/column.h"
+
+namespace forage::observe {
+
+/// What a condition may look at beside the system: a moment between two cycles.
+struct Moment {
+    std::uint64_t cycle = 0;  ///< the one to come
+    double seconds = 0;       ///< of the world, since the start
+    int trial = 0;            ///< the running one, from 1; while the robot is put back, the one to come
+};
+
+/// A comparison of numbers, or several of them, joined by && and ||.
+///
+///     condition  = all { "||" all }
+///     all        = comparison { "&&" comparison }
+///     comparison = operand ("<" | "<=" | ">" | ">=" | "==" | "!=") operand | "(" condition ")"
+///                | "cycle" NUMBER | "trial" NUMBER | NUMBER "s"        at that time and later
+///     operand    = NUMBER | "cycle" | "trial" | "seconds" | cell
+///                | ("mean" | "sum" | "min" | "max") "(" column ")"
+///     cell       = column [ "(" x "," y ")" ]         without x and y: of a group of one cell
+///     column     = Process/Group [ ":" state ]        the activity without a state
+///
+/// x and y count from 1. A column whose name contains one of <>=!&|() stands in double quotes. Values of
+/// cells are those of the last cycle that was completed; before the first cycle they are 0.
+class Condition {
+  public:
+    bool holds(const engine::Simulation& simulation, const Moment& now) const {
+        return holds(nodes_.size() - 1, simulation, now);
+    }
+
+  private:
+    friend class ConditionParser;
+    struct Operand {
+        enum Kind { number, cycle, trial, seconds, cell, mean, sum, min, max } kind = number;
+        double value = 0;
+        ColumnRef column;
+        Index index = 0;  ///< of the cell
+
+        double in(const engine::Simulation& simulation, const Moment& now) const;
+    };
+    enum class Operator { less, at_most, more, at_least, equal, unequal, both, either };
+    struct Node {
+        Operator op = Operator::less;
+        Operand left, right;                ///< of a comparison
+        std::size_t first = 0, second = 0;  ///< nodes, of `both` and `either`
+    };
+    bool holds(std::size_t node, const engine::Simulation& simulation, const Moment& now) const;
+
+    std::vector<Node> nodes_;  ///< parts before the whole
+};
+
+/// Reads a condition. Reports what it cannot be, with what there is; `what` says where the text stands
+/// ("--at"). `trials`: whether the run has any.
+std::optional<Condition> parse_condition(const engine::Simulation& simulation, bool trials,
+                                         std::string_view text, std::string_view what,
+                                         Diagnostics& diagnostics, Location at = {});
+
+}  // namespace forage::observe

@@ -1,0 +1,38 @@
+// Changes of parameters that wait for their moment.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/edit.h"
+#include "core/observe/condition.h"
+
+namespace forage::observe {
+
+class Schedule {
+  public:
+    struct Entry {
+        Condition when;
+        model::Assignment change;
+        std::string text;                    ///< as the person wrote it
+        std::optional<std::uint64_t> cycle;  ///< the first in which it acted; empty: not yet
+    };
+    void add(Condition when, model::Assignment change, std::string text) {
+        entries_.push_back({std::move(when), std::move(change), std::move(text), std::nullopt});
+        ++waiting_;
+    }
+
+    bool waiting() const { return waiting_ > 0; }
+    /// Before each cycle. Makes, in the order in which they were added, the changes whose condition holds for
+    /// the first time: they act in the cycle to come. Throws what Simulation::set() throws.
+    void apply(engine::Simulation& simulation, const Moment& now);
+
+    const std::vector<Entry>& entries() const { return entries_; }
+
+  private:
+    std::vector<Entry> entries_;
+    std::size_t waiting_ = 0;
+};
+
+}  // namespace forage::observe
