@@ -9,8 +9,10 @@
 #include "bug_interface/simulation/world.h"
 #include "bug_interface/world/sdf_reader.h"
 #include "core/engine/simulation.h"
+#include "core/model/edit.h"
 #include "core/observe/column.h"
 #include "core/xml/reader.h"
+#include "modules/modules.h"
 #include "neurons/neurons.h"
 #include "synapses/synapses.h"
 #include "tests/support/paths.h"
@@ -23,6 +25,7 @@ class ClosedLoop {
         std::string system = "reactive_foraging.iqr", world = "worlds/basic_arena.world";  ///< below systems/
         std::uint64_t seed = 1;
         bool noise = true;
+        std::vector<std::string> set = {};  ///< as --set
         std::function<void(model::System&)> edit_system = {};
         std::function<void(bug::WorldDescription&)> edit_world = {};
     };
@@ -42,7 +45,10 @@ class ClosedLoop {
             world = bug::World::make(*description, options, diagnostics);
             add_neurons(registry);
             add_synapses(registry);
+            add_modules(registry);
             registry.add(bug::gazebo_bug_type(world.get()));
+            for (const auto& assignment : setup.set) model::set(*system, registry, assignment, diagnostics);
+            parsed_ = *system;
             simulation = engine::Simulation::build(*system, registry, {setup.seed}, diagnostics);
         }
         if (!simulation || !world) throw std::runtime_error(format(diagnostics));
@@ -62,6 +68,13 @@ class ClosedLoop {
             step();
         }
     }
+    /// Changes a parameter from now on; as --at.
+    void set(std::string_view assignment) {
+        Diagnostics diagnostics;
+        const auto change = model::parse_assignment(parsed_, registry, assignment, "test", diagnostics);
+        if (!change) throw std::runtime_error(format(diagnostics));
+        simulation->set(*change);
+    }
     bug::Pose2 pose() const { return world->pose(0); }
     /// Activity of "Process/Group".
     ConstColumn activity(std::string_view group) const {
@@ -74,6 +87,9 @@ class ClosedLoop {
     Registry registry;
     std::unique_ptr<bug::World> world;
     std::optional<engine::Simulation> simulation;
+
+  private:
+    model::System parsed_;
 };
 
 /// Keeps only the connections with these ids.

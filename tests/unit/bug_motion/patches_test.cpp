@@ -11,8 +11,8 @@ using namespace forage::bug;
 
 TEST_CASE("The basic arena has six patches, each of its own colour") {
     const auto patches = patches_of(floors_of(test::description("basic_arena")));
-    const std::map<std::string, Eigen::Vector2d> places{{"red", {-1.49, 1.694}},   {"green", {1.49, 1.694}},
-                                                        {"yellow", {0, 0.993}},    {"cyan", {-1.49, 0.204}},
+    const std::map<std::string, Eigen::Vector2d> places{{"red", {-1.49, 1.694}},    {"green", {1.49, 1.694}},
+                                                        {"yellow", {0, 0.993}},     {"cyan", {-1.49, 0.204}},
                                                         {"magenta", {1.49, 0.204}}, {"blue", {0, -0.497}}};
     REQUIRE(patches.size() == places.size());
     for (const Patch& patch : patches) {
