@@ -1,5 +1,6 @@
 #include "neurons/linear_threshold.h"
 
+#include "core/types/simd.h"
 #include "neurons/membrane.h"
 
 namespace forage {
@@ -14,12 +15,21 @@ void LinearThreshold::describe(NeuronSpec<LinearThreshold>& s) {
 
 void LinearThreshold::check(Problems& problems) const { membrane::check_bounds(*this, problems); }
 
+namespace {
+
+FORAGE_SIMD void activate(const double* vm, const double* mask, double threshold, Index cells, double* act) {
+    if (mask)
+        for (Index i = 0; i < cells; ++i) act[i] = vm[i] < threshold ? 0.0 : vm[i] * mask[i];
+    else
+        for (Index i = 0; i < cells; ++i) act[i] = vm[i] < threshold ? 0.0 : vm[i];
+}
+
+}  // namespace
+
 void LinearThreshold::update(NeuronColumns& c) const {
     auto [vm, act] = c.states<2>();
-    membrane::integrate(*this, c, vm, vm);
-    act = vm;
-    membrane::silence(c, act, probability);
-    act = (vm < threshold).select(0.0, act);
+    membrane::integrate(membrane::potential(*this, c), vm.data(), vm.data());
+    activate(vm.data(), membrane::mask(c, probability), threshold, c.size(), act.data());
 }
 
 }  // namespace forage
