@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/connectivity/connect.h"
+#include "core/connectivity/regular.h"
 #include "core/types/synapse.h"
 
 namespace forage::engine {
@@ -53,5 +54,9 @@ enum class Forms {
 /// are freed as they are used.
 std::unique_ptr<Kernel> make_kernel(connectivity::Synapses synapses, int source_cells, int target_cells,
                                     const SynapseInstance& synapse, Forms forms);
+
+/// The same for a connection that is the same everywhere.
+std::unique_ptr<Kernel> make_kernel(const connectivity::Regular& regular, int source_cells, int target_cells,
+                                    const SynapseInstance& synapse);
 
 }  // namespace forage::engine

@@ -73,7 +73,11 @@ class Simulation {
     /// Input as the neuron read it, with the gain that its type applies.
     ConstColumn input(int group, InputKind kind) const;
     ConstColumn state(int group, int state) const;
-    Column output(int group);  ///< activity, to overwrite after update_groups()
+    /// Activity, to overwrite after update_groups(). To be asked for again in every cycle.
+    Column output(int group);
+    /// To be told after parameters of its neurons, or anything else that its next update depends on, were
+    /// changed.
+    void group_changed(int group);
 
     // Modules that are enabled, in order of update.
     int modules() const;
@@ -88,13 +92,14 @@ class Simulation {
     std::string_view connection_form(int connection) const;  ///< how it was compiled
     std::size_t synapses(int connection) const;
     const SynapseType& synapse_type(int connection) const;
+    /// To be told after parameters of its synapses were changed.
+    void connection_changed(int connection);
     /// State of a connection whose synapses have their own, per synapse; empty for others.
     ConstColumn synapse_state(int connection, int state) const;
 
   private:
     Simulation(std::unique_ptr<Plan> plan, const Options& options);
     void bind_inputs(ModulePlan& module);
-    void deliver_outputs(const ModulePlan& module, std::size_t turn);
 
     std::unique_ptr<Plan> plan_;
     std::unique_ptr<ThreadPool> pool_;
