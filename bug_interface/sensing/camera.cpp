@@ -39,6 +39,7 @@ Camera::Camera(const CameraSensor& sensor, const Pose& link_in_model, std::share
     for (const FloorSurface& floor : scene_->floors()) lowest = std::min(lowest, floor.z);
     for (const VisualSolid& solid : scene_->solids()) lowest = std::min(lowest, bottom(solid));
     make_bounds(lowest);
+    if (floor_points_.size() == 1) make_extents();
 }
 
 Eigen::Vector3d Camera::ray(double column, double row) const {
@@ -82,6 +83,36 @@ void Camera::make_floor_points() {
             for (int k = 0; k < tile.pixels * samples_; ++k)
                 tile.reaches_floor &= points.depth[tile.first + static_cast<std::size_t>(k)] < never;
         floor_points_.push_back(std::move(points));
+    }
+}
+
+Camera::Extent Camera::extent(const Tile& tile, int first_pixel, int pixels) const {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    Extent out{infinity, -infinity, infinity, -infinity};
+    for (int s = 0; s < samples_; ++s)
+        for (int p = first_pixel; p < first_pixel + pixels; ++p) {
+            const std::size_t k = tile.first + static_cast<std::size_t>(s * tile.pixels + p);
+            const float x = floor_points_.front().x[k], y = floor_points_.front().y[k];
+            out.x_first = std::min(out.x_first, x), out.x_last = std::max(out.x_last, x);
+            out.y_first = std::min(out.y_first, y), out.y_last = std::max(out.y_last, y);
+        }
+    return out;
+}
+
+void Camera::make_extents() {
+    for (Tile& tile : tiles_) {
+        tile.extent = extent(tile, 0, tile.pixels);
+        for (int first = 0; first < tile.pixels; first += segment_width)
+            tile.segments[static_cast<std::size_t>(first / segment_width)] =
+                extent(tile, first, std::min(segment_width, tile.pixels - first));
+    }
+    whole_.extent = tiles_.front().extent;
+    for (const Tile& tile : tiles_) {
+        const Extent& e = tile.extent;
+        whole_.extent = {std::min(whole_.extent.x_first, e.x_first), std::max(whole_.extent.x_last, e.x_last),
+                         std::min(whole_.extent.y_first, e.y_first),
+                         std::max(whole_.extent.y_last, e.y_last)};
+        whole_.reaches_floor &= tile.reaches_floor;
     }
 }
 

@@ -10,31 +10,17 @@
 #include <array>
 #include <cmath>
 
-#include <Random123/philox.h>
-
+#include "core/types/philox.h"
 #include "core/types/random.h"
-
-#if defined(__x86_64__) && defined(__GNUC__)
-#include <immintrin.h>
-#define FORAGE_AVX2 __attribute__((target("avx2")))
-#endif
 
 namespace forage {
 namespace {
 
-constexpr std::size_t lanes = 8, batch = 64;
+using philox::Draw;
+
+constexpr std::size_t lanes = philox::lanes, batch = 8 * lanes;
 constexpr std::uint32_t events_stream = 0x80000000u,
                         ties_stream = 0xc0000000u;  // apart from those of uniform()
-
-using Philox = r123::Philox4x32;
-
-struct Draw {
-    std::uint32_t key[2], cycle[2], draw;
-
-    Philox::ctr_type block(std::uint32_t index, std::uint32_t stream) const {
-        return Philox{}({{index, cycle[0], cycle[1], draw | stream}}, {{key[0], key[1]}});
-    }
-};
 
 /// A cell is silent when its bits are below `top`, or equal to it and the next 37 bits are below `rest`.
 struct Threshold {
@@ -50,13 +36,13 @@ struct Threshold {
 };
 
 bool tie_is_active(const Draw& d, std::size_t cell, const Threshold& t) {
-    const auto r = d.block(static_cast<std::uint32_t>(cell), ties_stream);
+    const auto r = philox::block(d, static_cast<std::uint32_t>(cell), ties_stream);
     return (std::uint64_t{r[0]} << 5 | r[1] >> 27) >= t.rest;
 }
 
 void batch_by_cell(const Draw& d, std::size_t number, const Threshold& t, double value, double* out) {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const auto words = d.block(static_cast<std::uint32_t>(number * lanes + lane), events_stream);
+        const auto words = philox::block(d, static_cast<std::uint32_t>(number * lanes + lane), events_stream);
         for (std::size_t part = 0; part < 8; ++part) {
             const std::uint32_t bits = words[part / 2] >> 16 * (part % 2) & 0xffffu;
             const std::size_t cell = part * lanes + lane;
@@ -68,38 +54,18 @@ void batch_by_cell(const Draw& d, std::size_t number, const Threshold& t, double
 
 #ifdef FORAGE_AVX2
 
-struct Product {
-    __m256i low, high;
-};
-
-FORAGE_AVX2 inline Product multiply(__m256i a, __m256i factor) {
-    const __m256i even = _mm256_mul_epu32(a, factor),
-                  odd = _mm256_mul_epu32(_mm256_srli_epi64(a, 32), factor);
-    return {_mm256_blend_epi32(even, _mm256_slli_epi64(odd, 32), 0xaa),
-            _mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xaa)};
-}
-
-FORAGE_AVX2 inline __m256i all(std::uint32_t v) { return _mm256_set1_epi32(static_cast<int>(v)); }
-
 /// The same numbers as batch_by_cell().
 FORAGE_AVX2 void batch_by_lanes(const Draw& d, std::size_t number, const Threshold& t, double value,
                                 double* out) {
-    __m256i c0 = _mm256_add_epi32(all(static_cast<std::uint32_t>(number * lanes)),
-                                  _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
-    __m256i c1 = all(d.cycle[0]), c2 = all(d.cycle[1]), c3 = all(d.draw | events_stream);
-    std::uint32_t k0 = d.key[0], k1 = d.key[1];
-    for (int round = 0; round < 10; ++round, k0 += 0x9e3779b9u, k1 += 0xbb67ae85u) {
-        const Product p = multiply(c0, all(0xd2511f53u)), q = multiply(c2, all(0xcd9e8d57u));
-        c0 = _mm256_xor_si256(_mm256_xor_si256(q.high, c1), all(k0));
-        c2 = _mm256_xor_si256(_mm256_xor_si256(p.high, c3), all(k1));
-        c1 = q.low, c3 = p.low;
-    }
-    const __m256i top = all(t.top), words[4] = {c0, c1, c2, c3};
+    __m256i words[4];
+    philox::blocks(d, static_cast<std::uint32_t>(number * lanes), events_stream, words);
+    const __m256i top = philox::all(t.top);
     const __m256d active = _mm256_set1_pd(value);
     __m256i ties = _mm256_setzero_si256();
     for (int part = 0; part < 8; ++part, out += lanes) {
         const __m256i word = words[part / 2];
-        const __m256i bits = part % 2 ? _mm256_srli_epi32(word, 16) : _mm256_and_si256(word, all(0xffffu));
+        const __m256i bits =
+            part % 2 ? _mm256_srli_epi32(word, 16) : _mm256_and_si256(word, philox::all(0xffffu));
         const __m256i above = _mm256_cmpgt_epi32(bits, top);
         ties = _mm256_or_si256(ties, _mm256_cmpeq_epi32(bits, top));
         const __m256i low = _mm256_cvtepi32_epi64(_mm256_castsi256_si128(above));
@@ -114,7 +80,7 @@ FORAGE_AVX2 void batch_by_lanes(const Draw& d, std::size_t number, const Thresho
 
 auto best_batch() {
 #ifdef FORAGE_AVX2
-    if (__builtin_cpu_supports("avx2")) return &batch_by_lanes;
+    if (philox::eight_at_a_time()) return &batch_by_lanes;
 #endif
     return &batch_by_cell;
 }
@@ -124,9 +90,7 @@ auto best_batch() {
 void RandomStream::events(std::uint64_t cycle, double probability, std::span<double> out, double value,
                           std::uint32_t draw) const {
     static const auto fill = best_batch();
-    const Draw d{{static_cast<std::uint32_t>(key_), static_cast<std::uint32_t>(key_ >> 32)},
-                 {static_cast<std::uint32_t>(cycle), static_cast<std::uint32_t>(cycle >> 32)},
-                 draw};
+    const Draw d = philox::draw_of(key_, cycle, draw);
     const Threshold threshold(probability);
     const std::size_t whole = out.size() / batch;
     for (std::size_t number = 0; number < whole; ++number)
