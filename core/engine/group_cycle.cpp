@@ -73,12 +73,22 @@ bool receives_the_same(Plan& plan, const GroupPlan& g, std::uint64_t cycle) {
     return true;
 }
 
-void run(Plan& plan, ConnectionPlan& c, std::uint64_t cycle, double* target) {
+void deliver_in_parts(Kernel& kernel, const History& history, double* target, ThreadPool& pool) {
+    const int parts = 2 * pool.threads();
+    auto prepare = [&](int part, int) { kernel.prepare(history, part, parts); };
+    pool.run(parts, prepare);
+    auto add = [&](int part, int) { kernel.add(history, target, part, parts); };
+    pool.run(parts, add);
+}
+
+void run(Plan& plan, ConnectionPlan& c, std::uint64_t cycle, double* target, ThreadPool* pool) {
     const auto& source = at(plan.groups, c.source);
     const History history{
         activity_row(source, cycle), {source.history_ring, source.history + 1, source.stride}, cycle};
     try {
-        if (target)
+        if (target && pool && c.kernel->divides())
+            deliver_in_parts(*c.kernel, history, target, *pool);
+        else if (target)
             c.kernel->deliver(history, target);
         else
             c.plastic->learn(history);
@@ -159,7 +169,7 @@ void receive_from_modules(Plan& plan, GroupPlan& g) {
             at(plan.modules, module).out[static_cast<std::size_t>(port)];
 }
 
-void deliver_to(Plan& plan, GroupPlan& g, std::uint64_t cycle) {
+void deliver_to(Plan& plan, GroupPlan& g, std::uint64_t cycle, ThreadPool* pool) {
     g.same_input = receives_the_same(plan, g, cycle);
     if (!g.same_input) g.rests = false;
     const bool skip = g.rests && g.delivered;
@@ -172,11 +182,25 @@ void deliver_to(Plan& plan, GroupPlan& g, std::uint64_t cycle) {
     for (const int i : g.incoming) {
         auto& c = at(plan.connections, i);
         if (c.effective && !skip)
-            run(plan, c, cycle, g.inputs[static_cast<std::size_t>(c.kind)][next]);
+            run(plan, c, cycle, g.inputs[static_cast<std::size_t>(c.kind)][next], pool);
         else if (c.plastic)
-            run(plan, c, cycle, nullptr);
+            run(plan, c, cycle, nullptr, nullptr);
         c.changed = false;
     }
+}
+
+double update_cost(const Plan& plan) {
+    double cost = 0;
+    for (const auto& g : plan.groups)
+        if (!g.rests) cost += static_cast<double>(g.cells);
+    return cost;
+}
+
+double delivery_cost(const Plan& plan) {
+    double cost = 0;
+    for (const auto& g : plan.groups)
+        if (!g.rests) cost += g.delivery_cost;
+    return cost;
 }
 
 void touch(GroupPlan& g, std::uint64_t cycle) {

@@ -64,6 +64,7 @@ class OneToOne final : public Kernel {
         Column(target, cells_) += (pre * synapse_.gain()) * factor_;
     }
     std::string_view form() const override { return "one to one"; }
+    double cost() const override { return 0.4 * static_cast<double>(cells_); }
 
   private:
     const SynapseInstance& synapse_;
@@ -106,6 +107,7 @@ class List final : public Kernel {
         }
     }
     std::string_view form() const override { return "list"; }
+    double cost() const override { return 1.3 * static_cast<double>(s_.pre.size()); }
 
   private:
     void deliver_delayed(const History& source, double gain, double* target) {
@@ -159,6 +161,7 @@ class Broadcast final : public Kernel {
         Column(target, cells_) += total;
     }
     std::string_view form() const override { return "broadcast"; }
+    double cost() const override { return one_.cost() + 0.3 * static_cast<double>(cells_); }
 
   private:
     static ByTarget first_target(const ByTarget& s) {

@@ -34,6 +34,9 @@ struct GroupPlan {
     std::vector<std::pair<int, int>> module_inputs;  ///< modules and ports that write to this group, in order
     std::array<bool, input_kinds> fed{};             ///< the type reads this kind, and somebody delivers it
 
+    double delivery_cost = 0;  ///< of all incoming connections, ns
+    bool divided = false;      ///< one of them is so large that all threads share it
+
     // What changes in a run; group_cycle.h says what it is for.
     std::size_t row = 0;         ///< the row of `inputs` that the last update read; the other one receives
     bool delivered = false;      ///< the other one holds what the next update reads

@@ -20,6 +20,7 @@ class PlasticKernel final : public Kernel {
     void learn(const History& source);
     void deliver(const History& source, double* target) override;
     std::string_view form() const override { return "plastic"; }
+    double cost() const override { return 5 * static_cast<double>(size_); }
 
     /// State `i` of the type, per synapse in synapse order. The output state is what was computed in this
     /// cycle, attenuated.

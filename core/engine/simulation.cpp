@@ -35,15 +35,20 @@ std::optional<Simulation> Simulation::build(const model::System& system, const R
     return Simulation(std::move(plan), options);
 }
 
-Simulation::Simulation(std::unique_ptr<Plan> plan, const Options& options) : plan_(std::move(plan)) {
-    std::size_t work = 0, widest = 0, most_compared = 0;
-    for (const auto& g : plan_->groups) {
-        work += static_cast<std::size_t>(g.cells);
+Simulation::Simulation(std::unique_ptr<Plan> plan, const Options& options)
+    : plan_(std::move(plan)), worth_sharing_(options.worth_sharing) {
+    std::size_t widest = 0, most_compared = 0;
+    for (auto& g : plan_->groups) {
         widest = std::max(widest, static_cast<std::size_t>(g.stride));
         most_compared = std::max(most_compared, compared_numbers(g));
+        for (const int i : g.incoming) {
+            const Kernel& kernel = *at(plan_->connections, i).kernel;
+            g.delivery_cost += kernel.cost();
+            g.divided |= kernel.divides() && kernel.cost() >= worth_sharing_;
+        }
     }
-    for (const auto& c : plan_->connections) work += c.synapses;
-    pool_ = std::make_unique<ThreadPool>(work < options.worth_sharing ? 1 : options.threads);
+    const bool worth = std::max(update_cost(*plan_), delivery_cost(*plan_)) >= worth_sharing_;
+    pool_ = std::make_unique<ThreadPool>(worth ? options.threads : 1);
     const auto threads = static_cast<std::size_t>(pool_->threads());
     plan_->scratch.assign(threads, std::vector<double>(widest));
     plan_->before.assign(threads, std::vector<double>(most_compared));
@@ -81,7 +86,7 @@ void Simulation::update_groups() {
         update(at(plan_->groups, group), cycle_, at(plan_->scratch, thread).data(),
                at(plan_->before, thread).data());
     };
-    pool_->run(groups(), work);
+    pool_->run(groups(), work, pool_->threads() > 1 && update_cost(*plan_) >= worth_sharing_);
 }
 
 /// Lets a module see the activity of this cycle; before the first one, zeros.
@@ -109,8 +114,15 @@ void Simulation::update_modules() {
 
 void Simulation::update_connections() {
     for (const auto& g : plan_->groups) remember(g, cycle_);
-    auto work = [this](int group, int) { deliver_to(*plan_, at(plan_->groups, group), cycle_); };
-    pool_->run(groups(), work);
+    const bool shared = pool_->threads() > 1;
+    auto work = [this, shared](int group, int) {
+        auto& g = at(plan_->groups, group);
+        if (!(shared && g.divided)) deliver_to(*plan_, g, cycle_);
+    };
+    pool_->run(groups(), work, shared && delivery_cost(*plan_) >= worth_sharing_);
+    if (shared)
+        for (auto& g : plan_->groups)
+            if (g.divided) deliver_to(*plan_, g, cycle_, pool_.get());
     ++cycle_;
 }
 

@@ -39,7 +39,7 @@ class Simulation {
     struct Options {
         std::uint64_t seed = 1;
         int threads = 1;                    ///< at most, for a cycle's loops; the numbers do not depend on it
-        std::size_t worth_sharing = 20000;  ///< cells and synapses; smaller systems are faster on one thread
+        double worth_sharing = 40'000;  ///< ns that a loop takes on one thread; shorter ones are faster there
         bool general_forms =
             false;  ///< compile every connection to a list of synapses (slower, same numbers)
     };
@@ -102,6 +102,7 @@ class Simulation {
     void bind_inputs(ModulePlan& module);
 
     std::unique_ptr<Plan> plan_;
+    double worth_sharing_;
     std::unique_ptr<ThreadPool> pool_;
     bool started_ = false;
     std::uint64_t cycle_ = 0;

@@ -100,16 +100,28 @@ SlicedKernel<Cell>::SlicedKernel(ByTarget s, std::vector<int> delays, int source
 
 template <class Cell>
 void SlicedKernel<Cell>::deliver(const History& source, double* target) {
+    prepare(source, 0, 1);
+    add(source, target, 0, 1);
+}
+
+template <class Cell>
+void SlicedKernel<Cell>::prepare(const History& source, int part, int parts) {
     const double gain = synapse_.gain();
+    const Range cells(source_cells_, part, parts);
     for (std::size_t d = 0; d < delays_.size(); ++d) {
-        const double* from = source.ago(delays_[d]);
-        double* to = scaled_.data() + d * source_cells_;
+        const double* from = source.ago(delays_[d]) + cells.first;
+        double* to = scaled_.data() + d * source_cells_ + cells.first;
         if (weight_.empty())
-            scale(from, gain, factor_, source_cells_, to);
+            scale(from, gain, factor_, cells.last - cells.first, to);
         else
-            scale(from, gain, source_cells_, to);
+            scale(from, gain, cells.last - cells.first, to);
     }
-    for (std::size_t s = 0; s < slices_.size(); ++s) {
+}
+
+template <class Cell>
+void SlicedKernel<Cell>::add(const History&, double* target, int part, int parts) {
+    const Range range(slices_.size(), part, parts);
+    for (std::size_t s = range.first; s < range.last; ++s) {
         double sums[lanes];
         const auto [first, length] = slices_[s];
         if (weight_.empty())

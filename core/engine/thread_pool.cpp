@@ -7,7 +7,7 @@
 namespace forage::engine {
 
 constexpr int no_item = std::numeric_limits<int>::max();
-constexpr int spins = 2000;  // some microseconds: the next loop of a cycle usually comes within that
+constexpr int spins = 20000;  // some tens of microseconds: the next loop of a cycle usually comes within that
 
 ThreadPool::ThreadPool(int threads) {
     failures_.resize(static_cast<std::size_t>(std::max(threads, 1)), {no_item, nullptr});

@@ -28,10 +28,10 @@ template <int blocks>
     for (int b = 0; b < blocks; ++b) std::memcpy(out + b * lanes, &sums[b], sizeof sums[b]);
 }
 
-FORAGE_SIMD void add_windows(const WindowKernel::Tap* taps, std::size_t count, Index width, Index height,
-                             Index stride, double* target) {
+FORAGE_SIMD void add_windows(const WindowKernel::Tap* taps, std::size_t count, Index width, Index first_row,
+                             Index last_row, Index stride, double* target) {
     double sums[4 * lanes];
-    for (Index y = 0; y < height; ++y)
+    for (Index y = first_row; y < last_row; ++y)
         for (Index x = 0; x < width;) {
             const Index at = y * stride + x, left = width - x;
             Index done = lanes;
@@ -76,13 +76,25 @@ WindowKernel::WindowKernel(const connectivity::Regular& r, const SynapseInstance
 }
 
 void WindowKernel::deliver(const History& source, double* target) {
+    prepare(source, 0, 1);
+    add(source, target, 0, 1);
+}
+
+void WindowKernel::prepare(const History& source, int part, int parts) {
     const double gain = synapse_.gain();
+    const Range rows(static_cast<std::size_t>(height_), part, parts);
     for (std::size_t d = 0; d < delays_.size(); ++d) {
         const double* from = source.ago(delays_[d]);
         double* to = framed_[d].data() + top_ * stride_ + left_;
-        for (Index y = 0; y < height_; ++y) scale(from + y * width_, gain, width_, to + y * stride_);
+        for (auto y = static_cast<Index>(rows.first); y < static_cast<Index>(rows.last); ++y)
+            scale(from + y * width_, gain, width_, to + y * stride_);
     }
-    add_windows(taps_.data(), taps_.size(), width_, height_, stride_, target);
+}
+
+void WindowKernel::add(const History&, double* target, int part, int parts) {
+    const Range rows(static_cast<std::size_t>(height_), part, parts);
+    add_windows(taps_.data(), taps_.size(), width_, static_cast<Index>(rows.first), static_cast<Index>(rows.last),
+                stride_, target);
 }
 
 }  // namespace forage::engine
