@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,7 +13,7 @@ namespace forage::engine {
 namespace {
 
 constexpr auto excitatory = static_cast<std::size_t>(InputKind::excitatory);
-constexpr Index compared_activity = 256;          ///< cells; of larger groups only silence is noticed
+constexpr Index compared_activity = 96;           ///< cells; of larger groups only silence is noticed
 constexpr std::size_t compared_states = 1 << 20;  ///< numbers; a group with more of them is always updated
 
 template <class T>
@@ -102,6 +103,7 @@ void run(Plan& plan, ConnectionPlan& c, std::uint64_t cycle, double* target, Thr
 
 double* activity_row(const GroupPlan& g, std::uint64_t cycle) {
     const auto& s = g.states[static_cast<std::size_t>(g.output)];
+    if (s.depth == 1) return s.ring;  // saves a division for every connection
     return s.ring + static_cast<Index>(cycle % static_cast<std::uint64_t>(s.depth)) * g.stride;
 }
 
@@ -164,9 +166,15 @@ void remember(const GroupPlan& g, std::uint64_t cycle) {
 
 void receive_from_modules(Plan& plan, GroupPlan& g) {
     g.delivered = true;
-    for (const auto& [module, port] : g.module_inputs)
-        Column(g.inputs[excitatory][g.row ^ 1], g.cells) +=
-            at(plan.modules, module).out[static_cast<std::size_t>(port)];
+    bool first = true;
+    for (const auto& [module, port] : g.module_inputs) {
+        Column row(g.inputs[excitatory][g.row ^ 1], g.cells);
+        const Column& out = at(plan.modules, module).out[static_cast<std::size_t>(port)];
+        if (std::exchange(first, false))
+            row = 0.0 + out;  // a sum from 0, which turns -0 into 0
+        else
+            row += out;
+    }
 }
 
 void deliver_to(Plan& plan, GroupPlan& g, std::uint64_t cycle, ThreadPool* pool) {
@@ -176,7 +184,8 @@ void deliver_to(Plan& plan, GroupPlan& g, std::uint64_t cycle, ThreadPool* pool)
     const std::size_t next = g.row ^ 1;
     if (!skip) {
         for (std::size_t k = 0; k < input_kinds; ++k)
-            if (g.fed[k]) std::fill_n(g.inputs[k][next], g.cells, 0.0);
+            if (g.fed[k] && !(k == excitatory && !g.module_inputs.empty()))
+                std::fill_n(g.inputs[k][next], g.cells, 0.0);
         receive_from_modules(plan, g);
     }
     for (const int i : g.incoming) {

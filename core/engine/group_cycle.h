@@ -36,8 +36,8 @@ void receive_from_modules(Plan& plan, GroupPlan& group);
 /// Keeps a group's activity of `cycle` for the connections with a delay.
 void remember(const GroupPlan& group, std::uint64_t cycle);
 
-/// Delivers all that the group receives in the cycle after `cycle`; lets its synapses learn. With a pool, the threads
-/// share connections that divide.
+/// Delivers all that the group receives in the cycle after `cycle`; lets its synapses learn. With a pool, the
+/// threads share connections that divide.
 void deliver_to(Plan& plan, GroupPlan& group, std::uint64_t cycle, ThreadPool* pool = nullptr);
 
 /// About how long the phases of the next cycle take on one thread, ns.

@@ -45,8 +45,8 @@ class Kernel {
 
     /// About how long deliver() takes on one thread, ns: what sharing work between threads is decided by.
     virtual double cost() const = 0;
-    /// Whether deliver() may be done in parts, at the same time: all of prepare(), then all of add(). Each target cell
-    /// belongs to one part.
+    /// Whether deliver() may be done in parts, at the same time: all of prepare(), then all of add(). Each
+    /// target cell belongs to one part.
     virtual bool divides() const { return false; }
     virtual void prepare(const History&, int /*part*/, int /*parts*/) {}
     virtual void add(const History&, double* /*target*/, int /*part*/, int /*parts*/) {}

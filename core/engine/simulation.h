@@ -38,7 +38,7 @@ class Simulation {
   public:
     struct Options {
         std::uint64_t seed = 1;
-        int threads = 1;                    ///< at most, for a cycle's loops; the numbers do not depend on it
+        int threads = 1;                ///< at most, for a cycle's loops; the numbers do not depend on it
         double worth_sharing = 40'000;  ///< ns that a loop takes on one thread; shorter ones are faster there
         bool general_forms =
             false;  ///< compile every connection to a list of synapses (slower, same numbers)

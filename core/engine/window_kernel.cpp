@@ -93,8 +93,8 @@ void WindowKernel::prepare(const History& source, int part, int parts) {
 
 void WindowKernel::add(const History&, double* target, int part, int parts) {
     const Range rows(static_cast<std::size_t>(height_), part, parts);
-    add_windows(taps_.data(), taps_.size(), width_, static_cast<Index>(rows.first), static_cast<Index>(rows.last),
-                stride_, target);
+    add_windows(taps_.data(), taps_.size(), width_, static_cast<Index>(rows.first),
+                static_cast<Index>(rows.last), stride_, target);
 }
 
 }  // namespace forage::engine

@@ -14,7 +14,9 @@ class WindowKernel final : public Kernel {
     WindowKernel(const connectivity::Regular& regular, const SynapseInstance& synapse);
     void deliver(const History& source, double* target) override;
     std::string_view form() const override { return "window"; }
-    double cost() const override { return 0.07 * static_cast<double>(taps_.size()) * static_cast<double>(width_ * height_); }
+    double cost() const override {
+        return 0.07 * static_cast<double>(taps_.size()) * static_cast<double>(width_ * height_);
+    }
     bool divides() const override { return true; }
     void prepare(const History& source, int part, int parts) override;
     void add(const History& source, double* target, int part, int parts) override;
