@@ -1,5 +1,7 @@
 #include "neurons/linear_threshold.h"
 
+#include <algorithm>
+
 #include "core/types/simd.h"
 #include "neurons/membrane.h"
 
@@ -28,8 +30,15 @@ FORAGE_SIMD void activate(const double* vm, const double* mask, double threshold
 
 void LinearThreshold::update(NeuronColumns& c) const {
     auto [vm, act] = c.states<2>();
-    membrane::integrate(membrane::potential(*this, c), vm.data(), vm.data());
-    activate(vm.data(), membrane::mask(c, probability), threshold, c.size(), act.data());
+    const double* mask = membrane::mask(c, probability);
+    const auto whole = membrane::potential(*this, c);
+    constexpr Index block =
+        1024;  // cells; what the first loop writes is still near when the second one reads it
+    for (Index i = 0; i < c.size(); i += block) {
+        const Index cells = std::min(block, c.size() - i);
+        membrane::integrate(whole.part(i, cells), vm.data() + i, vm.data() + i);
+        activate(vm.data() + i, mask ? mask + i : nullptr, threshold, cells, act.data() + i);
+    }
 }
 
 }  // namespace forage

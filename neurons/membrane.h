@@ -59,6 +59,15 @@ struct Potential {
     double minimum, maximum;  ///< infinite: not clipped
     double *exc, *inh;        ///< null: silent
     Index cells;
+
+    /// Of the cells from `first` on.
+    Potential part(Index first, Index count) const {
+        Potential out = *this;
+        if (exc) out.exc += first;
+        if (inh) out.inh += first;
+        out.cells = count;
+        return out;
+    }
 };
 
 template <class T>

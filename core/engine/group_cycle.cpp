@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/engine/simulation.h"
+#include "core/types/simd.h"
 
 namespace forage::engine {
 namespace {
@@ -49,6 +50,11 @@ std::size_t state_numbers(const GroupPlan& g) {
     std::size_t rows = 0;
     for (const auto& s : g.states) rows += static_cast<std::size_t>(s.depth);
     return rows * static_cast<std::size_t>(g.stride);
+}
+
+/// A sum from 0, which turns -0 into 0.
+FORAGE_SIMD void begin_sum(const double* from, Index n, double* to) {
+    for (Index i = 0; i < n; ++i) to[i] = 0.0 + from[i];
 }
 
 /// Whether the states are what they were, and what they are in every cycle that is kept.
@@ -168,12 +174,12 @@ void receive_from_modules(Plan& plan, GroupPlan& g) {
     g.delivered = true;
     bool first = true;
     for (const auto& [module, port] : g.module_inputs) {
-        Column row(g.inputs[excitatory][g.row ^ 1], g.cells);
-        const Column& out = at(plan.modules, module).out[static_cast<std::size_t>(port)];
+        double* row = g.inputs[excitatory][g.row ^ 1];
+        const double* out = at(plan.modules, module).out[static_cast<std::size_t>(port)].data();
         if (std::exchange(first, false))
-            row = 0.0 + out;  // a sum from 0, which turns -0 into 0
+            begin_sum(out, g.cells, row);
         else
-            row += out;
+            Column(row, g.cells) += ConstColumn(out, g.cells);
     }
 }
 
