@@ -10,12 +10,23 @@
 
 #include "bug_interface/sensing/normal_table.h"
 #include "bug_interface/sensing/solid_ray.h"
+#include "core/types/simd.h"
 
 namespace forage::bug {
 namespace {
 
 double bottom(const VisualSolid& visual) {
     return visual.solid.pose.translation().z() - half_height(visual.solid);
+}
+
+/// Without branches, which this noise would make hard to predict.
+FORAGE_SIMD void to_bytes(const float* values, const float* noise, std::size_t count, std::uint8_t* out) {
+    for (std::size_t i = 0; i < count; ++i) {
+        float level = 255 * values[i] + noise[i];
+        level = level > 0 ? level : 0;
+        level = level < 255 ? level : 255;
+        out[i] = static_cast<std::uint8_t>(static_cast<int>(level + 0.5f));
+    }
 }
 
 }  // namespace
@@ -160,7 +171,7 @@ void Camera::quantise(std::span<const float> rgb, std::span<std::uint8_t> out, c
     const float scale = static_cast<float>(255 * noise_);
     const std::size_t pixels = rgb.size() / 3, parts = (pixels + part_pixels - 1) / part_pixels;
     std::array<std::uint64_t, part_pixels / 4> words;
-    std::array<float, 3 * part_pixels> noise;  // then levels
+    std::array<float, 3 * part_pixels> noise;
     for (std::size_t part = 0; part < parts; ++part) {
         const std::size_t first = part * part_pixels, count = std::min(part_pixels, pixels - first);
         if (noise_ > 0) {
@@ -173,14 +184,7 @@ void Camera::quantise(std::span<const float> rgb, std::span<std::uint8_t> out, c
         } else {
             noise.fill(0);
         }
-        // Eigen's min and max have no branches, which this noise would make hard to predict.
-        const auto values = static_cast<Eigen::Index>(3 * count);
-        Eigen::Map<Eigen::ArrayXf> level(noise.data(), values);
-        level =
-            (255 * Eigen::Map<const Eigen::ArrayXf>(&rgb[3 * first], values) + level).max(0).min(255) + 0.5f;
-        std::uint8_t* to = &out[3 * first];
-        for (std::size_t i = 0; i < 3 * count; ++i)
-            to[i] = static_cast<std::uint8_t>(static_cast<int>(noise[i]));
+        to_bytes(&rgb[3 * first], noise.data(), 3 * count, &out[3 * first]);
     }
 }
 
