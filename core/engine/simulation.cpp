@@ -79,6 +79,14 @@ void Simulation::step() {
     update_connections();
 }
 
+template <class Run>
+void Simulation::try_sharing(double cost, SharingTrial& trial, Run run) {
+    if (pool_->threads() == 1 || cost < worth_sharing_) return run(false);
+    if (worth_sharing_ == 0) return run(true);
+    run(trial.begin());
+    trial.end();
+}
+
 void Simulation::update_groups() {
     if (!started_) throw RunError("the simulation is not started");
     shown_ = cycle_;
@@ -86,7 +94,7 @@ void Simulation::update_groups() {
         update(at(plan_->groups, group), cycle_, at(plan_->scratch, thread).data(),
                at(plan_->before, thread).data());
     };
-    pool_->run(groups(), work, pool_->threads() > 1 && update_cost(*plan_) >= worth_sharing_);
+    try_sharing(update_cost(*plan_), updates_, [&](bool shared) { pool_->run(groups(), work, shared); });
 }
 
 /// Lets a module see the activity of this cycle; before the first one, zeros.
@@ -114,15 +122,16 @@ void Simulation::update_modules() {
 
 void Simulation::update_connections() {
     for (const auto& g : plan_->groups) remember(g, cycle_);
-    const bool shared = pool_->threads() > 1;
-    auto work = [this, shared](int group, int) {
-        auto& g = at(plan_->groups, group);
-        if (!(shared && g.divided)) deliver_to(*plan_, g, cycle_);
-    };
-    pool_->run(groups(), work, shared && delivery_cost(*plan_) >= worth_sharing_);
-    if (shared)
-        for (auto& g : plan_->groups)
-            if (g.divided) deliver_to(*plan_, g, cycle_, pool_.get());
+    try_sharing(delivery_cost(*plan_), deliveries_, [&](bool shared) {
+        auto work = [&](int group, int) {
+            auto& g = at(plan_->groups, group);
+            if (!(shared && g.divided)) deliver_to(*plan_, g, cycle_);
+        };
+        pool_->run(groups(), work, shared);
+        if (shared)
+            for (auto& g : plan_->groups)
+                if (g.divided) deliver_to(*plan_, g, cycle_, pool_.get());
+    });
     ++cycle_;
 }
 

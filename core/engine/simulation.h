@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/engine/sharing_trial.h"
 #include "core/model/system.h"
 #include "core/types/registry.h"
 
@@ -38,8 +39,9 @@ class Simulation {
   public:
     struct Options {
         std::uint64_t seed = 1;
-        int threads = 1;                ///< at most, for a cycle's loops; the numbers do not depend on it
-        double worth_sharing = 40'000;  ///< ns that a loop takes on one thread; shorter ones are faster there
+        int threads = 1;  ///< at most, for a cycle's loops; the numbers do not depend on it
+        double worth_sharing =
+            40'000;  ///< ns that a loop takes on one thread; shorter ones stay there. 0: all are shared
         bool general_forms =
             false;  ///< compile every connection to a list of synapses (slower, same numbers)
     };
@@ -102,7 +104,12 @@ class Simulation {
     void bind_inputs(ModulePlan& module);
 
     std::unique_ptr<Plan> plan_;
+    /// Runs a loop with `run(shared)`, shared if it is worth it.
+    template <class Run>
+    void try_sharing(double cost, SharingTrial& trial, Run run);
+
     double worth_sharing_;
+    SharingTrial updates_, deliveries_;
     std::unique_ptr<ThreadPool> pool_;
     bool started_ = false;
     std::uint64_t cycle_ = 0;
