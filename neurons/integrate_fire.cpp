@@ -32,9 +32,9 @@ void IntegrateFire::check(Problems& problems) const {
 
 void IntegrateFire::update(NeuronColumns& c) const {
     auto [vm, act] = c.states<2>();
-    membrane::integrate(*this, c, vm, vm);
+    membrane::integrate(membrane::potential(*this, c), vm.data(), vm.data());
     act = (vm >= threshold).select(Eigen::ArrayXd::Ones(c.size()), 0.0);  // NaN is silent
-    membrane::silence(c, act, probability);
+    if (const double* mask = membrane::mask(c, probability)) act *= ConstColumn(mask, c.size());
     if (amplitude != 0) vm -= reset * act / amplitude;
 }
 

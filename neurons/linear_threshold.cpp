@@ -1,5 +1,8 @@
 #include "neurons/linear_threshold.h"
 
+#include <algorithm>
+
+#include "core/types/simd.h"
 #include "neurons/membrane.h"
 
 namespace forage {
@@ -14,12 +17,28 @@ void LinearThreshold::describe(NeuronSpec<LinearThreshold>& s) {
 
 void LinearThreshold::check(Problems& problems) const { membrane::check_bounds(*this, problems); }
 
+namespace {
+
+FORAGE_SIMD void activate(const double* vm, const double* mask, double threshold, Index cells, double* act) {
+    if (mask)
+        for (Index i = 0; i < cells; ++i) act[i] = vm[i] < threshold ? 0.0 : vm[i] * mask[i];
+    else
+        for (Index i = 0; i < cells; ++i) act[i] = vm[i] < threshold ? 0.0 : vm[i];
+}
+
+}  // namespace
+
 void LinearThreshold::update(NeuronColumns& c) const {
     auto [vm, act] = c.states<2>();
-    membrane::integrate(*this, c, vm, vm);
-    act = vm;
-    membrane::silence(c, act, probability);
-    act = (vm < threshold).select(0.0, act);
+    const double* mask = membrane::mask(c, probability);
+    const auto whole = membrane::potential(*this, c);
+    constexpr Index block =
+        1024;  // cells; what the first loop writes is still near when the second one reads it
+    for (Index i = 0; i < c.size(); i += block) {
+        const Index cells = std::min(block, c.size() - i);
+        membrane::integrate(whole.part(i, cells), vm.data() + i, vm.data() + i);
+        activate(vm.data() + i, mask ? mask + i : nullptr, threshold, cells, act.data() + i);
+    }
 }
 
 }  // namespace forage

@@ -1,6 +1,8 @@
 // What several neuron types share: parameters of the membrane and the random mask.
 #pragma once
 
+#include <limits>
+
 #include "core/types/neuron.h"
 
 namespace forage::membrane {
@@ -51,25 +53,48 @@ void check_bounds(const T& p, Problems& problems) {
             {"vmMin is above vmMax: the potential is always vmMax", "exchange them", "vmMin", {}});
 }
 
-/// vm = ((vm * vmPrs) + exc * excGain) - inh * inhGain, then clipped from below and from above if asked;
-/// `previous` is the potential that persists. NaN passes.
-template <class T, class Previous>
-void integrate(const T& p, const NeuronColumns& c, Column& vm, const Previous& previous) {
-    Column exc = c.excitation(), inh = c.inhibition();
-    exc *= p.exc_gain;
-    inh *= p.inh_gain;
-    vm = (previous * p.persistence + exc) - inh;
-    if (p.clip) {
-        vm = (vm < p.minimum).select(p.minimum, vm);
-        vm = (vm > p.maximum).select(p.maximum, vm);
+/// What integrate() needs of a type and of one cycle.
+struct Potential {
+    double exc_gain, inh_gain, persistence;
+    double minimum, maximum;  ///< infinite: not clipped
+    double *exc, *inh;        ///< null: silent
+    Index cells;
+
+    /// Of the cells from `first` on.
+    Potential part(Index first, Index count) const {
+        Potential out = *this;
+        if (exc) out.exc += first;
+        if (inh) out.inh += first;
+        out.cells = count;
+        return out;
     }
+};
+
+template <class T>
+Potential potential(const T& p, const NeuronColumns& c) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return {p.exc_gain,
+            p.inh_gain,
+            p.persistence,
+            p.clip ? p.minimum : -infinity,
+            p.clip ? p.maximum : infinity,
+            c.silent(InputKind::excitatory) ? nullptr : c.excitation().data(),
+            c.silent(InputKind::inhibitory) ? nullptr : c.inhibition().data(),
+            c.size()};
 }
 
-/// Multiplies `act` by 0 in the cells that stay silent in this cycle. Draws nothing when the probability
-/// is 1.
-inline void silence(const NeuronColumns& c, Column& act, double probability) {
-    if (probability < 1)
-        act *= (c.uniform() * 0.99999999 < 1 - probability).select(0.0, Eigen::ArrayXd::Ones(c.size()));
+/// vm = ((vm * vmPrs) + exc * excGain) - inh * inhGain, then clipped from below and from above if asked;
+/// `previous` is the potential that persists. NaN passes. Leaves the inputs with the gains applied.
+void integrate(const Potential& p, const double* previous, double* vm);
+
+/// The chance of a cell to be active, from the parameter: the original compares u * 0.99999999 with 1 -
+/// probability.
+inline double chance(double probability) { return 1 - (1 - probability) / 0.99999999; }
+
+/// 1 in the cells that may be active in this cycle, 0 in those that stay silent; null when the probability is
+/// 1, and then nothing is drawn.
+inline const double* mask(const NeuronColumns& c, double probability) {
+    return probability < 1 ? c.events(chance(probability)).data() : nullptr;
 }
 
 }  // namespace forage::membrane

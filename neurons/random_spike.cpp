@@ -6,8 +6,10 @@ namespace forage {
 
 void RandomSpike::update(NeuronColumns& c) const {
     auto [act] = c.states<1>();
-    act.setConstant(amplitude);
-    membrane::silence(c, act, probability);
+    if (probability < 1)
+        c.events(membrane::chance(probability), act, amplitude);
+    else
+        act = amplitude;
 }
 
 }  // namespace forage

@@ -245,16 +245,21 @@ void GazeboBug::copy_scans(ModuleFrame& frame) const {
 
 void GazeboBug::copy_pose(ModuleFrame& frame) const {
     const Pose2& at = world_->snapshot(bug_).pose;
-    if (Column out = frame.output(gps); out.size() == 3) {
+    if (frame.output_size(gps) == 3) {
+        Column out = frame.output(gps);
         out[0] = at.x + place_x_max;
         out[1] = at.y + place_y_max;
         out[2] = at.yaw + std::numbers::pi;
     }
-    if (Column out = frame.output(place); out.size() > 0)
+    if (frame.output_size(place) > 0) {
+        Column out = frame.output(place);
         place_cells(at.x, at.y, place_.width, place_.height,
                     {place_x_offset, place_y_offset, place_x_max, place_y_max, place_sigma}, cells_of(out));
-    if (Column out = frame.output(head); out.size() > 0)
+    }
+    if (frame.output_size(head) > 0) {
+        Column out = frame.output(head);
         head_direction_cells(at.yaw, head_sigma, cells_of(out));
+    }
 }
 
 void GazeboBug::copy_image(ModuleFrame& frame) {

@@ -10,12 +10,23 @@
 
 #include "bug_interface/sensing/normal_table.h"
 #include "bug_interface/sensing/solid_ray.h"
+#include "core/types/simd.h"
 
 namespace forage::bug {
 namespace {
 
 double bottom(const VisualSolid& visual) {
     return visual.solid.pose.translation().z() - half_height(visual.solid);
+}
+
+/// Without branches, which this noise would make hard to predict.
+FORAGE_SIMD void to_bytes(const float* values, const float* noise, std::size_t count, std::uint8_t* out) {
+    for (std::size_t i = 0; i < count; ++i) {
+        float level = 255 * values[i] + noise[i];
+        level = level > 0 ? level : 0;
+        level = level < 255 ? level : 255;
+        out[i] = static_cast<std::uint8_t>(static_cast<int>(level + 0.5f));
+    }
 }
 
 }  // namespace
@@ -39,6 +50,7 @@ Camera::Camera(const CameraSensor& sensor, const Pose& link_in_model, std::share
     for (const FloorSurface& floor : scene_->floors()) lowest = std::min(lowest, floor.z);
     for (const VisualSolid& solid : scene_->solids()) lowest = std::min(lowest, bottom(solid));
     make_bounds(lowest);
+    if (floor_points_.size() == 1) make_extents();
 }
 
 Eigen::Vector3d Camera::ray(double column, double row) const {
@@ -82,6 +94,36 @@ void Camera::make_floor_points() {
             for (int k = 0; k < tile.pixels * samples_; ++k)
                 tile.reaches_floor &= points.depth[tile.first + static_cast<std::size_t>(k)] < never;
         floor_points_.push_back(std::move(points));
+    }
+}
+
+Camera::Extent Camera::extent(const Tile& tile, int first_pixel, int pixels) const {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    Extent out{infinity, -infinity, infinity, -infinity};
+    for (int s = 0; s < samples_; ++s)
+        for (int p = first_pixel; p < first_pixel + pixels; ++p) {
+            const std::size_t k = tile.first + static_cast<std::size_t>(s * tile.pixels + p);
+            const float x = floor_points_.front().x[k], y = floor_points_.front().y[k];
+            out.x_first = std::min(out.x_first, x), out.x_last = std::max(out.x_last, x);
+            out.y_first = std::min(out.y_first, y), out.y_last = std::max(out.y_last, y);
+        }
+    return out;
+}
+
+void Camera::make_extents() {
+    for (Tile& tile : tiles_) {
+        tile.extent = extent(tile, 0, tile.pixels);
+        for (int first = 0; first < tile.pixels; first += segment_width)
+            tile.segments[static_cast<std::size_t>(first / segment_width)] =
+                extent(tile, first, std::min(segment_width, tile.pixels - first));
+    }
+    whole_.extent = tiles_.front().extent;
+    for (const Tile& tile : tiles_) {
+        const Extent& e = tile.extent;
+        whole_.extent = {std::min(whole_.extent.x_first, e.x_first), std::max(whole_.extent.x_last, e.x_last),
+                         std::min(whole_.extent.y_first, e.y_first),
+                         std::max(whole_.extent.y_last, e.y_last)};
+        whole_.reaches_floor &= tile.reaches_floor;
     }
 }
 
@@ -129,7 +171,7 @@ void Camera::quantise(std::span<const float> rgb, std::span<std::uint8_t> out, c
     const float scale = static_cast<float>(255 * noise_);
     const std::size_t pixels = rgb.size() / 3, parts = (pixels + part_pixels - 1) / part_pixels;
     std::array<std::uint64_t, part_pixels / 4> words;
-    std::array<float, 3 * part_pixels> noise;  // then levels
+    std::array<float, 3 * part_pixels> noise;
     for (std::size_t part = 0; part < parts; ++part) {
         const std::size_t first = part * part_pixels, count = std::min(part_pixels, pixels - first);
         if (noise_ > 0) {
@@ -142,14 +184,7 @@ void Camera::quantise(std::span<const float> rgb, std::span<std::uint8_t> out, c
         } else {
             noise.fill(0);
         }
-        // Eigen's min and max have no branches, which this noise would make hard to predict.
-        const auto values = static_cast<Eigen::Index>(3 * count);
-        Eigen::Map<Eigen::ArrayXf> level(noise.data(), values);
-        level =
-            (255 * Eigen::Map<const Eigen::ArrayXf>(&rgb[3 * first], values) + level).max(0).min(255) + 0.5f;
-        std::uint8_t* to = &out[3 * first];
-        for (std::size_t i = 0; i < 3 * count; ++i)
-            to[i] = static_cast<std::uint8_t>(static_cast<int>(noise[i]));
+        to_bytes(&rgb[3 * first], noise.data(), 3 * count, &out[3 * first]);
     }
 }
 

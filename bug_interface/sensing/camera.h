@@ -1,6 +1,7 @@
 // The camera: small colour pictures of a scene, drawn ray by ray.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -42,8 +43,9 @@ class Camera {
     std::optional<Eigen::Vector2d> floor_point(int column, int row) const;
 
   private:
-    static constexpr int tile_width = 32;   ///< pixels of one row that are drawn together
-    static constexpr int max_samples = 16;  ///< per pixel
+    static constexpr int tile_width = 32;    ///< pixels of one row that are drawn together
+    static constexpr int segment_width = 8;  ///< pixels that are looked at together for being of one colour
+    static constexpr int max_samples = 16;   ///< per pixel
     static constexpr double low_height =
         0.02;  ///< m; discs and strips on the floor lie below: tighter bounds for them
 
@@ -53,11 +55,17 @@ class Camera {
         Eigen::Vector3d centre = Eigen::Vector3d::Zero();
         double radius = 0;
     };
+    /// What some rays meet of the only floor lies in this rectangle, robot's frame, m.
+    struct Extent {
+        float x_first = 0, x_last = 0, y_first = 0, y_last = 0;
+    };
     struct Tile {
         int row = 0, column = 0, pixels = 0;
-        std::size_t first = 0;      ///< of its samples: sample s of pixel p is first + s * pixels + p
-        Bounds all;                 ///< of everything
-        Bounds low;                 ///< of what lies below z = low_height
+        std::size_t first = 0;  ///< of its samples: sample s of pixel p is first + s * pixels + p
+        Bounds all;             ///< of everything
+        Bounds low;             ///< of what lies below z = low_height
+        Extent extent;          ///< of all its samples
+        std::array<Extent, tile_width / segment_width> segments;  ///< of segment_width pixels each
         bool reaches_floor = true;  ///< do all its rays meet all floors, were these without end?
     };
     /// Of one floor: where every sample meets it, in the robot's frame; infinity where it does not.
@@ -73,7 +81,11 @@ class Camera {
     void make_bounds(double lowest);
     Bounds bounds(std::size_t first, std::size_t count, double lowest, double highest) const;
     static bool sees(const View& view, const Tile& tile, const VisualSolid& visual);
+    void make_extents();
+    Extent extent(const Tile& tile, int first_pixel, int pixels) const;
+    const float* even_colour(const View& view, const Extent& extent, float* colour) const;
     bool draw_bare_floor(const View& view, const Tile& tile, float* rgb) const;
+    void draw_textured(const View& view, const Tile& tile, int first_pixel, int pixels, float* rgb) const;
     void draw_all(const View& view, const Tile& tile, std::span<const MovingVisual> moving, float* rgb) const;
 
     std::shared_ptr<const Scene> scene_;

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "bug_interface/sensing/camera.h"
 #include "bug_interface/sensing/solid_ray.h"
@@ -40,20 +42,31 @@ struct Samples {
 
 struct Camera::View {
     Pose2 body;
-    Pose pose;            ///< of the robot in the world
-    bool solids = false;  ///< may any be in the picture?
+    Pose pose;                            ///< of the robot in the world
+    bool solids = false;                  ///< may any be in the picture?
+    const FloorSurface* floor = nullptr;  ///< the only one, if it is low
+    std::optional<ToTexels> to;           ///< of that floor
 
-    explicit View(const Pose2& b) : body(b), pose(Pose::Identity()) {
+    View(const Pose2& b, std::span<const FloorSurface> floors) : body(b), pose(Pose::Identity()) {
+        if (floors.size() == 1 && floors.front().z <= low_height) {
+            floor = &floors.front();
+            to.emplace(*floor, b.x, b.y, b.yaw);
+        }
         pose.linear() = Eigen::AngleAxisd(b.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
         pose.translation() = Eigen::Vector3d(b.x, b.y, 0);
     }
 };
 
 void Camera::render(const Pose2& body, std::span<const MovingVisual> moving, std::span<float> rgb) const {
-    View view(body);
+    View view(body, scene_->floors());
     const auto in_view = [&](const VisualSolid& visual) { return sees(view, whole_, visual); };
     view.solids = std::any_of(scene_->solids().begin(), scene_->solids().end(), in_view) ||
                   std::any_of(moving.begin(), moving.end(), in_view);
+    std::array<float, 3> colour;
+    if (!view.solids && whole_.reaches_floor && even_colour(view, whole_.extent, colour.data())) {
+        for (std::size_t i = 0; i < rgb.size(); i += 3) std::copy_n(colour.begin(), 3, &rgb[i]);
+        return;
+    }
     for (const Tile& tile : tiles_) {
         float* out = &rgb[3 * (static_cast<std::size_t>(tile.row) * static_cast<std::size_t>(width_) +
                                static_cast<std::size_t>(tile.column))];
@@ -80,46 +93,79 @@ bool Camera::sees(const View& view, const Tile& tile, const VisualSolid& visual)
     return bounds.box.squaredExteriorDistance(middle) <= radius_squared(solid);
 }
 
+/// The colour of all that lies in the extent, if there is but one; else null.
+const float* Camera::even_colour(const View& view, const Extent& e, float* colour) const {
+    if (!view.floor) return nullptr;
+    constexpr float margin = 0.01f;  // texels; well above the errors of single precision
+    const ToTexels& to = *view.to;
+    const auto range = [&](float by_x, float by_y, float at) {
+        const auto [x_low, x_high] = std::minmax({by_x * e.x_first, by_x * e.x_last});
+        const auto [y_low, y_high] = std::minmax({by_y * e.y_first, by_y * e.y_last});
+        return std::pair(x_low + y_low + at - margin, x_high + y_high + at + margin);
+    };
+    const auto [u_first, u_last] = range(to.ux, to.uy, to.u0);
+    const auto [v_first, v_last] = range(to.vx, to.vy, to.v0);
+    const FloorTexture& texture = view.floor->texture;
+    if (!(u_first >= 0 && u_last <= static_cast<float>(texture.width()) && v_first >= 0 &&
+          v_last <= static_cast<float>(texture.height()) && texture.even(u_first, u_last, v_first, v_last)))
+        return nullptr;
+    const std::uint32_t texel = texture.texel(texture.index(u_first, v_first));
+    colour[0] = texture.red(texel), colour[1] = texture.green(texel), colour[2] = texture.blue(texel);
+    return colour;
+}
+
 /// The common case: the tile shows nothing but the inside of the only floor. False when that is not sure.
 bool Camera::draw_bare_floor(const View& view, const Tile& tile, float* rgb) const {
-    if (floor_points_.size() != 1) return false;
-    const FloorSurface& floor = scene_->floors().front();
+    if (!view.floor || !tile.reaches_floor) return false;
+    std::array<float, 3> colour;
+    const auto fill = [&](int pixels, float* to) {
+        for (int p = 0; p < pixels; ++p, to += 3) std::copy_n(colour.begin(), 3, to);
+    };
+    if (even_colour(view, tile.extent, colour.data())) return fill(tile.pixels, rgb), true;
+    const FloorSurface& floor = *view.floor;
     const Eigen::Vector3d centre = view.pose * tile.low.centre;
     const double cf = std::cos(floor.pose.yaw), sf = std::sin(floor.pose.yaw);
     const double x = centre.x() - floor.pose.x, y = centre.y() - floor.pose.y;
-    if (!(tile.reaches_floor && floor.z <= low_height &&
-          std::abs(cf * x + sf * y) + tile.low.radius < floor.size_x / 2 &&
+    if (!(std::abs(cf * x + sf * y) + tile.low.radius < floor.size_x / 2 &&
           std::abs(cf * y - sf * x) + tile.low.radius < floor.size_y / 2))
         return false;
-
-    const ToTexels to(floor, view.body.x, view.body.y, view.body.yaw);
-    const float* px = &floor_points_.front().x[tile.first];
-    const float* py = &floor_points_.front().y[tile.first];
-    const int count = tile.pixels * samples_;
-    std::array<float, tile_samples> u, v;
-    std::array<int, tile_samples> index;
-    for (int k = 0; k < count; ++k) {
-        const auto i = static_cast<std::size_t>(k);
-        u[i] = to.u(px[k], py[k]), v[i] = to.v(px[k], py[k]);
-        index[i] = floor.texture.index(u[i], v[i]);
+    for (int first = 0; first < tile.pixels; first += segment_width) {
+        const int pixels = std::min(segment_width, tile.pixels - first);
+        if (even_colour(view, tile.segments[static_cast<std::size_t>(first / segment_width)], colour.data()))
+            fill(pixels, rgb + 3 * first);
+        else
+            draw_textured(view, tile, first, pixels, rgb + 3 * first);
     }
+    return true;
+}
+
+/// Pixels of a tile that show the inside of the only floor.
+void Camera::draw_textured(const View& view, const Tile& tile, int first_pixel, int pixels,
+                           float* rgb) const {
+    const FloorTexture& texture = view.floor->texture;
+    const ToTexels& to = *view.to;
     const float mean = 1.0f / static_cast<float>(samples_);
-    for (int p = 0; p < tile.pixels; ++p, rgb += 3) {
-        const std::uint32_t texel = floor.texture.texel(index[static_cast<std::size_t>(p)]);
-        bool uniform = FloorTexture::flat(texel);
-        for (int k = p + tile.pixels; k < count; k += tile.pixels)
-            uniform &= floor.texture.texel(index[static_cast<std::size_t>(k)]) == texel;
+    for (int p = first_pixel; p < first_pixel + pixels; ++p, rgb += 3) {
+        std::array<float, max_samples> u, v;
+        std::array<std::uint32_t, max_samples> texels{};
+        bool uniform = true;
+        for (int s = 0; s < samples_; ++s) {
+            const std::size_t k = tile.first + static_cast<std::size_t>(s * tile.pixels + p);
+            const auto i = static_cast<std::size_t>(s);
+            const float x = floor_points_.front().x[k], y = floor_points_.front().y[k];
+            u[i] = to.u(x, y), v[i] = to.v(x, y);
+            texels[i] = texture.texel(texture.index(u[i], v[i]));
+            uniform &= FloorTexture::flat(texels[i]) && texels[i] == texels[0];
+        }
         if (uniform) {
-            rgb[0] = floor.texture.red(texel), rgb[1] = floor.texture.green(texel),
-            rgb[2] = floor.texture.blue(texel);
+            rgb[0] = texture.red(texels[0]), rgb[1] = texture.green(texels[0]),
+            rgb[2] = texture.blue(texels[0]);
             continue;
         }
         rgb[0] = rgb[1] = rgb[2] = 0;
-        for (int k = p; k < count; k += tile.pixels)
-            floor.texture.add(u[static_cast<std::size_t>(k)], v[static_cast<std::size_t>(k)], rgb);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(samples_); ++i) texture.add(u[i], v[i], rgb);
         for (int channel = 0; channel < 3; ++channel) rgb[channel] *= mean;
     }
-    return true;
 }
 
 void Camera::draw_all(const View& view, const Tile& tile, std::span<const MovingVisual> moving,

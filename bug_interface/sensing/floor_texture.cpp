@@ -29,6 +29,13 @@ FloorTexture::FloorTexture(const Image& image, const Colour& gain)
                                       colour(i) == colour(i + stride + 1));
         texels_[i] = colour(i) | (is_flat ? flag : 0);
     }
+    const auto rows = static_cast<std::size_t>(height_ + 2), wide = stride + 1;
+    uneven_.assign((rows + 1) * wide, 0);
+    for (std::size_t row = 0; row < rows; ++row)
+        for (std::size_t column = 0; column < stride; ++column)
+            uneven_[(row + 1) * wide + column + 1] =
+                uneven_[(row + 1) * wide + column] + uneven_[row * wide + column + 1] -
+                uneven_[row * wide + column] + !flat(texels_[row * stride + column]);
     for (std::size_t channel = 0; channel < 3; ++channel)
         for (std::size_t value = 0; value < 256; ++value)
             seen_[channel][value] =

@@ -32,6 +32,15 @@ class FloorTexture {
     int index(float u, float v) const {
         return static_cast<int>(v + 0.5f) * stride_ + static_cast<int>(u + 0.5f);
     }
+    /// Whether all points of the rectangle, which must lie on the picture, look up texels that are flat: then
+    /// all are of one colour.
+    bool even(float u_first, float u_last, float v_first, float v_last) const {
+        const auto column = [](float u) { return static_cast<std::size_t>(u + 0.5f); };
+        const std::size_t wide = static_cast<std::size_t>(stride_) + 1;
+        const std::size_t top = column(v_first) * wide, bottom = (column(v_last) + 1) * wide;
+        const std::size_t left = column(u_first), right = column(u_last) + 1;
+        return uneven_[bottom + right] - uneven_[bottom + left] == uneven_[top + right] - uneven_[top + left];
+    }
     std::uint32_t texel(int index) const { return texels_[static_cast<std::size_t>(index)]; }
     static bool flat(std::uint32_t texel) { return texel >> 24; }
     /// Colour of a flat texel, channel by channel in 0..1.
@@ -54,6 +63,7 @@ class FloorTexture {
     int width_, height_;
     int stride_;                         ///< width + 2: the border is repeated once on every side
     std::vector<std::uint32_t> texels_;  ///< red, green, blue, flag; from the low byte
+    std::vector<std::uint32_t> uneven_;  ///< texels that are not flat, of all those above and to the left
     Colour gain_;                        ///< of a value in 0..255
     std::array<std::array<float, 256>, 3> seen_;
 };

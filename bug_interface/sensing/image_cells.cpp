@@ -77,6 +77,12 @@ struct Cells {
     std::span<double> first, second, third;
 
     void set(std::size_t cell, const std::uint8_t* pixel) const {
+        if (pixel[0] == pixel[1] && pixel[1] == pixel[2] &&
+            space == ColourSpace::hsv) {  // most of what is seen
+            first[cell] = second[cell] = 0;
+            third[cell] = quirks.salt && pixel[0] == 1 ? 1.0 : units[pixel[0]];
+            return;
+        }
         const auto unit = [this](std::uint8_t v) { return quirks.salt && v == 1 ? 1.0 : units[v]; };
         const double r = unit(pixel[0]), g = unit(pixel[1]), b = unit(pixel[2]);
         if (space == ColourSpace::rgb) {

@@ -25,14 +25,21 @@ double along_side(int index, int side) {
 }  // namespace
 
 void place_cells(double x, double y, int w, int h, const PlaceField& field, std::span<double> out) {
+    // A bell over the plane is the product of one over its columns and one over its rows.
     const double px = (x - field.x_offset) / field.x_max, py = (y - field.y_offset) / field.y_max;
-    std::size_t k = 0;
-    for (int row = 0; row < h; ++row)
-        for (int column = 0; column < w; ++column) {
-            const double dx = along_side(column, w) - px, dy = -along_side(row, h) - py;
-            out[k++] = (dx * dx + dy * dy) / (field.sigma * field.sigma);
-        }
-    bells(out.first(k));
+    const auto columns = out.first(static_cast<std::size_t>(w));
+    const auto exponent = [&](double distance) { return distance * distance / (field.sigma * field.sigma); };
+    for (int column = 0; column < w; ++column)
+        columns[static_cast<std::size_t>(column)] = exponent(along_side(column, w) - px);
+    bells(columns);
+    double least = std::numeric_limits<double>::infinity();
+    for (int row = 0; row < h; ++row) least = std::min(least, exponent(-along_side(row, h) - py));
+    for (int row = h - 1; row >= 0; --row) {  // the first row holds the columns' bells
+        const double bell = std::exp(least - exponent(-along_side(row, h) - py));
+        double* cells = out.data() + static_cast<std::ptrdiff_t>(row) * w;
+        for (std::size_t column = 0; column < columns.size(); ++column)
+            cells[column] = columns[column] * bell;
+    }
 }
 
 void head_direction_cells(double yaw, double sigma, std::span<double> out) {

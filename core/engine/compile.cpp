@@ -96,13 +96,14 @@ class Compiler {
             plan.neuron = plan.type.make();
             model::apply(g->neuron.settings, plan.type.parameters, plan.neuron->parameters());
             plan.random = RandomStream(seed_, g->id);
+            plan.output = plan.type.output();
             for (const auto& s : plan.type.states) plan.states.push_back({nullptr, s.history});
             double rows = 2 * input_kinds;
             for (const auto& s : plan.states) rows += static_cast<double>(s.depth);
             budget_.add(rows, plan.cells, g->at,
                         fmt::format("group '{}': {} numbers x {} cells", plan.path, rows, plan.cells));
             group_at_[g->id] = static_cast<int>(plan_->groups.size());
-            topology_of_.push_back(&g->topology);
+            topologies_.push_back(&g->topology);
             plan_->groups.push_back(std::move(plan));
         }
     }
@@ -138,6 +139,15 @@ class Compiler {
                     }
                 }
             }
+            for (std::size_t i = 0; i < plan.output_groups.size(); ++i) {
+                if (plan.output_groups[i] < 0) continue;
+                auto& group = plan_->groups[static_cast<std::size_t>(plan.output_groups[i])];
+                constexpr auto excitatory = static_cast<std::size_t>(InputKind::excitatory);
+                if (!group.type.reads[excitatory]) continue;
+                group.module_inputs.emplace_back(static_cast<int>(plan_->modules.size()),
+                                                 static_cast<int>(i));
+                group.fed[excitatory] = true;
+            }
             plan_->modules.push_back(std::move(plan));
         }
     }
@@ -162,36 +172,65 @@ class Compiler {
             ConnectionPlan plan;
             plan.id = c->id, plan.name = c->name, plan.kind = c->kind;
             plan.source = group_of(c->source), plan.target = group_of(c->target);
-            auto& source = plan_->groups[static_cast<std::size_t>(plan.source)];
             auto& target = plan_->groups[static_cast<std::size_t>(plan.target)];
-            auto synapses = connectivity::connect(*c, *topology_of_[static_cast<std::size_t>(plan.source)],
-                                                  *topology_of_[static_cast<std::size_t>(plan.target)], seed_,
-                                                  diagnostics_);
-            if (synapses.size() == 0) continue;         // reported
-            synapses.distance = std::vector<double>();  // attenuation and delay say it all
-            plan.synapses = synapses.size();
             plan.type = *registry_.synapse(c->synapse->type);
             plan.synapse = plan.type.make();
             model::apply(c->synapse->settings, plan.type.parameters, plan.synapse->parameters());
             plan.effective = target.type.reads[static_cast<std::size_t>(c->kind)];
-            const int longest = *std::max_element(synapses.delay.begin(), synapses.delay.end());
-            if (plan.type.has_gain) {
-                lengthen(source, *c, longest);
-                if (budget_.exceeded()) continue;
-                plan.kernel = make_kernel(std::move(synapses), source.shape.cells, target.shape.cells,
-                                          *plan.synapse, forms_);
-            } else {
-                plan.feedback = feedback_states(*c, plan.type, target, longest);
-                add_synapse_states(*c, plan, longest);
-                if (budget_.exceeded()) continue;
-                auto kernel = std::make_unique<PlasticKernel>(std::move(synapses), target.shape.cells,
-                                                              plan.type, *plan.synapse, plan_->arena);
-                plan.plastic = kernel.get();
-                plan.kernel = std::move(kernel);
-            }
+            if (!(forms_ == Forms::fastest && plan.type.has_gain && make_regular(*c, plan)) &&
+                !make_list(*c, plan))
+                continue;  // reported
             target.incoming.push_back(static_cast<int>(plan_->connections.size()));
+            target.fed[static_cast<std::size_t>(c->kind)] |= plan.effective;
             plan_->connections.push_back(std::move(plan));
         }
+    }
+
+    const model::Topology& topology_of(int group) const {
+        return *topologies_[static_cast<std::size_t>(group)];
+    }
+
+    /// For a connection that needs no list of synapses; false for others. Without a kernel when memory does
+    /// not suffice, which run() reports.
+    bool make_regular(const model::Connection& c, ConnectionPlan& plan) {
+        const auto regular = connectivity::regular(c, topology_of(plan.source), topology_of(plan.target));
+        if (!regular) return false;
+        auto& source = plan_->groups[static_cast<std::size_t>(plan.source)];
+        plan.synapses = regular->synapses;
+        for (const auto& tap : regular->taps) plan.longest_delay = std::max(plan.longest_delay, tap.delay);
+        lengthen(source, c, plan.longest_delay);
+        if (!budget_.exceeded())
+            plan.kernel =
+                make_kernel(*regular, source.shape.cells,
+                            plan_->groups[static_cast<std::size_t>(plan.target)].shape.cells, *plan.synapse);
+        return true;
+    }
+
+    /// False when it cannot be made: reported.
+    bool make_list(const model::Connection& c, ConnectionPlan& plan) {
+        auto& source = plan_->groups[static_cast<std::size_t>(plan.source)];
+        auto& target = plan_->groups[static_cast<std::size_t>(plan.target)];
+        auto synapses =
+            connectivity::connect(c, topology_of(plan.source), topology_of(plan.target), seed_, diagnostics_);
+        if (synapses.size() == 0) return false;
+        synapses.distance = std::vector<double>();  // attenuation and delay say it all
+        plan.synapses = synapses.size();
+        plan.longest_delay = *std::max_element(synapses.delay.begin(), synapses.delay.end());
+        if (plan.type.has_gain) {
+            lengthen(source, c, plan.longest_delay);
+            if (budget_.exceeded()) return false;
+            plan.kernel = make_kernel(std::move(synapses), source.shape.cells, target.shape.cells,
+                                      *plan.synapse, forms_);
+            return true;
+        }
+        plan.feedback = feedback_states(c, plan.type, target, plan.longest_delay);
+        add_synapse_states(c, plan, plan.longest_delay);
+        if (budget_.exceeded()) return false;
+        auto kernel = std::make_unique<PlasticKernel>(std::move(synapses), target.shape.cells, plan.type,
+                                                      *plan.synapse, plan_->arena);
+        plan.plastic = kernel.get();
+        plan.kernel = std::move(kernel);
+        return true;
     }
 
     /// Makes the source keep its activity for a delay.
@@ -259,10 +298,13 @@ class Compiler {
         for (auto& m : plan_->modules) {
             for (const int g : m.input_groups)
                 m.in.emplace_back(nullptr, g < 0 ? 0 : plan_->groups[static_cast<std::size_t>(g)].cells);
+            m.written.resize(m.output_groups.size());
+            m.changed.resize(m.output_groups.size());
             for (std::size_t i = 0; i < m.output_groups.size(); ++i) {
                 const int g = m.output_groups[i];
-                m.out.emplace_back(arena.at(m.output_offsets[i]),
-                                   g < 0 ? 0 : plan_->groups[static_cast<std::size_t>(g)].cells);
+                const Index cells = g < 0 ? 0 : plan_->groups[static_cast<std::size_t>(g)].cells;
+                m.out.emplace_back(arena.at(m.output_offsets[i]), cells);
+                m.last.emplace_back(Eigen::ArrayXd::Zero(cells <= ModulePlan::compared_output ? cells : 0));
             }
         }
         for (auto& c : plan_->connections) {
@@ -287,7 +329,7 @@ class Compiler {
     Diagnostics& diagnostics_;
     std::unique_ptr<Plan> plan_;
     std::map<std::string, int> group_at_;
-    std::vector<const model::Topology*> topology_of_;
+    std::vector<const model::Topology*> topologies_;
     Budget budget_;
 };
 

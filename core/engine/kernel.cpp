@@ -4,15 +4,12 @@
 #include <numeric>
 #include <utility>
 
+#include "core/engine/by_target.h"
+#include "core/engine/sliced_kernel.h"
+#include "core/engine/window_kernel.h"
+
 namespace forage::engine {
 namespace {
-
-/// Synapses sorted by target; those of one target stay in synapse order.
-struct ByTarget {
-    std::vector<int> start;  ///< of target t's synapses; one more entry than targets
-    std::vector<int> pre, delay;
-    std::vector<double> factor;
-};
 
 /// values[i] goes to place[i]; what it was is freed.
 template <class T>
@@ -53,6 +50,8 @@ class OneToOne final : public Kernel {
           cells_(static_cast<Index>(s.pre.size())),
           delay_(s.delay[0]),
           factor_(s.factor[0]) {}
+    OneToOne(int cells, int delay, double factor, const SynapseInstance& synapse)
+        : synapse_(synapse), cells_(cells), delay_(delay), factor_(factor) {}
     static bool fits(const ByTarget& s, int source_cells, int target_cells) {
         if (source_cells != target_cells || s.pre.size() != static_cast<std::size_t>(target_cells))
             return false;
@@ -65,6 +64,7 @@ class OneToOne final : public Kernel {
         Column(target, cells_) += (pre * synapse_.gain()) * factor_;
     }
     std::string_view form() const override { return "one to one"; }
+    double cost() const override { return 0.4 * static_cast<double>(cells_); }
 
   private:
     const SynapseInstance& synapse_;
@@ -107,6 +107,7 @@ class List final : public Kernel {
         }
     }
     std::string_view form() const override { return "list"; }
+    double cost() const override { return 1.3 * static_cast<double>(s_.pre.size()); }
 
   private:
     void deliver_delayed(const History& source, double gain, double* target) {
@@ -139,7 +140,9 @@ class List final : public Kernel {
 class Broadcast final : public Kernel {
   public:
     Broadcast(const ByTarget& s, int source_cells, int target_cells, const SynapseInstance& synapse)
-        : one_(first_target(s), source_cells, synapse), cells_(target_cells) {}
+        : Broadcast(List(first_target(s), source_cells, synapse), target_cells) {}
+    /// `one`: the synapses of one target cell.
+    Broadcast(List one, int target_cells) : one_(std::move(one)), cells_(target_cells) {}
     static bool fits(const ByTarget& s, int target_cells) {
         const auto each = static_cast<std::size_t>(s.start[1]);
         if (target_cells < 2 || each * static_cast<std::size_t>(target_cells) != s.pre.size()) return false;
@@ -158,6 +161,7 @@ class Broadcast final : public Kernel {
         Column(target, cells_) += total;
     }
     std::string_view form() const override { return "broadcast"; }
+    double cost() const override { return one_.cost() + 0.3 * static_cast<double>(cells_); }
 
   private:
     static ByTarget first_target(const ByTarget& s) {
@@ -181,8 +185,25 @@ std::unique_ptr<Kernel> make_kernel(connectivity::Synapses synapses, int source_
             return std::make_unique<OneToOne>(sorted, synapse);
         if (Broadcast::fits(sorted, target_cells))
             return std::make_unique<Broadcast>(sorted, source_cells, target_cells, synapse);
+        if (auto sliced = make_sliced(sorted, source_cells, synapse)) return sliced;
     }
     return std::make_unique<List>(std::move(sorted), source_cells, synapse);
+}
+
+std::unique_ptr<Kernel> make_kernel(const connectivity::Regular& regular, int source_cells, int target_cells,
+                                    const SynapseInstance& synapse) {
+    const auto& first = regular.taps.front();
+    const double factor = regular.reference - first.attenuation;
+    if (regular.all_to_all) {
+        ByTarget one{{0, source_cells}, std::vector<int>(static_cast<std::size_t>(source_cells)), {}, {}};
+        std::iota(one.pre.begin(), one.pre.end(), 0);
+        one.delay.assign(one.pre.size(), first.delay);
+        one.factor.assign(one.pre.size(), factor);
+        return std::make_unique<Broadcast>(List(std::move(one), source_cells, synapse), target_cells);
+    }
+    if (regular.taps.size() == 1 && first.dx == 0 && first.dy == 0)
+        return std::make_unique<OneToOne>(target_cells, first.delay, factor, synapse);
+    return std::make_unique<WindowKernel>(regular, synapse);
 }
 
 }  // namespace forage::engine

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/connectivity/connect.h"
+#include "core/connectivity/regular.h"
 #include "core/types/synapse.h"
 
 namespace forage::engine {
@@ -41,6 +42,22 @@ class Kernel {
     /// Adds to each cell of `target` the sum, from 0 and in synapse order, of what its synapses deliver.
     virtual void deliver(const History& source, double* target) = 0;
     virtual std::string_view form() const = 0;
+
+    /// About how long deliver() takes on one thread, ns: what sharing work between threads is decided by.
+    virtual double cost() const = 0;
+    /// Whether deliver() may be done in parts, at the same time: all of prepare(), then all of add(). Each
+    /// target cell belongs to one part.
+    virtual bool divides() const { return false; }
+    virtual void prepare(const History&, int /*part*/, int /*parts*/) {}
+    virtual void add(const History&, double* /*target*/, int /*part*/, int /*parts*/) {}
+};
+
+/// The `part`-th of `parts` about equal ranges of 0..n.
+struct Range {
+    std::size_t first, last;  ///< last: one past
+    Range(std::size_t n, int part, int parts)
+        : first(n * static_cast<std::size_t>(part) / static_cast<std::size_t>(parts)),
+          last(n * (static_cast<std::size_t>(part) + 1) / static_cast<std::size_t>(parts)) {}
 };
 
 enum class Forms {
@@ -53,5 +70,9 @@ enum class Forms {
 /// are freed as they are used.
 std::unique_ptr<Kernel> make_kernel(connectivity::Synapses synapses, int source_cells, int target_cells,
                                     const SynapseInstance& synapse, Forms forms);
+
+/// The same for a connection that is the same everywhere.
+std::unique_ptr<Kernel> make_kernel(const connectivity::Regular& regular, int source_cells, int target_cells,
+                                    const SynapseInstance& synapse);
 
 }  // namespace forage::engine

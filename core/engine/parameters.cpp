@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/engine/group_cycle.h"
 #include "core/engine/plan.h"
 #include "core/engine/simulation.h"
 
@@ -126,6 +127,9 @@ void Simulation::set(const Assignment& a) {
     if (const auto refused = refusal(a, object))
         throw RunError(fmt::format("'{}': {}", a.text, refused->why));
     a.parameter->set(object, a.value);
+    if (a.owner == Assignment::Owner::group) touch(*find(plan_->groups, &GroupPlan::id, a.id), cycle_);
+    if (a.owner == Assignment::Owner::connection)
+        find(plan_->connections, &ConnectionPlan::id, a.id)->changed = true;
 }
 
 }  // namespace forage::engine

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/engine/arena.h"
@@ -28,7 +29,22 @@ struct GroupPlan {
     std::vector<int> incoming;                                 ///< connections that end here, in order
     int history = 0;  ///< longest delay of outgoing connections; 0: no ring of past activity is kept
     Arena::Offset history_offset = 0;
-    double* history_ring = nullptr;  ///< row t % (history + 1) is the activity of cycle t
+    double* history_ring = nullptr;                  ///< row t % (history + 1) is the activity of cycle t
+    int output = 0;                                  ///< the state that is the activity
+    std::vector<std::pair<int, int>> module_inputs;  ///< modules and ports that write to this group, in order
+    std::array<bool, input_kinds> fed{};             ///< the type reads this kind, and somebody delivers it
+
+    double delivery_cost = 0;  ///< of all incoming connections, ns
+    bool divided = false;      ///< one of them is so large that all threads share it
+
+    // What changes in a run; group_cycle.h says what it is for.
+    std::size_t row = 0;         ///< the row of `inputs` that the last update read; the other one receives
+    bool delivered = false;      ///< the other one holds what the next update reads
+    bool same_input = false;     ///< ... which is what the last update read
+    std::uint64_t same_for = 0;  ///< updates in a row with the same input
+    bool rests = false;          ///< with this input an update changes nothing
+    std::int64_t changed = 0;    ///< the last cycle whose activity differed from that of the cycle before
+    bool silent = false;         ///< the activity is 0; noticed for large groups only
 };
 
 struct ModulePlan {
@@ -40,6 +56,11 @@ struct ModulePlan {
     std::vector<Arena::Offset> output_offsets;
     std::vector<ConstColumn> in;
     std::vector<Column> out;
+    std::vector<char> written,
+        changed;  ///< per output: in this cycle; changed: and with something else than before
+    std::vector<Eigen::ArrayXd> last;  ///< what small outputs held before
+    static constexpr Index compared_output =
+        1024;  ///< cells; of larger outputs only whether they are written
 };
 
 struct ConnectionPlan {
@@ -53,6 +74,8 @@ struct ConnectionPlan {
     std::vector<int> feedback;         ///< for a plastic one: states of the target, -1 for an unset one
     bool effective = true;             ///< the target's type reads this kind of input
     std::size_t synapses = 0;
+    int longest_delay = 0;
+    bool changed = false;  ///< from outside, since it delivered
 };
 
 /// Groups, modules and connections in the order in which a cycle updates them: byte order of their ids (of
@@ -62,6 +85,7 @@ struct Plan {
     std::vector<ModulePlan> modules;
     std::vector<ConnectionPlan> connections;
     std::vector<std::vector<double>> scratch;  ///< one row of the widest group per thread
+    std::vector<std::vector<double>> before;   ///< per thread: states to compare with
     Arena arena;
 };
 

@@ -17,8 +17,9 @@ PlasticKernel::PlasticKernel(connectivity::Synapses s, int target_cells, const S
       target_cells_(target_cells) {
     for (double& f : factor_) f = s.reference - f;
     for (std::size_t i = 0; i < type.states.size(); ++i) state_offsets_.push_back(arena.reserve(size_));
-    for (std::size_t i = 0; i < type.feedback.size(); ++i) feedback_offsets_.push_back(arena.reserve(size_));
-    pre_offset_ = arena.reserve(size_);
+    const Index part = std::min(size_, block);
+    for (std::size_t i = 0; i < type.feedback.size(); ++i) feedback_offsets_.push_back(arena.reserve(part));
+    pre_offset_ = arena.reserve(part);
     if (longest_ > 0) psp_offset_ = arena.reserve(size_, longest_ + 1);
     sum_offset_ = arena.reserve(target_cells_);
     feedback_rows_.resize(static_cast<std::size_t>(longest_) + 1);
@@ -30,26 +31,54 @@ void PlasticKernel::place(Arena& arena, std::vector<Ring> feedback) {
     for (const auto offset : state_offsets_) states_.emplace_back(arena.at(offset), size_);
     for (const auto offset : feedback_offsets_) {
         gathered_.push_back(arena.at(offset));
-        feedback_columns_.emplace_back(arena.at(offset), size_);
+        feedback_columns_.emplace_back(arena.at(offset), std::min(size_, block));
     }
+    for (Column& s : states_) block_states_.emplace_back(s.data(), s.size());
     pre_ = arena.at(pre_offset_);
     if (longest_ > 0) psp_ring_ = arena.at(psp_offset_);
     sums_ = arena.at(sum_offset_);
 }
 
 void PlasticKernel::learn(const History& source) {
-    const auto n = pre_cell_.size();
-    for (std::size_t i = 0; i < n; ++i) pre_[i] = source.now[pre_cell_[i]];
+    for (Index first = 0; first < size_; first += block)
+        learn_block(source, first, std::min(block, size_ - first));
+}
+
+void PlasticKernel::learn_block(const History& source, Index first, Index size) {
+    const int *pre = &pre_cell_[static_cast<std::size_t>(first)],
+              *post = &post_cell_[static_cast<std::size_t>(first)],
+              *delay = &delay_[static_cast<std::size_t>(first)];
+    for (Index i = 0; i < size; ++i) pre_[i] = source.now[pre[i]];
     for (std::size_t f = 0; f < feedback_.size(); ++f) {
-        if (!feedback_[f].rows) continue;
-        feedback_[f].tabulate(source.cycle, feedback_rows_);
         double* gathered = gathered_[f];
-        for (std::size_t i = 0; i < n; ++i)
-            gathered[i] = feedback_rows_[static_cast<std::size_t>(delay_[i])][post_cell_[i]];
+        new (&feedback_columns_[f]) ConstColumn(gathered, size);
+        if (!feedback_[f].rows) continue;  // reads 0
+        if (longest_ == 0) {
+            const double* row = feedback_[f].ago(source.cycle, 0);
+            for (Index i = 0; i < size; ++i) gathered[i] = row[post[i]];
+        } else {
+            feedback_[f].tabulate(source.cycle, feedback_rows_);
+            for (Index i = 0; i < size; ++i)
+                gathered[i] = feedback_rows_[static_cast<std::size_t>(delay[i])][post[i]];
+        }
     }
-    SynapseColumns columns(ConstColumn(pre_, size_), states_, feedback_columns_);
+    for (std::size_t s = 0; s < states_.size(); ++s)
+        new (&block_states_[s]) Column(states_[s].data() + first, size);
+    SynapseColumns columns(ConstColumn(pre_, size), block_states_, feedback_columns_);
     synapse_.update(columns);
-    states_[output_] *= ConstColumn(factor_.data(), size_);
+    block_states_[output_] *= ConstColumn(factor_.data() + first, size);
+}
+
+/// Without delays; a target's synapses often follow each other, and their sum then stays in a register.
+void PlasticKernel::sum_now(double* sums) const {
+    const double* psp = states_[output_].data();
+    const auto n = post_cell_.size();
+    for (std::size_t i = 0; i < n;) {
+        const int target = post_cell_[i];
+        double sum = sums[target];
+        for (; i < n && post_cell_[i] == target; ++i) sum += psp[i];
+        sums[target] = sum;
+    }
 }
 
 void PlasticKernel::deliver(const History& source, double* target) {
@@ -58,7 +87,7 @@ void PlasticKernel::deliver(const History& source, double* target) {
     const auto n = pre_cell_.size();
     std::fill_n(sums_, target_cells_, 0.0);
     if (longest_ == 0) {
-        for (std::size_t i = 0; i < n; ++i) sums_[post_cell_[i]] += psp[i];
+        sum_now(sums_);
     } else {
         const Ring ring{psp_ring_, std::int64_t{longest_} + 1, Arena::stride(size_)};
         ring.tabulate(source.cycle, psp_rows_);

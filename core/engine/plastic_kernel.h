@@ -20,12 +20,18 @@ class PlasticKernel final : public Kernel {
     void learn(const History& source);
     void deliver(const History& source, double* target) override;
     std::string_view form() const override { return "plastic"; }
+    double cost() const override { return 5 * static_cast<double>(size_); }
 
     /// State `i` of the type, per synapse in synapse order. The output state is what was computed in this
     /// cycle, attenuated.
     ConstColumn state(std::size_t i) const { return {states_[i].data(), states_[i].size()}; }
 
   private:
+    /// Learns block by block: what is gathered for an update then stays in the nearest cache.
+    static constexpr Index block = 1024;
+    void learn_block(const History& source, Index first, Index size);
+    void sum_now(double* sums) const;
+
     const SynapseInstance& synapse_;
     std::size_t output_;  ///< index of the output state
     std::vector<int> pre_cell_, post_cell_, delay_;
@@ -35,12 +41,12 @@ class PlasticKernel final : public Kernel {
     Arena::Offset pre_offset_, psp_offset_ = 0, sum_offset_;
     std::vector<Arena::Offset> state_offsets_, feedback_offsets_;
 
-    double* pre_ = nullptr;       ///< source activity, per synapse
+    double* pre_ = nullptr;       ///< source activity, per synapse of a block
     double* psp_ring_ = nullptr;  ///< attenuated output of the last longest_ + 1 cycles; null without delays
     double* sums_ = nullptr;      ///< per target cell
-    std::vector<double*> gathered_;  ///< feedback, per synapse
+    std::vector<double*> gathered_;  ///< feedback, per synapse of a block
     std::vector<Ring> feedback_;
-    std::vector<Column> states_;
+    std::vector<Column> states_, block_states_;  ///< of all synapses, and of a block
     std::vector<ConstColumn> feedback_columns_;
     std::vector<const double*> feedback_rows_, psp_rows_;  ///< by delay; filled anew in each cycle
 };

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/engine/group_cycle.h"
 #include "core/engine/plan.h"
 #include "core/engine/thread_pool.h"
 #include "core/model/validate.h"
@@ -34,14 +35,23 @@ std::optional<Simulation> Simulation::build(const model::System& system, const R
     return Simulation(std::move(plan), options);
 }
 
-Simulation::Simulation(std::unique_ptr<Plan> plan, const Options& options) : plan_(std::move(plan)) {
-    std::size_t work = 0;
-    for (const auto& g : plan_->groups) work += static_cast<std::size_t>(g.cells);
-    for (const auto& c : plan_->connections) work += c.synapses;
-    pool_ = std::make_unique<ThreadPool>(work < options.worth_sharing ? 1 : options.threads);
-    std::size_t widest = 0;
-    for (const auto& g : plan_->groups) widest = std::max(widest, static_cast<std::size_t>(g.stride));
-    plan_->scratch.assign(static_cast<std::size_t>(pool_->threads()), std::vector<double>(widest));
+Simulation::Simulation(std::unique_ptr<Plan> plan, const Options& options)
+    : plan_(std::move(plan)), worth_sharing_(options.worth_sharing) {
+    std::size_t widest = 0, most_compared = 0;
+    for (auto& g : plan_->groups) {
+        widest = std::max(widest, static_cast<std::size_t>(g.stride));
+        most_compared = std::max(most_compared, compared_numbers(g));
+        for (const int i : g.incoming) {
+            const Kernel& kernel = *at(plan_->connections, i).kernel;
+            g.delivery_cost += kernel.cost();
+            g.divided |= kernel.divides() && kernel.cost() >= worth_sharing_;
+        }
+    }
+    const bool worth = std::max(update_cost(*plan_), delivery_cost(*plan_)) >= worth_sharing_;
+    pool_ = std::make_unique<ThreadPool>(worth ? options.threads : 1);
+    const auto threads = static_cast<std::size_t>(pool_->threads());
+    plan_->scratch.assign(threads, std::vector<double>(widest));
+    plan_->before.assign(threads, std::vector<double>(most_compared));
 }
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
@@ -51,14 +61,15 @@ void Simulation::start() {
     for (auto& m : plan_->modules) {
         try {
             bind_inputs(m);
-            ModuleFrame frame(0, m.in, m.out);
+            ModuleFrame frame(0, m.in, m.out, &m.written);
             m.module->start(m.ports, frame);
-            deliver_outputs(m, 0);
         } catch (const std::exception& e) {
             throw RunError(
                 fmt::format("{} of process '{}' could not start: {}", m.type.name, m.process, e.what()));
         }
+        note_changes(m);
     }
+    for (auto& g : plan_->groups) receive_from_modules(*plan_, g);
     started_ = true;
 }
 
@@ -68,23 +79,22 @@ void Simulation::step() {
     update_connections();
 }
 
+template <class Run>
+void Simulation::try_sharing(double cost, SharingTrial& trial, Run run) {
+    if (pool_->threads() == 1 || cost < worth_sharing_) return run(false);
+    if (worth_sharing_ == 0) return run(true);
+    run(trial.begin());
+    trial.end();
+}
+
 void Simulation::update_groups() {
     if (!started_) throw RunError("the simulation is not started");
     shown_ = cycle_;
-    const std::size_t now = cycle_ % 2;
-    auto update = [this, now](int group, int thread) {
-        auto& g = at(plan_->groups, group);
-        try {
-            NeuronColumns columns(g.cells, g.stride, cycle_,
-                                  {g.inputs[0][now], g.inputs[1][now], g.inputs[2][now]}, g.states.data(),
-                                  &g.random, at(plan_->scratch, thread).data());
-            g.neuron->update(columns);
-        } catch (const std::exception& e) {
-            throw RunError(fmt::format("{} of group '{}' failed in cycle {}: {}", g.type.name, g.path, cycle_,
-                                       e.what()));
-        }
+    auto work = [this](int group, int thread) {
+        update(at(plan_->groups, group), cycle_, at(plan_->scratch, thread).data(),
+               at(plan_->before, thread).data());
     };
-    pool_->run(groups(), update);
+    try_sharing(update_cost(*plan_), updates_, [&](bool shared) { pool_->run(groups(), work, shared); });
 }
 
 /// Lets a module see the activity of this cycle; before the first one, zeros.
@@ -92,71 +102,40 @@ void Simulation::bind_inputs(ModulePlan& module) {
     for (std::size_t i = 0; i < module.in.size(); ++i)
         if (module.input_groups[i] >= 0) {
             const auto& g = at(plan_->groups, module.input_groups[i]);
-            new (&module.in[i]) ConstColumn(current_row(g, g.type.output(), cycle_), g.cells);
+            new (&module.in[i]) ConstColumn(activity_row(g, cycle_), g.cells);
         }
-}
-
-/// Adds what a module has written to the excitatory input of its groups; `turn` says which of their two rows.
-void Simulation::deliver_outputs(const ModulePlan& module, std::size_t turn) {
-    constexpr auto excitatory = static_cast<std::size_t>(InputKind::excitatory);
-    for (std::size_t i = 0; i < module.out.size(); ++i) {
-        if (module.output_groups[i] < 0) continue;
-        auto& g = at(plan_->groups, module.output_groups[i]);
-        if (g.type.reads[excitatory]) Column(g.inputs[excitatory][turn], g.cells) += module.out[i];
-    }
 }
 
 void Simulation::update_modules() {
-    const std::size_t next = (cycle_ + 1) % 2;
-    for (auto& g : plan_->groups)
-        for (std::size_t k = 0; k < input_kinds; ++k)
-            if (g.type.reads[k]) Column(g.inputs[k][next], g.cells).setZero();
-
-    const ModulePlan* current = nullptr;
-    try {
-        for (auto& m : plan_->modules) {
-            current = &m;
+    for (auto& m : plan_->modules) {
+        try {
             bind_inputs(m);
-            ModuleFrame frame(cycle_, m.in, m.out);
+            ModuleFrame frame(cycle_, m.in, m.out, &m.written);
             m.module->update(frame);
-            deliver_outputs(m, next);
+        } catch (const std::exception& e) {
+            throw RunError(fmt::format("{} of process '{}' failed in cycle {}: {}", m.type.name, m.process,
+                                       cycle_, e.what()));
         }
-    } catch (const std::exception& e) {
-        throw RunError(fmt::format("{} of process '{}' failed in cycle {}: {}", current->type.name,
-                                   current->process, cycle_, e.what()));
+        note_changes(m);
     }
 }
 
 void Simulation::update_connections() {
-    const std::size_t next = (cycle_ + 1) % 2;
-    for (auto& g : plan_->groups)
-        if (g.history > 0) {
-            const auto row = static_cast<Index>(cycle_ % static_cast<std::uint64_t>(g.history + 1));
-            Column(g.history_ring + row * g.stride, g.cells) =
-                ConstColumn(current_row(g, g.type.output(), cycle_), g.cells);
-        }
-    auto deliver = [this, next](int group, int) {
-        auto& target = at(plan_->groups, group);
-        for (const int connection : target.incoming) {
-            auto& c = at(plan_->connections, connection);
-            const auto& source = at(plan_->groups, c.source);
-            const History history{current_row(source, source.type.output(), cycle_),
-                                  {source.history_ring, source.history + 1, source.stride},
-                                  cycle_};
-            try {
-                if (c.effective)
-                    c.kernel->deliver(history, target.inputs[static_cast<std::size_t>(c.kind)][next]);
-                else if (c.plastic)
-                    c.plastic->learn(history);
-            } catch (const std::exception& e) {
-                throw RunError(fmt::format("{} of connection '{}' failed in cycle {}: {}", c.type.name,
-                                           c.name, cycle_, e.what()));
-            }
-        }
-    };
-    pool_->run(groups(), deliver);
+    for (const auto& g : plan_->groups) remember(g, cycle_);
+    try_sharing(delivery_cost(*plan_), deliveries_, [&](bool shared) {
+        auto work = [&](int group, int) {
+            auto& g = at(plan_->groups, group);
+            if (!(shared && g.divided)) deliver_to(*plan_, g, cycle_);
+        };
+        pool_->run(groups(), work, shared);
+        if (shared)
+            for (auto& g : plan_->groups)
+                if (g.divided) deliver_to(*plan_, g, cycle_, pool_.get());
+    });
     ++cycle_;
 }
+
+void Simulation::group_changed(int group) { touch(at(plan_->groups, group), cycle_); }
 
 int Simulation::threads() const { return pool_->threads(); }
 int Simulation::groups() const { return static_cast<int>(plan_->groups.size()); }
@@ -167,7 +146,7 @@ const NeuronType& Simulation::type(int group) const { return at(plan_->groups, g
 
 ConstColumn Simulation::input(int group, InputKind kind) const {
     const auto& g = at(plan_->groups, group);
-    return {g.inputs[static_cast<std::size_t>(kind)][shown_ % 2], g.cells};
+    return {g.inputs[static_cast<std::size_t>(kind)][g.row], g.cells};
 }
 
 ConstColumn Simulation::state(int group, int state) const {
@@ -176,8 +155,9 @@ ConstColumn Simulation::state(int group, int state) const {
 }
 
 Column Simulation::output(int group) {
-    const auto& g = at(plan_->groups, group);
-    return {current_row(g, g.type.output(), shown_), g.cells};
+    auto& g = at(plan_->groups, group);
+    touch(g, cycle_);
+    return {activity_row(g, shown_), g.cells};
 }
 
 int Simulation::modules() const { return static_cast<int>(plan_->modules.size()); }

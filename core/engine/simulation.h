@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/engine/sharing_trial.h"
 #include "core/model/edit.h"
 #include "core/model/system.h"
 #include "core/types/registry.h"
@@ -40,8 +41,9 @@ class Simulation {
   public:
     struct Options {
         std::uint64_t seed = 1;
-        int threads = 1;                    ///< at most, for a cycle's loops; the numbers do not depend on it
-        std::size_t worth_sharing = 20000;  ///< cells and synapses; smaller systems are faster on one thread
+        int threads = 1;  ///< at most, for a cycle's loops; the numbers do not depend on it
+        double worth_sharing =
+            40'000;  ///< ns that a loop takes on one thread; shorter ones stay there. 0: all are shared
         bool general_forms =
             false;  ///< compile every connection to a list of synapses (slower, same numbers)
     };
@@ -84,7 +86,11 @@ class Simulation {
     /// Input as the neuron read it, with the gain that its type applies.
     ConstColumn input(int group, InputKind kind) const;
     ConstColumn state(int group, int state) const;
-    Column output(int group);  ///< activity, to overwrite after update_groups()
+    /// Activity, to overwrite after update_groups(). To be asked for again in every cycle.
+    Column output(int group);
+    /// To be told after anything that its next update depends on was changed by other means than set() and
+    /// output().
+    void group_changed(int group);
 
     // Modules that are enabled, in order of update.
     int modules() const;
@@ -106,9 +112,14 @@ class Simulation {
   private:
     Simulation(std::unique_ptr<Plan> plan, const Options& options);
     void bind_inputs(ModulePlan& module);
-    void deliver_outputs(const ModulePlan& module, std::size_t turn);
 
     std::unique_ptr<Plan> plan_;
+    /// Runs a loop with `run(shared)`, shared if it is worth it.
+    template <class Run>
+    void try_sharing(double cost, SharingTrial& trial, Run run);
+
+    double worth_sharing_;
+    SharingTrial updates_, deliveries_;
     std::unique_ptr<ThreadPool> pool_;
     bool started_ = false;
     std::uint64_t cycle_ = 0;

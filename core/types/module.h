@@ -52,11 +52,19 @@ struct ModulePorts {
 /// What a module sees in one cycle.
 class ModuleFrame {
   public:
-    ModuleFrame(std::uint64_t cycle, const std::vector<ConstColumn>& in, const std::vector<Column>& out)
-        : cycle_(cycle), in_(in), out_(out) {}
+    /// `written[port]` becomes true when output `port` is taken.
+    ModuleFrame(std::uint64_t cycle, const std::vector<ConstColumn>& in, const std::vector<Column>& out,
+                std::vector<char>* written = nullptr)
+        : cycle_(cycle), in_(in), out_(out), written_(written) {}
     std::uint64_t cycle() const { return cycle_; }
     const ConstColumn& input(std::size_t port) const { return in_[port]; }  ///< activity of this cycle
-    Column output(std::size_t port) const { return out_[port]; }            ///< received in the next cycle
+    /// To be written now, received in the next cycle. An output that a module does not take in a cycle is not
+    /// looked at: take those only that change, and take them again in every cycle.
+    Column output(std::size_t port) const {
+        if (written_) (*written_)[port] = 1;
+        return out_[port];
+    }
+    Index output_size(std::size_t port) const { return out_[port].size(); }  ///< 0: unset
     std::size_t inputs() const { return in_.size(); }
     std::size_t outputs() const { return out_.size(); }
 
@@ -64,6 +72,7 @@ class ModuleFrame {
     std::uint64_t cycle_;
     const std::vector<ConstColumn>& in_;
     const std::vector<Column>& out_;
+    std::vector<char>* written_;
 };
 
 /// A module of a running system.

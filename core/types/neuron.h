@@ -44,22 +44,28 @@ class NeuronColumns {
     };
 
     NeuronColumns(Index size, Index stride, std::uint64_t cycle, std::array<double*, input_kinds> inputs,
-                  const State* states, const RandomStream* random, double* scratch)
+                  const State* states, const RandomStream* random, double* scratch,
+                  std::array<bool, input_kinds> silent = {})
         : size_(size),
           stride_(stride),
           cycle_(cycle),
           inputs_(inputs),
           states_(states),
           random_(random),
-          scratch_(scratch) {}
+          scratch_(scratch),
+          silent_(silent) {}
 
     Index size() const { return size_; }  ///< number of cells
-    std::uint64_t cycle() const { return cycle_; }
+    std::uint64_t cycle() const { return timeless_ = false, cycle_; }
 
     /// What was delivered at the end of the last cycle, per cell. A type applies its gain in place.
     Column excitation() const { return input(InputKind::excitatory); }
     Column inhibition() const { return input(InputKind::inhibitory); }
     Column modulation() const { return input(InputKind::modulatory); }
+
+    /// Nothing ever delivers this kind of input: it is 0 in all cells, and a type need neither scale nor read
+    /// it.
+    bool silent(InputKind kind) const { return silent_[static_cast<std::size_t>(kind)]; }
 
     Column state(int i) const { return {row(i, 0), size_}; }
     /// State i as it was `ago` cycles ago; 0 < ago < the state's history.
@@ -77,9 +83,25 @@ class NeuronColumns {
     /// One number per cell, uniform in [0, 1), new in each cycle. Another `draw` of the same cycle gives
     /// other, independent numbers, the same one the same numbers. Valid until the next call.
     Column uniform(std::uint32_t draw = 0) const {
+        timeless_ = false;
         random_->uniform(cycle_, {scratch_, static_cast<std::size_t>(size_)}, draw);
         return {scratch_, size_};
     }
+    /// out[i] = `value` with this probability, independent in each cell and cycle, else 0. Many times faster
+    /// than to compare uniform().
+    void events(double probability, Column out, double value = 1, std::uint32_t draw = 0) const {
+        timeless_ = false;
+        random_->events(cycle_, probability, {out.data(), static_cast<std::size_t>(out.size())}, value, draw);
+    }
+    /// The same in a column that is valid until the next call.
+    Column events(double probability, std::uint32_t draw = 0) const {
+        const Column out(scratch_, size_);
+        return events(probability, out, 1, draw), out;
+    }
+
+    /// Whether the update has asked neither for the cycle nor for random numbers: then the same inputs and
+    /// states give the same again, which the engine makes use of.
+    bool timeless() const { return timeless_; }
 
   private:
     Column input(InputKind kind) const { return {inputs_[static_cast<std::size_t>(kind)], size_}; }
@@ -95,6 +117,8 @@ class NeuronColumns {
     const State* states_;
     const RandomStream* random_;
     double* scratch_;
+    std::array<bool, input_kinds> silent_;
+    mutable bool timeless_ = true;
 };
 
 /// A neuron type with its parameters set, ready to update one group.

@@ -3,7 +3,7 @@
 //
 //     static void describe(SynapseSpec<T>&);
 //     void check(Problems&) const;               // optional: parameters that say something else than they
-//     seem to void update(SynapseColumns&) const;     // one cycle, for all synapses of a connection
+//     seem to void update(SynapseColumns&) const;     // one cycle, for some synapses at a time
 //
 // A type that only multiplies its input by a constant declares that constant with `gain` and needs no
 // update(). The engine then attenuates and delays what the type puts out; synapses/fixed_weight.h is the
@@ -36,7 +36,7 @@ struct FeedbackInfo {
     bool required = true;
 };
 
-/// What a synapse type's update sees: one entry per synapse, in the connection's synapse order.
+/// What an update sees: one entry per synapse, in synapse order; of some of a connection's at a time.
 class SynapseColumns {
   public:
     SynapseColumns(ConstColumn pre, const std::vector<Column>& states,

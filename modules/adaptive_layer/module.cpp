@@ -120,7 +120,7 @@ void AdaptiveLayerModule::update(ModuleFrame& frame) {
     frame.output(prototype) = layer_.prototype();
     frame.output(output) = layer_.response();
     frame.output(discrepancy)[0] = layer_.discrepancy();
-    if (display_old_ && frame.output(display).size() > 0) {
+    if (display_old_ && frame.output_size(display) > 0) {
         show_weights(frame.output(display));
         display_old_ = false;
     }

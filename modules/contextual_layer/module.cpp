@@ -113,9 +113,9 @@ void ContextualLayerModule::update(ModuleFrame& frame) {
     Column action = frame.output(action_out);
     action = layer_.action().head(action.size()).cast<double>();
     const auto picture = [&](Out port, const SegmentArray& numbers) {
-        if (frame.output(port).size() > 0) show(layer_, numbers, !displayed_, frame.output(port));
+        if (frame.output_size(port) > 0) show(layer_, numbers, !displayed_, frame.output(port));
     };
-    if (frame.output(empty).size() > 0) show_empty(layer_, !displayed_, frame.output(empty));
+    if (frame.output_size(empty) > 0) show_empty(layer_, !displayed_, frame.output(empty));
     picture(collector, layer_.memory().collector());
     picture(distance, layer_.memory().distance());
     picture(selected, layer_.memory().selected());

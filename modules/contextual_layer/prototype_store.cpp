@@ -1,12 +1,36 @@
 #include "modules/contextual_layer/prototype_store.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "core/types/simd.h"
 
 namespace forage::contextual {
 namespace {
 
 template <Index lanes>
 using CellsOf = Eigen::Map<Eigen::ArrayXf, 0, Eigen::InnerStride<lanes>>;  ///< of one prototype in its block
+
+/// sum[l] += |cells[i][l] - present[i]| share for the `count` cells i that are named, in order, rounded to
+/// single precision each time.
+template <Index lanes>
+[[gnu::always_inline]] inline void add_distances(const float* cells, const Index* named, std::size_t count,
+                                                 const double* present, double share, double* sum) {
+    double total[lanes];
+    std::copy_n(sum, lanes, total);
+    for (std::size_t j = 0; j < count; ++j) {
+        const float* stored = cells + named[j] * lanes;
+        const double here = present[named[j]];
+        for (Index l = 0; l < lanes; ++l)
+            total[l] = static_cast<float>(total[l] + std::abs(static_cast<double>(stored[l]) - here) * share);
+    }
+    std::copy_n(total, lanes, sum);
+}
+
+FORAGE_SIMD void add_sixteen(const float* cells, const Index* named, std::size_t count, const double* present,
+                             double share, double* sum) {
+    add_distances<16>(cells, named, count, present, share, sum);
+}
 
 }  // namespace
 
@@ -88,14 +112,10 @@ PrototypeStore::Lanes PrototypeStore::distances_of(Index block) {
         worth_[count] = i;
         count += used[i] | (present_[i] != 0);
     }
-    const double share = 1.0F / static_cast<float>(cells_);
-    const float* cells = blocks_.data() + block * cells_ * lanes;
     Lanes sum = Lanes::Zero();  // of single-precision numbers
-    for (std::size_t j = 0; j < count; ++j) {
-        const Index i = worth_[j];
-        const Eigen::Map<const Eigen::Array<float, lanes, 1>> stored(cells + i * lanes);
-        sum = (sum + (stored.cast<double>() - present_[i]).abs() * share).cast<float>().cast<double>();
-    }
+    static_assert(lanes == 16);
+    add_sixteen(blocks_.data() + block * cells_ * lanes, worth_.data(), count, present_.data(),
+                1.0F / static_cast<float>(cells_), sum.data());
     return sum;
 }
 

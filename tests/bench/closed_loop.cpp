@@ -1,6 +1,6 @@
 // How fast does a system drive the robot on one core, and where does the time go?
 //
-//     bench_closed_loop [SYSTEM.iqr WORLD.world]
+//     bench_closed_loop [SYSTEM.iqr WORLD.world [SETTING...]]
 //
 // Without arguments: the reactive system in the basic arena, where it drives and sees but touches nothing,
 // and in the open one, where it ends up at a wall. Last result: see README.md.
@@ -16,6 +16,7 @@
 #include "bug_interface/simulation/world.h"
 #include "bug_interface/world/sdf_reader.h"
 #include "core/engine/simulation.h"
+#include "core/model/edit.h"
 #include "core/xml/reader.h"
 #include "modules/modules.h"
 #include "neurons/neurons.h"
@@ -36,10 +37,11 @@ double median(std::vector<double> v) {
 }
 
 /// Prints what it measured; returns whether it could.
-bool measure(const std::string& system_file, const std::string& world_file) {
+bool measure(const std::string& system_file, const std::string& world_file,
+             const std::vector<std::string>& settings = {}) {
     Diagnostics diagnostics;
     diagnostics.lenient = true;
-    const auto system = xml::read_system(system_file, diagnostics);
+    auto system = xml::read_system(system_file, diagnostics);
     const auto description = bug::read_world(world_file, diagnostics);
     std::unique_ptr<bug::World> world;
     std::optional<engine::Simulation> simulation;
@@ -52,6 +54,7 @@ bool measure(const std::string& system_file, const std::string& world_file) {
         add_synapses(registry);
         add_modules(registry);
         registry.add(bug::gazebo_bug_type(world.get()));
+        for (const auto& setting : settings) model::set(*system, registry, setting, diagnostics);
         if (world) simulation = engine::Simulation::build(*system, registry, {}, diagnostics);
     }
     if (!simulation) {
@@ -103,7 +106,7 @@ bool measure(const std::string& system_file, const std::string& world_file) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc > 2) return measure(argv[1], argv[2]) ? 0 : 2;
+    if (argc > 2) return measure(argv[1], argv[2], {argv + 3, argv + argc}) ? 0 : 2;
     const std::string systems = std::string(FORAGE_SOURCE_DIR) + "/systems/";
     for (const char* world : {"basic_arena", "open_arena"})
         if (!measure(systems + "reactive_foraging.iqr", systems + "worlds/" + world + ".world")) return 2;

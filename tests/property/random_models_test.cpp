@@ -21,11 +21,15 @@ std::uint64_t models() {
 }
 
 /// Every state of every group over some cycles, as bytes: NaN counts like any other.
-std::string trace(const model::System& system, const Registry& registry, int threads) {
+std::string trace(const model::System& system, const Registry& registry, int threads,
+                  bool general_forms = false) {
     Diagnostics diagnostics;
-    auto s = engine::Simulation::build(
-        system, registry,
-        {.seed = test::RandomModel::connection_seed, .threads = threads, .worth_sharing = 0}, diagnostics);
+    auto s = engine::Simulation::build(system, registry,
+                                       {.seed = test::RandomModel::connection_seed,
+                                        .threads = threads,
+                                        .worth_sharing = 0,
+                                        .general_forms = general_forms},
+                                       diagnostics);
     INFO(format(diagnostics));
     REQUIRE(s);
     s->start();
@@ -61,7 +65,7 @@ TEST_CASE("What is written and read again is equal, and writing it again changes
     CHECK(connections > models());  // the models are worth testing
 }
 
-TEST_CASE("The number of threads changes no bit of a simulation") {
+TEST_CASE("Neither the number of threads nor the form of the connections changes a bit of a simulation") {
     Registry registry;
     add_neurons(registry);
     add_synapses(registry);
@@ -71,5 +75,6 @@ TEST_CASE("The number of threads changes no bit of a simulation") {
         const std::string one = trace(system, registry, 1);
         REQUIRE(!one.empty());
         REQUIRE(one == trace(system, registry, 4));
+        REQUIRE(one == trace(system, registry, 1, true));
     }
 }

@@ -52,3 +52,48 @@ TEST_CASE("Uniform numbers fill [0, 1) evenly and normal numbers have mean 0 and
     CHECK(std::abs(sum_z / n) < 4 / std::sqrt(n));
     CHECK(std::abs(sum_zz / n - 1) < 4 * std::sqrt(2 / n));
 }
+
+TEST_CASE("Uniform numbers are the upper 53 of the raw bits, whatever their number") {
+    const RandomStream stream(5, "group");
+    for (const std::size_t size : {1, 2, 15, 16, 17, 100, 1000}) {
+        std::vector<std::uint64_t> bits(size);
+        stream.bits(3, bits);
+        for (std::size_t i = 0; i < size; ++i)
+            REQUIRE(static_cast<double>(bits[i] >> 11) * 0x1p-53 ==
+                    stream.uniform(3, static_cast<std::uint32_t>(i)));
+    }
+}
+
+TEST_CASE("Events come as often as they should, and a cell's do not depend on how many cells there are") {
+    const RandomStream stream(3, "group");
+    const double probability = GENERATE(0.0, 1e-3, 0.3, 0.5, 1 - 1e-3, 1.0);
+    std::vector<double> all(200'001), few(77), other(all.size());
+    stream.events(4, probability, all, 2.5);
+    stream.events(4, probability, few, 2.5);
+    stream.events(5, probability, other, 2.5);
+    double count = 0, both = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        REQUIRE((all[i] == 0 || all[i] == 2.5));
+        count += all[i] > 0, both += all[i] > 0 && other[i] > 0;
+    }
+    for (std::size_t i = 0; i < few.size(); ++i) REQUIRE(few[i] == all[i]);
+    const auto n = static_cast<double>(all.size());
+    const auto off = [n](double p) { return 4 * std::sqrt(p * (1 - p) / n); };
+    CHECK(std::abs(count / n - probability) <= off(probability));
+    CHECK(std::abs(both / n - probability * probability) <= off(probability * probability));
+}
+
+TEST_CASE("A cell that is active at a probability is active at every higher one") {
+    // Each of the 65536 steps is a tie for about one cell in a thousand: ties are decided by other code.
+    const RandomStream stream(9, "group");
+    std::vector<double> now(64), before(64, 0.0);
+    int switched = 0;
+    for (int step = 0; step <= 65536; ++step, before = now) {
+        stream.events(1, step / 65536.0, now);
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            REQUIRE(now[i] >= before[i]);
+            switched += now[i] > before[i];
+        }
+    }
+    CHECK(switched == 64);
+}

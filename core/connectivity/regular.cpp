@@ -1,0 +1,117 @@
+#include "core/connectivity/regular.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/connectivity/connect.h"
+#include "core/connectivity/distance_functions.h"
+#include "core/connectivity/pairs.h"
+
+namespace forage::connectivity {
+namespace {
+
+struct Offset {
+    int x, y;
+};
+
+bool everything(const model::Population& population) {
+    return std::holds_alternative<model::All>(population);
+}
+
+bool random(const model::DistanceFunction& f) {
+    return std::holds_alternative<model::RandomFunction>(f.form);
+}
+
+/// The offsets of a rectangular arborization round a cell, in the order in which Arbor visits them; empty for
+/// others.
+std::vector<Offset> offsets(const model::Arborization& arborization) {
+    model::RectWindowArbor window;  // a rectangle is a window without a hole
+    bool hole = false;
+    if (const auto* rect = std::get_if<model::RectArbor>(&arborization.shape))
+        window.outer_width = rect->width, window.outer_height = rect->height;
+    else if (const auto* given = std::get_if<model::RectWindowArbor>(&arborization.shape))
+        window = *given, hole = true;
+    else
+        return {};
+    const Span xs = cover(0, window.outer_width), ys = cover(0, window.outer_height);
+    const Span inner_xs = cover(0, window.inner_width), inner_ys = cover(0, window.inner_height);
+    std::vector<Offset> out;
+    for (int x = xs.first; x <= xs.last; ++x)
+        for (int y = ys.first; y <= ys.last; ++y)
+            if (!hole || x < inner_xs.first || x > inner_xs.last || y < inner_ys.first || y > inner_ys.last)
+                out.push_back({x, y});
+    return out;
+}
+
+/// A projective arborization, seen from the target: its sources come in order of their cells.
+void turn_round(std::vector<Offset>& offsets) {
+    for (auto& o : offsets) o = {-o.x, -o.y};
+    std::sort(offsets.begin(), offsets.end(),
+              [](const Offset& a, const Offset& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+}
+
+}  // namespace
+
+std::optional<Regular> regular(const model::Connection& c, const model::Topology& source_topology,
+                               const model::Topology& target_topology) {
+    const auto *source = std::get_if<model::RectTopology>(&source_topology),
+               *target = std::get_if<model::RectTopology>(&target_topology);
+    if (!source || !target || random(c.attenuation) || random(c.delay) || c.arborization.probability < 1)
+        return {};
+    const bool receptive = c.arborization.direction == model::Direction::receptive;
+    const auto* spread = receptive ? source : target;
+    const double source_cells = static_cast<double>(source->width) * source->height,
+                 target_cells = static_cast<double>(target->width) * target->height;
+    const auto most = static_cast<double>(model::most_cells);
+    if (spread->wrap_x || spread->wrap_y || source_cells > most || target_cells > most) return {};
+
+    Regular out;
+    std::vector<Offset> places;
+    if (const auto* foreach = std::get_if<model::ForeachPattern>(&c.pattern)) {
+        const auto* arbor = std::get_if<model::RectArbor>(&c.arborization.shape);
+        if (!everything(foreach->source) || !everything(foreach->target) || !arbor || arbor->width != 1 ||
+            arbor->height != 1)
+            return {};
+        if (source_cells * target_cells > most_synapses) return {};
+        out.all_to_all = true;
+        places = {{0, 0}};
+        out.synapses = static_cast<std::size_t>(source_cells * target_cells);
+    } else if (const auto* mapped = std::get_if<model::MappedPattern>(&c.pattern)) {
+        if (!everything(mapped->source) || !everything(mapped->target) || source->width != target->width ||
+            source->height != target->height)
+            return {};
+        out.width = source->width, out.height = source->height;
+        constexpr double most_taps = 4096;  // beyond that a list is no worse
+        const auto* rect = std::get_if<model::RectArbor>(&c.arborization.shape);
+        const auto* window = std::get_if<model::RectWindowArbor>(&c.arborization.shape);
+        const double extent = rect     ? (rect->width + 1.0) * (rect->height + 1.0)
+                              : window ? (window->outer_width + 1.0) * (window->outer_height + 1.0)
+                                       : 0;
+        if (extent == 0 || extent > most_taps) return {};
+        places = offsets(c.arborization);
+        if (!receptive) turn_round(places);
+        std::erase_if(places, [&](const Offset& o) {
+            return std::abs(o.x) >= out.width || std::abs(o.y) >= out.height;
+        });
+        double synapses = 0;
+        for (const Offset& o : places)
+            synapses += static_cast<double>(out.width - std::abs(o.x)) * (out.height - std::abs(o.y));
+        if (synapses == 0 || synapses > most_synapses) return {};
+        out.synapses = static_cast<std::size_t>(synapses);
+    } else {
+        return {};
+    }
+
+    std::vector<double> distances;
+    for (const Offset& o : places) distances.push_back(std::hypot(o.x, o.y));
+    const auto attenuated = attenuation(c.attenuation, distances, {});
+    const auto delayed = delays(c.delay, distances, {});
+    out.reference = attenuated.reference;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (!std::isfinite(out.reference - attenuated.values[i])) return {};
+        out.taps.push_back({places[i].x, places[i].y, attenuated.values[i], delayed[i]});
+    }
+    return out;
+}
+
+}  // namespace forage::connectivity

@@ -1,0 +1,50 @@
+// One group's part of a cycle, and what of it need not be done again.
+//
+// Much of a system stands still most of the time: displays of a layer that is closed, senses that see
+// nothing, a constant. Three facts, each kept per group, let such parts cost nothing and change no bit:
+//
+//     changed     the last cycle whose activity differed from that of the cycle before
+//     same_input  what the next update reads is what the last one read: no source has changed, and no module
+//     wrote rests       the last update left every state as it was and asked for neither time nor random
+//     numbers, so that
+//                 with the same input the next one would too
+//
+// A group that rests and keeps its input is neither updated nor delivered to. Who changes something from
+// outside (an activity, a parameter) must say so: touch().
+#pragma once
+
+#include "core/engine/plan.h"
+#include "core/engine/thread_pool.h"
+
+namespace forage::engine {
+
+/// A group's activity in `cycle`.
+double* activity_row(const GroupPlan& group, std::uint64_t cycle);
+
+/// Updates the states, unless the group rests. `scratch` and `before` are one thread's.
+void update(GroupPlan& group, std::uint64_t cycle, double* scratch, double* before);
+
+/// How many numbers `before` must hold for a group.
+std::size_t compared_numbers(const GroupPlan& group);
+
+/// Notes which outputs of a module differ from what it wrote before.
+void note_changes(ModulePlan& module);
+
+/// Delivers what modules have written; before the first cycle.
+void receive_from_modules(Plan& plan, GroupPlan& group);
+
+/// Keeps a group's activity of `cycle` for the connections with a delay.
+void remember(const GroupPlan& group, std::uint64_t cycle);
+
+/// Delivers all that the group receives in the cycle after `cycle`; lets its synapses learn. With a pool, the
+/// threads share connections that divide.
+void deliver_to(Plan& plan, GroupPlan& group, std::uint64_t cycle, ThreadPool* pool = nullptr);
+
+/// About how long the phases of the next cycle take on one thread, ns.
+double update_cost(const Plan& plan);
+double delivery_cost(const Plan& plan);
+
+/// The group was changed from outside: nothing that is known of it holds any longer.
+void touch(GroupPlan& group, std::uint64_t cycle);
+
+}  // namespace forage::engine

@@ -1,0 +1,169 @@
+// How fast is the engine alone, beside the original's, and what memory does it take?
+//
+//     bench_engine [CASE...]
+//
+// Runs the systems of $FORAGE_SHARED/perf (each in a process of its own, on one thread and, where it is worth
+// sharing, on two) and prints cycles per second, the ratio to what results.tsv says of the original, the time
+// to load and build, and the peak of memory. The two systems of the tutorial get their recorded input again
+// and again, so that their senses never stand still. Last result: docs/design/performance.md.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <memory>
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "core/engine/simulation.h"
+#include "core/xml/reader.h"
+#include "modules/modules.h"
+#include "modules/replay/replay.h"
+#include "neurons/neurons.h"
+#include "synapses/synapses.h"
+#include "tests/support/golden.h"
+
+namespace {
+
+using namespace forage;
+using Clock = std::chrono::steady_clock;
+using Path = std::filesystem::path;
+
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Plays a recording from the beginning again when it is over.
+struct Loop {
+    std::shared_ptr<const replay::DriveTable> table;
+    std::vector<std::vector<std::pair<std::size_t, const replay::DriveTable::Row*>>> by_cycle;
+
+    static void describe(ModuleSpec<Loop>& s) { s.name("moduleGazeboBug", "Loop").any_ports(); }
+    void start(const ModulePorts& ports) {
+        by_cycle.resize(static_cast<std::size_t>(table->rows().back().cycle) + 1);
+        for (const auto& row : table->rows())
+            for (std::size_t port = 0; port < ports.outputs.size(); ++port)
+                if (row.cycle >= 0 && replay::plays(row, ports.process, ports.outputs[port]))
+                    by_cycle[static_cast<std::size_t>(row.cycle)].emplace_back(port, &row);
+    }
+    void update(ModuleFrame& frame) {
+        for (const auto& [port, row] : by_cycle[frame.cycle() % by_cycle.size()])
+            frame.output(port) = ConstColumn(row->values.data(), static_cast<Index>(row->values.size()));
+    }
+};
+
+struct Original {
+    std::string name;
+    double cycles_per_second = 0, megabytes = 0;
+};
+
+std::vector<Original> originals() {
+    std::vector<Original> out;
+    test::Rows rows(test::shared_dir() / "perf" / "results.tsv", '\t');
+    for (std::vector<std::string_view> f; rows.next(f);)
+        if (f.size() >= 10) out.push_back({std::string(f[0]), test::number(f[7]), test::number(f[9])});
+    return out;
+}
+
+/// Seconds that this thread has computed: what else the machine does counts less than on a clock on the wall.
+double thread_seconds() {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+double wall_seconds() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
+
+/// Cycles per second: the median of blocks of about a twentieth of a second.
+double speed(engine::Simulation& simulation, double (*clock)()) {
+    std::vector<double> speeds;
+    int cycles = 1;
+    for (int block = 0; block < 11;) {
+        const double begin = clock();
+        for (int i = 0; i < cycles; ++i) simulation.step();
+        const double seconds = clock() - begin;
+        if (seconds < 0.05 && cycles < 1'000'000) {
+            cycles *= 2;
+            continue;
+        }
+        speeds.push_back(cycles / seconds);
+        ++block;
+    }
+    std::nth_element(speeds.begin(), speeds.begin() + 5, speeds.end());
+    return speeds[5];
+}
+
+int measure(const Original& original) {
+    const Path shared = test::shared_dir();
+    const bool tutorial = original.name.starts_with("DAC");
+    const Path file = tutorial ? shared / "original" / "DAC_files" / (original.name + ".iqr")
+                               : shared / "perf" / (original.name + ".iqr");
+    const Path drive = shared / "golden" / "systems" / original.name / "drive.csv";
+    if (!std::filesystem::exists(file) || (tutorial && !std::filesystem::exists(drive))) {
+        fmt::print("{:<42} skipped: no {}\n", original.name,
+                   std::filesystem::exists(file) ? "drive.csv" : "file");
+        return 0;
+    }
+    Registry registry;
+    add_neurons(registry);
+    add_synapses(registry);
+    add_modules(registry);
+    if (tutorial)
+        registry.add(
+            module_type(Loop{std::make_shared<replay::DriveTable>(replay::DriveTable::read(drive)), {}}));
+    Diagnostics diagnostics;
+    diagnostics.lenient = true;  // the player has none of the robot's parameters
+    const auto begin = Clock::now();
+    const auto system = xml::read_system(file, diagnostics);
+    auto simulation = system ? engine::Simulation::build(*system, registry, {}, diagnostics) : std::nullopt;
+    const double build = seconds_since(begin);
+    if (!simulation) {
+        fmt::print(stderr, "{}", format(diagnostics));
+        return 1;
+    }
+    simulation->start();
+    const double one = speed(*simulation, thread_seconds), one_by_wall = speed(*simulation, wall_seconds);
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const double megabytes = static_cast<double>(usage.ru_maxrss) / 1024;
+
+    simulation = engine::Simulation::build(*system, registry, {.threads = 2}, diagnostics);
+    simulation->start();
+    const bool shared_work = simulation->threads() > 1;
+    const double two = shared_work ? speed(*simulation, wall_seconds) / one_by_wall : 1;
+    fmt::print("{:<42} {:>10.0f} {:>8.1f} x {:>8.3f} {:>8.0f} {:>8.2f} {:>8.2f}{}\n", original.name, one,
+               one / original.cycles_per_second, build, megabytes, megabytes / original.megabytes, two,
+               shared_work ? "" : " (one thread)");
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const std::vector<std::string> wanted(argv + 1, argv + argc);
+    if (!std::filesystem::exists(test::shared_dir() / "perf" / "results.tsv")) {
+        fmt::print("SKIPPED: there is no {}\n", (test::shared_dir() / "perf" / "results.tsv").string());
+        return 0;
+    }
+    fmt::print("{:<42} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8}\n", "", "cycles/s", "original", "build s", "MB",
+               "original", "2 threads");
+    int failed = 0;
+    for (const auto& original : originals()) {
+        if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), original.name) == wanted.end())
+            continue;
+        std::fflush(stdout);
+        const pid_t child = fork();
+        if (child == 0) {
+            const int status = measure(original);
+            std::fflush(stdout);
+            _exit(status);
+        }
+        int status = 0;
+        waitpid(child, &status, 0);
+        failed |= status;
+    }
+    return failed != 0;
+}
