@@ -146,8 +146,11 @@ void set(System& system, const Assignment& a) {
                              : to_text(a.value));
 }
 
-void set(System& system, const Registry& registry, std::string_view assignment, Diagnostics& diagnostics) {
-    if (const auto a = parse_assignment(system, registry, assignment, "--set", diagnostics)) set(system, *a);
+void set(System& system, const Registry& registry, std::string_view assignment, Diagnostics& diagnostics,
+         Location at) {
+    const std::string_view what = at.file ? "set" : "--set";
+    if (const auto a = parse_assignment(system, registry, assignment, what, diagnostics, std::move(at)))
+        set(system, *a);
 }
 
 }  // namespace forage::model

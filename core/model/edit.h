@@ -33,7 +33,8 @@ std::optional<Assignment> parse_assignment(const System& system, const Registry&
 /// Makes the system say what the assignment says. It must have been read for this system.
 void set(System& system, const Assignment& assignment);
 
-/// Reads and makes the assignment of a --set.
-void set(System& system, const Registry& registry, std::string_view assignment, Diagnostics& diagnostics);
+/// Reads and makes an assignment of the command line (--set) or of the file in which it stands.
+void set(System& system, const Registry& registry, std::string_view assignment, Diagnostics& diagnostics,
+         Location at = {});
 
 }  // namespace forage::model

@@ -1,5 +1,6 @@
 #include "core/observe/condition.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 
@@ -10,7 +11,7 @@
 
 namespace forage::observe {
 
-double Condition::Operand::in(const engine::Simulation& simulation, const Moment& now) const {
+double Quantity::in(const engine::Simulation& simulation, const Moment& now) const {
     switch (kind) {
         case number:
             return value;
@@ -32,6 +33,12 @@ double Condition::Operand::in(const engine::Simulation& simulation, const Moment
             return values(simulation, column).maxCoeff();
     }
     return 0;
+}
+
+bool Condition::sees_cells() const {
+    return std::any_of(nodes_.begin(), nodes_.end(), [](const Node& n) {
+        return n.left.kind >= Quantity::cell || n.right.kind >= Quantity::cell;
+    });
 }
 
 bool Condition::holds(std::size_t node, const engine::Simulation& simulation, const Moment& now) const {
@@ -70,26 +77,36 @@ class ConditionParser {
           diagnostics_(diagnostics),
           at_(std::move(at)) {}
 
-    std::optional<Condition> run() {
+    std::optional<Condition> condition() {
+        if (!whole([this] { either(); })) return std::nullopt;
+        return std::move(out_);
+    }
+    std::optional<Quantity> quantity() {
+        std::optional<Quantity> out;
+        if (!whole([&] { out = operand(); })) return std::nullopt;
+        return out;
+    }
+
+  private:
+    using Node = Condition::Node;
+    using Operator = Condition::Operator;
+
+    static std::string form() {
+        return "for example 'trial >= 50 && Process/Group(1,1) > 0.5', 'cycle 100', '30 s'";
+    }
+
+    /// Reads the whole text; false when there was an error.
+    template <class Read>
+    bool whole(Read read) {
         const int errors_before = diagnostics_.errors();
         try {
-            either();
+            read();
             if (!peek().empty()) throw Mistake{fmt::format("'{}' is left over", rest_), form()};
         } catch (const Mistake& m) {
             if (diagnostics_.errors() == errors_before)  // else it may come of what was reported
                 diagnostics_.error(at_, what_ + ": " + m.message, m.hint);
         }
-        if (diagnostics_.errors() > errors_before) return std::nullopt;
-        return std::move(out_);
-    }
-
-  private:
-    using Node = Condition::Node;
-    using Operand = Condition::Operand;
-    using Operator = Condition::Operator;
-
-    static std::string form() {
-        return "for example 'trial >= 50 && Process/Group(1,1) > 0.5', 'cycle 100', '30 s'";
+        return diagnostics_.errors() == errors_before;
     }
 
     std::string_view peek() { return rest_ = model::trim(rest_); }
@@ -98,8 +115,19 @@ class ConditionParser {
         rest_.remove_prefix(token.size());
         return true;
     }
+    /// A name that stands without quotes.
+    std::string_view take_name() {
+        peek();
+        std::size_t length = rest_.size();
+        for (const auto end : {rest_.find_first_of(stops), rest_.find(" and "), rest_.find(" or ")})
+            length = std::min(length, end);
+        const auto out = rest_.substr(0, length);
+        rest_.remove_prefix(length);
+        return model::trim(out);
+    }
     std::string_view take_until(std::string_view ends) {
-        const auto length = std::min(peek().find_first_of(ends), rest_.size());
+        peek();
+        const auto length = std::min(rest_.find_first_of(ends), rest_.size());
         const auto out = rest_.substr(0, length);
         rest_.remove_prefix(length);
         return model::trim(out);
@@ -109,7 +137,7 @@ class ConditionParser {
         return out_.nodes_.size() - 1;
     }
 
-    std::size_t compare(Operator op, Operand left, Operand right) {
+    std::size_t compare(Operator op, Quantity left, Quantity right) {
         Node node;
         node.op = op, node.left = std::move(left), node.right = std::move(right);
         return add(std::move(node));
@@ -122,14 +150,14 @@ class ConditionParser {
 
     std::size_t either() {
         std::size_t out = both();
-        while (take("||")) {
+        while (take("||") || take("or ")) {
             out = join(Operator::either, out, both());
         }
         return out;
     }
     std::size_t both() {
         std::size_t out = comparison();
-        while (take("&&")) {
+        while (take("&&") || take("and ")) {
             out = join(Operator::both, out, comparison());
         }
         return out;
@@ -140,16 +168,16 @@ class ConditionParser {
             if (!take(")")) throw Mistake{"a ')' is missing", form()};
             return out;
         }
-        Operand left = operand();
+        Quantity left = operand();
         if (shorthand_) {
             shorthand_ = false;
             return compare(Operator::at_least, std::move(left), number());
         }
-        if (left.kind == Operand::number &&
+        if (left.kind == Quantity::number &&
             (peek() == "s" || rest_.starts_with("s ") || rest_.starts_with("s)"))) {
             take("s");
-            Operand seconds;
-            seconds.kind = Operand::seconds;
+            Quantity seconds;
+            seconds.kind = Quantity::seconds;
             return compare(Operator::at_least, std::move(seconds), std::move(left));
         }
         static constexpr std::array<std::pair<std::string_view, Operator>, 6> operators = {
@@ -161,7 +189,7 @@ class ConditionParser {
              {">", Operator::more}}};
         for (const auto& [sign, op] : operators)
             if (take(sign)) {
-                Operand right = operand();
+                Quantity right = operand();
                 if (shorthand_) throw Mistake{"there is nothing to compare in it", form()};
                 return compare(op, std::move(left), std::move(right));
             }
@@ -169,7 +197,7 @@ class ConditionParser {
                       peek().starts_with("=") ? "write '=='" : form()};
     }
 
-    Operand operand() {
+    Quantity operand() {
         if (peek().empty()) throw Mistake{"something is missing at its end", form()};
         if (std::string_view("+-.0123456789").find(rest_.front()) != std::string_view::npos) return number();
         if (take("\"")) {
@@ -177,11 +205,11 @@ class ConditionParser {
             if (!take("\"")) throw Mistake{"a '\"' is missing", ""};
             return cell(name);
         }
-        const std::string_view before = rest_, name = take_until(stops);
+        const std::string_view before = rest_, name = take_name();
         for (const auto& [word, kind] : words)
             if (name == word)
                 return variable(word, kind);
-            else if (kind != Operand::seconds && name.starts_with(word) &&
+            else if (kind != Quantity::seconds && name.starts_with(word) &&
                      std::string_view(" 0123456789").find(name[word.size()]) != std::string_view::npos &&
                      name.find_first_not_of(" 0123456789.", word.size()) == std::string_view::npos) {
                 shorthand_ = true;
@@ -193,29 +221,29 @@ class ConditionParser {
         if (name.empty()) throw Mistake{fmt::format("'{}' is not expected here", rest_.substr(0, 1)), form()};
         return cell(name);
     }
-    Operand number() {
+    Quantity number() {
         double value = 0;
         if (!peek().empty() && rest_.front() == '+') rest_.remove_prefix(1);
         const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
         if (error != std::errc{}) throw Mistake{fmt::format("'{}' is not a number", rest_), form()};
         rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
-        return {Operand::number, value, {}, 0};
+        return {Quantity::number, value, {}, 0};
     }
-    Operand variable(std::string_view word, Operand::Kind kind) const {
-        if (kind == Operand::trial && !trials_)
+    Quantity variable(std::string_view word, Quantity::Kind kind) const {
+        if (kind == Quantity::trial && !trials_)
             throw Mistake{fmt::format("this run has no '{}'", word),
                           "trials are those of a robot that its world puts back to the start"};
         return {kind, 0, {}, 0};
     }
-    Operand function(Operand::Kind kind) {
+    Quantity function(Quantity::Kind kind) {
         take("(");
         const bool quoted = take("\"");
-        const std::string_view name = take_until(quoted ? "\"" : stops);
+        const std::string_view name = quoted ? take_until("\"") : take_name();
         if ((quoted && !take("\"")) || !take(")")) throw Mistake{"a ')' is missing", form()};
         return {kind, 0, column(name), 0};
     }
-    Operand cell(std::string_view name) {
-        Operand out{Operand::cell, 0, column(name), 0};
+    Quantity cell(std::string_view name) {
+        Quantity out{Quantity::cell, 0, column(name), 0};
         const int cells = simulation_.shape(out.column.group).cells;
         if (take("(")) {
             const auto place = parse_cell(take_until(")"));
@@ -237,10 +265,10 @@ class ConditionParser {
     }
 
     static constexpr std::string_view stops = "<>=!&|()";
-    static constexpr std::array<std::pair<std::string_view, Operand::Kind>, 3> words = {
-        {{"cycle", Operand::cycle}, {"trial", Operand::trial}, {"seconds", Operand::seconds}}};
-    static constexpr std::array<std::pair<std::string_view, Operand::Kind>, 4> functions = {
-        {{"mean", Operand::mean}, {"sum", Operand::sum}, {"min", Operand::min}, {"max", Operand::max}}};
+    static constexpr std::array<std::pair<std::string_view, Quantity::Kind>, 3> words = {
+        {{"cycle", Quantity::cycle}, {"trial", Quantity::trial}, {"seconds", Quantity::seconds}}};
+    static constexpr std::array<std::pair<std::string_view, Quantity::Kind>, 4> functions = {
+        {{"mean", Quantity::mean}, {"sum", Quantity::sum}, {"min", Quantity::min}, {"max", Quantity::max}}};
 
     const engine::Simulation& simulation_;
     bool trials_;
@@ -256,7 +284,13 @@ class ConditionParser {
 std::optional<Condition> parse_condition(const engine::Simulation& simulation, bool trials,
                                          std::string_view text, std::string_view what,
                                          Diagnostics& diagnostics, Location at) {
-    return ConditionParser(simulation, trials, text, what, diagnostics, std::move(at)).run();
+    return ConditionParser(simulation, trials, text, what, diagnostics, std::move(at)).condition();
+}
+
+std::optional<Quantity> parse_quantity(const engine::Simulation& simulation, bool trials,
+                                       std::string_view text, std::string_view what, Diagnostics& diagnostics,
+                                       Location at) {
+    return ConditionParser(simulation, trials, text, what, diagnostics, std::move(at)).quantity();
 }
 
 }  // namespace forage::observe

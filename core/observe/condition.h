@@ -17,10 +17,20 @@ struct Moment {
     int trial = 0;            ///< the running one, from 1; while the robot is put back, the one to come
 };
 
-/// A comparison of numbers, or several of them, joined by && and ||.
+/// A number that changes over a run: time, a cell, or a mean over cells.
+struct Quantity {
+    enum Kind { number, cycle, trial, seconds, cell, mean, sum, min, max } kind = number;
+    double value = 0;  ///< of a number
+    ColumnRef column;
+    Index index = 0;  ///< of the cell
+
+    double in(const engine::Simulation& simulation, const Moment& now) const;
+};
+
+/// A comparison of numbers, or several of them, joined by && and ||, or by `and` and `or`.
 ///
-///     condition  = all { "||" all }
-///     all        = comparison { "&&" comparison }
+///     condition  = all { ( "||" | "or" ) all }
+///     all        = comparison { ( "&&" | "and" ) comparison }
 ///     comparison = operand ("<" | "<=" | ">" | ">=" | "==" | "!=") operand | "(" condition ")"
 ///                | "cycle" NUMBER | "trial" NUMBER | NUMBER "s"        at that time and later
 ///     operand    = NUMBER | "cycle" | "trial" | "seconds" | cell
@@ -28,28 +38,23 @@ struct Moment {
 ///     cell       = column [ "(" x "," y ")" ]         without x and y: of a group of one cell
 ///     column     = Process/Group [ ":" state ]        the activity without a state
 ///
-/// x and y count from 1. A column whose name contains one of <>=!&|() stands in double quotes. Values of
-/// cells are those of the last cycle that was completed; before the first cycle they are 0.
+/// x and y count from 1. A column whose name contains one of <>=!&|(), " and " or " or " stands in double
+/// quotes. Values of cells are those of the last cycle that was completed; before the first cycle they are 0.
 class Condition {
   public:
     bool holds(const engine::Simulation& simulation, const Moment& now) const {
         return holds(nodes_.size() - 1, simulation, now);
     }
 
+    /// Whether it looks at cells, which are all 0 before the first cycle.
+    bool sees_cells() const;
+
   private:
     friend class ConditionParser;
-    struct Operand {
-        enum Kind { number, cycle, trial, seconds, cell, mean, sum, min, max } kind = number;
-        double value = 0;
-        ColumnRef column;
-        Index index = 0;  ///< of the cell
-
-        double in(const engine::Simulation& simulation, const Moment& now) const;
-    };
     enum class Operator { less, at_most, more, at_least, equal, unequal, both, either };
     struct Node {
         Operator op = Operator::less;
-        Operand left, right;                ///< of a comparison
+        Quantity left, right;               ///< of a comparison
         std::size_t first = 0, second = 0;  ///< nodes, of `both` and `either`
     };
     bool holds(std::size_t node, const engine::Simulation& simulation, const Moment& now) const;
@@ -62,5 +67,10 @@ class Condition {
 std::optional<Condition> parse_condition(const engine::Simulation& simulation, bool trials,
                                          std::string_view text, std::string_view what,
                                          Diagnostics& diagnostics, Location at = {});
+
+/// Reads an `operand` of the grammar of conditions.
+std::optional<Quantity> parse_quantity(const engine::Simulation& simulation, bool trials,
+                                       std::string_view text, std::string_view what, Diagnostics& diagnostics,
+                                       Location at = {});
 
 }  // namespace forage::observe

@@ -15,7 +15,8 @@ namespace {
 
 class Checker {
   public:
-    Checker(const Document& document, Diagnostics& out) : document_(document), out_(out) {}
+    Checker(const Document& document, const Format& format, Diagnostics& out)
+        : document_(document), format_(format), out_(out) {}
 
     /// Whether a model of the document is wrong only where that was reported: nothing is missing from it, and
     /// no cell.
@@ -63,7 +64,7 @@ class Checker {
                 out_.error(document_.at(*child),
                            fmt::format("<{}> holds more than {} <{}>", rule.name, allowed->most, name),
                            "keep one of them");
-            if (const ElementRule* inner = find_element(name)) {
+            if (const ElementRule* inner = find_element(name, format_)) {
                 const int before = out_.errors();
                 element(*child, *inner);
                 inside += out_.errors() - before;
@@ -81,7 +82,7 @@ class Checker {
         for (const auto& c : rule.children)
             if (count[c.name] < c.least)
                 out_.error(document_.at(e), fmt::format("<{}> needs the element <{}>", rule.name, c.name),
-                           fmt::format("<{}>: {}", c.name, find_element(c.name)->doc));
+                           fmt::format("<{}>: {}", c.name, find_element(c.name, format_)->doc));
         return inside;
     }
 
@@ -105,7 +106,7 @@ class Checker {
     std::string place_hint(const ElementRule& parent, std::string_view name) const {
         const std::vector<std::string> children = child_names(parent);
         if (nearest(name, children).empty())
-            for (const auto& other : format_table())
+            for (const auto& other : format_)
                 for (const auto& c : other.children)
                     if (c.name == name) return fmt::format("<{}> belongs into <{}>", name, other.name);
         return children.empty() ? fmt::format("<{}> holds no elements", parent.name)
@@ -194,26 +195,40 @@ class Checker {
     }
 
     const Document& document_;
+    const Format& format_;
     Diagnostics& out_;
     bool sound_ = true;
 };
+
+/// A hint for a file of another kind than the one that is wanted.
+std::string what_begins_with(std::string_view name, std::string_view wanted) {
+    if (name == "sdf")
+        return wanted == "experiment" ? "this looks like a world"
+                                      : "this looks like a world; pass it with --world";
+    if (name == "iqrEntity")
+        return wanted == "system" ? "this is a process file: a part of a system, not a system"
+                                  : "this is a process file";
+    if (name == "System")
+        return wanted == "process" ? "this is a system file, not a part of one"
+                                   : "this is a system file; 'forage run' runs it";
+    if (name == "experiment") return "this is an experiment file; 'forage experiment' runs it";
+    return fmt::format("is this a {} file?", wanted);
+}
 
 }  // namespace
 
 bool check(const Document& document, std::string_view root, Diagnostics& diagnostics) {
     const std::string_view name = document.root().Name();
     if (name != root) {
-        const std::string_view kind = root == "System" ? "system" : "process";
+        const std::string_view kind = root == "System" ? "system" : root == "iqrEntity" ? "process" : root;
         diagnostics.error(document.at(document.root()),
                           fmt::format("the file begins with <{}>, a {} file with <{}>", name, kind, root),
-                          name == "sdf"         ? "this looks like a world; pass it with --world"
-                          : name == "iqrEntity" ? "this is a process file: a part of a system, not a system"
-                          : name == "System"    ? "this is a system file, not a part of one"
-                                                : fmt::format("is this a {} file?", kind));
+                          what_begins_with(name, kind));
         return false;
     }
-    Checker checker(document, diagnostics);
-    checker.element(document.root(), *find_element(name));
+    const Format& format = root == "experiment" ? experiment_format() : format_table();
+    Checker checker(document, format, diagnostics);
+    checker.element(document.root(), *find_element(name, format));
     return checker.sound();
 }
 

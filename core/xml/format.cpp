@@ -40,7 +40,7 @@ AttributeRule port() { return text("port", "port of the original's remote contro
 
 constexpr int many = any_number;
 
-std::vector<ElementRule> make_table() {
+Format make_table() {
     const std::vector<ChildRule> functions{
         {"FunUniform"}, {"FunLinear"}, {"FunGaussian"}, {"FunBlock"}, {"FunRandom"}};
     const std::vector<ChildRule> populations{{"All", 0, 2}, {"Region", 0, 2}, {"List", 0, 2}};
@@ -199,15 +199,14 @@ const AttributeRule* ElementRule::attribute(std::string_view wanted) const {
     return it == attributes.end() ? nullptr : &*it;
 }
 
-const std::vector<ElementRule>& format_table() {
-    static const std::vector<ElementRule> table = make_table();
+const Format& format_table() {
+    static const Format table = make_table();
     return table;
 }
 
-const ElementRule* find_element(std::string_view name) {
-    const auto& table = format_table();
-    const auto it = std::find_if(table.begin(), table.end(), [&](const auto& e) { return e.name == name; });
-    return it == table.end() ? nullptr : &*it;
+const ElementRule* find_element(std::string_view name, const Format& format) {
+    const auto it = std::find_if(format.begin(), format.end(), [&](const auto& e) { return e.name == name; });
+    return it == format.end() ? nullptr : &*it;
 }
 
 }  // namespace forage::xml

@@ -1,4 +1,4 @@
-// The file format as a table: which elements and attributes there are, and what they mean. The check, its
+// The file formats as tables: which elements and attributes there are, and what they mean. The check, its
 // hints and the schema come from it; the original's spellings stand in it like any other.
 #pragma once
 
@@ -37,10 +37,13 @@ struct ElementRule {
     const AttributeRule* attribute(std::string_view name) const;
 };
 
-/// The rule of an element, or null when the format has none of that name.
-const ElementRule* find_element(std::string_view name);
+/// All elements of a kind of file.
+using Format = std::vector<ElementRule>;
 
-/// All of them.
-const std::vector<ElementRule>& format_table();
+const Format& format_table();       ///< of system and process files
+const Format& experiment_format();  ///< of experiment files
+
+/// The rule of an element, or null when the format has none of that name.
+const ElementRule* find_element(std::string_view name, const Format& format = format_table());
 
 }  // namespace forage::xml

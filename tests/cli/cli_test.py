@@ -289,7 +289,7 @@ class Mistakes(Cli):
             (["--clamp", "Bug/Motor(10,1)=1"], "it has 9 columns and 9 rows"),
             (["--clamp", "Bug/Motr(1,1)=1"], "did you mean 'Bug/Motor'"),
             (["--clamp", "Bug/Motor:vm(1,1)=1"], "only the activity"),
-            (["--at", "trial 5"], "hint: for example 'trial >= 200: Selection/Adaptive.excGain=0'"),
+            (["--at", "trial 5"], "'trial 5' is not a condition, a colon, a blank and a change, such as 'trial >= 200:"),
             (["--at", "trial 5: Bug/Light.thresold=1"], "did you mean 'threshold'"),
             (["--at", "trail 5: Bug/Light.threshold=1"], "there is no group 'trail 5'"),
             (["--at", "max(Bug/Ligth) > 5: Bug/Light.threshold=1"], "did you mean 'Bug/Light'"),

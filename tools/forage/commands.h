@@ -19,12 +19,14 @@ struct RunOptions {
     std::optional<double> seconds;
     std::optional<std::uint64_t> trials;
     double longest_trial = 300;  ///< s of the world
-    std::vector<std::string> recordings;
-    std::uint64_t every = 1;
-    std::vector<std::string> at;     ///< "WHEN: WHERE.parameter=value"
+    model::Wish until;           ///< a condition that ends the run before its time; none when empty
+    std::vector<model::RecordingWish> recordings;
+    std::vector<model::TimedWish> at;
+    std::vector<model::Measure> measures;
     std::vector<std::string> clamp;  ///< files, or 'Process/Group(x,y)=value'
     int threads = 1;
     std::string directory = "forage-out";
+    bool paths = true;  ///< follow the robots
     bool real_time = false, quiet = false;
 };
 
@@ -35,7 +37,17 @@ struct ConvertOptions {
     bool embed = false, lenient = false;
 };
 
+struct ExperimentOptions {
+    std::string file;
+    std::string directory;  ///< empty: forage-out/ and the file's name
+    int jobs = 0;           ///< runs at a time; 0: one per core
+    bool fresh = false;     ///< repeat finished runs
+    bool quiet = false;
+};
+
 int run(const RunOptions& options);
+/// Runs every combination of an experiment file with every seed; what was finished before is not repeated.
+int experiment(const ExperimentOptions& options);
 int convert(const ConvertOptions& options);
 int check(const Input& input);
 /// Lists the types, or one with its parameters.

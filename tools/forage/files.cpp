@@ -7,6 +7,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -20,7 +21,9 @@ void finish(const std::string& path) {
     if (error) throw std::runtime_error(fmt::format("cannot write '{}': {}", path, error.message()));
 }
 
-void write_file(const std::string& path, std::string_view text) {
+namespace {
+
+void write_partial(const std::string& path, std::string_view text) {
     std::ofstream out(partial(path), std::ios::binary);
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
     out.close();
@@ -30,7 +33,45 @@ void write_file(const std::string& path, std::string_view text) {
         std::filesystem::remove(partial(path), ignored);
         throw std::runtime_error(fmt::format("cannot write '{}': {}", path, reason));
     }
+}
+
+void flush(const std::string& path, int flags) {
+    const int file = open(path.c_str(), flags | O_CLOEXEC);
+    const bool fine = file >= 0 && fsync(file) == 0;
+    const std::string reason = std::strerror(errno);
+    if (file >= 0) close(file);
+    if (!fine) throw std::runtime_error(fmt::format("cannot write '{}' to the disk: {}", path, reason));
+}
+
+/// The names in the directory of `path`.
+void flush_directory(const std::string& path) {
+    const auto directory = std::filesystem::path(path).parent_path().string();
+    flush(directory.empty() ? "." : directory, O_RDONLY | O_DIRECTORY);
+}
+
+}  // namespace
+
+void write_file(const std::string& path, std::string_view text) {
+    write_partial(path, text);
     finish(path);
+}
+
+void write_durably(const std::string& path, std::string_view text) {
+    write_partial(path, text);
+    flush(partial(path), O_RDONLY);
+    finish(path);
+    flush_directory(path);
+}
+
+void flush_to_disk(const std::string& path) {
+    flush(path, O_RDONLY);
+    flush_directory(path);
+}
+
+std::string digest(std::string_view text) {
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    return fmt::format("{:016x}", hash);
 }
 
 void make_directory(const std::string& path) {

@@ -12,6 +12,12 @@ std::string partial(const std::string& path);
 void finish(const std::string& path);
 /// Writes `text` to `path` by way of partial(path). Throws std::runtime_error.
 void write_file(const std::string& path, std::string_view text);
+/// The same, and makes sure that the file survives a power cut.
+void write_durably(const std::string& path, std::string_view text);
+/// Makes sure that what was written to a file, and its name, survive a power cut. Throws std::runtime_error.
+void flush_to_disk(const std::string& path);
+/// 64-bit FNV-1a in hexadecimal digits: tells whether a text has changed.
+std::string digest(std::string_view text);
 /// Makes a directory and those above it. Throws std::runtime_error, also when it is there and cannot be
 /// written.
 void make_directory(const std::string& path);

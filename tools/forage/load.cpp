@@ -1,8 +1,8 @@
 #include "tools/forage/load.h"
 
-#include <fmt/format.h>
-
 #include <filesystem>
+
+#include <fmt/format.h>
 
 #include "bug_interface/module/gazebo_bug.h"
 #include "bug_interface/world/sdf_reader.h"
@@ -28,7 +28,7 @@ std::shared_ptr<const replay::DriveTable> read_table(const std::string& path, Di
 }
 
 /// A system, or a process file as a system of one process.
-std::optional<model::System> read(const std::string& path, Diagnostics& diagnostics) {
+std::optional<model::System> read_any(const std::string& path, Diagnostics& diagnostics) {
     if (std::filesystem::path(path).extension() != ".iqrProcess") return xml::read_system(path, diagnostics);
     auto file = xml::read_process(path, diagnostics);
     if (!file) return std::nullopt;
@@ -57,32 +57,41 @@ double cycles_per_second(const model::System& system) {
     return system.cycles_per_second > 0 ? system.cycles_per_second : 25;
 }
 
-std::optional<Loaded> load(const Input& input, Diagnostics& diagnostics) {
+Sources read(const Input& input, Diagnostics& diagnostics) {
     diagnostics.lenient = input.lenient;
-    Loaded out;
-    auto system = read(input.system, diagnostics);
-    if (system) out.system = std::move(*system);
+    Sources out;
+    out.system = read_any(input.system, diagnostics);
+    if (!input.world.empty()) out.world = bug::read_world(input.world, diagnostics);
+    out.drive = read_table(input.drive, diagnostics);
+    return out;
+}
 
-    if (!input.world.empty()) {
-        const auto description = bug::read_world(input.world, diagnostics);
+std::optional<Loaded> assemble(const Sources& sources, const Input& input, Diagnostics& diagnostics) {
+    Loaded out;
+    if (sources.system) out.system = *sources.system;
+    if (sources.world) {
         bug::WorldOptions options;
         options.seed = input.seed;
         options.cycles_per_second = cycles_per_second(out.system);
         options.real_time_factor = input.world_pace;
         options.noise = input.noise;
-        if (description) out.world = bug::World::make(*description, options, diagnostics);
+        out.world = bug::World::make(*sources.world, options, diagnostics);
     }
-    out.drive = read_table(input.drive, diagnostics);
+    out.drive = sources.drive;
 
     out.registry = shipped_types(out.world.get(), out.drive);
-    if (system) {
-        for (const auto& assignment : input.settings)
-            model::set(out.system, out.registry, assignment, diagnostics);
+    if (sources.system) {
+        for (const auto& wish : input.settings)
+            model::set(out.system, out.registry, wish.text, diagnostics, wish.at);
         if (diagnostics.failed())
             model::validate(out.system, out.registry, diagnostics);  // say all of it at once
     }
     if (diagnostics.failed()) return std::nullopt;
     return out;
+}
+
+std::optional<Loaded> load(const Input& input, Diagnostics& diagnostics) {
+    return assemble(read(input, diagnostics), input, diagnostics);
 }
 
 }  // namespace forage::tool

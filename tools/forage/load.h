@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "bug_interface/simulation/world.h"
+#include "bug_interface/world/description.h"
+#include "core/model/experiment.h"
 #include "core/model/system.h"
 #include "core/types/registry.h"
 #include "modules/replay/drive_table.h"
@@ -16,13 +18,20 @@ namespace forage::tool {
 /// What all commands that read a system have in common.
 struct Input {
     std::string system, world;          ///< paths; no world when empty
-    std::vector<std::string> settings;  ///< "Process/Group.parameter=value"
+    std::vector<model::Wish> settings;  ///< "Process/Group.parameter=value"
     std::string drive;                  ///< table for moduleReplay; none when empty
     bool lenient = false;
     std::uint64_t seed = 1;
     std::optional<double>
         world_pace;  ///< seconds of the world per second of the clock, instead of the world's own
     bool noise = true;
+};
+
+/// What the files say. It can be made to run any number of times.
+struct Sources {
+    std::optional<model::System> system;              ///< none when it could not be read
+    std::optional<bug::WorldDescription> world;       ///< none without one, and when it could not be read
+    std::shared_ptr<const replay::DriveTable> drive;  ///< null without one
 };
 
 /// Everything read and checked. Registry and system refer to world and table: keep them together.
@@ -36,7 +45,11 @@ struct Loaded {
 /// The types that ship. Robots live in `world` and moduleReplay plays `drive`; either may be null.
 Registry shipped_types(bug::World* world, std::shared_ptr<const replay::DriveTable> drive);
 
-/// Empty when `diagnostics` got an error.
+/// Reads the files, and reports what keeps them from being read.
+Sources read(const Input& input, Diagnostics& diagnostics);
+/// Ties them together, with the input's settings. Empty when `diagnostics` got an error, be it before.
+std::optional<Loaded> assemble(const Sources& sources, const Input& input, Diagnostics& diagnostics);
+/// Both.
 std::optional<Loaded> load(const Input& input, Diagnostics& diagnostics);
 
 /// Cycles per second of the clock; a system that asks for as many as possible gets 25.

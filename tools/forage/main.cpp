@@ -10,6 +10,7 @@
 #include "core/model/diagnostic.h"
 #include "core/types/parameter.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/schedule.h"
 
 namespace {
 
@@ -48,8 +49,11 @@ void add_input(CLI::App& command, Input& input) {
     command.add_option("-w,--world", input.world, "World in which the robot lives (.world)")
         ->option_text("FILE");
     repeated(
-        command.add_option(
-            "-s,--set", input.settings,
+        command.add_option_function<std::vector<std::string>>(
+            "-s,--set",
+            [&input](const std::vector<std::string>& texts) {
+                for (const auto& text : texts) input.settings.push_back({text});
+            },
             "Change a parameter: 'Process/Group.parameter=value', 'Process.parameter=value' for a module, "
             "'Connection.parameter=value' for a synapse; may be repeated"))
         ->option_text("WHERE=VALUE");
@@ -84,19 +88,44 @@ void add_run(CLI::App& app, RunOptions& o) {
         ->option_text("S")
         ->needs(trials);
     run.add_option("--seed", o.input.seed, "Decides everything random [1]")->check(seed())->option_text("N");
-    auto* record = repeated(run.add_option("-r,--record", o.recordings,
-                                           "Write 'Process/Group' (its activity) or 'Process/Group:state' to "
-                                           "a CSV file; may be repeated"))
-                       ->option_text("COLUMN");
-    run.add_option("--every", o.every, "Record every K-th cycle [1]")
+    auto* record =
+        repeated(run.add_option_function<std::vector<std::string>>(
+                     "-r,--record",
+                     [&o](const std::vector<std::string>& texts) {
+                         for (const auto& text : texts) o.recordings.push_back({{text}});
+                     },
+                     "Write 'Process/Group' (its activity) or 'Process/Group:state' to a CSV file; may be "
+                     "repeated"))
+            ->option_text("COLUMN");
+    run.add_option_function<std::uint64_t>(
+           "--every",
+           [&o](const std::uint64_t& every) {
+               for (auto& r : o.recordings) r.every = every;
+           },
+           "Record every K-th cycle [1]")
         ->check(count())
         ->option_text("K")
         ->needs(record);
-    repeated(run.add_option(
-                 "--at", o.at,
-                 "Change a parameter while it runs, when a condition first holds: 'cycle N', 'trial N', "
-                 "'N s', or comparisons of cycle, trial, seconds, cells 'Process/Group(x,y)' and "
-                 "mean(Process/Group), also sum, min and max, joined by && and ||; may be repeated"))
+    run.add_option("--until", o.until.text, "Stop before its time when a condition holds, as for --at")
+        ->option_text("WHEN");
+    repeated(
+        run.add_option_function<std::vector<std::string>>(
+            "--at",
+            [&o](const std::vector<std::string>& texts) {
+                for (const auto& text : texts) {
+                    if (const auto wish = parse_timed(text)) {
+                        o.at.push_back(*wish);
+                        continue;
+                    }
+                    throw CLI::ValidationError(
+                        "--at", fmt::format("'{}' is not a condition, a colon, a blank and a change, such as "
+                                            "'trial >= 200: Selection/Adaptive.excGain=0'",
+                                            text));
+                }
+            },
+            "Change a parameter while it runs, when a condition first holds: 'cycle N', 'trial N', 'N s', or "
+            "comparisons of cycle, trial, seconds, cells 'Process/Group(x,y)' and mean(Process/Group), also "
+            "sum, min and max, joined by && and ||; may be repeated"))
         ->option_text("'WHEN: WHERE=VALUE'");
     run.add_option("--drive", o.input.drive,
                    "Table that modules of type moduleReplay play: cycle,process,target,v0,v1,...")
@@ -122,6 +151,24 @@ void add_run(CLI::App& app, RunOptions& o) {
         ->option_text("N");
     run.add_flag("--realtime", o.real_time, "No faster than the clock: one second of the world per second");
     run.add_flag("-q,--quiet", o.quiet, "Print errors only");
+}
+
+void add_experiment(CLI::App& app, ExperimentOptions& o) {
+    auto& experiment = *app.add_subcommand(
+        "experiment", "Run a system many times, over seeds and parameters, on all cores, into one table");
+    experiment.footer(
+        "What was finished before an interruption is not repeated. docs/reference/experiment.md says what\n"
+        "stands in FILE.\n"
+        "Example:\n"
+        "  forage experiment systems/light_threshold.xml");
+    experiment.add_option("FILE", o.file, "Experiment file (.xml)")->required()->option_text(" ");
+    experiment.add_option("-o,--output", o.directory, "Directory for results [forage-out/ and FILE's name]")
+        ->option_text("DIR");
+    experiment.add_option("-j,--jobs", o.jobs, "Runs at a time [one per core]")
+        ->check(count())
+        ->option_text("N");
+    experiment.add_flag("--fresh", o.fresh, "Repeat runs that are finished");
+    experiment.add_flag("-q,--quiet", o.quiet, "Print errors only");
 }
 
 void add_convert(CLI::App& app, ConvertOptions& o) {
@@ -171,10 +218,12 @@ int main(int argc, char** argv) {
     app.get_formatter()->column_width(34);
 
     RunOptions run_options;
+    ExperimentOptions experiment_options;
     ConvertOptions convert_options;
     Input check_input;
     std::string type;
     add_run(app, run_options);
+    add_experiment(app, experiment_options);
     add_convert(app, convert_options);
     auto& check_command =
         *app.add_subcommand("check", "Check a system (and world) and say everything that is wrong with it");
@@ -211,6 +260,7 @@ int main(int argc, char** argv) {
     }
     try {
         if (app.got_subcommand("run")) return run(run_options);
+        if (app.got_subcommand("experiment")) return experiment(experiment_options);
         if (app.got_subcommand("check")) return check(check_input);
         if (app.got_subcommand("convert")) return convert(convert_options);
         if (app.got_subcommand("schema")) return schema();

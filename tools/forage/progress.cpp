@@ -27,11 +27,15 @@ double Progress::elapsed() const {
 }
 
 void Progress::draw(const State& s) {
+    const double elapsed = std::max(this->elapsed(), 1e-9);
+    draw(s.done, fmt::format("{}{}{:.0f} x real time  {:.0f} cycles/s", s.text, s.text.empty() ? "" : "  ",
+                             s.seconds / elapsed, static_cast<double>(s.cycles) / elapsed));
+}
+
+void Progress::draw(double part, const std::string& what) {
     next_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(100);
-    const double elapsed = std::max(this->elapsed(), 1e-9), done = std::clamp(s.done, 0.0, 1.0);
-    std::string text =
-        fmt::format("{:3.0f} %  {}{}{:.0f} x real time  {:.0f} cycles/s", 100 * done, s.text,
-                    s.text.empty() ? "" : "  ", s.seconds / elapsed, static_cast<double>(s.cycles) / elapsed);
+    const double done = std::clamp(part, 0.0, 1.0);
+    const std::string text = fmt::format("{:3.0f} %  {}", 100 * done, what);
     winsize size{};
     const int columns =
         ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1 : 79;

@@ -22,6 +22,8 @@ class Progress {
     /// Whether it is time to redraw.
     bool due() const { return shown_ && std::chrono::steady_clock::now() >= next_; }
     void draw(const State& state);
+    /// A bar for `done`, 0..1, and a text.
+    void draw(double done, const std::string& text);
     void clear();
     /// s of the clock since the start.
     double elapsed() const;

@@ -7,12 +7,13 @@
 
 namespace forage::tool {
 
-std::map<std::string, observe::ColumnRef> recorded_columns(const std::vector<std::string>& names,
+std::map<std::string, observe::ColumnRef> recorded_columns(const std::vector<model::Wish>& wishes,
                                                            const engine::Simulation& simulation,
                                                            Diagnostics& diagnostics) {
     std::map<std::string, observe::ColumnRef> out;
-    for (const auto& name : names) {
-        auto column = observe::find_column(simulation, name, "--record", diagnostics);
+    for (const auto& wish : wishes) {
+        auto column = observe::find_column(simulation, wish.text, wish.at.file ? "record" : "--record",
+                                           diagnostics, wish.at);
         if (!column) continue;
         std::string file = file_name(column->name) + ".csv";
         if (const auto it = out.find(file); it != out.end() && it->second.name != column->name)

@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "core/model/experiment.h"
 #include "core/observe/recorder.h"
 
 namespace forage::tool {
 
-/// The columns that a person names, by the file name that each one gets. Reports those that are not there.
-std::map<std::string, observe::ColumnRef> recorded_columns(const std::vector<std::string>& names,
+/// The columns that a person wants, by the file name that each one gets. Reports those that are not there.
+std::map<std::string, observe::ColumnRef> recorded_columns(const std::vector<model::Wish>& wishes,
                                                            const engine::Simulation& simulation,
                                                            Diagnostics& diagnostics);
 

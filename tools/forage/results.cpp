@@ -17,10 +17,8 @@ namespace {
 /// A file that a run has read, with a digest (64-bit FNV-1a) that tells whether it has changed since.
 nlohmann::ordered_json input_file(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    for (std::istreambuf_iterator<char> at(in), end; at != end; ++at)
-        hash = (hash ^ static_cast<unsigned char>(*at)) * 0x100000001b3u;
-    return {{"file", path}, {"fnv1a64", fmt::format("{:016x}", hash)}};
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    return {{"file", path}, {"fnv1a64", digest(text)}};
 }
 
 std::string base_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
@@ -46,11 +44,14 @@ std::string run_json(const RunOptions& o, const Loaded& loaded, const Outcome& o
     if (outcome.length) json["cycles"] = *outcome.length;
     if (o.trials) json["trials"] = *o.trials, json["longest_trial"] = o.longest_trial;
     if (o.input.world_pace) json["world_pace"] = *o.input.world_pace;
-    json["set"] = o.input.settings;
-    json["record"] = o.recordings;
-    json["every"] = o.every;
+    json["set"] = nlohmann::ordered_json::array();
+    for (const auto& wish : o.input.settings) json["set"].push_back(wish.text);
+    json["record"] = nlohmann::ordered_json::array();
+    for (const auto& r : o.recordings) json["record"].push_back(r.column.text);
+    json["every"] = o.recordings.empty() ? 1 : o.recordings.front().every;
     if (!o.input.drive.empty()) json["drive"] = input_file(o.input.drive);
-    if (!o.at.empty()) json["at"] = o.at;
+    for (const auto& wish : o.at) json["at"].push_back(wish.text());
+    if (!o.until.empty()) json["until"] = o.until.text;
     if (!o.clamp.empty()) json["clamp"] = o.clamp;
     json["lenient"] = o.input.lenient;
     auto& result = json["result"];

@@ -1,7 +1,8 @@
 // Changes of parameters over a run, as a person writes them.
 #pragma once
 
-#include <string>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "core/observe/schedule.h"
@@ -9,14 +10,15 @@
 
 namespace forage::tool {
 
-/// What --at asks for: texts "WHEN: WHERE.parameter=value". Reports what cannot be.
-observe::Schedule schedule(const std::vector<std::string>& wishes, const Loaded& loaded,
+/// A text "WHEN: WHERE.parameter=value" of the command line; empty when it is not one. WHEN ends at the first
+/// colon that a blank follows, outside of double quotes.
+std::optional<model::TimedWish> parse_timed(std::string_view text);
+
+/// Changes of parameters, tied to a system. Reports what cannot be.
+observe::Schedule schedule(const std::vector<model::TimedWish>& wishes, const Loaded& loaded,
                            const engine::Simulation& simulation, Diagnostics& diagnostics);
 
 /// Whether conditions may speak of trials.
 bool has_trials(const Loaded& loaded);
-
-/// The moment before the next cycle.
-observe::Moment moment(const Loaded& loaded, const engine::Simulation& simulation, double seconds_per_cycle);
 
 }  // namespace forage::tool

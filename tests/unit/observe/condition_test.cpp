@@ -50,11 +50,28 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 TEST_CASE("Conditions compare time, trials and cells") {
     Counting s;
     const observe::Moment now{100, 4.0, 7};
-    for (const char* text :
-         {"cycle 100", "cycle 99", "cycle >= 100", "cycle==100", "100 <= cycle", "trial 7", "trial > 6.5",
-          "4 s", "3.9 s", "seconds >= 4", "trial != 6", "cycle<101", " ( cycle 100 ) ",
-          "trial 100 || cycle 100", "cycle 100 && trial 7 && 4 s", "trial 8 || cycle 100 && trial 7",
-          "(trial 8 || cycle 100) && 4 s", "-1 < +1", "1e2 == cycle"})
+    for (const char* text : {"cycle 100",
+                             "cycle 99",
+                             "cycle >= 100",
+                             "cycle==100",
+                             "100 <= cycle",
+                             "trial 7",
+                             "trial > 6.5",
+                             "4 s",
+                             "3.9 s",
+                             "seconds >= 4",
+                             "trial != 6",
+                             "cycle<101",
+                             " ( cycle 100 ) ",
+                             "trial 100 || cycle 100",
+                             "cycle 100 && trial 7 && 4 s",
+                             "trial 8 || cycle 100 && trial 7",
+                             "(trial 8 || cycle 100) && 4 s",
+                             "-1 < +1",
+                             "1e2 == cycle",
+                             "cycle 100 and trial 7 and 4 s",
+                             "trial 8 or cycle 100",
+                             "trial 8 or (cycle 100 and 4 s)"})
         CHECK(s.holds(text, now));
     for (const char* text :
          {"cycle 101", "trial 8", "4.1 s", "cycle < 100", "trial == 8", "cycle 100 && trial 8",
@@ -66,10 +83,12 @@ TEST_CASE("Conditions see the cells of the last completed cycle") {
     Counting s;
     CHECK(s.holds("P/A(1,1) == 0"));
     for (int t = 0; t < 5; ++t) s.simulation.step();
-    for (const char* text : {"P/A(1,1) == 5", "P/A(3,2) > 4", "P/A:act(2,1) <= 5", "P/A ( 2 , 1 ) == 5",
-                             "sum(P/A) == 30", "mean(P/A) == 5", "max(P/A:act) == 5", "min( P/A ) == 5",
-                             "P/A(1,1) == P/A(2,2)", "\"P/odd <name>\" == 1", "\"P/odd <name>\"(1,1) == 1",
-                             "P/B(2,1) == 1", "P/B:excIn(1,1) == 1", "max(\"P/odd <name>\") == 1"})
+    for (const char* text :
+         {"P/A(1,1) == 5", "P/A(3,2) > 4", "P/A:act(2,1) <= 5", "P/A ( 2 , 1 ) == 5", "sum(P/A) == 30",
+          "mean(P/A) == 5", "max(P/A:act) == 5", "min( P/A ) == 5", "P/A(1,1) == P/A(2,2)",
+          "\"P/odd <name>\" == 1", "\"P/odd <name>\"(1,1) == 1", "P/B(2,1) == 1", "P/B:excIn(1,1) == 1",
+          "max(\"P/odd <name>\") == 1", "5 == P/A(1,1) and 1 == \"P/odd <name>\" and trial == 0 or cycle 5",
+          "mean(P/A) > 4 and 6 > mean(P/A)"})
         CHECK(s.holds(text));
     CHECK_FALSE(s.holds("P/A(1,1) > 5"));
 }

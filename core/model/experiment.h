@@ -1,0 +1,73 @@
+// What an experiment file says: one system, run many times, and what is wanted of it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/diagnostic.h"
+
+namespace forage::model {
+
+/// What somebody asks for, in a language of its own, and where they wrote it.
+struct Wish {
+    std::string text;
+    Location at{};  ///< no file: on the command line
+    bool empty() const { return text.empty(); }
+};
+
+/// A change of a parameter while the system runs.
+struct TimedWish {
+    Wish when;    ///< a condition
+    Wish change;  ///< "WHERE.parameter=value"
+    std::string text() const { return when.text + ": " + change.text; }
+};
+
+/// A number that every run gives.
+struct Measure {
+    enum class Kind {
+        success,   ///< share of the trials that reached the target, 0..1
+        duration,  ///< mean length of the trials, s
+        first,     ///< cycles until a condition held
+        final,     ///< a quantity at the end
+    };
+    std::string name;
+    Kind kind = Kind::success;
+    Wish what;                          ///< the condition or quantity
+    std::optional<std::uint64_t> last;  ///< of the trials only so many last ones
+    Location at;
+};
+
+struct RecordingWish {
+    Wish column;
+    std::uint64_t every = 1;  ///< cycles
+};
+
+/// A parameter that takes each of several values in turn.
+struct Sweep {
+    Wish parameter;  ///< "WHERE.parameter"
+    std::vector<Wish> values;
+};
+
+struct Experiment {
+    std::string path;
+    std::string system, world;  ///< files, as seen from the working directory; no world when empty
+    Location system_at, world_at;
+    std::optional<double> world_pace;  ///< s of the world per s of the clock, instead of the world's own
+    bool noise = true;
+
+    std::optional<std::uint64_t> cycles, trials;  ///< the length: one of these, or `seconds`
+    std::optional<double> seconds;
+    double longest_trial = 300;  ///< s
+    Wish until;                  ///< a condition that ends a run before its time; none when empty
+
+    std::vector<std::uint64_t> seeds = {1};
+    std::vector<Wish> settings;  ///< "WHERE.parameter=value"
+    std::vector<TimedWish> changes;
+    std::vector<RecordingWish> recordings;
+    std::vector<Measure> measures;
+    std::vector<Sweep> sweeps;  ///< every combination is run with every seed
+};
+
+}  // namespace forage::model

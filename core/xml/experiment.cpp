@@ -1,0 +1,202 @@
+#include "core/xml/experiment.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <set>
+
+#include <fmt/format.h>
+#include <tinyxml2.h>
+
+#include "core/model/lookup.h"
+#include "core/types/parameter.h"
+#include "core/xml/check.h"
+#include "core/xml/format.h"
+
+namespace forage::xml {
+namespace {
+
+using tinyxml2::XMLElement;
+
+/// Builds the model from a document that has passed check().
+class ExperimentReader {
+  public:
+    ExperimentReader(const Document& document, Diagnostics& out) : document_(document), out_(out) {}
+
+    model::Experiment run() {
+        const XMLElement& root = document_.root();
+        experiment_.path = document_.source()->path;
+        each(root, "system", [&](const XMLElement& e) {
+            experiment_.system = file(e), experiment_.system_at = at(e, "file");
+        });
+        each(root, "world", [&](const XMLElement& e) {
+            experiment_.world = file(e), experiment_.world_at = at(e, "file");
+            experiment_.world_pace = number(e, "pace");
+            experiment_.noise = text(e, "noise") != "false";
+        });
+        each(root, "length", [&](const XMLElement& e) { length(e); });
+        each(root, "seeds", [&](const XMLElement& e) { seeds(e); });
+        each(root, "set", [&](const XMLElement& e) { experiment_.settings.push_back(assignment(e)); });
+        each(root, "at", [&](const XMLElement& e) {
+            experiment_.changes.push_back({wish(e, "when"), assignment(e)});
+        });
+        each(root, "record", [&](const XMLElement& e) {
+            experiment_.recordings.push_back({wish(e, "column"), whole(e, "every").value_or(1)});
+        });
+        each(root, "measure", [&](const XMLElement& e) { measure(e); });
+        each(root, "sweep", [&](const XMLElement& e) { sweep(e); });
+        return std::move(experiment_);
+    }
+
+  private:
+    static std::string text(const XMLElement& e, const char* name) {
+        const char* value = e.Attribute(name);
+        return value ? value : "";
+    }
+    static std::optional<double> number(const XMLElement& e, const char* name) {
+        const auto parsed = parse_parameter(ParameterKind::real, text(e, name));
+        return parsed ? std::optional(std::get<double>(*parsed)) : std::nullopt;
+    }
+    static std::optional<std::uint64_t> whole(const XMLElement& e, const char* name) {
+        const auto v = number(e, name);
+        return v ? std::optional(static_cast<std::uint64_t>(*v)) : std::nullopt;
+    }
+    template <class F>
+    static void each(const XMLElement& e, const char* name, F visit) {
+        for (const auto* c = e.FirstChildElement(name); c; c = c->NextSiblingElement(name)) visit(*c);
+    }
+    Location at(const XMLElement& e, const char* name) const {
+        const auto* a = e.FindAttribute(name);
+        return a ? document_.value_of(*a) : document_.at(e);
+    }
+    model::Wish wish(const XMLElement& e, const char* name) const { return {text(e, name), at(e, name)}; }
+
+    /// A path as seen from the working directory.
+    std::string file(const XMLElement& e) const {
+        return (std::filesystem::path(experiment_.path).parent_path() / text(e, "file")).string();
+    }
+    model::Wish assignment(const XMLElement& e) const {
+        return {text(e, "parameter") + "=" + text(e, "value"), at(e, "parameter")};
+    }
+
+    /// The one of these attributes that an element has; reports none or several.
+    const char* one_of(const XMLElement& e, std::span<const char* const> names) {
+        const char* found = nullptr;
+        for (const char* name : names)
+            if (e.FindAttribute(name)) {
+                if (found)
+                    out_.error(at(e, name), fmt::format("<{}> has both '{}' and '{}'", e.Name(), found, name),
+                               "keep one of them");
+                found = name;
+            }
+        if (!found)
+            out_.error(document_.at(e), fmt::format("<{}> does not say what it is", e.Name()),
+                       fmt::format("give it one of '{}'", fmt::join(names, "', '")));
+        return found;
+    }
+
+    void length(const XMLElement& e) {
+        static constexpr std::array names = {"cycles", "seconds", "trials"};
+        one_of(e, names);
+        experiment_.cycles = whole(e, "cycles");
+        experiment_.trials = whole(e, "trials");
+        experiment_.seconds = number(e, "seconds");
+        experiment_.longest_trial = number(e, "longest-trial").value_or(experiment_.longest_trial);
+        if (e.FindAttribute("until")) experiment_.until = wish(e, "until");
+    }
+
+    void seeds(const XMLElement& e) {
+        const bool listed = e.FindAttribute("list");
+        if (listed && (e.FindAttribute("first") || e.FindAttribute("count")))
+            out_.error(at(e, "list"), "<seeds> has both a list and a count", "keep one of them");
+        experiment_.seeds.clear();
+        if (!listed)
+            for (std::uint64_t i = 0, n = whole(e, "count").value_or(1); i < n; ++i)
+                experiment_.seeds.push_back(whole(e, "first").value_or(1) + i);
+        for (const auto& word : words(wish(e, "list"))) {
+            const auto seed = parse_parameter(ParameterKind::integer, word.text);
+            if (!seed || std::get<int>(*seed) < 0)
+                out_.error(word.at, fmt::format("'{}' is not a seed", word.text),
+                           "a seed is a whole number, at least 0");
+            else
+                experiment_.seeds.push_back(static_cast<std::uint64_t>(std::get<int>(*seed)));
+        }
+        if (experiment_.seeds.size() > 100'000)
+            out_.error(document_.at(e), "there are more than 100000 seeds", "");
+    }
+
+    void measure(const XMLElement& e) {
+        static constexpr std::array names = {"success", "duration", "first", "final"};
+        const char* kind = one_of(e, names);
+        if (!kind) return;
+        model::Measure m;
+        m.name = text(e, "name"), m.at = at(e, "name"), m.what = wish(e, kind);
+        m.kind = static_cast<model::Measure::Kind>(
+            std::find(names.begin(), names.end(), std::string_view(kind)) - names.begin());
+        for (const auto& other : experiment_.measures)
+            if (other.name == m.name)
+                out_.error(m.at,
+                           fmt::format("there is a measure '{}' already, on line {}", m.name, other.at.line),
+                           "names are columns of the table of results");
+        if (m.kind == model::Measure::Kind::success || m.kind == model::Measure::Kind::duration) {
+            const auto said = words(m.what);
+            const auto n = said.size() == 2 && said[0].text == "last"
+                               ? parse_parameter(ParameterKind::integer, said[1].text)
+                               : std::nullopt;
+            if (n && std::get<int>(*n) > 0)
+                m.last = static_cast<std::uint64_t>(std::get<int>(*n));
+            else if (m.what.text != "all")
+                out_.error(m.what.at, fmt::format("{} = '{}' names no trials", kind, m.what.text),
+                           "'all', or for example 'last 100'");
+        }
+        experiment_.measures.push_back(std::move(m));
+    }
+
+    void sweep(const XMLElement& e) {
+        model::Sweep s{wish(e, "parameter"), words(wish(e, "values"))};
+        if (s.values.empty())
+            out_.error(at(e, "values"), "there are no values to sweep", "for example values=\"0.1 0.01\"");
+        std::set<std::string> seen;
+        for (const auto& v : s.values)
+            if (!seen.insert(v.text).second)
+                out_.error(v.at, fmt::format("the value {} is given twice", v.text), "remove one of them");
+        for (const auto& other : experiment_.sweeps)
+            if (other.parameter.text == s.parameter.text)
+                out_.error(s.parameter.at,
+                           fmt::format("'{}' is swept already, on line {}", s.parameter.text,
+                                       other.parameter.at.line),
+                           "put all values into one sweep");
+        experiment_.sweeps.push_back(std::move(s));
+    }
+
+    /// The parts of a list, each with its place.
+    static std::vector<model::Wish> words(const model::Wish& list) {
+        std::vector<model::Wish> out;
+        constexpr std::string_view blanks = " \t\r\n";
+        for (std::size_t from = list.text.find_first_not_of(blanks); from != std::string::npos;) {
+            const auto to = std::min(list.text.find_first_of(blanks, from), list.text.size());
+            Location at = list.at;
+            at.column += static_cast<int>(from);
+            out.push_back({list.text.substr(from, to - from), at});
+            from = list.text.find_first_not_of(blanks, to);
+        }
+        return out;
+    }
+
+    const Document& document_;
+    Diagnostics& out_;
+    model::Experiment experiment_;
+};
+
+}  // namespace
+
+std::optional<model::Experiment> read_experiment(const std::string& path, Diagnostics& diagnostics) {
+    const int errors_before = diagnostics.errors();
+    const auto document = Document::read(path, diagnostics);
+    if (!document || !check(*document, "experiment", diagnostics)) return std::nullopt;
+    auto out = ExperimentReader(*document, diagnostics).run();
+    if (diagnostics.errors() > errors_before) return std::nullopt;
+    return out;
+}
+
+}  // namespace forage::xml

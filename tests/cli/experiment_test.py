@@ -1,0 +1,311 @@
+"""Experiments: what they find, what is left of them when they are killed, and what is said of mistakes.
+
+    experiment_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
+"""
+
+import csv
+import pathlib
+import signal
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+FORAGE = str(pathlib.Path(sys.argv[1]).resolve())
+PROJECT = pathlib.Path(sys.argv[2]).resolve()
+SYSTEM = PROJECT / "systems" / "reactive_foraging.iqr"
+WORLD = PROJECT / "systems" / "worlds" / "basic_arena.world"
+
+ROBOT = f"""<experiment>
+  <system file="{SYSTEM}"/>
+  <world file="{WORLD}"/>
+  <length trials="TRIALS" longest-trial="60"/>
+  <seeds first="1" count="3"/>
+  <set parameter="Bug/Light.threshold" value="0"/>
+  <at when="trial 3" parameter="Reactive Layer/US.threshold" value="0.5"/>
+  <record column="Bug/Motor" every="50"/>
+  <measure name="success" success="all"/>
+  <measure name="late success" success="last 2"/>
+  <measure name="length" duration="all"/>
+  <measure name="light" first="max(Bug/Light) > 0.5"/>
+  <measure name="never" first="cycle 1000000"/>
+  <sweep parameter="Reactive Layer/US.threshold" values="0.2 0.8"/>
+  <sweep parameter="Motor In to Motor.weight" values="1 0.9"/>
+</experiment>
+"""
+
+# B is what P.file says, A adds up what it gets from B.
+SMALL_SYSTEM = """<System id="s" name="small" cylesPerSecond="25">
+  <Process id="p" name="P">
+    <Module name="moduleReplay"><XRefHolder name="OutputToGroup"><XRef name="out" target="b"/></XRefHolder></Module>
+    <Group id="a" name="A">
+      <Topology><TopologyRect hcount="2" vcount="1"/></Topology>
+      <Neuron name="neuronLinearThreshold"><Parameter name="vmPrs" value="1"/></Neuron>
+    </Group>
+    <Group id="b" name="B"><Topology><TopologyRect hcount="1" vcount="1"/></Topology><Neuron name="neuronLinearThreshold"/></Group>
+  </Process>
+  <Connection id="c" name="B to A" source="b" target="a" type="excitatory">
+    <Pattern><PatternForeach><All/><All/></PatternForeach></Pattern>
+    <Arborization><ArbRect width="1" height="1" direction="RF" initialization_probability="1"/></Arborization>
+    <AttenuationFunction><FunUniform value="0"/></AttenuationFunction>
+    <DelayFunction><FunUniform value="0"/></DelayFunction>
+    <Synapse name="synapseFixedWeight"><Parameter name="weight" value="1"/></Synapse>
+  </Connection>
+</System>
+"""
+
+SMALL = """<experiment>
+  <note>B is 2 in every cycle, A adds up what it gets.</note>
+  <system file="small.iqr"/>
+  <length cycles="10"/>
+  <set parameter="P.file" value="drive.csv"/>
+  <sweep parameter="B to A.weight" values="1 0.5"/>
+  <measure name="five" first="P/A(1,1) >= 5"/>
+  <measure name="end" final="sum(P/A)"/>
+  <measure name="cell" final="P/A(2,1)"/>
+</experiment>
+"""
+
+
+class Experiment(unittest.TestCase):
+    def setUp(self):
+        self._directory = tempfile.TemporaryDirectory()
+        self.addCleanup(self._directory.cleanup)
+        self.here = pathlib.Path(self._directory.name)
+        (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "3"))
+        (self.here / "small.iqr").write_text(SMALL_SYSTEM)
+        (self.here / "small.xml").write_text(SMALL)
+        (self.here / "drive.csv").write_text("-1,P,out,2\n")
+
+    def forage(self, *arguments, status=0):
+        done = subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done
+
+    def rows(self, name):
+        with (self.here / name).open(newline="") as file:
+            return list(csv.DictReader(file))
+
+    def tables(self, directory):
+        return [(self.here / directory / name).read_bytes() for name in ("results.csv", "summary.csv")]
+
+    def edit(self, name, old, new):
+        text = (self.here / name).read_text()
+        self.assertIn(old, text)
+        (self.here / name).write_text(text.replace(old, new))
+
+    def made_at(self, directory):
+        return {p.parent.name: p.stat().st_mtime_ns for p in (self.here / directory).glob("runs/*/result.json")}
+
+
+class Results(Experiment):
+    def test_measures_of_a_system_that_can_be_worked_out(self):
+        self.forage("experiment", "small.xml")
+        rows = self.rows("forage-out/small/results.csv")
+        # B gets 2 in cycle 0, A gets 2 w in cycle 1 and adds 2 w in each cycle: 2 w t at the end of cycle t.
+        self.assertEqual([r["B to A.weight"] for r in rows], ["1", "0.5"])
+        self.assertEqual([r["five"] for r in rows], ["4", "6"])  # after cycles 3 and 5
+        self.assertEqual([r["end"] for r in rows], ["36", "18"])
+        self.assertEqual([r["cell"] for r in rows], ["18", "9"])
+        self.assertEqual([(r["cycles"], r["seconds"], r["status"], r["seed"]) for r in rows], [("10", "0.4", "finished", "1")] * 2)
+
+    def test_until_ends_a_run(self):
+        self.edit("small.xml", 'cycles="10"', 'cycles="10" until="P/A(1,1) >= 5"')
+        self.forage("experiment", "small.xml", "-o", "out")
+        self.assertEqual([r["cycles"] for r in self.rows("out/results.csv")], ["4", "6"])
+
+    def test_a_change_over_time(self):
+        self.edit("small.xml", "<sweep", '<at when="cycle 4" parameter="P/A.excGain" value="0"/><sweep')
+        self.forage("experiment", "small.xml", "-o", "out")
+        self.assertEqual([r["cell"] for r in self.rows("out/results.csv")], ["6", "3"])
+
+    def test_the_same_tables_with_any_number_of_jobs(self):
+        self.forage("experiment", "robot.xml", "-o", "one", "-j", 1)
+        self.forage("experiment", "robot.xml", "-o", "four", "-j", 4)
+        self.assertEqual(self.tables("one"), self.tables("four"))
+        rows = self.rows("one/results.csv")
+        self.assertEqual(len(rows), 12)
+        self.assertEqual(len({r["run"] for r in rows}), 12)
+        for r in rows:
+            self.assertEqual(r["trials"], "3")
+            self.assertAlmostEqual(float(r["success"]), int(r["reached"]) / 3)
+            self.assertEqual(r["never"], "")
+
+    def test_a_run_is_what_forage_run_does(self):
+        self.forage("experiment", "robot.xml", "-o", "out")
+        self.forage("run", SYSTEM, "--world", WORLD, "--trials", 3, "--seed", 2, "--set", "Reactive Layer/US.threshold=0.8",
+                    "--set", "Motor In to Motor.weight=0.9", "--at", "trial 3: Reactive Layer/US.threshold=0.5",
+                    "-r", "Bug/Motor", "--every", 50, "-o", "alone")
+        for name in ("trials.csv", "Bug_Motor_act.csv"):
+            self.assertEqual((self.here / "alone" / name).read_bytes(),
+                             (self.here / "out/runs/threshold-0.8_weight-0.9_seed-2" / name).read_bytes())
+
+    def test_summary_is_of_the_results(self):
+        done = self.forage("experiment", "robot.xml", "-o", "out")
+        results, summary = self.rows("out/results.csv"), self.rows("out/summary.csv")
+        self.assertEqual(len(summary), 4)
+        for s in summary:
+            keys = ["Reactive Layer/US.threshold", "Motor In to Motor.weight"]
+            values = [float(r["length"]) for r in results if all(r[k] == s[k] for k in keys)]
+            self.assertEqual(len(values), 3)
+            self.assertAlmostEqual(float(s["length mean"]), statistics.mean(values))
+            self.assertAlmostEqual(float(s["length sd"]), statistics.stdev(values))
+            self.assertEqual((float(s["length min"]), float(s["length max"])), (min(values), max(values)))
+            self.assertEqual((s["runs"], s["length runs"], s["never runs"], s["never mean"]), ("3", "3", "0", ""))
+            self.assertIn(f"{statistics.mean(values):.4g} +- ", done.stdout)
+
+    def test_the_shipped_experiment(self):
+        self.forage("experiment", PROJECT / "systems" / "light_threshold.xml", "-o", "out", "-q")
+        success = {r["Reactive Layer/US.threshold"]: float(r["success mean"]) for r in self.rows("out/summary.csv")}
+        self.assertGreater(success["0.2"], success["0.95"])
+
+
+class Interrupted(Experiment):
+    def test_killed_and_started_again_gives_the_same_tables(self):
+        (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "40"))
+        self.forage("experiment", "robot.xml", "-o", "through")
+        process = subprocess.Popen([FORAGE, "experiment", "robot.xml", "-o", "out", "-q"], cwd=self.here)
+        limit = time.monotonic() + 60
+        while len(self.made_at("out")) < 4 and time.monotonic() < limit:
+            time.sleep(0.005)
+        process.kill()
+        process.wait()
+        before = self.made_at("out")
+        self.assertGreaterEqual(len(before), 4)
+        self.assertLess(len(before), 12)
+        self.assertFalse((self.here / "out/results.csv").exists())
+        self.forage("experiment", "robot.xml", "-o", "out")
+        self.assertEqual(self.tables("through"), self.tables("out"))
+        after = self.made_at("out")
+        self.assertEqual({k: after[k] for k in before}, before)  # not repeated
+        for run in after:
+            for name in ("trials.csv", "Bug_Motor_act.csv", "result.json"):
+                self.assertEqual((self.here / "through/runs" / run / name).read_bytes(), (self.here / "out/runs" / run / name).read_bytes())
+        self.assertEqual([p for p in (self.here / "out").rglob("*.part")], [])
+
+    def test_ctrl_c_says_how_to_go_on(self):
+        (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "1000"))
+        process = subprocess.Popen([FORAGE, "experiment", "robot.xml", "-o", "out"], cwd=self.here, stderr=subprocess.PIPE, text=True)
+        while not (self.here / "out/runs").exists():
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=30)
+        self.assertEqual(process.returncode, 130)
+        self.assertIn("the same command goes on", said)
+
+    def test_only_what_is_new_is_run(self):
+        self.forage("experiment", "robot.xml", "-o", "out")
+        before = self.made_at("out")
+        self.edit("robot.xml", 'count="3"', 'count="4"')
+        self.forage("experiment", "robot.xml", "-o", "out")
+        after = self.made_at("out")
+        self.assertEqual(len(after), 16)
+        self.assertEqual({k: after[k] for k in before}, before)
+        self.edit("robot.xml", "value=\"0.5\"", "value=\"0.6\"")  # another experiment: all of it anew
+        self.forage("experiment", "robot.xml", "-o", "out")
+        self.assertFalse([k for k, v in self.made_at("out").items() if v == after[k]])
+
+    def test_a_changed_system_or_fresh_repeats_runs(self):
+        self.forage("experiment", "small.xml", "-o", "out")
+        before = self.made_at("out")
+        self.forage("experiment", "small.xml", "-o", "out")
+        self.assertEqual(self.made_at("out"), before)
+        self.edit("small.iqr", 'name="vmPrs" value="1"', 'name="vmPrs" value="0"')
+        self.forage("experiment", "small.xml", "-o", "out")
+        self.assertEqual([r["cell"] for r in self.rows("out/results.csv")], ["2", "1"])
+        before = self.made_at("out")
+        self.forage("experiment", "small.xml", "-o", "out", "--fresh")
+        self.assertFalse([k for k, v in self.made_at("out").items() if v == before[k]])
+
+    def test_a_failing_run_is_reported_and_the_rest_goes_on(self):
+        self.forage("experiment", "small.xml", "-o", "through")
+        (self.here / "out/runs").mkdir(parents=True)
+        (self.here / "out/runs/weight-1_seed-1").write_text("in the way")
+        done = self.forage("experiment", "small.xml", "-o", "out", status=1)
+        self.assertIn("error: run 'weight-1_seed-1': cannot make the directory", done.stderr)
+        self.assertIn("2 runs, 1 failed", done.stdout)
+        rows = self.rows("out/results.csv")
+        self.assertEqual([r["status"] for r in rows], ["failed", "finished"])
+        self.assertEqual([r["cell"] for r in rows], ["", "9"])
+        (self.here / "out/runs/weight-1_seed-1").unlink()
+        self.forage("experiment", "small.xml", "-o", "out")
+        self.assertEqual(self.tables("through"), self.tables("out"))
+
+    def test_a_run_that_is_stopped_says_why(self):
+        (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "3").replace('weight" values="1 0.9"', 'weight" values="0"')
+                                             .replace('trial="60"', 'trial="2"'))
+        self.forage("experiment", "robot.xml", "-o", "out")
+        for row in self.rows("out/results.csv"):
+            self.assertEqual(row["status"], "stopped")
+            self.assertIn("did not end within 2 s", row["remark"])
+
+
+class Mistakes(Experiment):
+    def test_all_mistakes_at_once_with_their_places(self):
+        (self.here / "robot.xml").write_text(f"""<experiment>
+  <system file="{SYSTEM}"/>
+  <world file="{WORLD}"/>
+  <length trials="3"/>
+  <at when="trail 3" parameter="Bug/Light.threshold" value="x"/>
+  <record column="Bug/Ligth"/>
+  <measure name="a" first="max(Bug/Light) &gt; "/>
+  <measure name="b" final="Bug/Light"/>
+  <sweep parameter="Bug/Light.threshold" values="0 high"/>
+</experiment>
+""")
+        said = self.forage("experiment", "robot.xml", status=2).stderr
+        for place, message in (("5:13", "there is no group 'trail 3'"), ("5:33", "'x' is not a number"),
+                               ("6:19", "there is no group 'Bug/Ligth'"), ("7:28", "something is missing at its end"),
+                               ("8:28", "'Bug/Light' has 32 cells"), ("9:52", "'high' is not a number")):
+            self.assertRegex(said, rf"robot.xml:{place}: error: .*{message}")
+        self.assertFalse((self.here / "forage-out").exists())
+
+    def test_mistakes_of_form(self):
+        (self.here / "robot.xml").write_text("""<experiment>
+  <sytem file="small.iqr"/>
+  <length cycles="10" trials="3"/>
+  <seeds first="2" list="1 2"/>
+  <measure name="a"/>
+  <measure name="b" success="last"/>
+  <sweep parameter="P/A.excGain" values="1 1"/>
+</experiment>
+""")
+        said = self.forage("experiment", "robot.xml", status=2).stderr
+        self.assertRegex(said, r"robot.xml:2:3: error: <experiment> cannot hold <sytem>")
+        self.assertIn("did you mean 'system'?", said)
+        self.edit("robot.xml", "sytem", "system")
+        said = self.forage("experiment", "robot.xml", status=2).stderr
+        for place, message in (("3:31", "has both 'cycles' and 'trials'"), ("4:26", "both a list and a count"),
+                               ("5:3", "does not say what it is"), ("6:30", "names no trials"), ("7:44", "given twice")):
+            self.assertRegex(said, rf"robot.xml:{place}: error: .*{message}")
+
+    def test_a_condition_that_holds_when_all_is_zero_gives_a_warning(self):
+        self.edit("small.xml", "P/A(1,1) >= 5", "5 > P/A(1,1)")
+        self.assertIn("holds before the first cycle, when all cells are 0", self.forage("experiment", "small.xml").stderr)
+        self.edit("small.xml", "5 > P/A(1,1)", "cycle > 2 and 5 > P/A(1,1)")
+        self.assertEqual("", self.forage("experiment", "small.xml").stderr)
+
+    def test_other_files(self):
+        self.assertIn("'forage run' runs it", self.forage("experiment", "small.iqr", status=2).stderr)
+        self.assertIn("'forage experiment' runs it", self.forage("run", "small.xml", status=2).stderr)
+        self.assertIn("no such file", self.forage("experiment", "absent.xml", status=2).stderr)
+        self.edit("small.xml", "small.iqr", "smal.iqr")
+        self.assertIn("did you mean 'small.iqr'", self.forage("experiment", "small.xml", status=2).stderr)
+        self.forage("experiment", "small.xml", "-j", 0, status=2)
+
+    def test_two_at_once_do_not_share_a_directory(self):
+        (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "1000"))
+        first = subprocess.Popen([FORAGE, "experiment", "robot.xml", "-o", "out", "-q"], cwd=self.here, stderr=subprocess.DEVNULL)
+        try:
+            while not (self.here / "out/runs").exists():
+                time.sleep(0.01)
+            self.assertIn("another experiment", self.forage("experiment", "small.xml", "-o", "out", status=1).stderr)
+        finally:
+            first.kill()
+            first.wait()
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=1)

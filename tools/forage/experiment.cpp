@@ -1,0 +1,90 @@
+#include "core/xml/experiment.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <thread>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "tools/forage/commands.h"
+#include "tools/forage/experiment_runs.h"
+#include "tools/forage/experiment_tables.h"
+#include "tools/forage/files.h"
+#include "tools/forage/stop.h"
+
+namespace forage::tool {
+namespace {
+
+/// Holds a directory for one experiment at a time.
+class Hold {
+  public:
+    explicit Hold(const std::string& directory) : file_(open(directory.c_str(), O_RDONLY | O_CLOEXEC)) {
+        if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+            throw std::runtime_error(fmt::format("another experiment is writing to '{}'", directory));
+    }
+    Hold(const Hold&) = delete;
+    Hold& operator=(const Hold&) = delete;
+    ~Hold() {
+        if (file_ >= 0) close(file_);
+    }
+
+  private:
+    int file_;
+};
+
+std::string default_directory(const std::string& file) {
+    return "forage-out/" + std::filesystem::path(file).stem().string();
+}
+
+}  // namespace
+
+int experiment(const ExperimentOptions& o) {
+    Diagnostics diagnostics;
+    const auto wanted = xml::read_experiment(o.file, diagnostics);
+    const std::string directory = o.directory.empty() ? default_directory(o.file) : o.directory;
+    std::vector<PlannedRun> runs;
+    Sources sources;
+    if (wanted) {
+        runs = planned_runs(*wanted, directory);
+        sources = read(runs.front().options.input, diagnostics);
+        check_experiment(*wanted, sources, runs, diagnostics);
+    }
+    if (diagnostics.failed() || !o.quiet) fmt::print(stderr, "{}", format(diagnostics));
+    if (diagnostics.failed()) return bad_input;
+
+    make_directory(directory);
+    const Hold hold(directory);
+    note_signals();
+    Progress progress(!o.quiet);
+    const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    const std::string results_file = directory + "/results.csv", summary_file = directory + "/summary.csv";
+    for (const auto& table : {results_file, summary_file})  // one that is there is whole
+        std::remove(table.c_str());
+    const auto results = make_runs(*wanted, sources, runs, o.jobs > 0 ? o.jobs : cores, o.fresh, progress);
+    if (!results) {
+        fmt::print(stderr, "stopped {}; the same command goes on with the runs that are not finished\n",
+                   stopped_by(noted_signal()));
+        return 128 + noted_signal();
+    }
+    write_durably(results_file, results_csv(*wanted, runs, *results));
+    write_durably(summary_file, summary_csv(*wanted, runs, *results));
+    std::size_t failures = 0;
+    for (std::size_t i = 0; i < runs.size(); ++i)
+        if (!(*results)[i].failure.empty()) {
+            ++failures;
+            fmt::print(stderr, "error: run '{}': {}\n", runs[i].name, (*results)[i].failure);
+        }
+    if (!o.quiet)
+        fmt::print("{}: {} runs{}\n{}  written: {}, {}\n", o.file, runs.size(),
+                   failures ? fmt::format(", {} failed", failures) : "",
+                   summary_text(*wanted, runs, *results), results_file, summary_file);
+    return failures ? run_failed : fine;
+}
+
+}  // namespace forage::tool

@@ -1,0 +1,132 @@
+#include "tools/forage/run_result.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tools/forage/files.h"
+
+namespace forage::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string path_of(const PlannedRun& run) { return run.options.directory + "/result.json"; }
+
+std::string content_of(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+    return value ? Json(*value) : Json();
+}
+template <class T>
+std::optional<T> or_empty(const Json& json) {
+    return json.is_null() ? std::nullopt : std::optional(json.get<T>());
+}
+
+/// Digests by path, of what was read.
+class Digests {
+  public:
+    void add(const Location& where) {
+        if (where.file) all_[where.file->path] = digest(where.file->text);
+    }
+    void add(const bug::Model& model) {
+        add(model.where);
+        for (const auto& link : model.links) {
+            add(link.where);
+            for (const auto& v : link.visuals)
+                if (!v.material.texture.empty() && !all_.contains(v.material.texture))
+                    all_[v.material.texture] = digest(content_of(v.material.texture));
+        }
+        for (const auto& inner : model.models) add(inner);
+    }
+    /// The digests alone: a result holds in whatever directory its files are.
+    std::string text() const {
+        std::string out;
+        for (const auto& [path, digest] : all_) out += digest;
+        return digest(out);
+    }
+
+  private:
+    std::map<std::string, std::string> all_;
+};
+
+}  // namespace
+
+std::string digests_of(const model::Experiment& experiment, const Sources& sources) {
+    Digests system, world;
+    system.add(sources.system->at);
+    for (const auto& p : sources.system->processes) system.add(p.at);
+    if (!sources.world) return system.text();
+    for (const auto& m : sources.world->models) world.add(m);
+    return fmt::format("{} {} {}", system.text(), digest(content_of(experiment.world)), world.text());
+}
+
+std::string key_of(const PlannedRun& run, const model::Experiment& experiment, const std::string& digests) {
+    const RunOptions& o = run.options;
+    Json key;
+    key["forage"] = FORAGE_VERSION;
+    key["files"] = digests;
+    key["seed"] = run.seed;
+    key["noise"] = o.input.noise;
+    key["pace"] = or_null(o.input.world_pace);
+    key["cycles"] = or_null(o.cycles), key["seconds"] = or_null(o.seconds), key["trials"] = or_null(o.trials);
+    key["longest_trial"] = o.longest_trial;
+    key["until"] = o.until.text;
+    for (const auto& wish : o.input.settings) key["set"].push_back(wish.text);
+    for (const auto& wish : o.at) key["at"].push_back(wish.text());
+    for (const auto& r : o.recordings) key["record"].push_back({r.column.text, r.every});
+    for (const auto& m : experiment.measures)
+        key["measure"].push_back({static_cast<int>(m.kind), m.what.text});
+    return key.dump();
+}
+
+std::optional<RunResult> read_result(const PlannedRun& run, const std::string& key) {
+    try {
+        const auto json = Json::parse(content_of(path_of(run)));
+        if (json.at("run").dump() != key) return std::nullopt;
+        const auto& result = json.at("result");
+        RunResult out;
+        out.stopped = result.at("stopped"), out.cycles = result.at("cycles"),
+        out.seconds = result.at("seconds");
+        out.trials = or_empty<std::uint64_t>(result.at("trials"));
+        out.reached = or_empty<std::uint64_t>(result.at("reached"));
+        for (const auto& m : result.at("measures")) out.measures.push_back(or_empty<double>(m));
+        return out;
+    } catch (const nlohmann::json::exception&) {
+        return std::nullopt;  // absent, of another run, or not one of ours: the run is made again
+    }
+}
+
+void forget_result(const PlannedRun& run) {
+    const auto json = Json::parse(content_of(path_of(run)), nullptr, false);
+    std::error_code ignored;
+    std::filesystem::remove(path_of(run), ignored);
+    if (!json.is_object() || !json.contains("files") || !json["files"].is_array()) return;
+    for (const auto& f : json["files"])
+        if (f.is_string() && f.get<std::string>() == file_name(f.get<std::string>()))
+            std::filesystem::remove(run.options.directory + "/" + f.get<std::string>(), ignored);
+}
+
+void write_result(const PlannedRun& run, const std::string& key, const RunResult& result,
+                  const std::vector<std::string>& files) {
+    for (const auto& name : files) flush_to_disk(run.options.directory + "/" + name);
+    Json json;
+    json["run"] = Json::parse(key);
+    auto& r = json["result"];
+    r["stopped"] = result.stopped, r["cycles"] = result.cycles, r["seconds"] = result.seconds;
+    r["trials"] = or_null(result.trials), r["reached"] = or_null(result.reached);
+    r["measures"] = Json::array();
+    for (const auto& m : result.measures) r["measures"].push_back(or_null(m));
+    json["files"] = files;
+    write_durably(path_of(run), json.dump(2) + "\n");
+}
+
+}  // namespace forage::tool

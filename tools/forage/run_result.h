@@ -1,0 +1,37 @@
+// What is left of a run of an experiment: a file that is there when the run is finished, and not before.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/experiment.h"
+#include "tools/forage/sweep.h"
+
+namespace forage::tool {
+
+struct RunResult {
+    std::string failure;  ///< why there are no numbers; empty when there are
+    std::string stopped;  ///< why it ended before its time; empty when it did not
+    std::uint64_t cycles = 0;
+    double seconds = 0;                            ///< of the world
+    std::optional<std::uint64_t> trials, reached;  ///< of the first robot: finished ones, and at the target
+    std::vector<std::optional<double>> measures;   ///< in the experiment's order
+};
+
+/// Everything that decides the numbers of a run: a result belongs to a run when it has the same key. Contains
+/// digests of the files that were read into `sources`.
+std::string key_of(const PlannedRun& run, const model::Experiment& experiment, const std::string& digests);
+/// Digests of the system's and the world's files, with those that they name.
+std::string digests_of(const model::Experiment& experiment, const Sources& sources);
+
+/// The result in a run's directory, if it has one of this key.
+std::optional<RunResult> read_result(const PlannedRun& run, const std::string& key);
+/// Removes the files that an earlier run left in the directory, its result first.
+void forget_result(const PlannedRun& run);
+/// Writes it so that it survives whatever happens next: `files`, written before, reach the disk first. Throws
+/// std::runtime_error.
+void write_result(const PlannedRun& run, const std::string& key, const RunResult& result,
+                  const std::vector<std::string>& files);
+
+}  // namespace forage::tool

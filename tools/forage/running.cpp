@@ -1,0 +1,123 @@
+#include "tools/forage/running.h"
+
+#include <map>
+
+#include "tools/forage/files.h"
+#include "tools/forage/length.h"
+#include "tools/forage/schedule.h"
+#include "tools/forage/tables.h"
+
+namespace forage::tool {
+namespace {
+
+/// The wanted columns by how often they are written.
+std::map<std::uint64_t, std::map<std::string, observe::ColumnRef>> columns_of(
+    const RunOptions& o, const engine::Simulation& simulation, Diagnostics& diagnostics) {
+    std::map<std::uint64_t, std::vector<model::Wish>> wishes;
+    for (const auto& r : o.recordings) wishes[r.every].push_back(r.column);
+    std::map<std::uint64_t, std::map<std::string, observe::ColumnRef>> out;
+    for (const auto& [every, columns] : wishes)
+        out[every] = recorded_columns(columns, simulation, diagnostics);
+    return out;
+}
+
+}  // namespace
+
+observe::Moment Running::now() const {
+    const int trial = has_trials(loaded) ? static_cast<int>(loaded.world->trials(0).size()) + 1 : 0;
+    return {simulation.cycle(), seconds(), trial};
+}
+
+void Running::cycle() {
+    if (schedule.waiting()) schedule.apply(simulation, now());
+    if (run_measures.waiting()) run_measures.see(simulation, now());
+    simulation.update_groups();
+    clamp.apply(simulation);
+    simulation.update_modules();
+    simulation.update_connections();
+    if (loaded.world) loaded.world->step();
+    for (auto& r : recordings) r.record(simulation);
+    for (auto& m : measures) m.follow(simulation);
+    for (auto& p : paths) p.follow();
+}
+
+std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diagnostics& diagnostics) {
+    auto loaded = assemble(sources, o.input, diagnostics);
+    if (!loaded) return std::nullopt;
+    check_length(o, loaded->world.get(), diagnostics);
+    if (loaded->drive) check_drive(*loaded->drive, loaded->system, diagnostics);
+    auto simulation = engine::Simulation::build(loaded->system, loaded->registry,
+                                                {.seed = o.input.seed, .threads = o.threads}, diagnostics);
+    if (!simulation) return std::nullopt;
+    auto scheduled = schedule(o.at, *loaded, *simulation, diagnostics);
+    std::optional<observe::Condition> until;
+    if (!o.until.empty())
+        until = observe::parse_condition(*simulation, has_trials(*loaded), o.until.text,
+                                         o.until.at.file ? "until" : "--until", diagnostics, o.until.at);
+    auto clamped = clamp(o.clamp, *simulation, diagnostics);
+    auto columns = columns_of(o, *simulation, diagnostics);
+    RunMeasures run_measures(o.measures, *loaded, *simulation, diagnostics);
+    if (diagnostics.failed()) return std::nullopt;
+    try {
+        simulation->start();
+        const double seconds_per_cycle =
+            loaded->world ? loaded->world->seconds_per_cycle() : 1 / cycles_per_second(loaded->system);
+        Running out{std::move(*loaded),
+                    std::move(*simulation),
+                    seconds_per_cycle,
+                    std::move(scheduled),
+                    std::move(until),
+                    std::move(clamped),
+                    std::move(run_measures),
+                    {},
+                    {},
+                    {}};
+        if (out.loaded.world)
+            for (std::size_t i = 0; i < out.loaded.world->bugs(); ++i)
+                out.measures.emplace_back(*out.loaded.world, i, out.simulation);
+        if (!o.directory.empty()) {
+            make_directory(o.directory);
+            for (auto& [every, some] : columns)
+                out.recordings.emplace_back(std::move(some), every, o.directory, out.simulation);
+        }
+        if (o.paths && out.loaded.world)
+            for (std::size_t i = 0; i < out.loaded.world->bugs(); ++i)
+                out.paths.emplace_back(*out.loaded.world, i);
+        return out;
+    } catch (const std::exception& e) {
+        diagnostics.error({}, e.what());
+        return std::nullopt;
+    }
+}
+
+std::vector<std::string> write_tables(const RunOptions& o, Running& r, Outcome& outcome) {
+    std::vector<std::string> problems;
+    for (auto& recording : r.recordings) {
+        if (const std::string problem = recording.finish(); !problem.empty()) problems.push_back(problem);
+        for (auto& name : recording.files()) outcome.files.push_back(std::move(name));
+    }
+    if (!r.loaded.world) return problems;
+    for (std::size_t i = 0; i < outcome.trials.size(); ++i) try {
+            const std::string name = "trials" + robot_suffix(*r.loaded.world, i) + ".csv";
+            write_file(o.directory + "/" + name, trials_csv(outcome.trials[i]));
+            outcome.files.push_back(name);
+        } catch (const std::exception& e) {
+            problems.emplace_back(e.what());
+        }
+    return problems;
+}
+
+std::string robot_suffix(const bug::World& world, std::size_t robot) {
+    return world.bugs() > 1 ? "_" + file_name(world.bug_names()[robot]) : "";
+}
+
+void note(const Running& running, Outcome& outcome) {
+    outcome.cycles = running.simulation.cycle();
+    outcome.seconds = running.seconds();
+    for (const auto& e : running.schedule.entries()) outcome.changes.push_back({e.text, e.cycle});
+    for (std::size_t i = 0; i < running.measures.size(); ++i)
+        outcome.trials.push_back(
+            trials_of(*running.loaded.world, i, running.measures[i], running.simulation));
+}
+
+}  // namespace forage::tool

@@ -1,0 +1,56 @@
+// One run of a system: what 'forage run' does once and an experiment many times.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/engine/simulation.h"
+#include "core/observe/clamp.h"
+#include "core/observe/schedule.h"
+#include "tools/forage/commands.h"
+#include "tools/forage/paths.h"
+#include "tools/forage/recordings.h"
+#include "tools/forage/results.h"
+#include "tools/forage/run_measures.h"
+
+namespace forage::tool {
+
+/// A system that has started, with its world and all that looks at it and pokes it.
+struct Running {
+    Loaded loaded;
+    engine::Simulation simulation;
+    double seconds_per_cycle;  ///< of the world, or at the system's pace
+    observe::Schedule schedule;
+    std::optional<observe::Condition> until;
+    observe::Clamp clamp;
+    RunMeasures run_measures;
+    std::vector<Measures> measures;      ///< of the trials, one per robot
+    std::vector<Recordings> recordings;  ///< one for each `every`; none without a directory
+    std::vector<PathLog> paths;          ///< one per robot, when they are wanted
+
+    /// One cycle: changes that are due, the system, its world; then what was seen is written down. Throws
+    /// what a cycle or a recording throws.
+    void cycle();
+
+    observe::Moment now() const;  ///< before the next cycle
+    double seconds() const { return static_cast<double>(simulation.cycle()) * seconds_per_cycle; }
+    /// Whether the condition that ends the run holds.
+    bool done() const { return until && until->holds(simulation, now()); }
+};
+
+/// Builds and starts everything. Whatever is wrong with what a person gave is found here, before the first
+/// cycle and before anything is written; empty when `diagnostics` got an error.
+std::optional<Running> prepare(const Sources& sources, const RunOptions& options, Diagnostics& diagnostics);
+
+/// How it went.
+void note(const Running& running, Outcome& outcome);
+
+/// Closes the recordings and writes the tables of trials: `outcome` gets the names of the files, in the run's
+/// directory. What cannot be written does not keep the rest from being written. Returns what went wrong.
+std::vector<std::string> write_tables(const RunOptions& options, Running& running, Outcome& outcome);
+
+/// "_name" in the names of files about this robot, where there are several.
+std::string robot_suffix(const bug::World& world, std::size_t robot);
+
+}  // namespace forage::tool
