@@ -55,11 +55,18 @@ class Run(Cli):
         rows = [dict(zip(header, row)) for row in rows]
         self.assertEqual(len(rows), 30)
         self.assertEqual(header, ["trial", "start_x", "start_y", "start_yaw", "cycles", "smallest_distance", "outcome",
-                                  "first_cycle", "end_x", "end_y", "end_yaw"])
+                                  "first_cycle", "end_x", "end_y", "end_yaw", "start", "patches", "recent_success",
+                                  "discrepancy", "cue_peak", "distractor_peak", "sequences", "segments"])
         for number, row in enumerate(rows, 1):
             self.assertEqual(int(row["trial"]), number)
             self.assertGreater(int(row["cycles"]), 20)
             self.assertEqual(row["outcome"], "target" if float(row["smallest_distance"]) < 0.45 else "missed")
+            # The middle start is the second of the world's; each way leads over one lower and one upper patch.
+            start = round(float(row["start_x"]) / 1.5) + 2
+            self.assertEqual((int(row["start"]), row["patches"]),
+                             (start, {1: "cyan > red", 2: "blue > yellow", 3: "magenta > green"}[start]))
+            self.assertEqual(float(row["recent_success"]), sum(r["outcome"] == "target" for r in rows[:number]) / number)
+            self.assertEqual({row[layer] for layer in ("discrepancy", "cue_peak", "sequences")}, {""})  # no such layers
         reached = sum(row["outcome"] == "target" for row in rows)
         self.assertGreaterEqual(reached, 25)
         self.assertIn(f"{reached} of 30", done.stdout)
@@ -72,6 +79,35 @@ class Run(Cli):
         self.assertGreater(width, 600)
         self.assertGreater(height, 600)
         self.assertEqual(sorted(p.name for p in (self.here / "out").iterdir()), ["run.json", "trajectory.csv", "trajectory.png", "trials.csv"])
+
+    def test_measures_of_the_learning_layers_are_those_of_their_groups(self):
+        # A group shows what its module wrote a cycle later.
+        done = self.forage("run", PROJECT / "systems/dac_foraging.iqr", "--world", WORLD, "--trials", 25, "-o", "out", "--set",
+                           "Contextual.enableModule=true", "--set", "Contextual.Discrepancy Threshold=0.5", "--record",
+                           "Adaptive/discrepancy", "--record", "Adaptive/prototype", "--record", "Contextual/Empty")
+        header, *rows = self.table("out/trials.csv")
+        trials = [dict(zip(header, row)) for row in rows]
+        column = lambda name: [list(map(float, row[1:])) for row in self.table(f"out/{name}_act.csv")[1:]]
+        discrepancy, prototype = column("Adaptive_discrepancy"), column("Adaptive_prototype")
+        empty = column("Contextual_Empty")
+        stored = 0
+        for trial in trials[:-1]:
+            first = int(trial["first_cycle"])
+            end = first + int(trial["cycles"])  # the first cycle after the trial
+            self.assertEqual(float(trial["discrepancy"]), discrepancy[end][0])
+            peaks = [float(trial["distractor_peak"]), float(trial["cue_peak"])]
+            self.assertEqual(max(peaks), max(max(cells) for cells in prototype[first + 1:end + 1]))
+            memory = [empty[end][row * 100:(row + 1) * 100] for row in range(50)]
+            if sum(map(sum, memory)) == 0:  # closed: it has written nothing yet
+                self.assertEqual((trial["sequences"], trial["segments"]), ("0", "0"))
+                continue
+            self.assertEqual(int(trial["sequences"]), sum(row[0] == 0 for row in memory))
+            self.assertEqual(int(trial["segments"]), sum(row.count(0) for row in memory))
+            stored = int(trial["sequences"])
+        self.assertGreater(stored, 5)
+        self.assertRegex(done.stdout, rf"memory +{trials[-1]['sequences']} of 50 sequences, of [\d.]+ segments on average")
+        self.assertRegex(done.stdout, r"discrepancy +0\.\d+ after the first trial, 0\.\d+ after the last")
+        self.assertRegex(done.stdout, r"prototypes +[\d.]+ times as strong at the last patch")
 
     def test_readme_says_how_many_of_thirty_reach_the_target(self):
         done = self.run_robot("--trials", 30, "--seed", 1)
@@ -100,7 +136,7 @@ class Run(Cli):
     def test_trials_trajectory_and_recordings_agree(self):
         self.run_robot("--trials", 6, "--record", "Bug/GPS")
         header, *trials = self.table("out/trials.csv")
-        trials = [dict(zip(header, map(float, row[:6] + [0] + row[7:]))) for row in trials]
+        trials = [dict(zip(header, map(float, row[:6] + [0] + row[7:12]))) for row in trials]
         gps = {int(r[0]): (float(r[1]) - 10, float(r[2]) - 10) for r in self.table("out/Bug_GPS_act.csv")[1:]}
         path = [[float(v) for v in row] for row in self.table("out/trajectory.csv")[1:]]
         for trial in trials:
