@@ -24,6 +24,20 @@ struct TimedWish {
     std::string text() const { return when.text + ": " + change.text; }
 };
 
+/// Patterns that are laid over the activity of a group while the system runs.
+struct ManipulationWish {
+    enum class Mode { clamp, add, multiply };
+    Mode mode = Mode::clamp;
+    Wish group;                          ///< "Process/Group"
+    Wish cells;                          ///< one pattern, "(x,y)=value ...", or ...
+    Wish patterns;                       ///< ... a file of patterns, as seen from the working directory
+    std::uint64_t every = 1, step = 1;   ///< cycles between patterns; every so-manieth pattern
+    std::optional<std::uint64_t> times;  ///< how often the list is played; empty: for ever
+    bool backwards = false;
+    Wish from, until;  ///< conditions; empty: from the first cycle, to the last
+    std::string text;  ///< all of it, as written on the command line
+};
+
 /// A number that every run gives.
 struct Measure {
     enum class Kind {
@@ -65,6 +79,7 @@ struct Experiment {
     std::vector<std::uint64_t> seeds = {1};
     std::vector<Wish> settings;  ///< "WHERE.parameter=value"
     std::vector<TimedWish> changes;
+    std::vector<ManipulationWish> manipulations;
     std::vector<RecordingWish> recordings;
     std::vector<Measure> measures;
     std::vector<Sweep> sweeps;  ///< every combination is run with every seed

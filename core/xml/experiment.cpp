@@ -27,10 +27,10 @@ class ExperimentReader {
         const XMLElement& root = document_.root();
         experiment_.path = document_.source()->path;
         each(root, "system", [&](const XMLElement& e) {
-            experiment_.system = file(e), experiment_.system_at = at(e, "file");
+            experiment_.system = file(e, "file"), experiment_.system_at = at(e, "file");
         });
         each(root, "world", [&](const XMLElement& e) {
-            experiment_.world = file(e), experiment_.world_at = at(e, "file");
+            experiment_.world = file(e, "file"), experiment_.world_at = at(e, "file");
             experiment_.world_pace = number(e, "pace");
             experiment_.noise = text(e, "noise") != "false";
         });
@@ -40,6 +40,7 @@ class ExperimentReader {
         each(root, "at", [&](const XMLElement& e) {
             experiment_.changes.push_back({wish(e, "when"), assignment(e)});
         });
+        for (const auto* e = root.FirstChildElement(); e; e = e->NextSiblingElement()) manipulation(*e);
         each(root, "record", [&](const XMLElement& e) {
             experiment_.recordings.push_back({wish(e, "column"), whole(e, "every").value_or(1)});
         });
@@ -72,8 +73,8 @@ class ExperimentReader {
     model::Wish wish(const XMLElement& e, const char* name) const { return {text(e, name), at(e, name)}; }
 
     /// A path as seen from the working directory.
-    std::string file(const XMLElement& e) const {
-        return (std::filesystem::path(experiment_.path).parent_path() / text(e, "file")).string();
+    std::string file(const XMLElement& e, const char* name) const {
+        return (std::filesystem::path(experiment_.path).parent_path() / text(e, name)).string();
     }
     model::Wish assignment(const XMLElement& e) const {
         return {text(e, "parameter") + "=" + text(e, "value"), at(e, "parameter")};
@@ -123,6 +124,25 @@ class ExperimentReader {
         }
         if (experiment_.seeds.size() > 100'000)
             out_.error(document_.at(e), "there are more than 100000 seeds", "");
+    }
+
+    /// <clamp>, <add> and <multiply>.
+    void manipulation(const XMLElement& e) {
+        static constexpr std::array modes = {"clamp", "add", "multiply"};
+        static constexpr std::array sources = {"cells", "patterns"};
+        const auto mode = std::find(modes.begin(), modes.end(), std::string_view(e.Name())) - modes.begin();
+        if (mode == std::ssize(modes) || !one_of(e, sources)) return;
+        model::ManipulationWish m;
+        m.mode = static_cast<model::ManipulationWish::Mode>(mode);
+        m.group = wish(e, "group");
+        if (e.FindAttribute("cells")) m.cells = wish(e, "cells");
+        if (e.FindAttribute("patterns")) m.patterns = {file(e, "patterns"), at(e, "patterns")};
+        m.every = whole(e, "every").value_or(1), m.step = whole(e, "step").value_or(1);
+        m.times = whole(e, "times");
+        m.backwards = text(e, "backwards") == "true";
+        if (e.FindAttribute("from")) m.from = wish(e, "from");
+        if (e.FindAttribute("until")) m.until = wish(e, "until");
+        experiment_.manipulations.push_back(std::move(m));
     }
 
     void measure(const XMLElement& e) {

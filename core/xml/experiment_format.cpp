@@ -19,6 +19,16 @@ constexpr int many = any_number;
 Format make_table() {
     const AttributeRule parameter = text(
         "parameter", "'Process/Group.parameter', 'Process.parameter' of a module, 'Connection.parameter'");
+    const std::vector<AttributeRule> manipulation = {
+        text("group", "'Process/Group', whose activity it is"),
+        text("cells", "a pattern: '(1,1)=0.5 (2,1)=1'", false),
+        text("patterns", "a file with a list of patterns, as seen from this one", false),
+        amount("every", "cycles from one pattern to the next"),
+        amount("step", "only every so-manieth pattern of the list"),
+        amount("times", "how often the list is played; for ever, if it does not say"),
+        {"backwards", ValueKind::boolean, false, "from the last pattern to the first", 0, 1, {}},
+        text("from", "a condition, when it begins", false),
+        text("until", "a condition, when it ends", false)};
     return {
         {"experiment",
          "a system, run many times",
@@ -30,6 +40,9 @@ Format make_table() {
           {"seeds"},
           {"set", 0, many},
           {"at", 0, many},
+          {"clamp", 0, many},
+          {"add", 0, many},
+          {"multiply", 0, many},
           {"record", 0, many},
           {"measure", 0, many},
           {"sweep", 0, many}}},
@@ -58,6 +71,12 @@ Format make_table() {
          "a parameter that changes while the system runs",
          {text("when", "a condition; the change is made once, when it first holds"), parameter,
           text("value", "its new value")},
+         {}},
+        {"clamp", "patterns that a group's activity becomes, right after its update", manipulation, {}},
+        {"add", "patterns that are added to a group's activity, right after its update", manipulation, {}},
+        {"multiply",
+         "patterns by which a group's activity is multiplied, right after its update",
+         manipulation,
          {}},
         {"record",
          "a table of every run",

@@ -207,6 +207,28 @@ class Run(Cli):
         result = json.loads((self.here / "out/run.json").read_text())["result"]
         self.assertEqual([c["cycle"] for c in result["changes"]], [2, 6, 7, None])
 
+    def test_patterns_are_laid_over_the_activity(self):
+        (self.here / "small.iqr").write_text(SMALL_SYSTEM)
+        (self.here / "d.csv").write_text("-1,*,out,1,2\n")
+        (self.here / "p.txt").write_text("# three patterns\n1 2\n\n3, 4\n\n\n5 6")
+
+        def a(*options):
+            self.forage("run", "small.iqr", "--cycles", 8, "--drive", "d.csv", "-r", "P/A", "-o", "out", "-q", *options)
+            return [float(r[1]) for r in self.table("out/P_A_act.csv")[1:]], [float(r[2]) for r in self.table("out/P_A_act.csv")[1:]]
+
+        self.assertEqual(a("--clamp", "P/A(2,1)=9; from cycle 2; until cycle 4"), ([1, 1, 0, 0, 1, 1, 1, 1], [2, 2, 9, 9, 2, 2, 2, 2]))
+        self.assertEqual(a("--add", "P/A(1,1)=9; from cycle 2", "--add", "P/A(2,1)=1;from cycle 2"), ([1, 1, 10, 10, 10, 10, 10, 10], [2, 2, 3, 3, 3, 3, 3, 3]))
+        self.assertEqual(a("--multiply", "P/A(1,1)=3 (2,1)=-1; every 3"), ([3, 1, 1, 3, 1, 1, 3, 1], [-2, 2, 2, -2, 2, 2, -2, 2]))
+        self.assertEqual(a("--clamp", "P/A=p.txt; times 2")[0], [1, 3, 5, 1, 3, 5, 1, 1])
+        self.assertEqual(a("--add", "P/A = p.txt; step 2; every 2; backwards")[0], [6, 1, 2, 1, 6, 1, 2, 1])
+        self.assertEqual(a("--clamp", "P/A(1,1)=5", "--multiply", "P/A(1,1)=2", "--add", "P/A(1,1)=1")[0], [12] * 8)  # in this order: clamp, add, multiply
+        settings = json.loads((self.here / "out/run.json").read_text())
+        self.assertEqual((settings["clamp"], settings["multiply"]), (["P/A(1,1)=5"], ["P/A(1,1)=2"]))
+        for rows, message in (("1 2\n3\n", "p.txt:2:1: error: 1 numbers in a row, not 2"), ("1 2\n3 x\n\n", "p.txt:2:3: error: 'x' is not a number"),
+                              ("1 2\n3 4\n\n", "p.txt:3: error: a pattern of 2 rows ends here, not 1"), ("\n", "p.txt: error: there are no patterns")):
+            (self.here / "p.txt").write_text(rows)
+            self.assertIn(message, self.forage("run", "small.iqr", "--cycles", 1, "--drive", "d.csv", "--clamp", "P/A=p.txt", status=2).stderr)
+
     def test_at_a_trial(self):
         self.run_robot("--trials", 3, "-r", "Bug/Motor", "--at", "trial 3: Motor In to Motor.weight=0", "--longest-trial", 20)
         cycle = json.loads((self.here / "out/run.json").read_text())["result"]["changes"][0]["cycle"]
@@ -325,6 +347,13 @@ class Mistakes(Cli):
             (["--clamp", "Bug/Motor(10,1)=1"], "it has 9 columns and 9 rows"),
             (["--clamp", "Bug/Motr(1,1)=1"], "did you mean 'Bug/Motor'"),
             (["--clamp", "Bug/Motor:vm(1,1)=1"], "only the activity"),
+            (["--add", "Bug/Motor(1,1)=x"], "is no list of cells"),
+            (["--add", "Bug/Motor(1,1)=1 2"], "is no list of cells"),
+            (["--add", "Bug/Motor"], "is neither 'Process/Group(x,y)=value' nor 'Process/Group=FILE'"),
+            (["--multiply", "Bug/Motor(1,1)=1; evry 2"], "'evry 2' is none of every N, step N"),
+            (["--multiply", "Bug/Motor(1,1)=1; every 0"], "'every' needs a whole number, at least 1"),
+            (["--add", "Bug/Motor(1,1)=1; from trail 2"], "there is no group 'trail 2'"),
+            (["--add", "Bug/Motor=absent.txt"], "absent.txt: error: cannot read the patterns: No such file"),
             (["--at", "trial 5"], "'trial 5' is not a condition, a colon, a blank and a change, such as 'trial >= 200:"),
             (["--at", "trial 5: Bug/Light.thresold=1"], "did you mean 'threshold'"),
             (["--at", "trail 5: Bug/Light.threshold=1"], "there is no group 'trail 5'"),

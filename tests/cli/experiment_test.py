@@ -121,6 +121,17 @@ class Results(Experiment):
         self.forage("experiment", "small.xml", "-o", "out")
         self.assertEqual([r["cell"] for r in self.rows("out/results.csv")], ["6", "3"])
 
+    def test_patterns(self):
+        (self.here / "p.txt").write_text("1 1\n\n3 3\n")
+        self.edit("small.xml", "<sweep", '<add group="P/A" patterns="p.txt" from="cycle 6" backwards="true" times="1"/>'
+                  '<multiply group="P/A" cells="(2,1)=10" from="cycle 9"/><sweep')
+        self.forage("experiment", "small.xml", "-o", "out")
+        self.assertEqual([r["end"] for r in self.rows("out/results.csv")], [f"{18 + 180}", f"{9 + 90}"])
+        (self.here / "p.txt").write_text("1 1\n\n3\n")
+        self.assertRegex(self.forage("experiment", "small.xml", status=2).stderr, r"p.txt:3:1: error: 1 numbers in a row")
+        self.edit("small.xml", 'cells="(2,1)=10"', 'cells="(3,1)=10"')
+        self.assertRegex(self.forage("experiment", "small.xml", status=2).stderr, r"small.xml:6:\d+: error: .* has no cell \(3, 1\)")
+
     def test_the_same_tables_with_any_number_of_jobs(self):
         self.forage("experiment", "robot.xml", "-o", "one", "-j", 1)
         self.forage("experiment", "robot.xml", "-o", "four", "-j", 4)

@@ -23,7 +23,8 @@ struct RunOptions {
     std::vector<model::RecordingWish> recordings;
     std::vector<model::TimedWish> at;
     std::vector<model::Measure> measures;
-    std::vector<std::string> clamp;  ///< files, or 'Process/Group(x,y)=value'
+    std::vector<std::string> clamp;  ///< tables
+    std::vector<model::ManipulationWish> manipulations;
     int threads = 1;
     std::string directory = "forage-out";
     bool paths = true;  ///< follow the robots

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <stdexcept>
 #include <string_view>
 
 #include <CLI/CLI.hpp>
@@ -10,11 +12,13 @@
 #include "core/model/diagnostic.h"
 #include "core/types/parameter.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/manipulations.h"
 #include "tools/forage/schedule.h"
 
 namespace {
 
 using namespace forage::tool;
+namespace model = forage::model;
 
 /// A number that `fits`, in words that a person reads.
 CLI::Validator number_that(bool (*fits)(double), const char* description) {
@@ -59,6 +63,41 @@ void add_input(CLI::App& command, Input& input) {
         ->option_text("WHERE=VALUE");
     command.add_flag("--lenient", input.lenient,
                      "Unknown parameters and attributes are warnings, not errors");
+}
+
+void add_manipulations(CLI::App& run, RunOptions& o) {
+    using Mode = model::ManipulationWish::Mode;
+    const auto add = [&](const char* option, Mode mode, const char* description, const char* text) {
+        repeated(run.add_option_function<std::vector<std::string>>(
+                     option,
+                     [&o, option, mode](const std::vector<std::string>& texts) {
+                         for (const auto& each : texts) {
+                             const bool table =
+                                 each.find('=') == std::string::npos || std::filesystem::exists(each);
+                             if (mode == Mode::clamp && table) {
+                                 o.clamp.push_back(each);
+                                 continue;
+                             }
+                             try {
+                                 o.manipulations.push_back(parse_manipulation(mode, each));
+                             } catch (const std::invalid_argument& e) {
+                                 throw CLI::ValidationError(option, e.what());
+                             }
+                         }
+                     },
+                     description))
+            ->option_text(text);
+    };
+    add("--clamp", Mode::clamp,
+        "Overwrite the activity of a group: 'Process/Group(x,y)=value' for one of its cells, with all others "
+        "0; 'Process/Group=FILE' with a list of patterns, one in each cycle, over and over; behind either, "
+        "'; every N' cycles, '; step N' patterns, '; times N' through the list, '; backwards', '; from "
+        "WHEN', '; until WHEN' (as for --at). Or a table of rows cycle,process,group,v0,v1,... May be "
+        "repeated",
+        "PATTERN|FILE");
+    add("--add", Mode::add, "The same, added to the activity after any clamp; other cells stay", "PATTERN");
+    add("--multiply", Mode::multiply, "The same, multiplied with the activity at last; other cells stay",
+        "PATTERN");
 }
 
 void add_run(CLI::App& app, RunOptions& o) {
@@ -130,12 +169,7 @@ void add_run(CLI::App& app, RunOptions& o) {
     run.add_option("--drive", o.input.drive,
                    "Table that modules of type moduleReplay play: cycle,process,target,v0,v1,...")
         ->option_text("FILE");
-    repeated(
-        run.add_option("--clamp", o.clamp,
-                       "Overwrite the activity of a group: 'Process/Group(x,y)=value' for one of its cells, "
-                       "from the start, with "
-                       "all others 0; or a table of rows cycle,process,group,v0,v1,...; may be repeated"))
-        ->option_text("CELL|FILE");
+    add_manipulations(run, o);
     run.add_option("-o,--output", o.directory, "Directory for results [forage-out]; '' for none")
         ->option_text("DIR");
     run.add_option("--world-pace", o.input.world_pace,

@@ -1,5 +1,6 @@
 #include "tools/forage/results.h"
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -53,6 +54,8 @@ std::string run_json(const RunOptions& o, const Loaded& loaded, const Outcome& o
     for (const auto& wish : o.at) json["at"].push_back(wish.text());
     if (!o.until.empty()) json["until"] = o.until.text;
     if (!o.clamp.empty()) json["clamp"] = o.clamp;
+    for (const auto& m : o.manipulations)
+        json[std::array{"clamp", "add", "multiply"}[static_cast<std::size_t>(m.mode)]].push_back(m.text);
     json["lenient"] = o.input.lenient;
     auto& result = json["result"];
     result["cycles"] = outcome.cycles;

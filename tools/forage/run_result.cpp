@@ -82,6 +82,10 @@ std::string key_of(const PlannedRun& run, const model::Experiment& experiment, c
     key["until"] = o.until.text;
     for (const auto& wish : o.input.settings) key["set"].push_back(wish.text);
     for (const auto& wish : o.at) key["at"].push_back(wish.text());
+    for (const auto& m : o.manipulations)
+        key["manipulate"].push_back({static_cast<int>(m.mode), m.group.text, m.cells.text,
+                                     m.patterns.empty() ? "" : digest(content_of(m.patterns.text)), m.every,
+                                     m.step, or_null(m.times), m.backwards, m.from.text, m.until.text});
     for (const auto& r : o.recordings) key["record"].push_back({r.column.text, r.every});
     for (const auto& m : experiment.measures)
         key["measure"].push_back({static_cast<int>(m.kind), m.what.text});

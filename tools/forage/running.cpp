@@ -4,6 +4,7 @@
 
 #include "tools/forage/files.h"
 #include "tools/forage/length.h"
+#include "tools/forage/manipulations.h"
 #include "tools/forage/schedule.h"
 #include "tools/forage/tables.h"
 
@@ -31,8 +32,10 @@ observe::Moment Running::now() const {
 void Running::cycle() {
     if (schedule.waiting()) schedule.apply(simulation, now());
     if (run_measures.waiting()) run_measures.see(simulation, now());
+    for (auto& m : manipulations) m.look(simulation, now());
     simulation.update_groups();
     clamp.apply(simulation);
+    for (auto& m : manipulations) m.apply(simulation);
     simulation.update_modules();
     simulation.update_connections();
     if (loaded.world) loaded.world->step();
@@ -55,6 +58,7 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
         until = observe::parse_condition(*simulation, has_trials(*loaded), o.until.text,
                                          o.until.at.file ? "until" : "--until", diagnostics, o.until.at);
     auto clamped = clamp(o.clamp, *simulation, diagnostics);
+    auto manipulated = manipulations(o.manipulations, *loaded, *simulation, diagnostics);
     auto columns = columns_of(o, *simulation, diagnostics);
     RunMeasures run_measures(o.measures, *loaded, *simulation, diagnostics);
     if (diagnostics.failed()) return std::nullopt;
@@ -68,6 +72,7 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
                     std::move(scheduled),
                     std::move(until),
                     std::move(clamped),
+                    std::move(manipulated),
                     std::move(run_measures),
                     {},
                     {},

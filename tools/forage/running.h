@@ -7,6 +7,7 @@
 
 #include "core/engine/simulation.h"
 #include "core/observe/clamp.h"
+#include "core/observe/manipulation.h"
 #include "core/observe/schedule.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/paths.h"
@@ -24,6 +25,7 @@ struct Running {
     observe::Schedule schedule;
     std::optional<observe::Condition> until;
     observe::Clamp clamp;
+    std::vector<observe::Manipulation> manipulations;
     RunMeasures run_measures;
     std::vector<Measures> measures;      ///< of the trials, one per robot
     std::vector<Recordings> recordings;  ///< one for each `every`; none without a directory

@@ -15,7 +15,8 @@ RunOptions common(const model::Experiment& e) {
     o.input.system = e.system, o.input.world = e.world, o.input.settings = e.settings;
     o.input.world_pace = e.world_pace, o.input.noise = e.noise;
     o.cycles = e.cycles, o.seconds = e.seconds, o.trials = e.trials, o.longest_trial = e.longest_trial;
-    o.until = e.until, o.recordings = e.recordings, o.at = e.changes, o.measures = e.measures;
+    o.until = e.until, o.recordings = e.recordings, o.at = e.changes, o.measures = e.measures,
+    o.manipulations = e.manipulations;
     o.paths = false, o.quiet = true;
     return o;
 }

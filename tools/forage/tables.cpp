@@ -1,35 +1,22 @@
 #include "tools/forage/tables.h"
 
-#include <charconv>
-#include <filesystem>
-#include <map>
+#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "core/model/lookup.h"
-#include "core/observe/cell.h"
-#include "core/observe/column.h"
 #include "modules/replay/replay.h"
+#include "tools/forage/manipulations.h"
 
 namespace forage::tool {
 namespace {
-
-/// The group whose activity `name` means; -1 when it means none, which is reported.
-int group_of(std::string_view name, const engine::Simulation& s, Diagnostics& diagnostics) {
-    const auto column = observe::find_column(s, name, "--clamp", diagnostics);
-    if (!column) return -1;
-    if (column->state == s.type(column->group).output()) return column->group;
-    diagnostics.error({}, fmt::format("--clamp '{}': only the activity of a group can be overwritten", name),
-                      "leave out the state");
-    return -1;
-}
 
 /// The groups that a row names.
 std::vector<int> groups_of(const replay::DriveTable::Row& row, const engine::Simulation& s,
                            Diagnostics& diagnostics) {
     if (row.process != "*") {
-        const int group = group_of(row.process + "/" + row.target, s, diagnostics);
+        const int group = manipulated_group({row.process + "/" + row.target}, "--clamp", s, diagnostics);
         return group < 0 ? std::vector<int>() : std::vector{group};
     }
     std::vector<int> out;
@@ -55,43 +42,12 @@ void add_table(const replay::DriveTable& table, const engine::Simulation& s, obs
         }
 }
 
-/// 'Process/Group(x,y)=value'
-struct Cell {
-    std::string group;
-    int x = 0, y = 0;
-    double value = 0;
-};
-
-std::optional<Cell> parse_cell(std::string_view text) {
-    const auto open = text.rfind('('), close = text.find(")=", open == std::string_view::npos ? 0 : open);
-    if (open == std::string_view::npos || close == std::string_view::npos) return std::nullopt;
-    const auto place = observe::parse_cell(text.substr(open + 1, close - open - 1));
-    const auto value = parse_parameter(ParameterKind::real, model::trim(text.substr(close + 2)));
-    if (!place || !value) return std::nullopt;
-    return Cell{std::string(text.substr(0, open)), place->first, place->second, std::get<double>(*value)};
-}
-
-void add_cell(const Cell& cell, const engine::Simulation& s, std::map<int, std::vector<double>>& rows,
-              Diagnostics& diagnostics) {
-    const int group = group_of(cell.group, s, diagnostics);
-    if (group < 0) return;
-    const auto index = observe::find_cell(s, group, cell.x, cell.y, "--clamp", diagnostics);
-    if (!index) return;
-    const auto cells = static_cast<std::size_t>(s.shape(group).cells);
-    rows.try_emplace(group, cells, 0.0).first->second[static_cast<std::size_t>(*index)] = cell.value;
-}
-
 }  // namespace
 
 observe::Clamp clamp(const std::vector<std::string>& wishes, const engine::Simulation& simulation,
                      Diagnostics& diagnostics) {
     observe::Clamp out;
-    std::map<int, std::vector<double>> rows;
     for (const auto& wish : wishes) {
-        if (const auto cell = parse_cell(wish); cell && !std::filesystem::exists(wish)) {
-            add_cell(*cell, simulation, rows, diagnostics);
-            continue;
-        }
         try {
             add_table(replay::DriveTable::read(wish), simulation, out, diagnostics);
         } catch (const std::exception& e) {
@@ -100,7 +56,6 @@ observe::Clamp clamp(const std::vector<std::string>& wishes, const engine::Simul
                 "a clamp is a file of rows cycle,process,group,v0,v1,... or 'Process/Group(x,y)=value'");
         }
     }
-    for (auto& [group, values] : rows) out.add(-1, group, std::move(values));
     return out;
 }
 

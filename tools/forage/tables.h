@@ -11,8 +11,8 @@
 
 namespace forage::tool {
 
-/// What --clamp asks for: files of rows, and cells 'Process/Group(x,y)=value', which hold from the start
-/// while the group's other cells are 0. Reports what cannot be.
+/// The tables of --clamp: files of rows, each of which holds until the next one of its group. Reports what
+/// cannot be.
 observe::Clamp clamp(const std::vector<std::string>& wishes, const engine::Simulation& simulation,
                      Diagnostics& diagnostics);
 

@@ -1,0 +1,46 @@
+// State manipulation: patterns that are laid over the activity of a group.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/observe/condition.h"
+
+namespace forage::observe {
+
+/// Applies a list of patterns to the activity of one group, right after the group's update: one pattern in
+/// every `every`-th cycle, and nothing in between.
+class Manipulation {
+  public:
+    enum class Mode {
+        clamp,     ///< the activity becomes the pattern
+        add,       ///< the pattern is added to it
+        multiply,  ///< it is multiplied by the pattern, cell by cell
+    };
+    struct Settings {
+        int group = 0;
+        Mode mode = Mode::clamp;
+        std::vector<std::vector<double>> patterns{};  ///< one value per cell each; at least one pattern
+        std::uint64_t every = 1;                      ///< cycles from one pattern to the next
+        std::uint64_t step = 1;                       ///< only every so-manieth pattern of the list
+        std::optional<std::uint64_t> times{};         ///< how often the list is played; empty: for ever
+        bool backwards = false;                       ///< from the last pattern to the first
+        std::optional<Condition> from{}, until{};     ///< from the first cycle, and to the last one
+    };
+    explicit Manipulation(Settings settings);
+
+    /// Before each cycle: begins and ends when its conditions first hold.
+    void look(const engine::Simulation& simulation, const Moment& now);
+    /// Between update_groups() and update_modules() of each cycle.
+    void apply(engine::Simulation& simulation);
+
+  private:
+    Settings s_;
+    bool begun_ = false, over_ = false;
+    std::uint64_t waited_ = 0;  ///< cycles since the last pattern
+    std::size_t next_ = 0;      ///< place in the order of playback
+    std::uint64_t played_ = 0;  ///< times that the list was played to its end
+};
+
+}  // namespace forage::observe

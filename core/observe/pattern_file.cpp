@@ -1,0 +1,99 @@
+#include "core/observe/pattern_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "core/types/parameter.h"
+
+namespace forage::observe {
+namespace {
+
+class PatternReader {
+  public:
+    PatternReader(std::shared_ptr<const SourceFile> file, const GroupShape& shape, Diagnostics& out)
+        : file_(std::move(file)),
+          sparse_(shape.cells != shape.width * shape.height),
+          width_(sparse_ ? shape.cells : shape.width),
+          height_(sparse_ ? 1 : shape.height),
+          out_(out) {}
+
+    std::vector<std::vector<double>> run() {
+        const int errors_before = out_.errors();
+        std::string_view rest = file_->text;
+        for (int number = 1; !rest.empty(); ++number) {
+            const auto end = std::min(rest.find('\n'), rest.size());
+            line(rest.substr(0, end), number);
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+            last_ = number;
+        }
+        finish(last_);
+        if (patterns_.empty() && out_.errors() == errors_before)
+            out_.error({file_, 0, 0}, "there are no patterns in it", "");
+        if (out_.errors() > errors_before) return {};
+        return std::move(patterns_);
+    }
+
+  private:
+    void line(std::string_view text, int number) {
+        constexpr std::string_view between = " \t\r,;";
+        std::size_t at = text.find_first_not_of(between);
+        if (at == std::string_view::npos) return finish(number);
+        if (text[at] == '#') return;
+        int count = 0;
+        while (at != std::string_view::npos) {
+            const auto end = std::min(text.find_first_of(between, at), text.size());
+            const auto word = text.substr(at, end - at);
+            const auto value = parse_parameter(ParameterKind::real, word);
+            if (!value)
+                out_.error({file_, number, static_cast<int>(at) + 1},
+                           fmt::format("'{}' is not a number", word));
+            pattern_.push_back(value ? std::get<double>(*value) : 0);
+            ++count;
+            at = text.find_first_not_of(between, end);
+        }
+        if (count != width_)
+            out_.error({file_, number, 1}, fmt::format("{} numbers in a row, not {}", count, width_),
+                       sparse_ ? "the group is sparse: a pattern is one row with a number per cell"
+                               : "a row has as many numbers as the group has columns");
+        ++rows_;
+    }
+
+    /// Ends a pattern; `number`: the line after it.
+    void finish(int number) {
+        if (rows_ == 0) return;
+        if (rows_ != height_)
+            out_.error({file_, number, 0},
+                       fmt::format("a pattern of {} rows ends here, not {}", rows_, height_),
+                       "a pattern has as many rows as the group; an empty line stands between patterns");
+        patterns_.push_back(std::move(pattern_));
+        pattern_.clear();
+        rows_ = 0;
+    }
+
+    std::shared_ptr<const SourceFile> file_;
+    bool sparse_;
+    int width_, height_, rows_ = 0, last_ = 0;
+    Diagnostics& out_;
+    std::vector<double> pattern_;
+    std::vector<std::vector<double>> patterns_;
+};
+
+}  // namespace
+
+std::vector<std::vector<double>> read_patterns(const std::string& path, const GroupShape& shape,
+                                               Diagnostics& diagnostics) {
+    std::ifstream in(path, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    const bool read = in.is_open() && !in.bad();
+    const std::string reason = read ? "" : std::strerror(errno);
+    auto file = std::make_shared<SourceFile>(SourceFile{path, std::move(text)});
+    if (read) return PatternReader(std::move(file), shape, diagnostics).run();
+    diagnostics.error({std::move(file), 0, 0}, fmt::format("cannot read the patterns: {}", reason));
+    return {};
+}
+
+}  // namespace forage::observe

@@ -1,0 +1,68 @@
+#include "core/observe/manipulation.h"
+
+#include "tests/unit/engine/simulations.h"
+
+using namespace forage;
+using namespace forage::test;
+using observe::Manipulation;
+
+namespace {
+
+/// What becomes of two cells that are 1 by themselves in each of `cycles` cycles: 10 x the first + the
+/// second.
+std::vector<double> played(Manipulation::Settings settings, int cycles) {
+    model::System system;
+    model::add_group(system, model::add_process(system, "P"), "A", 2, 1, "one");
+    auto s = run(system, registry());
+    Manipulation manipulation(std::move(settings));
+    std::vector<double> out;
+    for (int t = 0; t < cycles; ++t) {
+        manipulation.look(s, {s.cycle(), 0, 0});
+        s.update_groups();
+        manipulation.apply(s);
+        s.update_modules();
+        s.update_connections();
+        const auto a = activity(s, "P/A");
+        out.push_back(10 * a[0] + a[1]);
+    }
+    return out;
+}
+
+const std::vector<std::vector<double>> list = {{2, 3}, {4, 5}, {6, 7}, {8, 9}, {0, 1}};
+
+observe::Condition from_cycle(double n) {
+    model::System system;
+    model::add_group(system, model::add_process(system, "P"), "A", 2, 1, "one");
+    const auto s = run(system, registry());
+    Diagnostics diagnostics;
+    return *observe::parse_condition(s, false, "cycle " + to_text(ParameterValue(n)), "", diagnostics);
+}
+
+}  // namespace
+
+TEST_CASE("A pattern replaces, is added to, or multiplies the activity") {
+    using V = std::vector<double>;
+    CHECK(played({.mode = Manipulation::Mode::clamp, .patterns = {{2, 3}}}, 2) == V{23, 23});
+    CHECK(played({.mode = Manipulation::Mode::add, .patterns = {{2, 3}}}, 2) == V{34, 34});
+    CHECK(played({.mode = Manipulation::Mode::multiply, .patterns = {{2, 3}}}, 2) == V{23, 23});
+    CHECK(played({.mode = Manipulation::Mode::multiply, .patterns = {{0, 1}}}, 2) == V{1, 1});
+}
+
+TEST_CASE("A list is played in order, backwards, in steps, with pauses, and as often as wanted") {
+    using V = std::vector<double>;
+    CHECK(played({.patterns = list}, 7) == V{23, 45, 67, 89, 1, 23, 45});
+    CHECK(played({.patterns = list, .backwards = true}, 7) == V{1, 89, 67, 45, 23, 1, 89});
+    CHECK(played({.patterns = list, .step = 2}, 5) == V{23, 67, 1, 23, 67});
+    CHECK(played({.patterns = list, .step = 3, .backwards = true}, 5) == V{1, 45, 1, 45, 1});
+    CHECK(played({.patterns = list, .every = 3}, 7) == V{23, 11, 11, 45, 11, 11, 67});
+    CHECK(played({.patterns = list, .step = 2, .times = 2}, 8) == V{23, 67, 1, 23, 67, 1, 11, 11});
+    CHECK(played({.patterns = {{2, 3}}, .every = 2, .times = 2}, 6) == V{23, 11, 23, 11, 11, 11});
+}
+
+TEST_CASE("It begins and ends when conditions first hold") {
+    using V = std::vector<double>;
+    CHECK(played({.patterns = list, .from = from_cycle(2)}, 5) == V{11, 11, 23, 45, 67});
+    CHECK(played({.patterns = list, .from = from_cycle(1), .until = from_cycle(3)}, 5) ==
+          V{11, 23, 45, 11, 11});
+    CHECK(played({.patterns = list, .every = 2, .until = from_cycle(3)}, 5) == V{23, 11, 45, 11, 11});
+}
