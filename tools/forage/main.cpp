@@ -100,6 +100,81 @@ void add_manipulations(CLI::App& run, RunOptions& o) {
         "PATTERN");
 }
 
+CLI::Option* add_picture_format(CLI::App& command, std::string& format) {
+    return command.add_option("--as", format, "Format of pictures: png, svg or pdf [png]")
+        ->check(CLI::IsMember({"png", "svg", "pdf"}))
+        ->option_text("FORMAT");
+}
+
+void add_recording(CLI::App& run, RunOptions& o) {
+    auto* record =
+        repeated(run.add_option_function<std::vector<std::string>>(
+                     "-r,--record",
+                     [&o](const std::vector<std::string>& texts) {
+                         for (const auto& text : texts) o.recordings.push_back({{text}});
+                     },
+                     "Write 'Process/Group' (its activity) or 'Process/Group:state' to a file; "
+                     "'...(x1..x2,y1..y2)' for some of its cells, 'mean:...' for their mean, '...=NAME.h5' "
+                     "to name the file; may be repeated"))
+            ->option_text("SOURCE");
+    run.add_option(
+           "--format", o.record.format,
+           "Of recordings without a named file: csv, npy, npz (NumPy), h5 (HDF5) or dat (the original's "
+           "data sampler) [csv]")
+        ->check(CLI::IsMember({"csv", "npy", "npz", "h5", "dat"}))
+        ->option_text("FORMAT")
+        ->needs(record);
+    run.add_option_function<std::uint64_t>(
+           "--every",
+           [&o](const std::uint64_t& every) {
+               for (auto& r : o.recordings) r.every = every;
+           },
+           "Record every K-th cycle [1]")
+        ->check(count())
+        ->option_text("K")
+        ->needs(record);
+    run.add_flag("--record-mean", o.record.mean, "Record the mean of K cycles instead of every K-th")
+        ->needs("--every");
+    run.add_option("--record-from", o.record.from, "Record from this cycle on [0]")
+        ->check(seed())
+        ->option_text("CYCLE")
+        ->needs(record);
+    run.add_option("--record-until", o.record.until, "Record up to this cycle")
+        ->check(seed())
+        ->option_text("CYCLE")
+        ->needs(record);
+    repeated(run.add_option(
+                 "-p,--plot", o.plots,
+                 "Draw a picture: 'time:SOURCE', 'space:SOURCE@CYCLES', 'movie:SOURCE', 'connection:NAME' "
+                 "or 'diagram', see 'forage plot --help'; may be repeated"))
+        ->option_text("PLOT");
+    add_picture_format(run, o.picture_format);
+}
+
+void add_plot(CLI::App& app, PlotOptions& o) {
+    auto& plot = *app.add_subcommand("plot", "Draw pictures of results, of a recording or of a system");
+    plot.footer(
+        "Plots:\n"
+        "  time:SOURCE                     cells over time; 'time:mean:SOURCE' for their mean\n"
+        "  space:SOURCE@100,200            the group as a picture at these cycles; at the last one without "
+        "'@'\n"
+        "  space:SOURCE@0..1000/100        at every 100th cycle; ';blocks=9x1' at the end divides the group\n"
+        "  movie:SOURCE@0..500/5           the same as an animated PNG\n"
+        "  connection:NAME                 which cells reach which, with strength and delay\n"
+        "  diagram, diagram:PROCESS        the system as the file lays it out\n"
+        "  trajectory                      the robot's paths\n"
+        "A source is 'Process/Group:state(x1..x2,y1..y2)'; state and cells may be left out.\n"
+        "Example:\n"
+        "  forage plot systems/reactive_foraging.iqr diagram 'connection:US to Approach' --as svg");
+    plot.add_option("FROM", o.source, "Directory of results, recording (.csv, .npy, .h5) or system (.iqr)")
+        ->required()
+        ->option_text("DIR|FILE");
+    plot.add_option("PLOT", o.wishes, "What to draw; without any, what there is")->option_text("PLOT...");
+    plot.add_option("-o,--output", o.directory, "Directory for pictures [beside what they show]")
+        ->option_text("DIR");
+    add_picture_format(plot, o.picture_format);
+}
+
 void add_run(CLI::App& app, RunOptions& o) {
     auto& run = *app.add_subcommand("run", "Run a system, in a world if one is given");
     run.footer(
@@ -127,24 +202,7 @@ void add_run(CLI::App& app, RunOptions& o) {
         ->option_text("S")
         ->needs(trials);
     run.add_option("--seed", o.input.seed, "Decides everything random [1]")->check(seed())->option_text("N");
-    auto* record =
-        repeated(run.add_option_function<std::vector<std::string>>(
-                     "-r,--record",
-                     [&o](const std::vector<std::string>& texts) {
-                         for (const auto& text : texts) o.recordings.push_back({{text}});
-                     },
-                     "Write 'Process/Group' (its activity) or 'Process/Group:state' to a CSV file; may be "
-                     "repeated"))
-            ->option_text("COLUMN");
-    run.add_option_function<std::uint64_t>(
-           "--every",
-           [&o](const std::uint64_t& every) {
-               for (auto& r : o.recordings) r.every = every;
-           },
-           "Record every K-th cycle [1]")
-        ->check(count())
-        ->option_text("K")
-        ->needs(record);
+    add_recording(run, o);
     run.add_option("--until", o.until.text, "Stop before its time when a condition holds, as for --at")
         ->option_text("WHEN");
     repeated(
@@ -254,10 +312,12 @@ int main(int argc, char** argv) {
     RunOptions run_options;
     ExperimentOptions experiment_options;
     ConvertOptions convert_options;
+    PlotOptions plot_options;
     Input check_input;
     std::string type;
     add_run(app, run_options);
     add_experiment(app, experiment_options);
+    add_plot(app, plot_options);
     add_convert(app, convert_options);
     auto& check_command =
         *app.add_subcommand("check", "Check a system (and world) and say everything that is wrong with it");
@@ -295,6 +355,7 @@ int main(int argc, char** argv) {
     try {
         if (app.got_subcommand("run")) return run(run_options);
         if (app.got_subcommand("experiment")) return experiment(experiment_options);
+        if (app.got_subcommand("plot")) return plot(plot_options);
         if (app.got_subcommand("check")) return check(check_input);
         if (app.got_subcommand("convert")) return convert(convert_options);
         if (app.got_subcommand("schema")) return schema();
