@@ -480,6 +480,30 @@ class Others(Cli):
         self.assertIn("_motor", self.forage("types", "moduleGazeboBug").stdout)
         self.assertIn("did you mean", self.forage("types", "neuronLinearTreshold", status=2).stderr)
 
+    def test_a_type_is_described_with_all_it_declares(self):
+        text = self.forage("types", "neuronLinearThreshold").stdout
+        self.assertRegex(text, r"excIn +Excitation\n +inhIn +Inhibition\n +modIn +Modulation \(not read\)")
+        self.assertRegex(text, r"vmPrs +Part of vm kept per cycle. Default 0, usual range 0 to 1\.")
+        self.assertRegex(self.forage("types", "synapseHebbian").stdout, r"postact +Postsynaptic activity")
+        self.assertRegex(self.forage("types", "moduleCL").stdout, r"Reads from groups\n +action +Action\n")
+
+    def test_a_system_is_described(self):
+        text = self.forage("describe", SYSTEM).stdout
+        self.assertTrue(text.startswith("Reactive foraging: 3 processes, 17 groups (3306 cells), 10 connections (133 synapses)\n"))
+        self.assertIn("\n    US: 7 x 1, neuronLinearThreshold (excGain=5,", text)
+        self.assertIn("-> Reactive Layer/US: excitatory, 64 synapses (list), synapseFixedWeight (weight=1), 'Light to US'", text)
+        self.assertIn("      writes _target: Bug/Light\n", text)
+        self.assertEqual(text.count(" -> "), 10)
+        self.assertIn("weight=0.25", self.forage("describe", SYSTEM, "--set", "Light to US.weight=0.25").stdout)
+        bad = self.here / "bad.iqr"
+        bad.write_text(SMALL_SYSTEM.replace('name="excGain"', 'name="exGain"'))
+        self.assertIn("did you mean 'excGain'", self.forage("describe", bad, status=2).stderr)
+
+    def test_every_command_has_help_with_an_example_that_names_it(self):
+        for command in re.findall(r"^  (\w+) ", self.forage("--help").stdout.split("Subcommands:")[1], re.MULTILINE):
+            text = self.forage(command, "--help").stdout
+            self.assertRegex(text, rf"Example:\n  forage {command}\b")
+
     def test_shipped_systems_are_fine(self):
         for system in (PROJECT / "systems").glob("*.iqr"):
             done = self.forage("check", system)

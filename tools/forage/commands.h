@@ -70,6 +70,8 @@ int plot(const PlotOptions& options);
 int experiment(const ExperimentOptions& options);
 int convert(const ConvertOptions& options);
 int check(const Input& input);
+/// Prints the tree of processes, groups and connections, with sizes and how each connection is computed.
+int describe(const Input& input);
 /// Lists the types, or one with its parameters.
 int types(const std::string& name);
 /// Prints a RELAX NG schema of system files with the types that ship.

@@ -266,6 +266,9 @@ void add_experiment(CLI::App& app, ExperimentOptions& o) {
 void add_convert(CLI::App& app, ConvertOptions& o) {
     auto& convert =
         *app.add_subcommand("convert", "Read a system or process file and write it in the standard layout");
+    convert.footer(
+        "Example:\n"
+        "  forage convert systems/reactive_foraging.iqr bug.iqrProcess --extract Bug");
     convert.add_option("IN", o.input, "File to read (.iqr or .iqrProcess)")->required()->option_text("FILE");
     convert.add_option("OUT", o.output, "File to write (.iqr or .iqrProcess); may be the same")
         ->required()
@@ -313,7 +316,7 @@ int main(int argc, char** argv) {
     ExperimentOptions experiment_options;
     ConvertOptions convert_options;
     PlotOptions plot_options;
-    Input check_input;
+    Input check_input, describe_input;
     std::string type;
     add_run(app, run_options);
     add_experiment(app, experiment_options);
@@ -322,10 +325,17 @@ int main(int argc, char** argv) {
     auto& check_command =
         *app.add_subcommand("check", "Check a system (and world) and say everything that is wrong with it");
     add_input(check_command, check_input);
+    auto& describe_command =
+        *app.add_subcommand("describe", "Show what a system is made of: processes, groups, connections, sizes");
+    describe_command.footer("Example:\n  forage describe systems/reactive_foraging.iqr");
+    add_input(describe_command, describe_input);
+    check_command.footer("Example:\n  forage check systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world");
     auto& types_command =
         *app.add_subcommand("types", "List the neuron, synapse and module types, or describe one");
+    types_command.footer("Example:\n  forage types neuronLinearThreshold");
     types_command.add_option("NAME", type, "The type to describe")->option_text(" ");
-    app.add_subcommand("schema", "Print a RELAX NG schema of system files, for editors");
+    app.add_subcommand("schema", "Print a RELAX NG schema of system files, for editors")
+        ->footer("Example:\n  forage schema > iqr.rng");
 
     try {
         if (argc == 1) {
@@ -357,6 +367,7 @@ int main(int argc, char** argv) {
         if (app.got_subcommand("experiment")) return experiment(experiment_options);
         if (app.got_subcommand("plot")) return plot(plot_options);
         if (app.got_subcommand("check")) return check(check_input);
+        if (app.got_subcommand("describe")) return describe(describe_input);
         if (app.got_subcommand("convert")) return convert(convert_options);
         if (app.got_subcommand("schema")) return schema();
         return types(type);
