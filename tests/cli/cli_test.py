@@ -504,6 +504,35 @@ class Others(Cli):
             text = self.forage(command, "--help").stdout
             self.assertRegex(text, rf"Example:\n  forage {command}\b")
 
+    def test_completion_knows_commands_options_and_values(self):
+        script = self.here / "c.bash"
+        script.write_text(self.forage("completion", "bash").stdout)
+        def complete(*words):
+            text = f"source {script}; COMP_WORDS=({' '.join(map(shlex.quote, words))}); COMP_CWORD={len(words) - 1}; _forage; echo \"${{COMPREPLY[@]}}\""
+            return subprocess.run(["bash", "-c", text], cwd=self.here, capture_output=True, text=True).stdout.split()
+        self.assertEqual(complete("forage", "de"), ["describe"])
+        self.assertEqual(complete("forage", "run", "--tri"), ["--trials"])
+        self.assertEqual(complete("forage", "run", "--format", "n"), ["npy", "npz"])
+        self.assertEqual(complete("forage", "run", "c."), ["c.bash"])
+        for shell in ("zsh", "fish"):
+            text = self.forage("completion", shell).stdout
+            for word in ("describe", "longest-trial", "csv npy npz h5 dat"):
+                self.assertIn(word, text)
+            if shutil.which(shell):
+                (self.here / "c").write_text(text)
+                self.assertEqual(subprocess.run([shell, "-n", self.here / "c"], capture_output=True, text=True).stderr, "")
+        self.assertIn("error:", self.forage("completion", "csh", status=2).stderr)
+
+    def test_the_manual_page_has_every_option(self):
+        text = self.forage("man").stdout
+        for command in re.findall(r"^  (\w+) ", self.forage("--help").stdout.split("Subcommands:")[1], re.MULTILINE):
+            self.assertIn(f".SS forage {command}\n", text)
+            for option in re.findall(r"--[a-z-]+", self.forage(command, "--help").stdout.split("Options:")[1].split("\n\n")[0]):
+                self.assertIn(option.replace("-", "\\-"), text)
+        if shutil.which("mandoc"):
+            done = subprocess.run(["mandoc", "-T", "lint", "-W", "error"], input=text, capture_output=True, text=True)
+            self.assertEqual(done.stdout, "")
+
     def test_shipped_systems_are_fine(self):
         for system in (PROJECT / "systems").glob("*.iqr"):
             done = self.forage("check", system)

@@ -13,6 +13,7 @@
 #include "core/types/parameter.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/manipulations.h"
+#include "tools/forage/reference.h"
 #include "tools/forage/schedule.h"
 
 namespace {
@@ -336,6 +337,14 @@ int main(int argc, char** argv) {
     types_command.add_option("NAME", type, "The type to describe")->option_text(" ");
     app.add_subcommand("schema", "Print a RELAX NG schema of system files, for editors")
         ->footer("Example:\n  forage schema > iqr.rng");
+    std::string shell;
+    auto& completion_command = *app.add_subcommand("completion", "Print a script that completes command lines");
+    completion_command.footer("Example:\n  forage completion bash > ~/.local/share/bash-completion/completions/forage");
+    completion_command.add_option("SHELL", shell, "bash, zsh or fish")
+        ->required()
+        ->check(CLI::IsMember({"bash", "zsh", "fish"}))
+        ->option_text(" ");
+    app.add_subcommand("man", "Print the manual page")->footer("Example:\n  forage man > forage.1; man ./forage.1");
 
     try {
         if (argc == 1) {
@@ -370,6 +379,8 @@ int main(int argc, char** argv) {
         if (app.got_subcommand("describe")) return describe(describe_input);
         if (app.got_subcommand("convert")) return convert(convert_options);
         if (app.got_subcommand("schema")) return schema();
+        if (app.got_subcommand("man")) return fmt::print("{}", man_page(app)), fine;
+        if (app.got_subcommand("completion")) return fmt::print("{}", completion(app, shell)), fine;
         return types(type);
     } catch (const std::exception& e) {
         fmt::print(stderr, "error: {}\n", e.what());
