@@ -4,6 +4,7 @@
 """
 
 import filecmp
+import html.parser
 import json
 import pathlib
 import re
@@ -13,6 +14,7 @@ import struct
 import subprocess
 import time
 import unittest
+import urllib.parse
 import zlib
 
 from cli_test import FORAGE, SMALL_SYSTEM, SYSTEM, WORLD, Cli
@@ -261,6 +263,23 @@ class Pictures(Cli):
         if shutil.which("xmllint"):
             self.assertEqual(subprocess.run(["xmllint", "--noout", "--nonet", self.here / "diagram.svg"]).returncode, 0)
         self.assertIn("<svg", text)
+
+    def test_a_page_shows_everything_and_fetches_nothing(self):
+        self.run_robot("--trials", 3, "-p", "time:Bug/Light", "-p", "space:Bug/Place Cells@5", "-r", "Bug/Light")
+        (self.here / "out/a <b> & 100% #1.png").write_bytes(b"")
+        self.assertIn("out/index.html", self.forage("view", "out").stdout)
+        page = (self.here / "out/index.html").read_text()
+        self.assertNotRegex(page, r"<script|https?:|//")
+        for name in re.findall(r'(?:src|href)="\./([^"]*)"', page):
+            self.assertTrue((self.here / "out" / urllib.parse.unquote(name)).exists(), name)
+        for picture in ("trajectory", "time_Bug_Light", "space_Bug_Place_Cells_5"):
+            self.assertIn(f'<img src="./{picture}.png"', page)
+        self.assertEqual(page.count("<td>target</td>") + page.count("<td>missed</td>"), 3)
+        self.assertIn("<tr><th>seed</th><td>1</td></tr>", page)
+        self.assertLess(len(page), 20000)  # the recording's numbers are not on it
+        parser = html.parser.HTMLParser()
+        parser.feed(page)
+        self.assertIn("error:", self.forage("view", "absent", status=2).stderr)
 
     def test_a_system_without_layout_has_a_diagram(self):
         (self.here / "small.iqr").write_text(SMALL_SYSTEM.replace('<DiagramIcon x="0" y="0"/>', ""))

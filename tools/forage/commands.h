@@ -72,6 +72,8 @@ int convert(const ConvertOptions& options);
 int check(const Input& input);
 /// Prints the tree of processes, groups and connections, with sizes and how each connection is computed.
 int describe(const Input& input);
+/// Writes a page that shows the pictures and tables of a directory of results: plain HTML, nothing from the net.
+int view(const std::string& directory);
 /// Lists the types, or one with its parameters.
 int types(const std::string& name);
 /// Prints a RELAX NG schema of system files with the types that ship.

@@ -331,6 +331,11 @@ int main(int argc, char** argv) {
     describe_command.footer("Example:\n  forage describe systems/reactive_foraging.iqr");
     add_input(describe_command, describe_input);
     check_command.footer("Example:\n  forage check systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world");
+    std::string directory = "forage-out";
+    auto& view_command =
+        *app.add_subcommand("view", "Write a page, index.html, that shows the pictures and tables of results");
+    view_command.footer("Example:\n  forage view forage-out");
+    view_command.add_option("DIR", directory, "Directory of results [forage-out]")->option_text(" ");
     auto& types_command =
         *app.add_subcommand("types", "List the neuron, synapse and module types, or describe one");
     types_command.footer("Example:\n  forage types neuronLinearThreshold");
@@ -379,6 +384,7 @@ int main(int argc, char** argv) {
         if (app.got_subcommand("describe")) return describe(describe_input);
         if (app.got_subcommand("convert")) return convert(convert_options);
         if (app.got_subcommand("schema")) return schema();
+        if (app.got_subcommand("view")) return view(directory);
         if (app.got_subcommand("man")) return fmt::print("{}", man_page(app)), fine;
         if (app.got_subcommand("completion")) return fmt::print("{}", completion(app, shell)), fine;
         return types(type);
