@@ -235,6 +235,14 @@ class Pictures(Cli):
             "time_Bug_Light_act", "time_Bug_Place_Cells_act", "space_Bug_Place_Cells_act", "trajectory")])
         self.assertEqual(self.forage("plot", SYSTEM, "-o", "pictures").stdout, "pictures/diagram.png\n")
 
+    def test_a_trajectory_is_always_drawn_and_needs_a_world(self):
+        self.run_robot("--cycles", 50, "-p", "trajectory")
+        self.forage("plot", "out", "trajectory", "-o", "again")
+        self.assertTrue(filecmp.cmp(self.here / "out/trajectory.png", self.here / "again/trajectory.png", shallow=False))
+        (self.here / "small.iqr").write_text(SMALL_SYSTEM.replace('enableModule="true"', 'enableModule="false"'))
+        self.forage("run", "small.iqr", "--cycles", 5, "-o", "small")
+        self.assertIn("results of a run in a world", self.forage("plot", "small", "trajectory", status=2).stderr)
+
     def test_a_moving_picture(self):
         self.run_robot("--cycles", 300, "-p", "movie:Bug/Place Cells@0..290/10", "-p", "movie:Bug/Light")
         width, height, frames = png_size((self.here / "out/movie_Bug_Place_Cells_0..290_10.png").read_bytes())

@@ -253,7 +253,7 @@ int plot(const PlotOptions& o) {
         if (!source.input.system.empty()) loaded = load(source.input, diagnostics);
         for (const auto& w : wishes)
             if (loaded) check_structure(w, loaded->system, "forage plot", diagnostics);
-        if (loaded && trajectory && (!loaded->world || source.directory.empty()))
+        if (loaded && trajectory && (!loaded->world || !fs::exists(source.directory + "/trajectory.csv")))
             diagnostics.error({}, "a trajectory needs the results of a run in a world");
     }
     if (diagnostics.failed()) return report();

@@ -94,7 +94,8 @@ LivePlots LivePlots::make(const std::vector<std::string>& wishes, const model::S
     LivePlots out;
     for (const auto& text : wishes) {
         auto wish = parse_plot(text, "--plot", diagnostics);
-        if (!wish) continue;
+        if (!wish || wish->kind == PlotWish::Kind::trajectory)
+            continue;  // every run in a world draws its paths
         if (!wish->of_cells()) {
             check_structure(*wish, system, "--plot", diagnostics);
             out.others_.push_back(std::move(*wish));

@@ -53,7 +53,7 @@ class LivePlots {
     void follow(const engine::Simulation& simulation);
 
     const std::vector<RowPlot>& of_cells() const { return plots_; }
-    const std::vector<PlotWish>& others() const { return others_; }  ///< diagrams, connections, trajectories
+    const std::vector<PlotWish>& others() const { return others_; }  ///< diagrams and connections
 
   private:
     std::vector<RowPlot> plots_;

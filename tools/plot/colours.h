@@ -16,8 +16,8 @@ inline constexpr Colour black{0, 0, 0}, white{1, 1, 1}, grey{0.45, 0.45, 0.45}, 
 Colour sequential(double part);
 /// Blue over white to red for -1..1, for values on both sides of zero: RdBu of C. Brewer, five samples of it.
 Colour diverging(double part);
-/// The n-th of eight colours that differ for every kind of sight (Okabe and Ito 2008), then again from the
-/// first.
+/// The n-th of ten colours for lines, then again from the first: those of Okabe and Ito (2008), which differ
+/// for every kind of sight, with a darker yellow, then brown and grey.
 Colour category(std::size_t n);
 
 }  // namespace forage::plot

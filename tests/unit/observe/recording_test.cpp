@@ -1,3 +1,5 @@
+#include "core/observe/recording.h"
+
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -5,7 +7,6 @@
 #include <unistd.h>
 
 #include "core/observe/recorder.h"
-#include "core/observe/recording.h"
 #include "tests/unit/engine/simulations.h"
 
 using namespace forage;
@@ -140,8 +141,8 @@ TEST_CASE("The sampler's format is the original's to the byte") {
     REQUIRE(line.starts_with("# \"A\"="));
     a = line.substr(6);
     std::getline(text, line), std::getline(text, line), std::getline(text, line);
-    CHECK(line == "cycle;" + b + "_act_0;" + b + "_act_1;" + a + "_act_GroupAverage;" + a + "_act_RangeAverage;" +
-                      a + "_act_5;");
+    CHECK(line == "cycle;" + b + "_act_0;" + b + "_act_1;" + a + "_act_GroupAverage;" + a +
+                      "_act_RangeAverage;" + a + "_act_5;");
     std::getline(text, line);
     CHECK(line == "0;2;2;2;2;2;");
     std::getline(text, line);
