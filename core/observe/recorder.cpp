@@ -1,59 +1,48 @@
 #include "core/observe/recorder.h"
 
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <stdexcept>
-
-#include <fmt/format.h>
+#include <algorithm>
 
 namespace forage::observe {
 
-constexpr std::size_t block = 1 << 16;
-
-Recorder::Recorder(std::string path, const engine::Simulation& simulation, ColumnRef column,
-                   std::uint64_t every)
-    : path_(std::move(path)), column_(std::move(column)), every_(every), out_(path_, std::ios::binary) {
-    if (!out_) throw std::runtime_error(fmt::format("cannot write '{}': {}", path_, std::strerror(errno)));
-    const GroupShape shape = simulation.shape(column_.group);
-    const bool full = shape.cells == shape.width * shape.height;
-    buffer_ = "cycle";
-    for (int i = 0; i < shape.cells; ++i)
-        buffer_ += full ? fmt::format(",x{}_y{}", i % shape.width + 1, i / shape.width + 1)
-                        : fmt::format(",cell{}", i + 1);
-    buffer_ += '\n';
+Recorder::Recorder(std::unique_ptr<RowFile> file, std::vector<Source> sources, Sampling sampling)
+    : file_(std::move(file)), sources_(std::move(sources)), sampling_(sampling) {
+    std::size_t size = 0;
+    for (const auto& s : sources_) size += s.what().size();
+    numbers_.resize(size);
+    if (sampling_.mean) sums_.resize(size);
 }
 
 void Recorder::record(const engine::Simulation& simulation) {
     const std::uint64_t cycle = simulation.cycle() - 1;
-    if (cycle % every_ != 0) return;
-    fmt::format_to(std::back_inserter(buffer_), "{}", cycle);
-    for (const double v : values(simulation, column_)) fmt::format_to(std::back_inserter(buffer_), ",{}", v);
-    buffer_ += '\n';
-    if (buffer_.size() >= block) write();
+    if (cycle < sampling_.from || (sampling_.until && cycle > *sampling_.until)) return;
+    const std::uint64_t place = (cycle - sampling_.from) % sampling_.every;
+    if (!sampling_.mean) {
+        if (place != 0) return;
+        sample(simulation);
+        return add(cycle, numbers_);
+    }
+    if (place == 0) std::fill(sums_.begin(), sums_.end(), 0), summed_ = 0;
+    sample(simulation);
+    for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += numbers_[i];
+    if (++summed_ < sampling_.every) return;
+    for (auto& s : sums_) s /= static_cast<double>(summed_);
+    add(cycle - place, sums_);
 }
 
-void Recorder::close() {
-    if (!out_.is_open()) return;  // it failed before
-    write();
-    out_.close();
-    if (!out_) fail();
+void Recorder::sample(const engine::Simulation& simulation) {
+    std::size_t at = 0;
+    for (const auto& s : sources_) {
+        s.read(simulation, std::span(numbers_).subspan(at, s.what().size()));
+        at += s.what().size();
+    }
 }
 
-void Recorder::write() {
-    out_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
-    out_.flush();
-    if (!out_) fail();
-    written_ += buffer_.size();
-    buffer_.clear();
-}
-
-void Recorder::fail() {
-    const std::string reason = std::strerror(errno);
-    out_.close();
-    std::error_code ignored;
-    std::filesystem::resize_file(path_, written_, ignored);  // half a row may have gone out
-    throw std::runtime_error(fmt::format("cannot write '{}': {}", path_, reason));
+void Recorder::add(std::uint64_t cycle, std::span<const double> numbers) {
+    file_->add(cycle, numbers);
+    const auto now = std::chrono::steady_clock::now();
+    if (now - flushed_ < std::chrono::seconds(1)) return;
+    file_->flush();
+    flushed_ = now;
 }
 
 }  // namespace forage::observe

@@ -1,41 +1,45 @@
-// Writes a column to a CSV file while the system runs.
+// Writes what was selected to a file while the system runs.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
-#include <fstream>
-#include <string>
+#include <memory>
+#include <optional>
+#include <vector>
 
-#include "core/observe/column.h"
+#include "core/observe/row_file.h"
 
 namespace forage::observe {
 
-/// A table with a row for every `every`-th cycle and a column per cell. The header is
-/// `cycle,x1_y1,x2_y1,...`: column and row of a cell in its group, from 1 (of a sparse group
-/// `cell1,cell2,...`, in order). Numbers are the shortest text that reads back as the same double. Rows reach
-/// the disk in blocks of complete rows; whatever ends the run, the file holds complete rows only.
+/// Which cycles give a row.
+struct Sampling {
+    std::uint64_t every = 1;             ///< each so many cycles
+    std::uint64_t from = 0;              ///< the first cycle
+    std::optional<std::uint64_t> until;  ///< the last cycle; empty: the run's last
+    bool mean = false;  ///< a row is the mean of `every` cycles, from its own on, instead of one cycle
+};
+
+/// Takes samples and hands them to a file. Rows reach the disk in blocks, at least once a second.
 class Recorder {
   public:
-    /// Throws std::runtime_error when the file cannot be opened.
-    Recorder(std::string path, const engine::Simulation& simulation, ColumnRef column, std::uint64_t every);
+    Recorder(std::unique_ptr<RowFile> file, std::vector<Source> sources, Sampling sampling);
 
-    /// Adds the row of the cycle that was just completed. Throws std::runtime_error when it cannot be
-    /// written; what was written before stays.
+    /// Adds the row of the cycle that was just completed, if it gives one. Throws std::runtime_error when it
+    /// cannot be written; what was written before stays.
     void record(const engine::Simulation& simulation);
     /// Writes what is still held back. Throws std::runtime_error when that fails.
-    void close();
-
-    const std::string& path() const { return path_; }
-    const ColumnRef& column() const { return column_; }
+    void close() { file_->close(); }
 
   private:
-    void write();
-    [[noreturn]] void fail();
+    void sample(const engine::Simulation& simulation);
+    void add(std::uint64_t cycle, std::span<const double> numbers);
 
-    std::string path_;
-    ColumnRef column_;
-    std::uint64_t every_, written_ = 0;  ///< bytes of complete rows on disk
-    std::string buffer_;                 ///< complete rows only
-    std::ofstream out_;
+    std::unique_ptr<RowFile> file_;
+    std::vector<Source> sources_;
+    Sampling sampling_;
+    std::vector<double> numbers_, sums_;
+    std::uint64_t summed_ = 0;  ///< cycles in sums_
+    std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace forage::observe

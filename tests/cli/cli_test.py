@@ -480,6 +480,59 @@ class Others(Cli):
         self.assertIn("_motor", self.forage("types", "moduleGazeboBug").stdout)
         self.assertIn("did you mean", self.forage("types", "neuronLinearTreshold", status=2).stderr)
 
+    def test_a_type_is_described_with_all_it_declares(self):
+        text = self.forage("types", "neuronLinearThreshold").stdout
+        self.assertRegex(text, r"excIn +Excitation\n +inhIn +Inhibition\n +modIn +Modulation \(not read\)")
+        self.assertRegex(text, r"vmPrs +Part of vm kept per cycle. Default 0, usual range 0 to 1\.")
+        self.assertRegex(self.forage("types", "synapseHebbian").stdout, r"postact +Postsynaptic activity")
+        self.assertRegex(self.forage("types", "moduleCL").stdout, r"Reads from groups\n +action +Action\n")
+
+    def test_a_system_is_described(self):
+        text = self.forage("describe", SYSTEM).stdout
+        self.assertTrue(text.startswith("Reactive foraging: 3 processes, 17 groups (3306 cells), 10 connections (133 synapses)\n"))
+        self.assertIn("\n    US: 7 x 1, neuronLinearThreshold (excGain=5,", text)
+        self.assertIn("-> Reactive Layer/US: excitatory, 64 synapses (list), synapseFixedWeight (weight=1), 'Light to US'", text)
+        self.assertIn("      writes _target: Bug/Light\n", text)
+        self.assertEqual(text.count(" -> "), 10)
+        self.assertIn("weight=0.25", self.forage("describe", SYSTEM, "--set", "Light to US.weight=0.25").stdout)
+        bad = self.here / "bad.iqr"
+        bad.write_text(SMALL_SYSTEM.replace('name="excGain"', 'name="exGain"'))
+        self.assertIn("did you mean 'excGain'", self.forage("describe", bad, status=2).stderr)
+
+    def test_every_command_has_help_with_an_example_that_names_it(self):
+        for command in re.findall(r"^  (\w+) ", self.forage("--help").stdout.split("Subcommands:")[1], re.MULTILINE):
+            text = self.forage(command, "--help").stdout
+            self.assertRegex(text, rf"Example:\n  forage {command}\b")
+
+    def test_completion_knows_commands_options_and_values(self):
+        script = self.here / "c.bash"
+        script.write_text(self.forage("completion", "bash").stdout)
+        def complete(*words):
+            text = f"source {script}; COMP_WORDS=({' '.join(map(shlex.quote, words))}); COMP_CWORD={len(words) - 1}; _forage; echo \"${{COMPREPLY[@]}}\""
+            return subprocess.run(["bash", "-c", text], cwd=self.here, capture_output=True, text=True).stdout.split()
+        self.assertEqual(complete("forage", "de"), ["describe"])
+        self.assertEqual(complete("forage", "run", "--tri"), ["--trials"])
+        self.assertEqual(complete("forage", "run", "--format", "n"), ["npy", "npz"])
+        self.assertEqual(complete("forage", "run", "c."), ["c.bash"])
+        for shell in ("zsh", "fish"):
+            text = self.forage("completion", shell).stdout
+            for word in ("describe", "longest-trial", "csv npy npz h5 dat"):
+                self.assertIn(word, text)
+            if shutil.which(shell):
+                (self.here / "c").write_text(text)
+                self.assertEqual(subprocess.run([shell, "-n", self.here / "c"], capture_output=True, text=True).stderr, "")
+        self.assertIn("error:", self.forage("completion", "csh", status=2).stderr)
+
+    def test_the_manual_page_has_every_option(self):
+        text = self.forage("man").stdout
+        for command in re.findall(r"^  (\w+) ", self.forage("--help").stdout.split("Subcommands:")[1], re.MULTILINE):
+            self.assertIn(f".SS forage {command}\n", text)
+            for option in re.findall(r"--[a-z-]+", self.forage(command, "--help").stdout.split("Options:")[1].split("\n\n")[0]):
+                self.assertIn(option.replace("-", "\\-"), text)
+        if shutil.which("mandoc"):
+            done = subprocess.run(["mandoc", "-T", "lint", "-W", "error"], input=text, capture_output=True, text=True)
+            self.assertEqual(done.stdout, "")
+
     def test_shipped_systems_are_fine(self):
         for system in (PROJECT / "systems").glob("*.iqr"):
             done = self.forage("check", system)

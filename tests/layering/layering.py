@@ -31,6 +31,8 @@ ROOMS = set(ALLOWED)
 OWNED = [
     (r'tinyxml2\.h', {'core/xml'}),
     (r'Random123/', {'core/types'}),
+    (r'(hdf5|H5\w*)(_hl)?\.h|zip\.h', {'core/observe'}),
+    (r'cairo', {'tools'}),
     (r'(bullet/|bt[A-Z]\w*\.h|Bullet\w*/|LinearMath/|opencv2?/|sdf/|sdformat|png\.h)', {'bug_interface'}),
 ]
 
@@ -95,6 +97,8 @@ def self_test():
         ('core/model/a.cpp', '#include <tinyxml2.h>'),
         ('core/engine/a.cpp', '#include <Random123/philox.h>'),
         ('tools/a.cpp', '#include <opencv2/core.hpp>'),
+        ('tools/a.cpp', '#include <hdf5_hl.h>'),
+        ('core/observe/a.cpp', '#include <cairo-svg.h>'),
         ('modules/a.cpp', '#include <bullet/btBulletDynamicsCommon.h>'),
         ('core/observe/a.cpp', '#include <png.h>'),
         ('core/types/a.cpp', '#include "random.h"'),

@@ -13,8 +13,19 @@ namespace forage::tool {
 
 enum ExitStatus { fine = 0, run_failed = 1, bad_input = 2 };
 
+/// How a run records what it is asked to record.
+struct RecordOptions {
+    std::string format = "csv";          ///< csv, npy, npz, h5 or dat, where no file is named
+    std::uint64_t from = 0;              ///< the first cycle
+    std::optional<std::uint64_t> until;  ///< the last cycle
+    bool mean = false;                   ///< over as many cycles as there are from row to row
+};
+
 struct RunOptions {
     Input input;
+    RecordOptions record;
+    std::vector<std::string> plots;  ///< as plot_wish.h
+    std::string picture_format = "png";
     std::optional<std::uint64_t> cycles;
     std::optional<double> seconds;
     std::optional<std::uint64_t> trials;
@@ -38,6 +49,13 @@ struct ConvertOptions {
     bool embed = false, lenient = false;
 };
 
+struct PlotOptions {
+    std::string source;               ///< a directory of results, a recording, or a system
+    std::vector<std::string> wishes;  ///< as plot_wish.h
+    std::string directory;            ///< empty: beside the source, or here for a system
+    std::string picture_format = "png";
+};
+
 struct ExperimentOptions {
     std::string file;
     std::string directory;  ///< empty: forage-out/ and the file's name
@@ -47,10 +65,15 @@ struct ExperimentOptions {
 };
 
 int run(const RunOptions& options);
+int plot(const PlotOptions& options);
 /// Runs every combination of an experiment file with every seed; what was finished before is not repeated.
 int experiment(const ExperimentOptions& options);
 int convert(const ConvertOptions& options);
 int check(const Input& input);
+/// Prints the tree of processes, groups and connections, with sizes and how each connection is computed.
+int describe(const Input& input);
+/// Writes a page that shows the pictures and tables of a directory of results: plain HTML, nothing from the net.
+int view(const std::string& directory);
 /// Lists the types, or one with its parameters.
 int types(const std::string& name);
 /// Prints a RELAX NG schema of system files with the types that ship.

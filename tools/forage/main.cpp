@@ -13,6 +13,7 @@
 #include "core/types/parameter.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/manipulations.h"
+#include "tools/forage/reference.h"
 #include "tools/forage/schedule.h"
 
 namespace {
@@ -100,6 +101,81 @@ void add_manipulations(CLI::App& run, RunOptions& o) {
         "PATTERN");
 }
 
+CLI::Option* add_picture_format(CLI::App& command, std::string& format) {
+    return command.add_option("--as", format, "Format of pictures: png, svg or pdf [png]")
+        ->check(CLI::IsMember({"png", "svg", "pdf"}))
+        ->option_text("FORMAT");
+}
+
+void add_recording(CLI::App& run, RunOptions& o) {
+    auto* record =
+        repeated(run.add_option_function<std::vector<std::string>>(
+                     "-r,--record",
+                     [&o](const std::vector<std::string>& texts) {
+                         for (const auto& text : texts) o.recordings.push_back({{text}});
+                     },
+                     "Write 'Process/Group' (its activity) or 'Process/Group:state' to a file; "
+                     "'...(x1..x2,y1..y2)' for some of its cells, 'mean:...' for their mean, '...=NAME.h5' "
+                     "to name the file; may be repeated"))
+            ->option_text("SOURCE");
+    run.add_option(
+           "--format", o.record.format,
+           "Of recordings without a named file: csv, npy, npz (NumPy), h5 (HDF5) or dat (the original's "
+           "data sampler) [csv]")
+        ->check(CLI::IsMember({"csv", "npy", "npz", "h5", "dat"}))
+        ->option_text("FORMAT")
+        ->needs(record);
+    run.add_option_function<std::uint64_t>(
+           "--every",
+           [&o](const std::uint64_t& every) {
+               for (auto& r : o.recordings) r.every = every;
+           },
+           "Record every K-th cycle [1]")
+        ->check(count())
+        ->option_text("K")
+        ->needs(record);
+    run.add_flag("--record-mean", o.record.mean, "Record the mean of K cycles instead of every K-th")
+        ->needs("--every");
+    run.add_option("--record-from", o.record.from, "Record from this cycle on [0]")
+        ->check(seed())
+        ->option_text("CYCLE")
+        ->needs(record);
+    run.add_option("--record-until", o.record.until, "Record up to this cycle")
+        ->check(seed())
+        ->option_text("CYCLE")
+        ->needs(record);
+    repeated(run.add_option(
+                 "-p,--plot", o.plots,
+                 "Draw a picture: 'time:SOURCE', 'space:SOURCE@CYCLES', 'movie:SOURCE', 'connection:NAME' "
+                 "or 'diagram', see 'forage plot --help'; may be repeated"))
+        ->option_text("PLOT");
+    add_picture_format(run, o.picture_format);
+}
+
+void add_plot(CLI::App& app, PlotOptions& o) {
+    auto& plot = *app.add_subcommand("plot", "Draw pictures of results, of a recording or of a system");
+    plot.footer(
+        "Plots:\n"
+        "  time:SOURCE                     cells over time; 'time:mean:SOURCE' for their mean\n"
+        "  space:SOURCE@100,200            the group as a picture at these cycles; at the last one without "
+        "'@'\n"
+        "  space:SOURCE@0..1000/100        at every 100th cycle; ';blocks=9x1' at the end divides the group\n"
+        "  movie:SOURCE@0..500/5           the same as an animated PNG\n"
+        "  connection:NAME                 which cells reach which, with strength and delay\n"
+        "  diagram, diagram:PROCESS        the system as the file lays it out\n"
+        "  trajectory                      the robot's paths\n"
+        "A source is 'Process/Group:state(x1..x2,y1..y2)'; state and cells may be left out.\n"
+        "Example:\n"
+        "  forage plot systems/reactive_foraging.iqr diagram 'connection:US to Approach' --as svg");
+    plot.add_option("FROM", o.source, "Directory of results, recording (.csv, .npy, .h5) or system (.iqr)")
+        ->required()
+        ->option_text("DIR|FILE");
+    plot.add_option("PLOT", o.wishes, "What to draw; without any, what there is")->option_text("PLOT...");
+    plot.add_option("-o,--output", o.directory, "Directory for pictures [beside what they show]")
+        ->option_text("DIR");
+    add_picture_format(plot, o.picture_format);
+}
+
 void add_run(CLI::App& app, RunOptions& o) {
     auto& run = *app.add_subcommand("run", "Run a system, in a world if one is given");
     run.footer(
@@ -127,24 +203,7 @@ void add_run(CLI::App& app, RunOptions& o) {
         ->option_text("S")
         ->needs(trials);
     run.add_option("--seed", o.input.seed, "Decides everything random [1]")->check(seed())->option_text("N");
-    auto* record =
-        repeated(run.add_option_function<std::vector<std::string>>(
-                     "-r,--record",
-                     [&o](const std::vector<std::string>& texts) {
-                         for (const auto& text : texts) o.recordings.push_back({{text}});
-                     },
-                     "Write 'Process/Group' (its activity) or 'Process/Group:state' to a CSV file; may be "
-                     "repeated"))
-            ->option_text("COLUMN");
-    run.add_option_function<std::uint64_t>(
-           "--every",
-           [&o](const std::uint64_t& every) {
-               for (auto& r : o.recordings) r.every = every;
-           },
-           "Record every K-th cycle [1]")
-        ->check(count())
-        ->option_text("K")
-        ->needs(record);
+    add_recording(run, o);
     run.add_option("--until", o.until.text, "Stop before its time when a condition holds, as for --at")
         ->option_text("WHEN");
     repeated(
@@ -208,6 +267,9 @@ void add_experiment(CLI::App& app, ExperimentOptions& o) {
 void add_convert(CLI::App& app, ConvertOptions& o) {
     auto& convert =
         *app.add_subcommand("convert", "Read a system or process file and write it in the standard layout");
+    convert.footer(
+        "Example:\n"
+        "  forage convert systems/reactive_foraging.iqr bug.iqrProcess --extract Bug");
     convert.add_option("IN", o.input, "File to read (.iqr or .iqrProcess)")->required()->option_text("FILE");
     convert.add_option("OUT", o.output, "File to write (.iqr or .iqrProcess); may be the same")
         ->required()
@@ -254,18 +316,40 @@ int main(int argc, char** argv) {
     RunOptions run_options;
     ExperimentOptions experiment_options;
     ConvertOptions convert_options;
-    Input check_input;
+    PlotOptions plot_options;
+    Input check_input, describe_input;
     std::string type;
     add_run(app, run_options);
     add_experiment(app, experiment_options);
+    add_plot(app, plot_options);
     add_convert(app, convert_options);
     auto& check_command =
         *app.add_subcommand("check", "Check a system (and world) and say everything that is wrong with it");
     add_input(check_command, check_input);
+    auto& describe_command =
+        *app.add_subcommand("describe", "Show what a system is made of: processes, groups, connections, sizes");
+    describe_command.footer("Example:\n  forage describe systems/reactive_foraging.iqr");
+    add_input(describe_command, describe_input);
+    check_command.footer("Example:\n  forage check systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world");
+    std::string directory = "forage-out";
+    auto& view_command =
+        *app.add_subcommand("view", "Write a page, index.html, that shows the pictures and tables of results");
+    view_command.footer("Example:\n  forage view forage-out");
+    view_command.add_option("DIR", directory, "Directory of results [forage-out]")->option_text(" ");
     auto& types_command =
         *app.add_subcommand("types", "List the neuron, synapse and module types, or describe one");
+    types_command.footer("Example:\n  forage types neuronLinearThreshold");
     types_command.add_option("NAME", type, "The type to describe")->option_text(" ");
-    app.add_subcommand("schema", "Print a RELAX NG schema of system files, for editors");
+    app.add_subcommand("schema", "Print a RELAX NG schema of system files, for editors")
+        ->footer("Example:\n  forage schema > iqr.rng");
+    std::string shell;
+    auto& completion_command = *app.add_subcommand("completion", "Print a script that completes command lines");
+    completion_command.footer("Example:\n  forage completion bash > ~/.local/share/bash-completion/completions/forage");
+    completion_command.add_option("SHELL", shell, "bash, zsh or fish")
+        ->required()
+        ->check(CLI::IsMember({"bash", "zsh", "fish"}))
+        ->option_text(" ");
+    app.add_subcommand("man", "Print the manual page")->footer("Example:\n  forage man > forage.1; man ./forage.1");
 
     try {
         if (argc == 1) {
@@ -295,9 +379,14 @@ int main(int argc, char** argv) {
     try {
         if (app.got_subcommand("run")) return run(run_options);
         if (app.got_subcommand("experiment")) return experiment(experiment_options);
+        if (app.got_subcommand("plot")) return plot(plot_options);
         if (app.got_subcommand("check")) return check(check_input);
+        if (app.got_subcommand("describe")) return describe(describe_input);
         if (app.got_subcommand("convert")) return convert(convert_options);
         if (app.got_subcommand("schema")) return schema();
+        if (app.got_subcommand("view")) return view(directory);
+        if (app.got_subcommand("man")) return fmt::print("{}", man_page(app)), fine;
+        if (app.got_subcommand("completion")) return fmt::print("{}", completion(app, shell)), fine;
         return types(type);
     } catch (const std::exception& e) {
         fmt::print(stderr, "error: {}\n", e.what());

@@ -1,61 +1,165 @@
 #include "tools/forage/recordings.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
-#include <stdexcept>
+#include <map>
+#include <set>
 
+#include <fmt/format.h>
+
+#include "core/observe/npz.h"
 #include "tools/forage/files.h"
 
 namespace forage::tool {
+namespace {
 
-std::map<std::string, observe::ColumnRef> recorded_columns(const std::vector<model::Wish>& wishes,
-                                                           const engine::Simulation& simulation,
-                                                           Diagnostics& diagnostics) {
-    std::map<std::string, observe::ColumnRef> out;
-    for (const auto& wish : wishes) {
-        auto column = observe::find_column(simulation, wish.text, wish.at.file ? "record" : "--record",
-                                           diagnostics, wish.at);
-        if (!column) continue;
-        std::string file = file_name(column->name) + ".csv";
-        if (const auto it = out.find(file); it != out.end() && it->second.name != column->name)
-            file = file_name(column->name + "_" + simulation.id(column->group)) + ".csv";
-        out.emplace(std::move(file), std::move(*column));
+using observe::RecordingFormat;
+
+struct FormatName {
+    std::string_view name;
+    RecordingFormat format;
+    bool archive;  ///< several .npy files in one
+};
+constexpr std::array<FormatName, 5> formats = {{{"csv", RecordingFormat::csv, false},
+                                                {"npy", RecordingFormat::npy, false},
+                                                {"npz", RecordingFormat::npy, true},
+                                                {"h5", RecordingFormat::hdf5, false},
+                                                {"dat", RecordingFormat::sampler, false}}};
+
+/// The format that the end of a file's name asks for; null when there is none.
+const FormatName* format_of(std::string_view file) {
+    for (const auto& f : formats)
+        if (file.size() > f.name.size() + 1 && file.ends_with(f.name) &&
+            file[file.size() - f.name.size() - 1] == '.')
+            return &f;
+    return nullptr;
+}
+
+/// "Process/Group=file.h5" taken apart; no file when none is named.
+std::pair<std::string, std::string> take_apart(const std::string& text) {
+    const auto equals = text.rfind('=');
+    if (equals == std::string::npos || !format_of(text.substr(equals + 1))) return {text, {}};
+    return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+}  // namespace
+
+std::vector<RecordingFile> recorded_files(const RunOptions& options, const engine::Simulation& simulation,
+                                          Diagnostics& diagnostics) {
+    std::vector<RecordingFile> out;
+    const auto find = [&](const std::string& name) {
+        return std::find_if(out.begin(), out.end(), [&](const auto& f) { return f.name == name; });
+    };
+    std::set<std::string> seen;
+    for (const auto& asked : options.recordings) {
+        const std::string& wish = asked.column.text;
+        const std::string option = asked.column.at.file ? "record" : "--record";
+        const auto [text, file] = take_apart(wish);
+        if (file != file_name(file)) {
+            diagnostics.error(asked.column.at,
+                              fmt::format("{} \'{}\': '{}' is not a plain file name", option, wish, file),
+                              "-o chooses the directory; names have letters, digits, '.', '-' and '_'");
+            continue;
+        }
+        auto source = observe::find_source(simulation, text, option, diagnostics, asked.column.at);
+        if (!source) continue;
+        const observe::Recorded& what = source->what();
+        if (!seen.insert(file + "\n" + what.name + "\n" + what.group_id).second) continue;  // named twice
+        const FormatName& format = *format_of(file.empty() ? "x." + options.record.format : file);
+        const bool several = observe::holds_several(format.format);
+        std::string stem = file_name(what.name), archive;
+        if (format.archive) archive = file.empty() ? "recording.npz" : file;
+        std::string name =
+            fmt::format("{}.{}", several ? "recording" : stem, format.archive ? "npy" : format.name);
+        if (!file.empty() && !format.archive) name = file;
+        auto at = find(name);
+        if (at != out.end() && !several && file.empty()) {  // two groups of one name
+            name =
+                fmt::format("{}_{}.{}", stem, file_name(what.group_id), format.archive ? "npy" : format.name);
+            at = find(name);
+        }
+        if (at == out.end()) {
+            out.push_back({name, format.format, {}, asked.every, archive});
+            at = out.end() - 1;
+        } else if (!several) {
+            diagnostics.error(
+                asked.column.at,
+                fmt::format("{} \'{}\': a .{} file holds one source", option, wish, format.name),
+                "name another file, or one that ends in .npz, .h5 or .dat");
+            continue;
+        }
+        if (at->every != asked.every) {
+            diagnostics.error(asked.column.at,
+                              fmt::format("{} '{}': '{}' has a row every {} cycles, not every {}", option,
+                                          wish, name, at->every, asked.every),
+                              "name another file for it");
+            continue;
+        }
+        at->sources.push_back(std::move(*source));
     }
     return out;
 }
 
-Recordings::Recordings(std::map<std::string, observe::ColumnRef> columns, std::uint64_t every,
-                       const std::string& directory, const engine::Simulation& simulation) {
+Recordings::Recordings(std::vector<RecordingFile> files, const RecordOptions& options,
+                       const std::string& directory,
+                       const std::vector<std::pair<std::string, std::string>>& attributes)
+    : directory_(directory) {
     try {
-        for (auto& [name, column] : columns) {
-            const std::string path = directory + "/" + name;
-            all_.push_back({name, path, {partial(path), simulation, std::move(column), every}});
+        for (auto& f : files) {
+            observe::RowFileHeader header{{}, f.every, attributes};
+            for (const auto& s : f.sources) {
+                header.sources.push_back(s.what());
+                entries_.push_back({f.archive.empty() ? f.name : f.archive, s.what().name, s.what().label});
+            }
+            const std::string path = directory + "/" + f.name;
+            auto file = observe::open_row_file(f.format, partial(path), header);
+            all_.push_back({f.name,
+                            path,
+                            f.archive,
+                            f.sources.front().what().name,
+                            {std::move(file),
+                             std::move(f.sources),
+                             {f.every, options.from, options.until, options.mean}}});
         }
     } catch (...) {
-        for (const auto& r : all_) std::remove(r.recorder.path().c_str());
+        for (const auto& r : all_) std::remove(partial(r.path).c_str());
         throw;
     }
 }
 
 std::string Recordings::finish() {
     std::string problems;
+    const auto attempt = [&](auto action) {
+        try {
+            action();
+        } catch (const std::exception& e) {
+            problems += (problems.empty() ? "" : "; ") + std::string(e.what());
+        }
+    };
+    std::map<std::string, std::vector<std::pair<std::string, std::string>>> archives;
     for (auto& r : all_) {
-        try {
-            r.recorder.close();
-        } catch (const std::exception& e) {
-            problems += (problems.empty() ? "" : "; ") + std::string(e.what());
-        }
-        try {
-            tool::finish(r.path);  // what it holds is whole in any case
-        } catch (const std::exception& e) {
-            problems += (problems.empty() ? "" : "; ") + std::string(e.what());
-        }
+        attempt([&] { r.recorder.close(); });
+        // What it holds is whole in any case.
+        if (r.archive.empty())
+            attempt([&] { tool::finish(r.path); });
+        else
+            archives[r.archive].emplace_back(r.source, partial(r.path));
     }
+    for (const auto& [name, arrays] : archives)
+        attempt([&, &name = name, &arrays = arrays] {
+            const std::string path = directory_ + "/" + name;
+            observe::join_npz(partial(path), arrays);
+            tool::finish(path);
+            for (const auto& [array, file] : arrays) std::remove(file.c_str());
+        });
     return problems;
 }
 
 std::vector<std::string> Recordings::files() const {
     std::vector<std::string> out;
-    for (const auto& r : all_) out.push_back(r.name);
+    for (const auto& e : entries_)
+        if (std::find(out.begin(), out.end(), e.file) == out.end()) out.push_back(e.file);
     return out;
 }
 

@@ -1,25 +1,33 @@
 // The recordings of a run: files that grow under another name and get their own when the run ends.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
-#include "core/model/experiment.h"
 #include "core/observe/recorder.h"
+#include "tools/forage/commands.h"
 
 namespace forage::tool {
 
-/// The columns that a person wants, by the file name that each one gets. Reports those that are not there.
-std::map<std::string, observe::ColumnRef> recorded_columns(const std::vector<model::Wish>& wishes,
-                                                           const engine::Simulation& simulation,
-                                                           Diagnostics& diagnostics);
+/// A file that a run records, and what it holds.
+struct RecordingFile {
+    std::string name;  ///< within the directory
+    observe::RecordingFormat format;
+    std::vector<observe::Source> sources;
+    std::uint64_t every = 1;  ///< cycles from row to row
+    std::string archive;      ///< the .npz file that it becomes a part of; empty for others
+};
+
+/// The files for what a person wants recorded. Reports what is not there or cannot be put together.
+std::vector<RecordingFile> recorded_files(const RunOptions& options, const engine::Simulation& simulation,
+                                          Diagnostics& diagnostics);
 
 class Recordings {
   public:
-    /// Throws std::runtime_error when a file cannot be opened; none is left then.
-    Recordings(std::map<std::string, observe::ColumnRef> columns, std::uint64_t every,
-               const std::string& directory, const engine::Simulation& simulation);
+    /// `attributes` is what a file may say of the run. Throws std::runtime_error when a file cannot be
+    /// opened; none is left then.
+    Recordings(std::vector<RecordingFile> files, const RecordOptions& options, const std::string& directory,
+               const std::vector<std::pair<std::string, std::string>>& attributes);
 
     /// After each cycle. Throws std::runtime_error when a file cannot be written.
     void record(const engine::Simulation& simulation) {
@@ -31,12 +39,20 @@ class Recordings {
 
     std::vector<std::string> files() const;  ///< their names within the directory
 
+    /// What stands where: the file's name, the source's name and its label.
+    struct Entry {
+        std::string file, source, label;
+    };
+    const std::vector<Entry>& entries() const { return entries_; }
+
   private:
-    struct Recording {
-        std::string name, path;
+    struct Open {
+        std::string name, path, archive, source;
         observe::Recorder recorder;
     };
-    std::vector<Recording> all_;
+    std::vector<Open> all_;
+    std::string directory_;
+    std::vector<Entry> entries_;
 };
 
 }  // namespace forage::tool

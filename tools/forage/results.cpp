@@ -24,9 +24,8 @@ nlohmann::ordered_json input_file(const std::string& path) {
 
 std::string base_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
-}  // namespace
-
-std::string run_json(const RunOptions& o, const Loaded& loaded, const Outcome& outcome) {
+/// Versions, files and settings: what is needed to repeat the run.
+nlohmann::ordered_json settings_json(const RunOptions& o, const Loaded& loaded) {
     nlohmann::ordered_json json;
     json["forage"] = FORAGE_VERSION;
     json["libraries"]["Eigen"] =
@@ -42,7 +41,6 @@ std::string run_json(const RunOptions& o, const Loaded& loaded, const Outcome& o
         json["world"]["noise"] = o.input.noise;
     }
     json["seed"] = o.input.seed;
-    if (outcome.length) json["cycles"] = *outcome.length;
     if (o.trials) json["trials"] = *o.trials, json["longest_trial"] = o.longest_trial;
     if (o.input.world_pace) json["world_pace"] = *o.input.world_pace;
     json["set"] = nlohmann::ordered_json::array();
@@ -50,6 +48,11 @@ std::string run_json(const RunOptions& o, const Loaded& loaded, const Outcome& o
     json["record"] = nlohmann::ordered_json::array();
     for (const auto& r : o.recordings) json["record"].push_back(r.column.text);
     json["every"] = o.recordings.empty() ? 1 : o.recordings.front().every;
+    if (o.record.from) json["record_from"] = o.record.from;
+    if (o.record.until) json["record_until"] = *o.record.until;
+    if (o.record.mean) json["record_mean"] = true;
+    if (o.record.format != "csv") json["record_format"] = o.record.format;
+    if (!o.plots.empty()) json["plot"] = o.plots;
     if (!o.input.drive.empty()) json["drive"] = input_file(o.input.drive);
     for (const auto& wish : o.at) json["at"].push_back(wish.text());
     if (!o.until.empty()) json["until"] = o.until.text;
@@ -57,6 +60,22 @@ std::string run_json(const RunOptions& o, const Loaded& loaded, const Outcome& o
     for (const auto& m : o.manipulations)
         json[std::array{"clamp", "add", "multiply"}[static_cast<std::size_t>(m.mode)]].push_back(m.text);
     json["lenient"] = o.input.lenient;
+    return json;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> run_attributes(const RunOptions& o, const Loaded& loaded) {
+    const auto json = settings_json(o, loaded);
+    std::vector<std::pair<std::string, std::string>> out;
+    for (const auto& [key, value] : json.items())
+        out.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
+    return out;
+}
+
+std::string run_json(const RunOptions& o, const Loaded& loaded, const Outcome& outcome) {
+    auto json = settings_json(o, loaded);
+    if (outcome.length) json["cycles"] = *outcome.length;
     auto& result = json["result"];
     result["cycles"] = outcome.cycles;
     result["seconds"] = outcome.seconds;
@@ -75,6 +94,8 @@ std::string run_json(const RunOptions& o, const Loaded& loaded, const Outcome& o
                 robot["recent_success"] = trials.recent_success(trials.finished.size());
         }
     result["files"] = outcome.files;
+    for (const auto& r : outcome.recordings)
+        result["recordings"].push_back({{"file", r.file}, {"source", r.source}, {"label", r.label}});
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tools/forage/commands.h"
+#include "tools/forage/recordings.h"
 #include "tools/forage/trials.h"
 
 namespace forage::tool {
@@ -19,12 +20,17 @@ struct Outcome {
         changes;          ///< of --at, and the first cycle in which each acted; empty: it never did
     std::string stopped;  ///< why it ended before its time; empty when it did not
     std::vector<std::string> files;
+    std::vector<Recordings::Entry> recordings;
     std::vector<Trials> trials;  ///< of each robot of the world
 };
 
 /// Versions, seed and settings: what is needed to repeat the run, and what came of it. No times and no dates:
 /// the same run gives the same text.
 std::string run_json(const RunOptions& options, const Loaded& loaded, const Outcome& outcome);
+
+/// What decides the run, as names and texts: what a recording says of where it comes from.
+std::vector<std::pair<std::string, std::string>> run_attributes(const RunOptions& options,
+                                                                const Loaded& loaded);
 
 /// The files that the run before left in a directory, by its run.json; empty when there is none to be read.
 std::vector<std::string> files_of_last_run(const std::string& directory);

@@ -12,6 +12,7 @@
 #include "tools/forage/results.h"
 #include "tools/forage/running.h"
 #include "tools/forage/stop.h"
+#include "tools/forage/structure.h"
 #include "tools/plot/trajectory.h"
 
 namespace forage::tool {
@@ -32,6 +33,18 @@ void loop(const RunOptions& o, Running& r, const Length& length, Progress& progr
     }
 }
 
+/// What a picture says of the run.
+PlotContext context_of(const RunOptions& o, const Running& r, const Outcome& outcome) {
+    PlotContext out{picture_title(o, r.loaded), r.seconds_per_cycle, {}};
+    if (outcome.trials.empty()) return out;
+    const auto add = [&](const MeasuredTrial& t) {
+        out.trials.push_back(static_cast<double>(t.trial.first_cycle));
+    };
+    for (const auto& t : outcome.trials[0].finished) add(t);
+    if (outcome.trials[0].running) add(*outcome.trials[0].running);
+    return out;
+}
+
 /// Writes what a run leaves behind; what cannot be written does not keep the rest from being written. Returns
 /// what went wrong.
 std::vector<std::string> write_results(const RunOptions& o, Running& r, Outcome& outcome) {
@@ -45,15 +58,28 @@ std::vector<std::string> write_results(const RunOptions& o, Running& r, Outcome&
             problems.emplace_back(e.what());
         }
     };
+    const plot::Format format = *plot::format_of("x." + o.picture_format);
     const auto& world = r.loaded.world;
     for (std::size_t i = 0; i < r.paths.size(); ++i) {
         const std::string name = "trajectory" + robot_suffix(*world, i);
         attempt(name + ".csv", [&](const std::string& path) { write_file(path, r.paths[i].csv()); });
-        attempt(name + ".png", [&](const std::string& path) {
-            plot::draw_trajectory(*world, r.paths[i].paths(), picture_title(o, r.loaded), partial(path));
-            finish(path);
+        attempt(name + std::string(plot::ending(format)), [&](const std::string& path) {
+            write_file(path, plot::render(plot::trajectory_plot(*world, r.paths[i].paths(),
+                                                                picture_title(o, r.loaded)),
+                                          format));
         });
     }
+    for (const auto& p : r.plots.of_cells())
+        attempt(p.wish().file(format), [&](const std::string& path) {
+            write_file(path, p.draw(format, context_of(o, r, outcome)));
+        });
+    for (const auto& wish : r.plots.others())
+        attempt(wish.file(format), [&](const std::string& path) {
+            write_file(path,
+                       plot::render(structure_plot(wish, r.loaded.system, r.loaded.registry, &r.simulation,
+                                                   o.input.seed, picture_title(o, r.loaded)),
+                                    format));
+        });
     attempt("run.json", [&](const std::string& path) { write_file(path, run_json(o, r.loaded, outcome)); });
     for (const auto& name : earlier)
         if (std::find(outcome.files.begin(), outcome.files.end(), name) == outcome.files.end())
@@ -65,8 +91,9 @@ std::vector<std::string> write_results(const RunOptions& o, Running& r, Outcome&
 
 int run(const RunOptions& options) {
     Diagnostics diagnostics;
-    if (!options.recordings.empty() && options.directory.empty())
-        diagnostics.error({}, "--record needs a directory to write to", "leave out -o '' or name one");
+    if (!(options.recordings.empty() && options.plots.empty()) && options.directory.empty())
+        diagnostics.error({}, "--record and --plot need a directory to write to",
+                          "leave out -o '' or name one");
     auto running = prepare(read(options.input, diagnostics), options, diagnostics);
     if (diagnostics.failed() || !options.quiet) fmt::print(stderr, "{}", format(diagnostics));
     if (!running) return bad_input;

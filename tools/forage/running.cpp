@@ -1,7 +1,5 @@
 #include "tools/forage/running.h"
 
-#include <map>
-
 #include "tools/forage/files.h"
 #include "tools/forage/length.h"
 #include "tools/forage/manipulations.h"
@@ -9,21 +7,6 @@
 #include "tools/forage/tables.h"
 
 namespace forage::tool {
-namespace {
-
-/// The wanted columns by how often they are written.
-std::map<std::uint64_t, std::map<std::string, observe::ColumnRef>> columns_of(
-    const RunOptions& o, const engine::Simulation& simulation, Diagnostics& diagnostics) {
-    std::map<std::uint64_t, std::vector<model::Wish>> wishes;
-    for (const auto& r : o.recordings) wishes[r.every].push_back(r.column);
-    std::map<std::uint64_t, std::map<std::string, observe::ColumnRef>> out;
-    for (const auto& [every, columns] : wishes)
-        out[every] = recorded_columns(columns, simulation, diagnostics);
-    return out;
-}
-
-}  // namespace
-
 observe::Moment Running::now() const {
     const int trial = has_trials(loaded) ? static_cast<int>(loaded.world->trials(0).size()) + 1 : 0;
     return {simulation.cycle(), seconds(), trial};
@@ -39,7 +22,8 @@ void Running::cycle() {
     simulation.update_modules();
     simulation.update_connections();
     if (loaded.world) loaded.world->step();
-    for (auto& r : recordings) r.record(simulation);
+    if (recordings) recordings->record(simulation);
+    plots.follow(simulation);
     for (auto& m : measures) m.follow(simulation);
     for (auto& p : paths) p.follow();
 }
@@ -59,7 +43,8 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
                                          o.until.at.file ? "until" : "--until", diagnostics, o.until.at);
     auto clamped = clamp(o.clamp, *simulation, diagnostics);
     auto manipulated = manipulations(o.manipulations, *loaded, *simulation, diagnostics);
-    auto columns = columns_of(o, *simulation, diagnostics);
+    auto files = recorded_files(o, *simulation, diagnostics);
+    auto plots = LivePlots::make(o.plots, loaded->system, *simulation, diagnostics);
     RunMeasures run_measures(o.measures, *loaded, *simulation, diagnostics);
     if (diagnostics.failed()) return std::nullopt;
     try {
@@ -75,15 +60,15 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
                     std::move(manipulated),
                     std::move(run_measures),
                     {},
-                    {},
+                    std::move(plots),
+                    std::nullopt,
                     {}};
         if (out.loaded.world)
             for (std::size_t i = 0; i < out.loaded.world->bugs(); ++i)
                 out.measures.emplace_back(*out.loaded.world, i, out.simulation);
         if (!o.directory.empty()) {
             make_directory(o.directory);
-            for (auto& [every, some] : columns)
-                out.recordings.emplace_back(std::move(some), every, o.directory, out.simulation);
+            out.recordings.emplace(std::move(files), o.record, o.directory, run_attributes(o, out.loaded));
         }
         if (o.paths && out.loaded.world)
             for (std::size_t i = 0; i < out.loaded.world->bugs(); ++i)
@@ -97,9 +82,10 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
 
 std::vector<std::string> write_tables(const RunOptions& o, Running& r, Outcome& outcome) {
     std::vector<std::string> problems;
-    for (auto& recording : r.recordings) {
-        if (const std::string problem = recording.finish(); !problem.empty()) problems.push_back(problem);
-        for (auto& name : recording.files()) outcome.files.push_back(std::move(name));
+    if (r.recordings) {
+        if (const std::string problem = r.recordings->finish(); !problem.empty()) problems.push_back(problem);
+        for (auto& name : r.recordings->files()) outcome.files.push_back(std::move(name));
+        outcome.recordings = r.recordings->entries();
     }
     if (!r.loaded.world) return problems;
     for (std::size_t i = 0; i < outcome.trials.size(); ++i) try {

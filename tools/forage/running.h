@@ -11,6 +11,7 @@
 #include "core/observe/schedule.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/paths.h"
+#include "tools/forage/plots.h"
 #include "tools/forage/recordings.h"
 #include "tools/forage/results.h"
 #include "tools/forage/run_measures.h"
@@ -27,9 +28,10 @@ struct Running {
     observe::Clamp clamp;
     std::vector<observe::Manipulation> manipulations;
     RunMeasures run_measures;
-    std::vector<Measures> measures;      ///< of the trials, one per robot
-    std::vector<Recordings> recordings;  ///< one for each `every`; none without a directory
-    std::vector<PathLog> paths;          ///< one per robot, when they are wanted
+    std::vector<Measures> measures;  ///< of the trials, one per robot
+    LivePlots plots;
+    std::optional<Recordings> recordings;  ///< none without a directory
+    std::vector<PathLog> paths;            ///< one per robot, when they are wanted
 
     /// One cycle: changes that are due, the system, its world; then what was seen is written down. Throws
     /// what a cycle or a recording throws.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -8,24 +9,76 @@
 namespace forage::tool {
 namespace {
 
-void describe(const std::string& name, const std::string& label, const std::string& doc,
-              const std::vector<Parameter>& parameters) {
-    fmt::print("{} ({})\n  {}\n", name, label, doc);
-    for (const auto& p : parameters) {
-        const std::string value = to_text(p.default_value);
-        fmt::print(
-            "  {:<14} {} Default {}{}{}{}.\n", p.name, p.doc,
-            p.kind == ParameterKind::text ? "'" + value + "'" : value, p.unit.empty() ? "" : " " + p.unit,
-            p.range ? fmt::format(", usual range {} to {}", to_text(p.range->low), to_text(p.range->high))
-                    : "",
-            p.at_start ? "; read at start" : "");
+/// Rows of a name and what it is, in two columns.
+class Rows {
+  public:
+    explicit Rows(std::string title) : title_(std::move(title)) {}
+    void add(std::string name, std::string text) {
+        width_ = std::max(width_, name.size());
+        rows_.emplace_back(std::move(name), std::move(text));
     }
+    void print() const {
+        if (rows_.empty()) return;
+        fmt::print("\n{}\n", title_);
+        for (const auto& [name, text] : rows_) fmt::print("  {:<{}}  {}\n", name, width_, text);
+    }
+
+  private:
+    std::string title_;
+    std::size_t width_ = 0;
+    std::vector<std::pair<std::string, std::string>> rows_;
+};
+
+template <class Type>
+void describe(const Type& type) {
+    fmt::print("{} ({})\n{}\n", type.name, type.label, type.doc);
+    Rows rows("Parameters");
+    for (const auto& p : type.parameters) {
+        const std::string value = to_text(p.default_value);
+        rows.add(p.name, fmt::format("{} Default {}{}{}{}.", p.doc,
+                                     p.kind == ParameterKind::text ? "'" + value + "'" : value,
+                                     p.unit.empty() ? "" : " " + p.unit,
+                                     p.range ? fmt::format(", usual range {} to {}", to_text(p.range->low),
+                                                           to_text(p.range->high))
+                                             : "",
+                                     p.at_start ? "; read at start" : ""));
+    }
+    rows.print();
 }
 
 template <class Type>
 void describe_states(const Type& type) {
-    for (const auto& s : type.states)
-        fmt::print("  state {:<8} {}{}\n", s.name, s.label, s.output ? " (output)" : "");
+    Rows rows("States");
+    for (const auto& s : type.states) {
+        std::string text = s.label + (s.output ? " (output)" : "");
+        if constexpr (requires { s.feedback; }) text += s.feedback ? "; synapses may read it back" : "";
+        rows.add(s.name, text);
+    }
+    rows.print();
+}
+
+void describe_inputs(const NeuronType& type) {
+    constexpr std::pair<const char*, const char*> inputs[] = {
+        {"excIn", "Excitation"}, {"inhIn", "Inhibition"}, {"modIn", "Modulation"}};
+    Rows rows("Inputs");
+    for (std::size_t i = 0; i < input_kinds; ++i)
+        rows.add(inputs[i].first, std::string(inputs[i].second) + (type.reads[i] ? "" : " (not read)"));
+    rows.print();
+}
+
+void describe_ports(const ModuleType& type) {
+    for (const bool outputs : {false, true}) {
+        Rows rows(outputs ? "Writes to groups" : "Reads from groups");
+        for (const auto& p : type.ports) {
+            if (p.is_output != outputs) continue;
+            const std::string size = p.width   ? fmt::format(", {} x {} cells", p.width, p.height)
+                                     : p.cells ? fmt::format(", {} cell{}", p.cells, p.cells == 1 ? "" : "s")
+                                               : "";
+            rows.add(p.name, p.label + size + (p.optional ? " (optional)" : ""));
+        }
+        rows.print();
+    }
+    if (type.any_ports) fmt::print("\nCross references of any name.\n");
 }
 
 template <class Map>
@@ -51,21 +104,22 @@ int types(const std::string& name) {
         return fine;
     }
     if (const auto* neuron = registry.neuron(name)) {
-        describe(neuron->name, neuron->label, neuron->doc, neuron->parameters);
+        describe(*neuron);
+        describe_inputs(*neuron);
         describe_states(*neuron);
         return fine;
     }
     if (const auto* synapse = registry.synapse(name)) {
-        describe(synapse->name, synapse->label, synapse->doc, synapse->parameters);
+        describe(*synapse);
         describe_states(*synapse);
-        for (const auto& f : synapse->feedback) fmt::print("  feedback {}  {}\n", f.name, f.label);
+        Rows rows("Cross references to states of the target");
+        for (const auto& f : synapse->feedback) rows.add(f.name, f.label + (f.required ? "" : " (optional)"));
+        rows.print();
         return fine;
     }
     if (const auto* module = registry.module(name)) {
-        describe(module->name, module->label, module->doc, module->parameters);
-        for (const auto& p : module->ports)
-            fmt::print("  {} {:<18} {}{}\n", p.is_output ? "output" : "input ", p.name, p.label,
-                       p.optional ? " (optional)" : "");
+        describe(*module);
+        describe_ports(*module);
         return fine;
     }
     std::vector<std::string> all = names(registry.neurons());

@@ -1,15 +1,14 @@
 #include "tools/plot/trajectory.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
-#include <stdexcept>
 
 #include <cairo.h>
 #include <fmt/format.h>
 
 #include "bug_interface/world/png.h"
+#include "tools/plot/axes.h"
 
 namespace forage::plot {
 namespace {
@@ -18,34 +17,20 @@ using Box = Eigen::AlignedBox2d;
 
 struct Free {
     void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
-    void operator()(cairo_t* c) const { cairo_destroy(c); }
 };
 using Surface = std::unique_ptr<cairo_surface_t, Free>;
 
-/// Dark to light, perceptually even (samples of matplotlib's plasma, from where it shows on black).
-constexpr std::array<std::array<double, 3>, 6> path_colours = {{{0.55, 0.20, 0.75},
-                                                                {0.78, 0.25, 0.63},
-                                                                {0.92, 0.40, 0.46},
-                                                                {0.98, 0.57, 0.28},
-                                                                {0.99, 0.76, 0.19},
-                                                                {0.94, 0.97, 0.30}}};
+enum class End { reached, missed, unfinished };
 
-std::array<double, 3> path_colour(double part) {
-    const double place = std::clamp(part, 0.0, 1.0) * static_cast<double>(path_colours.size() - 1);
-    const auto low = std::min(static_cast<std::size_t>(place), path_colours.size() - 2);
-    const double f = place - static_cast<double>(low);
-    std::array<double, 3> out{};
-    for (std::size_t i = 0; i < 3; ++i)
-        out[i] = (1 - f) * path_colours[low][i] + f * path_colours[low + 1][i];
-    return out;
-}
+End end_of(const Path& p) { return p.reached ? End::reached : p.finished ? End::missed : End::unfinished; }
 
-/// A round step that gives about `count` ticks over `extent`.
-double tick_step(double extent, int count) {
-    const double raw = extent / count, power = std::pow(10, std::floor(std::log10(raw)));
-    for (const double f : {1.0, 2.0, 5.0})
-        if (raw <= f * power) return f * power;
-    return 10 * power;
+/// Of a trial by its outcome, and by its place among all, 0..1: blue, orange or white, from dark to light.
+Colour path_colour(End end, double part) {
+    const Colour c = end == End::reached  ? Colour{0.40, 0.80, 1}
+                     : end == End::missed ? Colour{1, 0.60, 0.15}
+                                          : white;
+    const double light = 0.6 + 0.4 * std::clamp(part, 0.0, 1.0);
+    return {c.r * light, c.g * light, c.b * light};
 }
 
 class Drawing {
@@ -53,16 +38,13 @@ class Drawing {
     Drawing(const bug::World& world, const std::vector<Path>& paths)
         : world_(world), paths_(paths), view_(view()) {
         scale_ = 760 / std::max(view_.sizes().x(), view_.sizes().y());
-        width_ = left + static_cast<int>(view_.sizes().x() * scale_) + right;
-        height_ = top + static_cast<int>(view_.sizes().y() * scale_) + bottom;
-        surface_.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_));
-        c_.reset(cairo_create(surface_.get()));
-        cairo_select_font_face(c(), "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
     }
 
-    void draw(const std::string& title) {
-        cairo_set_source_rgb(c(), 1, 1, 1);
-        cairo_paint(c());
+    double width() const { return left + std::floor(view_.sizes().x() * scale_) + right; }
+    double height() const { return top + std::floor(view_.sizes().y() * scale_) + bottom; }
+
+    void draw(Canvas& canvas, const std::string& title) {
+        canvas_ = &canvas;
         cairo_save(c());
         cairo_rectangle(c(), left, top, view_.sizes().x() * scale_, view_.sizes().y() * scale_);
         cairo_clip(c());
@@ -79,18 +61,13 @@ class Drawing {
         cairo_restore(c());
         draw_axes();
         draw_legend();
-        text(left, 22, title, 15, 0);
-    }
-
-    void write(const std::string& path) {
-        if (cairo_surface_write_to_png(surface_.get(), path.c_str()) != CAIRO_STATUS_SUCCESS)
-            throw std::runtime_error(fmt::format("cannot write '{}'", path));
+        canvas.text(12, 22, title, 15, 0, black, true);
     }
 
   private:
     static constexpr int left = 62, right = 150, top = 34, bottom = 52;  // pixels
 
-    cairo_t* c() const { return c_.get(); }
+    cairo_t* c() const { return canvas_->cairo(); }
     double px(double x) const { return left + (x - view_.min().x()) * scale_; }
     double py(double y) const { return top + (view_.max().y() - y) * scale_; }
 
@@ -201,11 +178,12 @@ class Drawing {
     void draw_path(std::size_t i) {
         const auto& points = paths_[i].points;
         if (points.empty()) return;
-        const auto colour = path_colour(
+        const Colour colour = path_colour(
+            end_of(paths_[i]),
             paths_.size() > 1 ? static_cast<double>(i) / static_cast<double>(paths_.size() - 1) : 1);
         const double width = paths_.size() > 60 ? 1 : 1.6;
         for (const bool halo : {true, false}) {  // a dark rim keeps a path visible on bright patches
-            cairo_set_source_rgb(c(), halo ? 0 : colour[0], halo ? 0 : colour[1], halo ? 0 : colour[2]);
+            canvas_->colour(halo ? black : colour);
             cairo_set_line_width(c(), halo ? width + 1.4 : width);
             cairo_move_to(c(), px(points[0].x()), py(points[0].y()));
             for (const auto& p : points) cairo_line_to(c(), px(p.x()), py(p.y()));
@@ -214,14 +192,9 @@ class Drawing {
         draw_end(px(points.back().x()), py(points.back().y()), end_of(paths_[i]), colour);
     }
 
-    enum class End { reached, missed, unfinished };
-    static End end_of(const Path& p) {
-        return p.reached ? End::reached : p.finished ? End::missed : End::unfinished;
-    }
-
-    void draw_end(double x, double y, End end, const std::array<double, 3>& colour) {
+    void draw_end(double x, double y, End end, const Colour& colour) {
         for (const bool halo : {true, false}) {
-            cairo_set_source_rgb(c(), halo ? 0 : colour[0], halo ? 0 : colour[1], halo ? 0 : colour[2]);
+            canvas_->colour(halo ? black : colour);
             if (end == End::reached) {
                 cairo_arc(c(), x, y, halo ? 5 : 3.8, 0, 2 * M_PI);
                 cairo_fill(c());
@@ -238,59 +211,19 @@ class Drawing {
         }
     }
 
-    /// `anchor` 0: starts at x; 0.5: centred; 1: ends at x.
-    void text(double x, double y, const std::string& what, double size, double anchor) {
-        cairo_set_font_size(c(), size);
-        cairo_text_extents_t extents;
-        cairo_text_extents(c(), what.c_str(), &extents);
-        cairo_set_source_rgb(c(), 0, 0, 0);
-        cairo_move_to(c(), x - anchor * extents.width, y);
-        cairo_show_text(c(), what.c_str());
-        cairo_new_path(c());  // showing text leaves a current point, from which an arc would draw a line
-    }
-
     void draw_axes() {
-        cairo_set_line_width(c(), 1);
-        cairo_set_source_rgb(c(), 0, 0, 0);
-        const double x0 = left, x1 = px(view_.max().x()), y0 = py(view_.min().y()), y1 = top;
-        cairo_rectangle(c(), x0, y1, x1 - x0, y0 - y1);
-        cairo_stroke(c());
-        const double step = tick_step(view_.sizes().maxCoeff(), 7);
-        for (double v = std::ceil(view_.min().x() / step) * step; v <= view_.max().x(); v += step) {
-            cairo_move_to(c(), px(v), y0), cairo_rel_line_to(c(), 0, 5), cairo_stroke(c());
-            text(px(v), y0 + 19, fmt::format("{:g}", std::round(v / step) * step + 0.0), 12, 0.5);
-        }
-        for (double v = std::ceil(view_.min().y() / step) * step; v <= view_.max().y(); v += step) {
-            cairo_move_to(c(), x0, py(v)), cairo_rel_line_to(c(), -5, 0), cairo_stroke(c());
-            text(x0 - 9, py(v) + 4, fmt::format("{:g}", std::round(v / step) * step + 0.0), 12, 1);
-        }
-        text((x0 + x1) / 2, y0 + 40, "x (m)", 13, 0.5);
-        cairo_save(c());
-        cairo_translate(c(), 18, (y0 + y1) / 2);
-        cairo_rotate(c(), -M_PI / 2);
-        text(0, 0, "y (m)", 13, 0.5);
-        cairo_restore(c());
+        const Axes axes{{left, top, view_.sizes().x() * scale_, view_.sizes().y() * scale_},
+                        {view_.min().x(), view_.max().x()},
+                        {view_.min().y(), view_.max().y()}};
+        plot::draw_axes(*canvas_, axes, {"x (m)"}, {"y (m)"});
     }
 
     void draw_legend() {
         const double x = px(view_.max().x()) + 16;
         double y = top + 14;
-        if (paths_.size() > 1) {
-            text(x, y, "trial", 13, 0);
-            const double bar = 160;
-            for (int i = 0; i < static_cast<int>(bar); ++i) {
-                const auto colour = path_colour(i / (bar - 1));
-                cairo_set_source_rgb(c(), colour[0], colour[1], colour[2]);
-                cairo_rectangle(c(), x, y + 10 + i, 14, 1.5);
-                cairo_fill(c());
-            }
-            text(x + 20, y + 19, "1", 12, 0);
-            text(x + 20, y + 10 + bar, fmt::format("{}", paths_.size()), 12, 0);
-            y += bar + 40;
-        }
         const auto entry = [&](const std::string& what, auto draw) {
             draw();
-            text(x + 20, y + 4, what, 12, 0);
+            canvas_->text(x + 20, y + 4, what, 12);
             y += 24;
         };
         const auto count = [&](End end) {
@@ -301,7 +234,19 @@ class Drawing {
                                         {End::missed, "missed"},
                                         {End::unfinished, "unfinished"}})
             if (const auto n = count(end))
-                entry(fmt::format("{} {}", n, name), [&, e = end] { draw_end(x + 7, y, e, path_colour(1)); });
+                entry(fmt::format("{} {}", n, name),
+                      [&, e = end] { draw_end(x + 7, y, e, path_colour(e, 1)); });
+        if (paths_.size() > 1) {
+            for (const End end : {End::reached, End::missed})
+                for (int i = 0; i < 60; ++i) {
+                    canvas_->colour(path_colour(end, i / 59.0));
+                    cairo_rectangle(c(), x + 2 * i, y - (end == End::reached ? 8 : 0), 2.5, 8);
+                    cairo_fill(c());
+                }
+            canvas_->text(x, y + 24, "trial 1", 12);
+            canvas_->text(x + 120, y + 24, fmt::format("{}", paths_.size()), 12, 1);
+            y += 54;
+        }
         const auto outline = [&](double dash, auto shape) {
             const double dashes[] = {dash, dash};
             cairo_set_dash(c(), dashes, 2, 0);
@@ -320,19 +265,17 @@ class Drawing {
     const bug::World& world_;
     const std::vector<Path>& paths_;
     Box view_;
-    double scale_ = 1;  ///< pixels per metre
-    int width_ = 0, height_ = 0;
-    Surface surface_;
-    std::unique_ptr<cairo_t, Free> c_;
+    double scale_ = 1;          ///< pixels per metre
+    Canvas* canvas_ = nullptr;  ///< while it is drawn on
 };
 
 }  // namespace
 
-void draw_trajectory(const bug::World& world, const std::vector<Path>& paths, const std::string& title,
-                     const std::string& png) {
-    Drawing drawing(world, paths);
-    drawing.draw(title);
-    drawing.write(png);
+Picture trajectory_plot(const bug::World& world, std::vector<Path> paths, const std::string& title) {
+    const auto kept = std::make_shared<const std::vector<Path>>(std::move(paths));
+    const auto drawing = std::make_shared<Drawing>(world, *kept);
+    return {drawing->width(), drawing->height(),
+            [kept, drawing, title](Canvas& canvas) { drawing->draw(canvas, title); }};
 }
 
 }  // namespace forage::plot

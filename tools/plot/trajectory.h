@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bug_interface/simulation/world.h"
+#include "tools/plot/canvas.h"
 
 namespace forage::plot {
 
@@ -15,11 +16,9 @@ struct Path {
     bool finished = true;                 ///< false for the trial that ran when the run ended
 };
 
-/// Draws the floor from above with walls, start positions and targets, and the paths on it: coloured from
-/// dark to light by trial, with a dot at the end of those that reached the target, a cross at the end of
-/// those that missed it and a square where the robot was when the run ended. The same paths give the same
-/// bytes. Throws std::runtime_error when the file cannot be written.
-void draw_trajectory(const bug::World& world, const std::vector<Path>& paths, const std::string& title,
-                     const std::string& png);
+/// The floor from above with walls, start positions and targets, and the paths on it: in one colour those
+/// that reached the target, in another those that missed it, darker the earlier the trial; with a dot, a
+/// cross or, where the robot was when the run ended, a square at the end. The world must outlive the picture.
+Picture trajectory_plot(const bug::World& world, std::vector<Path> paths, const std::string& title);
 
 }  // namespace forage::plot

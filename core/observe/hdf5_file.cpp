@@ -1,0 +1,197 @@
+#include "core/observe/hdf5_file.h"
+
+#include <algorithm>
+#include <array>
+
+#include <hdf5_hl.h>
+
+#include "core/observe/hdf5_handle.h"
+
+namespace forage::observe {
+namespace {
+
+constexpr std::size_t block = 1 << 16;  ///< bytes of a data set that are written at once
+
+void check(herr_t status, const std::string& what) {
+    if (status < 0) throw std::runtime_error(fmt::format("HDF5: cannot {}", what));
+}
+
+void attribute(hid_t object, const std::string& name, const std::string& text) {
+    const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a type");
+    H5Tset_size(type, std::max<std::size_t>(text.size(), 1));
+    H5Tset_cset(type, H5T_CSET_UTF8);
+    H5Tset_strpad(type, H5T_STR_NULLPAD);
+    const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a space");
+    const Hdf5Handle a(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                       "add attribute " + name);
+    check(H5Awrite(a, type, text.empty() ? "\0" : text.data()), "write attribute " + name);
+}
+
+void attribute(hid_t object, const std::string& name, std::int64_t value) {
+    const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a space");
+    const Hdf5Handle a(H5Acreate2(object, name.c_str(), H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT),
+                       H5Aclose, "add attribute " + name);
+    check(H5Awrite(a, H5T_NATIVE_INT64, &value), "write attribute " + name);
+}
+
+/// "Process/Group:state(1..3,2)" -> "/Process/Group/state(1..3,2)"
+std::string place_of(const Recorded& what) {
+    std::string out = what.name;
+    if (what.mean) out = out.substr(out.find(':') + 1) + " mean";
+    out[out.rfind(':')] = '/';
+    return "/" + out;
+}
+
+/// The groups on the way to `place`, without times: the same run gives the same bytes.
+void add_groups(hid_t file, const std::string& place) {
+    const Hdf5Handle options(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, "make a list");
+    H5Pset_obj_track_times(options, false);
+    const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "make a list");
+    H5Pset_char_encoding(links, H5T_CSET_UTF8);
+    for (auto slash = place.find('/', 1); slash != std::string::npos; slash = place.find('/', slash + 1)) {
+        const std::string group = place.substr(0, slash);
+        if (H5Lexists(file, group.c_str(), H5P_DEFAULT) <= 0)
+            Hdf5Handle(H5Gcreate2(file, group.c_str(), links, options, H5P_DEFAULT), H5Gclose,
+                       "add " + group);
+    }
+}
+
+/// A data set that grows along its first dimension.
+class Growing {
+  public:
+    Growing(hid_t file, const std::string& place, hid_t disk_type, hid_t memory_type,
+            std::vector<hsize_t> row)
+        : memory_type_(memory_type), shape_{0} {
+        shape_.insert(shape_.end(), row.begin(), row.end());
+        std::size_t size = 8;
+        for (const auto n : row) size *= n;
+        std::vector<hsize_t> most = shape_, chunk = shape_;
+        most[0] = H5S_UNLIMITED;
+        chunk[0] = std::max<hsize_t>(1, block / size);
+        const Hdf5Handle space(H5Screate_simple(rank(), shape_.data(), most.data()), H5Sclose,
+                               "make a space");
+        add_groups(file, place);
+        const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "make a list");
+        H5Pset_char_encoding(links, H5T_CSET_UTF8);
+        const Hdf5Handle options(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make a list");
+        H5Pset_obj_track_times(options, false);
+        H5Pset_chunk(options, rank(), chunk.data());
+        set_ = {H5Dcreate2(file, place.c_str(), disk_type, space, links, options, H5P_DEFAULT), H5Dclose,
+                "add " + place};
+    }
+    hid_t id() const { return set_; }
+
+    void append(const void* rows, hsize_t count) {
+        std::vector<hsize_t> start(shape_.size(), 0), extent = shape_;
+        start[0] = shape_[0];
+        extent[0] = count;
+        shape_[0] += count;
+        check(H5Dset_extent(set_, shape_.data()), "grow");
+        const Hdf5Handle space(H5Dget_space(set_), H5Sclose, "grow");
+        check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr),
+              "grow");
+        const Hdf5Handle memory(H5Screate_simple(rank(), extent.data(), nullptr), H5Sclose, "grow");
+        check(H5Dwrite(set_, memory_type_, memory, space, H5P_DEFAULT, rows), "write");
+        check(H5Dflush(set_), "write");
+    }
+
+  private:
+    int rank() const { return static_cast<int>(shape_.size()); }
+    Hdf5Handle set_;
+    hid_t memory_type_;
+    std::vector<hsize_t> shape_;
+};
+
+class Hdf5File final : public RowFile {
+  public:
+    Hdf5File(const std::string& path, const RowFileHeader& header) : path_(path) {
+        quiet_hdf5();
+        const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a list");
+        H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
+        const Hdf5Handle options(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "make a list");
+        H5Pset_obj_track_times(options, false);
+        file_ = {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, options, access), H5Fclose, "write '" + path + "'"};
+        for (const auto& [name, text] : header.attributes) attribute(file_, name, text);
+        cycle_.emplace(file_, "/cycle", H5T_STD_U64LE, H5T_NATIVE_UINT64, std::vector<hsize_t>{});
+        H5DSset_scale(cycle_->id(), "cycle");
+        attribute(cycle_->id(), "unit", "cycle");
+        attribute(cycle_->id(), "every", static_cast<std::int64_t>(header.every));
+        for (const auto& s : header.sources) add_source(s);
+        check(H5Fstart_swmr_write(file_), "write '" + path + "'");
+    }
+
+    void add(std::uint64_t cycle, std::span<const double> numbers) override {
+        cycles_.push_back(cycle);
+        for (auto& s : sets_) {
+            s.rows.insert(s.rows.end(), numbers.begin(),
+                          numbers.begin() + static_cast<std::ptrdiff_t>(s.size));
+            numbers = numbers.subspan(s.size);
+        }
+        held_ += 8 * row_;
+        if (held_ >= block) flush();
+    }
+
+    void flush() override {
+        if (cycles_.empty() || file_ < 0) return;
+        try {
+            for (auto& s : sets_) s.set.append(s.rows.data(), cycles_.size()), s.rows.clear();
+            cycle_->append(cycles_.data(), cycles_.size());  // last: the rows it counts are there
+            cycles_.clear();
+            held_ = 0;
+        } catch (const std::exception& e) {
+            end();
+            throw std::runtime_error(fmt::format("cannot write '{}': {}", path_, e.what()));
+        }
+    }
+
+    void close() override {
+        flush();
+        if (file_ >= 0 && !end()) throw std::runtime_error(fmt::format("cannot write '{}'", path_));
+    }
+
+  private:
+    struct Set {
+        Growing set;
+        std::size_t size;
+        std::vector<double> rows;
+    };
+
+    void add_source(const Recorded& s) {
+        std::vector<hsize_t> row;
+        if (!s.mean) row = {static_cast<hsize_t>(s.cells.height), static_cast<hsize_t>(s.cells.width)};
+        sets_.push_back({Growing(file_, place_of(s), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, row), s.size(), {}});
+        const hid_t set = sets_.back().set.id();
+        attribute(set, "name", s.name);
+        attribute(set, "label", s.label);
+        attribute(set, "group_id", s.group_id);
+        attribute(set, "unit", "1");
+        attribute(set, "first_column", s.cells.x);
+        attribute(set, "first_row", s.cells.y);
+        attribute(set, "numbered", s.numbered);
+        H5DSattach_scale(set, cycle_->id(), 0);
+        static constexpr std::array<const char*, 3> dimensions = {"cycle", "row", "column"};
+        for (unsigned d = 0; d <= row.size(); ++d) H5DSset_label(set, d, dimensions[d]);
+        row_ += s.size();
+    }
+
+    bool end() {
+        sets_.clear();
+        cycle_.reset();
+        return file_.close();
+    }
+
+    std::string path_;
+    Hdf5Handle file_;
+    std::optional<Growing> cycle_;
+    std::vector<Set> sets_;
+    std::vector<std::uint64_t> cycles_;
+    std::size_t row_ = 1, held_ = 0;  ///< numbers of a row; bytes that are held back
+};
+
+}  // namespace
+
+std::unique_ptr<RowFile> open_hdf5_file(const std::string& path, const RowFileHeader& header) {
+    return std::make_unique<Hdf5File>(path, header);
+}
+
+}  // namespace forage::observe

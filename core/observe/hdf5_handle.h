@@ -1,0 +1,46 @@
+// HDF5's identifiers, closed when they go.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+namespace forage::observe {
+
+class Hdf5Handle {
+  public:
+    using Close = herr_t (*)(hid_t);
+    Hdf5Handle() = default;
+    /// Throws std::runtime_error when `id` is none; `what` was asked for.
+    Hdf5Handle(hid_t id, Close closer, const std::string& what) : id_(id), close_(closer) {
+        if (id < 0) throw std::runtime_error(fmt::format("HDF5: cannot {}", what));
+    }
+    Hdf5Handle(Hdf5Handle&& other) noexcept
+        : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
+    Hdf5Handle& operator=(Hdf5Handle&& other) noexcept {
+        std::swap(id_, other.id_), std::swap(close_, other.close_);
+        return *this;
+    }
+    ~Hdf5Handle() { close(); }
+    bool close() {
+        const hid_t id = std::exchange(id_, H5I_INVALID_HID);
+        return id < 0 || close_(id) >= 0;
+    }
+    operator hid_t() const { return id_; }
+
+  private:
+    hid_t id_ = H5I_INVALID_HID;
+    Close close_ = nullptr;
+};
+
+/// Errors are told by us, not printed by the library; and at the program's end it leaves a file alone that
+/// could not be written, instead of trying again and falling over.
+inline void quiet_hdf5() {
+    H5dont_atexit();
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+}  // namespace forage::observe

@@ -1,0 +1,10 @@
+// Reads what hdf5_file.h wrote.
+#pragma once
+
+#include "core/observe/recording.h"
+
+namespace forage::observe {
+
+std::vector<std::unique_ptr<Recording>> open_hdf5_recording(const std::string& path);
+
+}  // namespace forage::observe

@@ -1,0 +1,41 @@
+#include "core/observe/npy_file.h"
+
+#include <bit>
+
+#include <fmt/format.h>
+
+namespace forage::observe {
+
+static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
+
+NpyFile::NpyFile(const std::string& path, const Recorded& what) : file_(path) {
+    const std::string field = what.state.empty() ? "value" : what.state;
+    type_ = what.mean ? fmt::format("[('cycle', '<u8'), ('{}', '<f8')]", field)
+                      : fmt::format("[('cycle', '<u8'), ('{}', '<f8', ({}, {}))]", field, what.cells.height,
+                                    what.cells.width);
+    file_.buffer() = head(0);
+}
+
+std::string NpyFile::head(std::uint64_t rows) const {
+    // The same length for any number of rows: it is written over and over.
+    const std::string count = fmt::format("({},)", rows);
+    std::string text = fmt::format("{{'descr': {}, 'fortran_order': False, 'shape': {}{:{}}, }}", type_,
+                                   count, "", std::max<int>(0, 24 - static_cast<int>(count.size())));
+    const std::size_t length = (10 + text.size() + 1 + 63) / 64 * 64;
+    text.resize(length - 10 - 1, ' ');
+    text += '\n';
+    std::string out("\x93NUMPY\x01\x00", 8);
+    out += static_cast<char>(text.size() & 0xFF);
+    out += static_cast<char>(text.size() >> 8);
+    return out + text;
+}
+
+void NpyFile::add(std::uint64_t cycle, std::span<const double> numbers) {
+    std::string& out = file_.buffer();
+    out.append(reinterpret_cast<const char*>(&cycle), sizeof cycle);
+    out.append(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
+    ++rows_;
+    if (file_.full()) flush();
+}
+
+}  // namespace forage::observe

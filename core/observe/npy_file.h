@@ -1,0 +1,25 @@
+// Recordings for NumPy.
+#pragma once
+
+#include "core/observe/row_file.h"
+
+namespace forage::observe {
+
+/// A .npy file (NumPy's NEP 1, version 1.0) with one record per row: `cycle` (uint64) and, named after the
+/// state, the numbers (float64, of the shape rows x columns of the group; one number for a mean). The header
+/// counts the rows that are on disk, so that the file can be loaded at any time, also after a kill.
+class NpyFile final : public RowFile {
+  public:
+    NpyFile(const std::string& path, const Recorded& what);
+    void add(std::uint64_t cycle, std::span<const double> numbers) override;
+    void flush() override { file_.flush(head(rows_)); }
+    void close() override { flush(), file_.close(); }
+
+  private:
+    std::string head(std::uint64_t rows) const;
+    std::string type_;  ///< of a record, as NumPy spells it
+    std::uint64_t rows_ = 0;
+    BlockFile file_;
+};
+
+}  // namespace forage::observe

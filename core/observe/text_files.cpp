@@ -1,0 +1,57 @@
+#include "core/observe/text_files.h"
+
+#include <charconv>
+#include <iterator>
+
+#include <fmt/format.h>
+
+namespace forage::observe {
+
+CsvFile::CsvFile(const std::string& path, const Recorded& what) : file_(path) {
+    file_.buffer() = "cycle";
+    for (std::size_t i = 0; i < what.size(); ++i) file_.buffer() += "," + what.cell_name(i);
+    file_.buffer() += '\n';
+}
+
+void CsvFile::add(std::uint64_t cycle, std::span<const double> numbers) {
+    std::string& out = file_.buffer();
+    fmt::format_to(std::back_inserter(out), "{}", cycle);
+    for (const double v : numbers) fmt::format_to(std::back_inserter(out), ",{}", v);
+    out += '\n';
+    if (file_.full()) file_.flush();
+}
+
+SamplerFile::SamplerFile(const std::string& path, const RowFileHeader& header)
+    : file_(path), every_(header.every) {
+    std::string& out = file_.buffer();
+    for (const auto& s : header.sources) out += fmt::format("# \"{}\"={}\n", s.group, s.group_id);
+    out += "cycle;";
+    for (const auto& s : header.sources) {
+        if (s.mean) {
+            const bool range = s.name.ends_with(')');
+            out += fmt::format("{}_{}_{};", s.group_id, s.state, range ? "RangeAverage" : "GroupAverage");
+        }
+        // Cells are numbered by their place in the group, from 0, row by row.
+        for (std::size_t i = 0; !s.mean && i < s.size(); ++i) {
+            const int n = static_cast<int>(i), width = s.group_width;
+            const int x = s.cells.x - 1 + n % s.cells.width, y = s.cells.y - 1 + n / s.cells.width;
+            out += fmt::format("{}_{}_{};", s.group_id, s.state, y * width + x);
+        }
+    }
+    out += '\n';
+}
+
+void SamplerFile::add(std::uint64_t, std::span<const double> numbers) {
+    std::string& out = file_.buffer();
+    fmt::format_to(std::back_inserter(out), "{};", samples_++ * every_);
+    for (const double v : numbers) {
+        char text[32];  // six digits, sign, point and exponent
+        const auto end = std::to_chars(text, text + sizeof text, v, std::chars_format::general, 6).ptr;
+        out.append(text, end);
+        out += ';';
+    }
+    out += '\n';
+    if (file_.full()) file_.flush();
+}
+
+}  // namespace forage::observe

@@ -1,0 +1,36 @@
+// Recordings that people and spreadsheets read.
+#pragma once
+
+#include "core/observe/row_file.h"
+
+namespace forage::observe {
+
+/// `cycle,x1_y1,x2_y1,...`: column and row of a cell in its group, from 1 (of a sparse group
+/// `cell1,cell2,...`, in order). Numbers are the shortest text that reads back as the same double.
+class CsvFile final : public RowFile {
+  public:
+    CsvFile(const std::string& path, const Recorded& what);
+    void add(std::uint64_t cycle, std::span<const double> numbers) override;
+    void flush() override { file_.flush(); }
+    void close() override { file_.flush(), file_.close(); }
+
+  private:
+    BlockFile file_;
+};
+
+/// What the original's data sampler writes: a line `# "Group"=<id>` per source, the header
+/// `cycle;<id>_<state>_0;...`, then rows `0;8.1;7.9;` with six significant digits (format.md, section 5). As
+/// there, the first column is the number of the sample times the interval.
+class SamplerFile final : public RowFile {
+  public:
+    SamplerFile(const std::string& path, const RowFileHeader& header);
+    void add(std::uint64_t cycle, std::span<const double> numbers) override;
+    void flush() override { file_.flush(); }
+    void close() override { file_.flush(), file_.close(); }
+
+  private:
+    BlockFile file_;
+    std::uint64_t every_, samples_ = 0;
+};
+
+}  // namespace forage::observe

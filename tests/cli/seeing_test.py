@@ -1,0 +1,302 @@
+"""Recordings, read back with NumPy and h5py, and pictures.
+
+    seeing_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
+"""
+
+import filecmp
+import html.parser
+import json
+import pathlib
+import re
+import shutil
+import signal
+import struct
+import subprocess
+import time
+import unittest
+import urllib.parse
+import zlib
+
+from cli_test import FORAGE, SMALL_SYSTEM, SYSTEM, WORLD, Cli
+
+try:
+    import h5py
+    import numpy
+except ImportError:
+    h5py = numpy = None
+
+
+def png_size(data):
+    """Checks every chunk of a PNG file and returns its width, height and number of frames."""
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    at, frames, size = 8, 1, None
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        assert struct.unpack(">I", data[at + 8 + length:at + 12 + length])[0] == zlib.crc32(kind + body), kind
+        if kind == b"IHDR":
+            size = struct.unpack(">II", body[:8])
+        if kind == b"acTL":
+            frames = struct.unpack(">I", body[:4])[0]
+        at += 12 + length
+    return *size, frames
+
+
+@unittest.skipUnless(numpy, "NumPy and h5py are absent")
+class Formats(Cli):
+    ARGUMENTS = ("--cycles", 100, "-r", "Bug/Light", "-r", "Bug/Motor:vm(4..6,1..2)", "-r", "mean:Bug/Light(1..8,1)", "--every", 3, "--record-from", 10, "--record-until", 90)
+
+    def csv(self, name, out="csv"):
+        return numpy.array([[float(v) for v in row] for row in self.table(f"{out}/{name}")[1:]])
+
+    def setUp(self):
+        super().setUp()
+        self.run_robot(*self.ARGUMENTS, out="csv")
+        self.light = self.csv("Bug_Light_act.csv")
+        self.motor = self.csv("Bug_Motor_vm_4..6_1..2_.csv")
+        self.mean = self.csv("mean_Bug_Light_act_1..8_1_.csv")
+        self.assertEqual(list(self.light[:, 0]), list(range(10, 91, 3)))
+        self.assertEqual(self.table("csv/Bug_Motor_vm_4..6_1..2_.csv")[0], ["cycle", "x4_y1", "x5_y1", "x6_y1", "x4_y2", "x5_y2", "x6_y2"])
+        numpy.testing.assert_allclose(self.mean[:, 1], self.light[:, 1:9].mean(axis=1), rtol=1e-14)
+
+    def test_npy(self):
+        self.run_robot(*self.ARGUMENTS, "--format", "npy")
+        light = numpy.load(self.here / "out/Bug_Light_act.npy")
+        self.assertEqual(light["act"].shape, (27, 1, 32))
+        self.assertTrue((light["cycle"] == self.light[:, 0]).all())
+        self.assertTrue((light["act"].reshape(27, 32) == self.light[:, 1:]).all())
+        motor = numpy.load(self.here / "out/Bug_Motor_vm_4..6_1..2_.npy")
+        self.assertTrue((motor["vm"].reshape(27, 6) == self.motor[:, 1:]).all())
+        mean = numpy.load(self.here / "out/mean_Bug_Light_act_1..8_1_.npy")
+        self.assertTrue((mean["act"] == self.mean[:, 1]).all())
+
+    def test_npz(self):
+        self.run_robot(*self.ARGUMENTS, "--format", "npz")
+        self.assertEqual(sorted(p.name for p in (self.here / "out").iterdir()), ["recording.npz", "run.json", "trajectory.csv", "trajectory.png", "trials.csv"])
+        arrays = numpy.load(self.here / "out/recording.npz")
+        self.assertEqual(sorted(arrays), ["Bug/Light:act", "Bug/Motor:vm(4..6,1..2)", "mean:Bug/Light:act(1..8,1)"])
+        self.assertTrue((arrays["Bug/Light:act"]["act"].reshape(27, 32) == self.light[:, 1:]).all())
+
+    def test_hdf5(self):
+        self.run_robot(*self.ARGUMENTS, "--format", "h5", "--seed", 1)
+        with h5py.File(self.here / "out/recording.h5") as file:
+            self.assertTrue((file["cycle"][:] == self.light[:, 0]).all())
+            light = file["Bug/Light/act"]
+            self.assertTrue((light[:].reshape(27, 32) == self.light[:, 1:]).all())
+            self.assertTrue((file["Bug/Motor/vm(4..6,1..2)"][:].reshape(27, 6) == self.motor[:, 1:]).all())
+            self.assertTrue((file["Bug/Light/act(1..8,1) mean"][:] == self.mean[:, 1]).all())
+            self.assertEqual([d.label for d in light.dims], ["cycle", "row", "column"])
+            self.assertEqual(light.dims[0][0], file["cycle"])
+            text = {k: v.decode() if isinstance(v, bytes) else v for k, v in light.attrs.items() if k in ("name", "label", "unit")}
+            self.assertEqual(text, {"name": "Bug/Light:act", "label": "Activity", "unit": "1"})
+            self.assertEqual((file["Bug/Motor/vm(4..6,1..2)"].attrs["first_column"], file["cycle"].attrs["every"]), (4, 3))
+            settings = {k: v.decode() if isinstance(v, bytes) else v for k, v in file.attrs.items()}
+            self.assertEqual(settings["seed"], "1")
+            self.assertIn("reactive_foraging.iqr", settings["system"])
+            self.assertIn("seconds_per_cycle", settings["world"])
+
+    def test_the_original_samplers_format(self):
+        self.run_robot(*self.ARGUMENTS, "--format", "dat")
+        lines = (self.here / "out/recording.dat").read_text().splitlines()
+        self.assertRegex(lines[0], r'^# "Light"=\S+$')
+        identifier = lines[0].split("=")[1]
+        header = lines[3].split(";")
+        self.assertEqual(header[:3], ["cycle", f"{identifier}_act_0", f"{identifier}_act_1"])
+        self.assertEqual(header[-2:], [f"{identifier}_act_RangeAverage", ""])
+        rows = [line.split(";") for line in lines[4:]]
+        self.assertEqual([row[0] for row in rows], [str(3 * i) for i in range(27)])
+        for row, numbers in zip(rows, self.light[:, 1:]):
+            self.assertEqual(row[1:33], ["%g" % v for v in numbers])  # as C++ streams print a double
+
+    def test_the_same_run_gives_the_same_bytes(self):
+        for form in ("npy", "npz", "h5", "dat"):
+            for out in ("a", "b"):
+                self.run_robot(*self.ARGUMENTS, "--format", form, out=out)
+                time.sleep(1.1 if out == "a" and form == "h5" else 0)
+            names = [p.name for p in (self.here / "a").iterdir()]
+            self.assertEqual(filecmp.cmpfiles(self.here / "a", self.here / "b", names, shallow=False)[0], names)
+
+    def test_the_format_follows_the_name_of_the_file(self):
+        self.run_robot("--cycles", 5, "-r", "Bug/Light=all.h5", "-r", "Bug/GPS=all.h5", "-r", "Bug/GPS=gps.npy", "-r", "Bug/GPS")
+        with h5py.File(self.here / "out/all.h5") as file:
+            self.assertEqual(sorted(file["Bug"]), ["GPS", "Light"])
+        self.assertEqual(len(numpy.load(self.here / "out/gps.npy")), 5)
+        self.assertEqual(len(self.table("out/Bug_GPS_act.csv")), 6)
+
+    def test_means_over_cycles(self):
+        self.run_robot("--cycles", 100, "-r", "Bug/Light", "--every", 1, out="all")
+        self.run_robot("--cycles", 100, "-r", "Bug/Light", "--every", 7, "--record-mean")
+        means = self.csv("Bug_Light_act.csv", "out")
+        self.assertEqual(list(means[:, 0]), list(range(0, 98, 7)))
+        rows = self.csv("Bug_Light_act.csv", "all")[:98, 1:].reshape(14, 7, 32)
+        numpy.testing.assert_allclose(means[:, 1:], rows.mean(axis=1), rtol=1e-13, atol=1e-15)
+
+    def kill(self, form):
+        command = [FORAGE, "run", SYSTEM, "--world", WORLD, "--seconds", "1000", "--realtime", "-r", "Bug/Light", "--format", form, "-o", "killed"]
+        process = subprocess.Popen(command, cwd=self.here, stdout=subprocess.PIPE)
+        time.sleep(2.8)
+        process.send_signal(signal.SIGKILL)
+        process.communicate(timeout=20)
+
+    def test_what_was_on_disk_outlives_a_kill(self):
+        self.run_robot("--cycles", 60, "-r", "Bug/Light", out="csv")
+        light = self.csv("Bug_Light_act.csv")
+        self.kill("csv")
+        self.kill("npy")
+        self.kill("h5")
+        rows = [line.split(",") for line in (self.here / "killed/Bug_Light_act.csv.part").read_text().splitlines(keepends=True)]
+        self.assertGreater(len(rows), 10)
+        self.assertEqual([float(v) for v in rows[9]], list(light[8]))
+        array = numpy.load(self.here / "killed/Bug_Light_act.npy.part")
+        self.assertGreater(len(array), 10)
+        self.assertTrue((array["act"].reshape(-1, 32) == light[:len(array), 1:]).all())
+        with h5py.File(self.here / "killed/recording.h5.part", swmr=True) as file:
+            count = len(file["cycle"])
+            self.assertGreater(count, 10)
+            self.assertTrue((file["Bug/Light/act"][:count].reshape(-1, 32) == light[:count, 1:]).all())
+        self.forage("plot", "killed/recording.h5.part", "time", "-o", "pictures")
+        self.forage("plot", "killed")
+
+    def test_an_interrupted_run_keeps_every_row(self):
+        for form in ("npz", "h5"):
+            command = [FORAGE, "run", SYSTEM, "--world", WORLD, "--seconds", "1000", "--realtime", "-r", "Bug/Light", "--format", form, "-o", "out"]
+            process = subprocess.Popen(command, cwd=self.here, stdout=subprocess.PIPE, text=True)
+            time.sleep(1)
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=20)
+            cycles = json.loads((self.here / "out/run.json").read_text())["result"]["cycles"]
+            if form == "npz":
+                self.assertEqual(len(numpy.load(self.here / "out/recording.npz")["Bug/Light:act"]), cycles)
+            else:
+                with h5py.File(self.here / "out/recording.h5") as file:
+                    self.assertEqual(len(file["cycle"]), cycles)
+
+    def test_a_full_disk_is_told(self):
+        for form, name in (("npy", "Bug_Place_Cells_act.npy"), ("h5", "recording.h5")):
+            command = f"ulimit -f 300; trap '' XFSZ; exec {FORAGE} run {SYSTEM} --world {WORLD} --cycles 5000 -o full --format {form} -r 'Bug/Place Cells'"
+            done = subprocess.run(["bash", "-c", command], cwd=self.here, capture_output=True, text=True, timeout=120)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("error: cannot write", done.stderr)
+            self.assertIn("trials.csv", [p.name for p in (self.here / "full").iterdir()])
+            if form == "npy":
+                self.assertGreater(len(numpy.load(self.here / "full" / name)), 3)
+
+
+class Mistakes(Cli):
+    def test_wrong_selections_and_plots(self):
+        for arguments, message in (
+            (["-r", "Bug/Light(1..40,1)"], "has not all of these cells"),
+            (["-r", "Bug/Light=a.csv", "-r", "Bug/GPS=a.csv"], "a .csv file holds one source"),
+            (["-r", "Bug/Light=../a.csv"], "is not a plain file name"),
+            (["-r", "Bug/Light", "--format", "xls"], "--format"),
+            (["-p", "spice:Bug/Light"], "did you mean 'space'"),
+            (["-p", "space:Bug/Ligth"], "did you mean 'Bug/Light'"),
+            (["-p", "space:Bug/Light@9..1"], "cycles are N, A..B or A..B/STEP"),
+            (["-p", "space:Bug/Light;block=3"], "is no option of a plot"),
+            (["-p", "connection:Light to UR"], "did you mean 'Light to US'"),
+            (["-p", "diagram:Bugg"], "did you mean 'Bug'"),
+            (["-p", "time:Bug/Light", "--as", "gif"], "--as"),
+        ):
+            done = self.run_robot("--cycles", 1, *arguments, status=2)
+            self.assertIn("error:", done.stderr)
+            self.assertIn(message, done.stderr)
+        self.assertEqual(list(self.here.iterdir()), [])
+
+    def test_a_cycle_that_was_not_run(self):
+        done = self.run_robot("--cycles", 5, "-p", "space:Bug/Light@7", "-p", "time:Bug/Light", status=1)
+        self.assertIn("none of these cycles is there; there are 5 of 0 to 4", done.stderr)
+        self.assertIn("time_Bug_Light.png", [p.name for p in (self.here / "out").iterdir()])
+
+    def test_nothing_to_plot(self):
+        self.assertIn("there is no 'absent'", self.forage("plot", "absent", status=2).stderr)
+        (self.here / "empty").mkdir()
+        self.assertIn("there is no such recording", self.forage("plot", "empty", "time:Bug/Light", status=2).stderr)
+        self.assertIn("which system?", self.forage("plot", "empty", "diagram", status=2).stderr)
+        (self.here / "a.csv").write_text("time,x\n")
+        self.assertIn("its first column is not 'cycle'", self.forage("plot", "a.csv", status=2).stderr)
+
+
+class Pictures(Cli):
+    PLOTS = ("time:Bug/Light", "time:mean:Bug/Light", "time:Bug/GPS", "space:Bug/Light@40", "space:Bug/Place Cells@0..80/10")
+
+    def test_a_run_and_its_recording_give_the_same_pictures(self):
+        for form in ("png", "svg", "pdf"):
+            plots = [a for p in self.PLOTS for a in ("-p", p)]
+            self.run_robot("--trials", 2, *plots, "-p", "diagram", "-r", "Bug/Light", "-r", "Bug/GPS", "-r", "Bug/Place Cells=cells.h5", "--as", form)
+            made = sorted(p.name for p in (self.here / "out").iterdir() if p.suffix == "." + form)
+            self.assertEqual(len(made), 7)
+            self.forage("plot", "out", *self.PLOTS, "diagram", "trajectory", "-o", "again", "--as", form)
+            self.assertEqual(filecmp.cmpfiles(self.here / "out", self.here / "again", made, shallow=False), (made, [], []))
+
+    def test_without_a_wish_it_draws_what_there_is(self):
+        self.run_robot("--cycles", 50, "-r", "Bug/Light", "-r", "Bug/Place Cells")
+        done = self.forage("plot", "out", "-o", "pictures")
+        self.assertEqual(done.stdout.split(), [f"pictures/{n}.png" for n in (
+            "time_Bug_Light_act", "time_Bug_Place_Cells_act", "space_Bug_Place_Cells_act", "trajectory")])
+        self.assertEqual(self.forage("plot", SYSTEM, "-o", "pictures").stdout, "pictures/diagram.png\n")
+
+    def test_a_trajectory_is_always_drawn_and_needs_a_world(self):
+        self.run_robot("--cycles", 50, "-p", "trajectory")
+        self.forage("plot", "out", "trajectory", "-o", "again")
+        self.assertTrue(filecmp.cmp(self.here / "out/trajectory.png", self.here / "again/trajectory.png", shallow=False))
+        (self.here / "small.iqr").write_text(SMALL_SYSTEM.replace('enableModule="true"', 'enableModule="false"'))
+        self.forage("run", "small.iqr", "--cycles", 5, "-o", "small")
+        self.assertIn("results of a run in a world", self.forage("plot", "small", "trajectory", status=2).stderr)
+
+    def test_a_moving_picture(self):
+        self.run_robot("--cycles", 300, "-p", "movie:Bug/Place Cells@0..290/10", "-p", "movie:Bug/Light")
+        width, height, frames = png_size((self.here / "out/movie_Bug_Place_Cells_0..290_10.png").read_bytes())
+        self.assertEqual(frames, 30)
+        self.assertTrue(400 < width < 1000 and 300 < height < 1000)
+        frames = png_size((self.here / "out/movie_Bug_Light.png").read_bytes())[2]
+        self.assertTrue(60 <= frames <= 120)
+
+    def test_a_recording_is_drawn_by_its_file(self):
+        self.run_robot("--cycles", 50, "-r", "Bug/Motor")
+        self.forage("plot", "out/Bug_Motor_act.csv", "space@10,20", "time:(4..6,1)", "-o", "pictures", status=2)
+        self.forage("plot", "out/Bug_Motor_act.csv", "space@10,20", "time:Bug/Motor(4..6,1)", "-o", "pictures")
+        self.assertEqual(len(list((self.here / "pictures").iterdir())), 2)
+
+    def test_connections_and_diagrams_of_every_shipped_system(self):
+        for system in ("reactive_foraging", "reactive_foraging_exercise"):
+            path = f"{SYSTEM[:SYSTEM.rindex('/')]}/{system}.iqr"
+            names = re.findall(r'<Connection [^>]*?name="([^"]*)"', pathlib.Path(path).read_text())
+            self.forage("plot", path, "diagram", "diagram:Bug", *(f"connection:{n}" for n in set(names)), "-o", system)
+            for picture in (self.here / system).iterdir():
+                png_size(picture.read_bytes())
+
+    def test_svg_is_xml_and_shows_every_group(self):
+        self.forage("plot", SYSTEM, "diagram", "--as", "svg")
+        text = (self.here / "diagram.svg").read_text()
+        if shutil.which("xmllint"):
+            self.assertEqual(subprocess.run(["xmllint", "--noout", "--nonet", self.here / "diagram.svg"]).returncode, 0)
+        self.assertIn("<svg", text)
+
+    def test_a_page_shows_everything_and_fetches_nothing(self):
+        self.run_robot("--trials", 3, "-p", "time:Bug/Light", "-p", "space:Bug/Place Cells@5", "-r", "Bug/Light")
+        (self.here / "out/a <b> & 100% #1.png").write_bytes(b"")
+        self.assertIn("out/index.html", self.forage("view", "out").stdout)
+        page = (self.here / "out/index.html").read_text()
+        self.assertNotRegex(page, r"<script|https?:|//")
+        for name in re.findall(r'(?:src|href)="\./([^"]*)"', page):
+            self.assertTrue((self.here / "out" / urllib.parse.unquote(name)).exists(), name)
+        for picture in ("trajectory", "time_Bug_Light", "space_Bug_Place_Cells_5"):
+            self.assertIn(f'<img src="./{picture}.png"', page)
+        self.assertEqual(page.count("<td>target</td>") + page.count("<td>missed</td>"), 3)
+        self.assertIn("<tr><th>seed</th><td>1</td></tr>", page)
+        self.assertLess(len(page), 20000)  # the recording's numbers are not on it
+        parser = html.parser.HTMLParser()
+        parser.feed(page)
+        self.assertIn("error:", self.forage("view", "absent", status=2).stderr)
+
+    def test_a_system_without_layout_has_a_diagram(self):
+        (self.here / "small.iqr").write_text(SMALL_SYSTEM.replace('<DiagramIcon x="0" y="0"/>', ""))
+        self.forage("plot", "small.iqr", "--lenient", status=2)
+        (self.here / "small.iqr").write_text(SMALL_SYSTEM)
+        self.forage("plot", "small.iqr", "diagram", "connection:B to A")
+
+
+if __name__ == "__main__":
+    import sys
+
+    unittest.main(argv=sys.argv[:1], verbosity=2)

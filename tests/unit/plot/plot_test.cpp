@@ -1,0 +1,154 @@
+#include <cstring>
+
+#include "tests/support/catch.h"
+#include "tools/plot/apng.h"
+#include "tools/plot/axes.h"
+#include "tools/plot/connection.h"
+#include "tools/plot/space.h"
+#include "tools/plot/time.h"
+
+using namespace forage::plot;
+
+namespace {
+
+std::vector<std::string> names(const Ticks& ticks) {
+    std::vector<std::string> out;
+    for (const double v : ticks.at()) out.push_back(ticks.name(v));
+    return out;
+}
+
+/// Distance in CIE L*, what the eye sees as brightness.
+double lightness(const Colour& c) {
+    const auto linear = [](double v) {
+        return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+    };
+    const double y = 0.2126 * linear(c.r) + 0.7152 * linear(c.g) + 0.0722 * linear(c.b);
+    return y > 0.008856 ? 116 * std::cbrt(y) - 16 : 903.3 * y;
+}
+
+std::uint32_t number_at(const std::string& text, std::size_t at) {
+    std::uint32_t out = 0;
+    for (std::size_t i = 0; i < 4; ++i) out = out << 8 | static_cast<unsigned char>(text[at + i]);
+    return out;
+}
+
+SpacePlot small_group(std::size_t frames) {
+    SpacePlot p;
+    p.title = "P/G:act", p.quantity = "Activity";
+    p.grid = {1, 1, 3, 2, false};
+    for (std::size_t i = 0; i < frames; ++i)
+        p.frames.push_back({i * 10, {0, 1, 2, 3, 4, static_cast<double>(i)}});
+    return p;
+}
+
+}  // namespace
+
+TEST_CASE("Ticks are round, within the interval, and named with as many digits as they need") {
+    using V = std::vector<std::string>;
+    CHECK(names({{0, 1}, 5}) == V{"0.0", "0.2", "0.4", "0.6", "0.8", "1.0"});
+    CHECK(names({{-3, 3}, 6}) == V{"-3", "-2", "-1", "0", "1", "2", "3"});
+    CHECK(names({{0, 0.00125}, 5}) == V{"0.0000", "0.0005", "0.0010"});
+    CHECK(names({{0.5, 3.5}, 9, true}) == V{"1", "2", "3"});
+    CHECK(names({{0, 5e7}, 5}) == V{"0", "1e+07", "2e+07", "3e+07", "4e+07", "5e+07"});
+    CHECK(names({{2, 2}, 5}).empty());
+}
+
+TEST_CASE("Even steps of a value are even steps of brightness") {
+    double last = lightness(sequential(0));
+    for (int i = 1; i <= 20; ++i) {
+        const double now = lightness(sequential(i / 20.0));
+        CHECK(now - last > 2);
+        CHECK(now - last < 6);
+        last = now;
+    }
+    for (const double v : {0.3, 0.6, 1.0})
+        CHECK(lightness(diverging(v)) == Approx(lightness(diverging(-v))).margin(9));
+}
+
+TEST_CASE("No two lines of a time plot have the same colour") {
+    for (std::size_t a = 0; a < 10; ++a)
+        for (std::size_t b = 0; b < a; ++b) {
+            const Colour x = category(a), y = category(b);
+            CHECK(std::abs(x.r - y.r) + std::abs(x.g - y.g) + std::abs(x.b - y.b) > 0.2);
+        }
+}
+
+TEST_CASE("A colour scale has zero at its end, or in its middle when there are values below it") {
+    ColourScale positive;
+    positive.include(2), positive.include(4);
+    CHECK((positive.interval().low == 0 && positive.interval().high == 4));
+    ColourScale both;
+    both.include(-1), both.include(3), both.include(std::nan(""));
+    CHECK((both.interval().low == -3 && both.interval().high == 3));
+    CHECK(both(0).r == Approx(both(0).b));
+    CHECK(ColourScale().interval().size() > 0);
+}
+
+TEST_CASE("A curve of any length stays small and loses no peak") {
+    Curve curve("c");
+    for (int i = 0; i < 1'000'000; ++i) curve.add(i, i == 123'457 ? 9 : i == 700'001 ? -7 : 1);
+    CHECK(curve.bins().size() <= 4000);
+    double low = 0, high = 0, count = 0, last = -1;
+    for (const auto& b : curve.bins()) {
+        low = std::min(low, b.low), high = std::max(high, b.high), count += b.count;
+        CHECK(b.first > last);
+        last = b.last;
+    }
+    CHECK((low == -7 && high == 9 && count == 1'000'000 && last == 999'999));
+}
+
+TEST_CASE("A picture is the same in all formats, and the same bytes whatever was drawn before") {
+    TimePlot time;
+    time.title = "a", time.quantity = "b";
+    for (int c = 0; c < 12; ++c) {
+        time.curves.emplace_back("c");
+        for (int i = 0; i < 50; ++i) time.curves.back().add(i, c * i);
+    }
+    for (const Format f : {Format::png, Format::svg, Format::pdf}) {
+        const std::string first = render(space_plot(small_group(1)), f);
+        CHECK(first.size() > 1000);
+        render(time_plot(time), f);
+        CHECK(render(space_plot(small_group(1)), f) == first);
+    }
+    CHECK(format_of("a.svg") == Format::svg);
+    CHECK(format_of("a.b") == std::nullopt);
+}
+
+TEST_CASE("An animation has its frames in order, and is a PNG of the first") {
+    const auto frames = space_animation(small_group(3));
+    const std::string text = render_animation(frames, 0.5);
+    std::vector<std::string> chunks;
+    std::uint32_t sequence = 0;
+    for (std::size_t at = 8; at < text.size(); at += 12 + number_at(text, at)) {
+        chunks.push_back(text.substr(at + 4, 4));
+        if (chunks.back() == "acTL") CHECK(number_at(text, at + 8) == 3);
+        if (chunks.back() == "fcTL" || chunks.back() == "fdAT") CHECK(number_at(text, at + 8) == sequence++);
+    }
+    CHECK(chunks.front() == "IHDR");
+    CHECK(chunks.back() == "IEND");
+    CHECK(std::count(chunks.begin(), chunks.end(), "fcTL") == 3);
+    CHECK(std::find(chunks.begin(), chunks.end(), "IDAT") < std::find(chunks.begin(), chunks.end(), "fdAT"));
+    CHECK_THROWS(animated_png({render(frames[0], Format::png), "no picture"}, 1));
+}
+
+TEST_CASE("Text that does not fit is cut between characters") {
+    Measure measure;
+    const std::string umlauts = "ÄÖÜÄÖÜÄÖÜ";
+    for (double width = 5; width < 120; width += 3) {
+        const std::string cut = measure.canvas().fitted(umlauts, 12, width);
+        CHECK((cut == umlauts || cut.ends_with("…")));
+        CHECK((cut == umlauts || (cut.size() - 3) % 2 == 0));
+    }
+    CHECK(measure.canvas().fitted("short", 12, 500) == "short");
+}
+
+TEST_CASE("A connection of large groups is drawn in a picture of bounded size") {
+    ConnectionPlot p;
+    p.title = "a", p.source = "A", p.target = "B";
+    p.source_shape = {100, 50, 5000}, p.target_shape = {3, 1, 3};
+    p.pre = {0, 4999, 4999}, p.post = {0, 2, 2}, p.strength = {1, -1, 0.5}, p.delay = {0, 3, 1};
+    const Picture picture = connection_plot(p);
+    CHECK(picture.width < 1600);  // two tables: there is a delay
+    CHECK(picture.height < 800);
+    CHECK(render(picture, Format::png).size() > 1000);
+}

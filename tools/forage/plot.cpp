@@ -1,0 +1,286 @@
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/observe/recording.h"
+#include "tools/forage/commands.h"
+#include "tools/forage/files.h"
+#include "tools/forage/plots.h"
+#include "tools/forage/structure.h"
+#include "tools/plot/trajectory.h"
+
+namespace forage::tool {
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = PlotWish::Kind;
+
+/// What a person points at: results, a recording or a system.
+struct Source {
+    struct Entry {
+        std::unique_ptr<observe::Recording> rows;
+        observe::Recorded what;  ///< with the name and label that run.json knows
+    };
+    std::vector<Entry> recordings;
+    Input input;  ///< the system and world that were run, as far as they are known
+    PlotContext context;
+    std::string directory;  ///< of the results; empty when there are none
+};
+
+nlohmann::json read_json(const fs::path& path) {
+    std::ifstream in(path);
+    return in ? nlohmann::json::parse(in, nullptr, false) : nlohmann::json();
+}
+
+/// A CSV file.
+struct Table {
+    std::vector<std::string> header;
+    std::vector<std::vector<std::string>> rows;
+
+    /// What stands in a row under a name; empty when nothing does.
+    std::string at(const std::vector<std::string>& row, std::string_view name) const {
+        const auto column =
+            static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
+        return column < row.size() ? row[column] : "";
+    }
+    double number(const std::vector<std::string>& row, std::string_view name) const {
+        return std::strtod(at(row, name).c_str(), nullptr);
+    }
+};
+
+Table read_table(const fs::path& path) {
+    Table out;
+    std::ifstream in(path);
+    for (std::string line; std::getline(in, line);) {
+        std::vector<std::string> row;
+        for (std::size_t at = 0; at <= line.size();) {
+            const auto end = std::min(line.find(',', at), line.size());
+            row.push_back(line.substr(at, end - at));
+            at = end + 1;
+        }
+        if (out.header.empty())
+            out.header = std::move(row);
+        else
+            out.rows.push_back(std::move(row));
+    }
+    return out;
+}
+
+std::string base(const std::string& path) { return fs::path(path).filename().string(); }
+
+/// What run.json says of a file that holds one source.
+struct Named {
+    std::string source, label;
+    int count = 0;
+};
+
+/// What run.json says of the files beside it.
+std::map<std::string, Named> read_run(const fs::path& directory, Source& out) {
+    std::map<std::string, Named> names;
+    const auto json = read_json(directory / "run.json");
+    if (!json.is_object()) return names;
+    const auto text = [](const nlohmann::json& j, const char* key) {
+        return j.is_object() && j.contains(key) && j[key].is_string() ? j[key].get<std::string>()
+                                                                      : std::string();
+    };
+    out.input.system = text(json.value("system", nlohmann::json()), "file");
+    const auto world = json.value("world", nlohmann::json());
+    out.input.world = text(world, "file");
+    out.input.seed = json.value("seed", std::uint64_t{1});
+    for (const auto& s : json.value("set", nlohmann::json::array()))
+        if (s.is_string()) out.input.settings.push_back({s.get<std::string>()});
+    out.input.lenient = json.value("lenient", false);
+    if (world.is_object()) out.context.seconds_per_cycle = world.value("seconds_per_cycle", 0.0);
+    out.context.run =
+        fmt::format("{}{}, seed {}", base(out.input.system),
+                    out.input.world.empty() ? "" : " in " + base(out.input.world), out.input.seed);
+    for (const auto& r :
+         json.value("result", nlohmann::json::object()).value("recordings", nlohmann::json::array()))
+        names[text(r, "file")] = {text(r, "source"), text(r, "label"), names[text(r, "file")].count + 1};
+    const Table trials = read_table(directory / "trials.csv");
+    for (const auto& row : trials.rows) out.context.trials.push_back(trials.number(row, "first_cycle"));
+    return names;
+}
+
+void add_recording(const fs::path& path, const std::map<std::string, Named>& names, Source& out) {
+    auto all = observe::open_recording(path.string());
+    const auto known = names.find(path.filename().string());
+    for (auto& r : all) {
+        observe::Recorded what = r->what();
+        if (known != names.end() && known->second.count == 1 && all.size() == 1)
+            what.name = known->second.source, what.label = known->second.label;
+        out.recordings.push_back({std::move(r), std::move(what)});
+    }
+}
+
+Source open(const std::string& path) {
+    Source out;
+    if (fs::is_directory(path)) {
+        out.directory = path;
+        const auto names = read_run(path, out);
+        std::vector<fs::path> files;
+        for (const auto& entry : fs::directory_iterator(path)) {
+            const std::string name = entry.path().filename().string();
+            const bool recording =
+                observe::is_recording(name) && !name.starts_with("trials") && !name.starts_with("trajectory");
+            if (recording && entry.is_regular_file()) files.push_back(entry.path());
+        }
+        std::sort(files.begin(), files.end());
+        for (const auto& f : files) add_recording(f, names, out);
+    } else if (const auto end = fs::path(path).extension(); end == ".iqr" || end == ".iqrProcess") {
+        out.input.system = path;
+        out.context.run = base(path);
+    } else {
+        const auto names = read_run(fs::path(path).parent_path(), out);
+        add_recording(path, names, out);
+    }
+    return out;
+}
+
+/// Which recording a wish means, and which part of it; -1 when none.
+int find_recording(const Source& source, const PlotWish& wish, std::optional<observe::Part>& part) {
+    const auto matches = [&](std::string_view wanted, const std::string& name) {
+        return wanted == name || wanted == name.substr(0, name.rfind(':')) || file_name(wanted) == name ||
+               file_name(wanted) + "_act" == name;
+    };
+    const auto selection = observe::parse_selection(wish.what);
+    for (std::size_t i = 0; i < source.recordings.size(); ++i) {
+        const observe::Recorded& what = source.recordings[i].what;
+        if (wish.what.empty() ? source.recordings.size() == 1 : matches(wish.what, what.name))
+            part = observe::part_of(what, {});  // exactly what was recorded
+        else if (matches(selection.column, what.name))
+            part = observe::part_of(what, selection);
+        if (part) return static_cast<int>(i);
+    }
+    return -1;
+}
+
+void draw_rows(const Source& source, const PlotWish& wish, const std::string& directory, plot::Format format,
+               std::vector<std::string>& written, Diagnostics& diagnostics) {
+    std::optional<observe::Part> part;
+    const int index = find_recording(source, wish, part);
+    if (index < 0) {
+        std::vector<std::string> names;
+        for (const auto& r : source.recordings) names.push_back(r.what.name);
+        diagnostics.error({}, fmt::format("'{}': there is no such recording", wish.text),
+                          names.empty()
+                              ? "'forage run --record' makes recordings, 'forage run --plot' draws at once"
+                              : fmt::format("there are '{}'", fmt::join(names, "', '")));
+        return;
+    }
+    RowPlot drawn(wish, part->what);
+    auto& recording = *source.recordings[static_cast<std::size_t>(index)].rows;
+    std::vector<double> row, taken(part->what.size());
+    recording.rewind();
+    for (std::uint64_t cycle = 0; recording.next(cycle, row);) {
+        part->take(row, taken);
+        drawn.add(cycle, taken);
+    }
+    write_file(directory + "/" + wish.file(format), drawn.draw(format, source.context));
+    written.push_back(wish.file(format));
+}
+
+std::vector<plot::Path> read_paths(const std::string& directory) {
+    std::vector<plot::Path> out;
+    const Table trials = read_table(directory + "/trials.csv"),
+                path = read_table(directory + "/trajectory.csv");
+    for (const auto& row : path.rows) {
+        const auto trial = static_cast<std::size_t>(path.number(row, "trial"));
+        if (trial < 1 || trial > trials.rows.size()) continue;
+        out.resize(std::max(out.size(), trial));
+        out[trial - 1].points.emplace_back(path.number(row, "x"), path.number(row, "y"));
+    }
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const std::string outcome = trials.at(trials.rows[i], "outcome");
+        out[i].reached = outcome == "target";
+        out[i].finished = outcome != "unfinished";
+    }
+    return out;
+}
+
+std::vector<std::string> usual_wishes(const Source& source) {
+    std::vector<std::string> out;
+    if (source.recordings.empty() && source.directory.empty()) return {"diagram"};
+    for (const auto& r : source.recordings) {
+        out.push_back("time:" + r.what.name);
+        if (!r.what.mean && r.what.cells.width > 1 && r.what.cells.height > 1)
+            out.push_back("space:" + r.what.name);
+    }
+    if (!source.directory.empty() && fs::exists(source.directory + "/trajectory.csv"))
+        out.push_back("trajectory");
+    return out;
+}
+
+}  // namespace
+
+int plot(const PlotOptions& o) {
+    Diagnostics diagnostics;
+    std::vector<std::string> written;
+    const auto report = [&] {
+        for (const auto& w : written) fmt::print("{}\n", w);
+        fmt::print(stderr, "{}", format(diagnostics));
+        return diagnostics.failed() ? bad_input : fine;
+    };
+    Source source;
+    try {
+        if (!fs::exists(o.source)) throw std::runtime_error(fmt::format("there is no '{}'", o.source));
+        source = open(o.source);
+    } catch (const std::exception& e) {
+        diagnostics.error({}, e.what(),
+                          "name a directory of results, a recording (.csv, .npy, .h5) or a system (.iqr)");
+        return report();
+    }
+    std::vector<PlotWish> wishes;
+    bool structure = false, trajectory = false;
+    for (const auto& text : o.wishes.empty() ? usual_wishes(source) : o.wishes)
+        if (auto wish = parse_plot(text, "forage plot", diagnostics)) {
+            structure |= wish->kind == Kind::diagram || wish->kind == Kind::connection;
+            trajectory |= wish->kind == Kind::trajectory;
+            wishes.push_back(std::move(*wish));
+        }
+    std::optional<Loaded> loaded;
+    if ((structure || trajectory) && !diagnostics.failed()) {
+        if (source.input.system.empty())
+            diagnostics.error({}, "which system? there is no run.json that names it",
+                              "name the .iqr file instead");
+        else if (!trajectory)
+            source.input.world.clear();
+        if (!source.input.system.empty()) loaded = load(source.input, diagnostics);
+        for (const auto& w : wishes)
+            if (loaded) check_structure(w, loaded->system, "forage plot", diagnostics);
+        if (loaded && trajectory && (!loaded->world || !fs::exists(source.directory + "/trajectory.csv")))
+            diagnostics.error({}, "a trajectory needs the results of a run in a world");
+    }
+    if (diagnostics.failed()) return report();
+
+    const plot::Format format = *plot::format_of("x." + o.picture_format);
+    const std::string beside = fs::path(o.source).parent_path().string();
+    const std::string directory = !o.directory.empty()                          ? o.directory
+                                  : !source.directory.empty()                   ? source.directory
+                                  : source.recordings.empty() || beside.empty() ? "."
+                                                                                : beside;
+    make_directory(directory);
+    for (const auto& w : wishes) {
+        if (w.of_cells()) {
+            draw_rows(source, w, directory, format, written, diagnostics);
+            continue;
+        }
+        const plot::Picture picture =
+            w.kind == Kind::trajectory
+                ? plot::trajectory_plot(*loaded->world, read_paths(source.directory), source.context.run)
+                : structure_plot(w, loaded->system, loaded->registry, nullptr, source.input.seed,
+                                 source.context.run);
+        written.push_back(w.file(format));
+        write_file(directory + "/" + written.back(), plot::render(picture, format));
+    }
+    for (auto& w : written)
+        if (directory != ".") w = directory + "/" + w;
+    return report();
+}
+
+}  // namespace forage::tool

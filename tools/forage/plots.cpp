@@ -1,0 +1,120 @@
+#include "tools/forage/plots.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "tools/forage/structure.h"
+
+namespace forage::tool {
+namespace {
+
+constexpr std::size_t most_frames = 120;  ///< of a moving picture whose cycles nobody chose
+constexpr std::size_t most_panels = 400;
+constexpr std::size_t most_marks = 60;
+constexpr double seconds_per_frame = 0.12;
+
+}  // namespace
+
+RowPlot::RowPlot(PlotWish wish, const observe::Recorded& what) : wish_(std::move(wish)), what_(what) {
+    if (wish_.kind != PlotWish::Kind::time) return;
+    for (std::size_t i = 0; i < what_.size(); ++i) {
+        const int n = static_cast<int>(i);
+        curves_.emplace_back(what_.mean       ? "mean"
+                             : what_.numbered ? fmt::format("cell {}", what_.cells.x + n)
+                                              : fmt::format("({}, {})", what_.cells.x + n % what_.cells.width,
+                                                            what_.cells.y + n / what_.cells.width));
+    }
+}
+
+void RowPlot::add(std::uint64_t cycle, std::span<const double> numbers) {
+    if (rows_++ == 0) first_ = cycle;
+    last_ = cycle;
+    if (!wish_.wants(cycle)) return;
+    if (wish_.kind != PlotWish::Kind::time) return add_frame(cycle, numbers);
+    for (std::size_t i = 0; i < curves_.size(); ++i) curves_[i].add(static_cast<double>(cycle), numbers[i]);
+}
+
+void RowPlot::add_frame(std::uint64_t cycle, std::span<const double> numbers) {
+    if (!wish_.cycles.empty()) {
+        if (frames_.size() == most_panels)
+            throw std::runtime_error(
+                fmt::format("'{}' has more than {} pictures: choose a larger step, such as "
+                            "'@0..10000/100'",
+                            wish_.text, most_panels));
+        frames_.push_back({cycle, {numbers.begin(), numbers.end()}});
+    } else if (wish_.kind == PlotWish::Kind::space) {  // the last one
+        frames_.resize(1);
+        frames_[0].cycle = cycle;
+        frames_[0].values.assign(numbers.begin(), numbers.end());
+    } else if ((rows_ - 1) % keep_every_ == 0) {
+        frames_.push_back({cycle, {numbers.begin(), numbers.end()}});
+        if (frames_.size() < most_frames) return;
+        for (std::size_t i = 1; 2 * i < frames_.size(); ++i) frames_[i] = std::move(frames_[2 * i]);
+        frames_.resize((frames_.size() + 1) / 2);
+        keep_every_ *= 2;
+    }
+}
+
+std::string RowPlot::draw(plot::Format format, const PlotContext& context) const {
+    const std::string quantity =
+        what_.label.empty() ? what_.state.empty() ? "value" : what_.state : what_.label;
+    const std::string& title = what_.name;
+    const auto nothing = [&] {
+        return std::runtime_error(
+            rows_ == 0 ? fmt::format("'{}': there is nothing to draw yet", wish_.text)
+                       : fmt::format("'{}': none of these cycles is there; there are {} of {} to {}",
+                                     wish_.text, rows_, first_, last_));
+    };
+    if (wish_.kind == PlotWish::Kind::time) {
+        if (curves_.empty() || curves_[0].bins().empty()) throw nothing();
+        plot::TimePlot p;
+        p.title = title, p.subtitle = context.run, p.quantity = quantity;
+        p.cells = what_.cells.height > 1 && !what_.numbered ? "cell, row by row" : "cell";
+        p.curves = curves_;
+        p.seconds_per_cycle = context.seconds_per_cycle;
+        if (context.trials.size() > 1 && context.trials.size() <= most_marks)
+            p.marks = context.trials, p.mark_name = "a trial begins";
+        return plot::render(plot::time_plot(p), format);
+    }
+    if (frames_.empty()) throw nothing();
+    plot::SpacePlot p;
+    p.title = title, p.subtitle = context.run, p.quantity = quantity;
+    p.grid = {what_.cells.x, what_.cells.y, what_.mean ? 1 : what_.cells.width,
+              what_.mean ? 1 : what_.cells.height, what_.numbered};
+    p.blocks_across = wish_.blocks_across, p.blocks_down = wish_.blocks_down;
+    p.frames = frames_;
+    if (wish_.kind == PlotWish::Kind::space) return plot::render(plot::space_plot(p), format);
+    return plot::render_animation(plot::space_animation(p), seconds_per_frame);
+}
+
+LivePlots LivePlots::make(const std::vector<std::string>& wishes, const model::System& system,
+                          const engine::Simulation& simulation, Diagnostics& diagnostics) {
+    LivePlots out;
+    for (const auto& text : wishes) {
+        auto wish = parse_plot(text, "--plot", diagnostics);
+        if (!wish || wish->kind == PlotWish::Kind::trajectory)
+            continue;  // every run in a world draws its paths
+        if (!wish->of_cells()) {
+            check_structure(*wish, system, "--plot", diagnostics);
+            out.others_.push_back(std::move(*wish));
+            continue;
+        }
+        auto source = observe::find_source(simulation, wish->what, "--plot", diagnostics);
+        if (!source) continue;
+        out.plots_.emplace_back(std::move(*wish), source->what());
+        out.sources_.push_back(std::move(*source));
+    }
+    return out;
+}
+
+void LivePlots::follow(const engine::Simulation& simulation) {
+    for (std::size_t i = 0; i < plots_.size(); ++i) {
+        row_.resize(sources_[i].what().size());
+        sources_[i].read(simulation, row_);
+        plots_[i].add(simulation.cycle() - 1, row_);
+    }
+}
+
+}  // namespace forage::tool

@@ -1,0 +1,184 @@
+#include "tools/plot/canvas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <regex>
+#include <stdexcept>
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <fmt/format.h>
+
+#include "tools/plot/apng.h"
+
+namespace forage::plot {
+namespace {
+
+struct Free {
+    void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
+    void operator()(cairo_t* c) const { cairo_destroy(c); }
+};
+using Surface = std::unique_ptr<cairo_surface_t, Free>;
+using Context = std::unique_ptr<cairo_t, Free>;
+
+constexpr double points_per_pixel = 72.0 / 96.0;
+
+cairo_status_t append(void* text, const unsigned char* data, unsigned size) {
+    static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(data), size);
+    return CAIRO_STATUS_SUCCESS;
+}
+
+void check(cairo_status_t status) {
+    if (status != CAIRO_STATUS_SUCCESS)
+        throw std::runtime_error(fmt::format("cannot draw: {}", cairo_status_to_string(status)));
+}
+
+void draw(const Picture& picture, cairo_surface_t* surface, double scale) {
+    const Context context(cairo_create(surface));
+    cairo_scale(context.get(), scale, scale);
+    Canvas canvas(context.get());
+    canvas.colour(white);
+    cairo_paint(context.get());
+    picture.draw(canvas);
+    check(cairo_status(context.get()));
+}
+
+/// Cairo numbers what an SVG file refers to by a count that goes on from picture to picture. Here they are
+/// numbered by their first place, so that a picture's bytes do not depend on what was drawn before it.
+std::string renumbered(const std::string& svg) {
+    static const std::regex reference("(id=\"|#)(surface|image|source|clip|mask|pattern)([0-9]+)(?![0-9-])");
+    std::map<std::string, std::size_t> numbers;
+    std::string out;
+    auto copied = svg.begin();
+    for (std::sregex_iterator it(svg.begin(), svg.end(), reference), end; it != end; ++it) {
+        out.append(copied, (*it)[3].first);
+        out += std::to_string(numbers.emplace((*it)[2].str() + (*it)[3].str(), numbers.size()).first->second);
+        copied = (*it)[3].second;
+    }
+    return out.append(copied, svg.end());
+}
+
+std::string png(const Picture& picture) {
+    const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24,
+                                                     static_cast<int>(std::ceil(picture.width)),
+                                                     static_cast<int>(std::ceil(picture.height))));
+    draw(picture, surface.get(), 1);
+    std::string out;
+    check(cairo_surface_write_to_png_stream(surface.get(), append, &out));
+    return out;
+}
+
+}  // namespace
+
+std::optional<Format> format_of(std::string_view name) {
+    for (const Format f : {Format::png, Format::svg, Format::pdf})
+        if (name.size() > 4 && name.ends_with(ending(f))) return f;
+    return std::nullopt;
+}
+
+std::string_view ending(Format format) {
+    return format == Format::png ? ".png" : format == Format::svg ? ".svg" : ".pdf";
+}
+
+Canvas::Canvas(cairo_t* context) : c_(context) {
+    // Letters lie where they would on paper, so that all formats look the same.
+    cairo_font_options_t* options = cairo_font_options_create();
+    cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+    cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+    cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+    cairo_set_font_options(c_, options);
+    cairo_font_options_destroy(options);
+}
+
+void Canvas::fill(double x, double y, double width, double height, const Colour& c) {
+    colour(c);
+    cairo_rectangle(c_, x, y, width, height);
+    cairo_fill(c_);
+}
+
+void Canvas::line(double x0, double y0, double x1, double y1, const Colour& c, double width) {
+    colour(c);
+    cairo_set_line_width(c_, width);
+    cairo_move_to(c_, x0, y0);
+    cairo_line_to(c_, x1, y1);
+    cairo_stroke(c_);
+}
+
+void Canvas::font(double size, bool bold) {
+    cairo_select_font_face(c_, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
+                           bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(c_, size);
+}
+
+void Canvas::text(double x, double y, const std::string& what, double size, double anchor, const Colour& c,
+                  bool bold) {
+    font(size, bold);
+    cairo_text_extents_t extents;
+    cairo_text_extents(c_, what.c_str(), &extents);
+    colour(c);
+    cairo_move_to(c_, x - anchor * extents.x_advance, y);
+    cairo_show_text(c_, what.c_str());
+    cairo_new_path(c_);  // showing text leaves a current point, from which an arc would draw a line
+}
+
+void Canvas::text_upwards(double x, double y, const std::string& what, double size) {
+    cairo_save(c_);
+    cairo_translate(c_, x, y);
+    cairo_rotate(c_, -M_PI / 2);
+    text(0, 0, what, size, 0.5);
+    cairo_restore(c_);
+}
+
+double Canvas::width_of(const std::string& what, double size, bool bold) {
+    font(size, bold);
+    cairo_text_extents_t extents;
+    cairo_text_extents(c_, what.c_str(), &extents);
+    return extents.x_advance;
+}
+
+std::string Canvas::fitted(const std::string& what, double size, double width) {
+    if (width_of(what, size) <= width) return what;
+    std::string out = what;
+    while (!out.empty() && width_of(out + "…", size) > width) {
+        while ((static_cast<unsigned char>(out.back()) & 0xC0) == 0x80)
+            out.pop_back();  // rest of a character
+        out.pop_back();
+    }
+    return out + "…";
+}
+
+std::string render(const Picture& picture, Format format) {
+    if (format == Format::png) return png(picture);
+    std::string out;
+    {
+        const double w = picture.width * points_per_pixel, h = picture.height * points_per_pixel;
+        const Surface surface(format == Format::svg
+                                  ? cairo_svg_surface_create_for_stream(append, &out, w, h)
+                                  : cairo_pdf_surface_create_for_stream(append, &out, w, h));
+        if (format == Format::pdf)  // the same bytes at any time
+            cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
+                                           "2000-01-01T00:00:00Z");
+        draw(picture, surface.get(), points_per_pixel);
+        cairo_surface_finish(surface.get());
+        check(cairo_surface_status(surface.get()));
+    }
+    return format == Format::svg ? renumbered(out) : out;
+}
+
+std::string render_animation(const std::vector<Picture>& frames, double seconds) {
+    std::vector<std::string> pngs;
+    for (const auto& f : frames) pngs.push_back(png(f));
+    return animated_png(pngs, seconds);
+}
+
+Measure::Measure()
+    : context_(
+          [] {
+              const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
+              return cairo_create(surface.get());
+          }(),
+          Free{}),
+      canvas_(context_.get()) {}
+
+}  // namespace forage::plot

@@ -1,0 +1,53 @@
+#include "tools/plot/colours.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace forage::plot {
+namespace {
+
+template <std::size_t N>
+Colour between(const std::array<std::array<int, 3>, N>& samples, double part) {
+    const double place = std::clamp(std::isnan(part) ? 0 : part, 0.0, 1.0) * static_cast<double>(N - 1);
+    const auto low = std::min(static_cast<std::size_t>(place), N - 2);
+    const double f = place - static_cast<double>(low);
+    const auto mix = [&](std::size_t i) {
+        return ((1 - f) * samples[low][i] + f * samples[low + 1][i]) / 255;
+    };
+    return {mix(0), mix(1), mix(2)};
+}
+
+constexpr std::array<std::array<int, 3>, 9> viridis = {{{68, 1, 84},
+                                                        {71, 44, 122},
+                                                        {59, 81, 139},
+                                                        {44, 113, 142},
+                                                        {33, 144, 141},
+                                                        {39, 173, 129},
+                                                        {92, 200, 99},
+                                                        {170, 220, 50},
+                                                        {253, 231, 37}}};
+constexpr std::array<std::array<int, 3>, 5> blue_white_red = {
+    {{33, 102, 172}, {146, 197, 222}, {247, 247, 247}, {244, 165, 130}, {178, 24, 43}}};
+constexpr std::array<std::array<int, 3>, 10> lines = {{{0, 114, 178},
+                                                       {213, 94, 0},
+                                                       {0, 158, 115},
+                                                       {204, 121, 167},
+                                                       {86, 180, 233},
+                                                       {230, 159, 0},
+                                                       {0, 0, 0},
+                                                       {200, 185, 20},
+                                                       {140, 86, 75},
+                                                       {140, 140, 140}}};
+
+}  // namespace
+
+Colour sequential(double part) { return between(viridis, part); }
+
+Colour diverging(double part) { return between(blue_white_red, (part + 1) / 2); }
+
+Colour category(std::size_t n) {
+    const auto& c = lines[n % lines.size()];
+    return {c[0] / 255.0, c[1] / 255.0, c[2] / 255.0};
+}
+
+}  // namespace forage::plot

@@ -1,0 +1,107 @@
+#include "tools/plot/connection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "tools/plot/axes.h"
+
+namespace forage::plot {
+namespace {
+
+constexpr int most = 560;  ///< pixels and bins of a side
+constexpr double left = 78, top = 66, bottom = 50, gap = 22, bar = 16;
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// Numbers by target row and source column; of groups that are larger than the picture, several cells share
+/// one place, and the number furthest from zero is shown.
+struct Table {
+    int columns, rows;
+    std::vector<double> numbers;
+
+    double& at(int column, int row) {
+        return numbers[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                       static_cast<std::size_t>(column)];
+    }
+};
+
+template <class Values, class Join>
+Table table_of(const ConnectionPlot& p, const Values& values, Join join) {
+    // Synapses between the same two cells first come together, whatever the size of the groups.
+    std::vector<std::size_t> order(p.pre.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::pair(p.post[a], p.pre[a]) < std::pair(p.post[b], p.pre[b]);
+    });
+    Table out{std::min(p.source_shape.cells, most), std::min(p.target_shape.cells, most), {}};
+    out.numbers.assign(static_cast<std::size_t>(out.columns) * static_cast<std::size_t>(out.rows), none);
+    for (std::size_t i = 0; i < order.size();) {
+        const int pre = p.pre[order[i]], post = p.post[order[i]];
+        double value = static_cast<double>(values[order[i]]);
+        for (++i; i < order.size() && p.pre[order[i]] == pre && p.post[order[i]] == post; ++i)
+            value = join(value, static_cast<double>(values[order[i]]));
+        double& place =
+            out.at(static_cast<int>(static_cast<long long>(pre) * out.columns / p.source_shape.cells),
+                   static_cast<int>(static_cast<long long>(post) * out.rows / p.target_shape.cells));
+        if (std::isnan(place) || std::abs(value) > std::abs(place)) place = value;
+    }
+    return out;
+}
+
+std::string cells_of(const std::string& name, const GroupShape& s) {
+    return s.cells == s.width * s.height
+               ? fmt::format("cell of {} ({} × {}, row by row)", name, s.width, s.height)
+               : fmt::format("cell of {} ({})", name, s.cells);
+}
+
+}  // namespace
+
+Picture connection_plot(const ConnectionPlot& plot) {
+    struct Panel {
+        Table table;
+        ColourScale scale;
+        std::string quantity;
+    };
+    std::vector<Panel> panels;
+    panels.push_back(
+        {table_of(plot, plot.strength, [](double a, double b) { return a + b; }), {}, "strength"});
+    if (std::any_of(plot.delay.begin(), plot.delay.end(), [](int d) { return d != 0; }))
+        panels.push_back({table_of(plot, plot.delay, [](double a, double b) { return std::max(a, b); }),
+                          {},
+                          "delay (cycles)"});
+    for (auto& p : panels)
+        for (const double v : p.table.numbers) p.scale.include(v);
+    const Table& t = panels[0].table;
+    const int cell = std::clamp(most / std::max(t.columns, t.rows), 1, 28);
+    const double width = cell * t.columns, height = cell * t.rows, tall = std::max(height, 110.0);
+    const double step = left + width + gap + bar + colour_bar_labels;
+    Measure measure;
+    const double room = std::max({step * static_cast<double>(panels.size()),
+                                  24 + measure.canvas().width_of(plot.title, 15, true),
+                                  24 + measure.canvas().width_of(plot.subtitle, 12), 420.0});
+    return {
+        room, top + tall + bottom, [=](Canvas& canvas) {
+            canvas.text(12, 22, plot.title, 15, 0, black, true);
+            canvas.text(12, 40, plot.subtitle, 12, 0, grey);
+            double x = left;
+            for (const auto& p : panels) {
+                const Box box{x, top, width, height};
+                Table table = p.table;
+                draw_cells(canvas, box, table.columns, table.rows, [&](int column, int row) {
+                    const double v = table.at(column, row);
+                    return std::isnan(v) ? Colour{0.93, 0.93, 0.93} : p.scale(v);
+                });
+                const Axes axes{
+                    box, {0.5, plot.source_shape.cells + 0.5}, {0.5, plot.target_shape.cells + 0.5}, true};
+                draw_axes(canvas, axes,
+                          {canvas.fitted(cells_of(plot.source, plot.source_shape), 13, step - 40), true},
+                          {canvas.fitted("cell of " + plot.target, 13, tall), true});
+                draw_colour_bar(canvas, p.scale, {box.right() + gap, top, bar, tall}, p.quantity);
+                x += step;
+            }
+        }};
+}
+
+}  // namespace forage::plot

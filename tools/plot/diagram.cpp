@@ -1,0 +1,351 @@
+#include "tools/plot/diagram.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/model/lookup.h"
+#include "tools/plot/axes.h"
+
+namespace forage::plot {
+namespace {
+
+constexpr double scale = 1.7;  ///< pixels per unit of the file: room for names
+constexpr double margin = 26, heading = 34, name_size = 11, small_size = 10;
+
+struct Point2 {
+    double x, y;
+};
+
+/// The original's colours.
+Colour colour_of(InputKind kind) {
+    switch (kind) {
+        case InputKind::excitatory:
+            return {0.78, 0.10, 0.10};
+        case InputKind::inhibitory:
+            return {0.10, 0.25, 0.75};
+        case InputKind::modulatory:
+            break;
+    }
+    return {0.05, 0.50, 0.20};
+}
+
+struct Node {
+    Box box;
+    std::string name, size, below;  ///< size stands in the box, below its name
+    bool process = false, outside = false, disabled = false;
+
+    Point2 centre() const { return {box.x + box.width / 2, box.y + box.height / 2}; }
+    /// One of the 16 points round the icon, four a side: above, right, below, left; to the right and
+    /// downwards.
+    Point2 anchor(int n) const {
+        const double part = (n % 4 + 0.5) / 4;
+        switch ((n / 4) % 4) {
+            case 0:
+                return {box.x + part * box.width, box.y};
+            case 1:
+                return {box.right(), box.y + part * box.height};
+            case 2:
+                return {box.x + part * box.width, box.bottom()};
+            default:
+                return {box.x, box.y + part * box.height};
+        }
+    }
+    /// Where the line from the centre to `p` leaves the box.
+    Point2 border(Point2 p) const {
+        const Point2 c = centre();
+        const double dx = p.x - c.x, dy = p.y - c.y;
+        const double f = std::min(dx == 0 ? 1e9 : box.width / 2 / std::abs(dx),
+                                  dy == 0 ? 1e9 : box.height / 2 / std::abs(dy));
+        return {c.x + f * dx, c.y + f * dy};
+    }
+};
+
+struct Edge {
+    std::vector<Point2> points;
+    InputKind kind;
+    std::string label;
+};
+
+struct Sheet {
+    std::string title;
+    std::vector<Node> nodes;
+    std::vector<Edge> edges;
+    Box extent{};
+
+    /// Moves everything so that it begins at (margin, heading).
+    void fit(Canvas& measure) {
+        double x0 = std::numeric_limits<double>::max(), y0 = x0, x1 = -x0, y1 = -x0;
+        const auto take = [&](double x, double y) {
+            x0 = std::min(x0, x), y0 = std::min(y0, y), x1 = std::max(x1, x), y1 = std::max(y1, y);
+        };
+        for (const auto& n : nodes) {
+            const double half = std::max(n.box.width, measure.width_of(n.below, small_size)) / 2;
+            take(n.centre().x - half, n.box.y), take(n.centre().x + half, n.box.bottom() + 14);
+        }
+        for (const auto& e : edges)
+            for (const auto& p : e.points) take(p.x, p.y);
+        if (nodes.empty()) take(0, 0), take(120, 20);
+        const double dx = margin - x0, dy = heading + margin - y0;
+        for (auto& n : nodes) n.box.x += dx, n.box.y += dy;
+        for (auto& e : edges)
+            for (auto& p : e.points) p.x += dx, p.y += dy;
+        extent.width = std::max(x1 - x0 + 2 * margin, 2 * margin + measure.width_of(title, 14, true));
+        extent.height = y1 - y0 + 2 * margin + heading;
+    }
+};
+
+/// `text` in lines that are not wider than `width`.
+std::vector<std::string> lines_of(Canvas& canvas, const std::string& text, double width) {
+    std::vector<std::string> out;
+    std::string line;
+    for (std::size_t at = 0; at <= text.size();) {
+        const auto end = std::min(text.find(' ', at), text.size());
+        const std::string word = text.substr(at, end - at);
+        const std::string longer = line.empty() ? word : line + " " + word;
+        if (!line.empty() && canvas.width_of(longer, name_size) > width)
+            out.push_back(line), line = word;
+        else
+            line = longer;
+        at = end + 1;
+    }
+    out.push_back(line);
+    for (auto& l : out) l = canvas.fitted(l, name_size, width);
+    return out;
+}
+
+void draw(Canvas& canvas, const Node& n) {
+    cairo_t* c = canvas.cairo();
+    const double dash[] = {4, 3};
+    cairo_set_dash(c, dash, n.outside || n.disabled ? 2 : 0, 0);
+    cairo_set_line_width(c, n.process ? 2.5 : 1);
+    canvas.fill(n.box.x, n.box.y, n.box.width, n.box.height, n.outside ? Colour{0.96, 0.96, 0.96} : white);
+    canvas.colour(n.outside ? grey : black);
+    cairo_rectangle(c, n.box.x, n.box.y, n.box.width, n.box.height);
+    cairo_stroke(c);
+    cairo_set_dash(c, nullptr, 0, 0);
+    auto lines = lines_of(canvas, n.name, n.box.width - 6);
+    lines.resize(std::min(lines.size(), static_cast<std::size_t>(std::max(1.0, n.box.height / 14 - 1))));
+    double y = n.centre().y - static_cast<double>(lines.size()) * 7 + 4;
+    for (const auto& line : lines) {
+        canvas.text(n.centre().x, y, line, name_size, 0.5, n.outside ? grey : black);
+        y += 14;
+    }
+    canvas.text(n.centre().x, y + 1, n.size, small_size, 0.5, grey);
+    if (n.below.empty()) return;
+    const double half = canvas.width_of(n.below, small_size) / 2 + 2;
+    canvas.fill(n.centre().x - half, n.box.bottom() + 3, 2 * half, 13, white);
+    canvas.text(n.centre().x, n.box.bottom() + 13, n.below, small_size, 0.5, grey);
+}
+
+void draw(Canvas& canvas, const Edge& e) {
+    cairo_t* c = canvas.cairo();
+    canvas.colour(colour_of(e.kind));
+    cairo_set_line_width(c, 1.3);
+    cairo_set_line_join(c, CAIRO_LINE_JOIN_ROUND);
+    for (const auto& p : e.points) cairo_line_to(c, p.x, p.y);
+    cairo_stroke(c);
+    const Point2 tip = e.points.back(), before = e.points[e.points.size() - 2];
+    const double angle = std::atan2(tip.y - before.y, tip.x - before.x);
+    cairo_move_to(c, tip.x, tip.y);
+    for (const double turn : {2.75, -2.75})
+        cairo_line_to(c, tip.x + 10 * std::cos(angle + turn), tip.y + 10 * std::sin(angle + turn));
+    cairo_close_path(c);
+    cairo_fill(c);
+    if (e.label.empty()) return;
+    const Point2 from = e.points.front();
+    const double x = (from.x + tip.x) / 2, y = (from.y + tip.y) / 2,
+                 half = canvas.width_of(e.label, small_size) / 2;
+    canvas.fill(x - half - 2, y - 7, 2 * half + 4, 13, white);
+    canvas.text(x, y + 3.5, e.label, small_size, 0.5, colour_of(e.kind));
+}
+
+void draw(Canvas& canvas, const Sheet& sheet) {
+    canvas.text(margin, 22, sheet.title, 14, 0, black, true);
+    for (const auto& e : sheet.edges) draw(canvas, e);
+    for (const auto& n : sheet.nodes) draw(canvas, n);
+}
+
+Box box_of(const std::optional<model::Icon>& icon, std::size_t number) {
+    if (icon)
+        return {icon->x * scale, icon->y * scale, std::max(icon->width, 20) * scale,
+                std::max(icon->height, 20) * scale};
+    return {static_cast<double>(number % 6) * 100 * scale, static_cast<double>(number / 6) * 90 * scale,
+            50 * scale, 50 * scale};
+}
+
+std::string size_of(const model::Group& group) {
+    const GroupShape s = model::shape(group.topology);
+    return s.cells == s.width * s.height ? fmt::format("{} × {}", s.width, s.height)
+                                         : fmt::format("{} cells", s.cells);
+}
+
+std::string trimmed(const std::string& name) { return std::string(model::trim(name)); }
+
+Sheet system_sheet(const model::System& system) {
+    Sheet out;
+    out.title = "The system's processes";
+    std::map<const model::Process*, std::size_t> node_of;
+    for (const auto& p : system.processes) {
+        node_of[&p] = out.nodes.size();
+        const std::string size = fmt::format("{} group{}", p.groups.size(), p.groups.size() == 1 ? "" : "s");
+        const std::string below = p.module ? p.module->type + (p.module_enabled ? "" : " (off)") : "";
+        out.nodes.push_back({box_of(p.icon, out.nodes.size()), trimmed(p.name), size, below, true, false,
+                             p.module && !p.module_enabled});
+    }
+    // One arrow for all connections of a kind between two processes.
+    std::map<std::tuple<std::size_t, std::size_t, InputKind>, int> counts;
+    const model::GroupIndex groups(system);
+    for (const auto& c : system.connections) {
+        const auto source = groups.find(c.source), target = groups.find(c.target);
+        if (source.group && target.group && source.process != target.process)
+            ++counts[{node_of[source.process], node_of[target.process], c.kind}];
+    }
+    for (const auto& [key, count] : counts) {
+        const auto& [from, to, kind] = key;
+        const Point2 a = out.nodes[from].centre(), b = out.nodes[to].centre();
+        const double length = std::max(std::hypot(b.x - a.x, b.y - a.y), 1.0);
+        const double shift = 9 + 12 * static_cast<double>(kind);  // beside the way back and the other kinds
+        const double dx = -(b.y - a.y) / length * shift, dy = (b.x - a.x) / length * shift;
+        Point2 start = out.nodes[from].border(b), end = out.nodes[to].border(a);
+        out.edges.push_back({{{start.x + dx, start.y + dy}, {end.x + dx, end.y + dy}},
+                             kind,
+                             count > 1 ? fmt::format("{}", count) : ""});
+    }
+    return out;
+}
+
+/// Groups of other processes in a row above the process's own, each near the groups it is connected to.
+void add_outside(Sheet& sheet, const model::System& system,
+                 std::map<std::string_view, std::size_t>& node_of) {
+    const model::GroupIndex groups(system);
+    std::map<std::string_view, std::vector<double>> partners;
+    for (const auto& c : system.connections) {
+        const bool from_here = node_of.count(c.source) != 0, to_here = node_of.count(c.target) != 0;
+        if (from_here != to_here)
+            partners[from_here ? c.target : c.source].push_back(
+                sheet.nodes[node_of[from_here ? c.source : c.target]].centre().x);
+    }
+    std::vector<std::pair<double, std::string_view>> order;
+    double top = std::numeric_limits<double>::max();
+    for (const auto& n : sheet.nodes) top = std::min(top, n.box.y);
+    for (const auto& [id, xs] : partners) {
+        double sum = 0;
+        for (const double x : xs) sum += x;
+        if (groups.find(id).group) order.emplace_back(sum / static_cast<double>(xs.size()), id);
+    }
+    std::sort(order.begin(), order.end());
+    double free_from = std::numeric_limits<double>::lowest();
+    for (const auto& [x, id] : order) {
+        const auto entry = groups.find(id);
+        const double width = 62 * scale, left = std::max(x - width / 2, free_from);
+        free_from = left + width + 14;
+        node_of[entry.group->id] = sheet.nodes.size();
+        sheet.nodes.push_back({{left, top - 105 * scale, width, 36 * scale},
+                               trimmed(entry.process->name) + " / " + trimmed(entry.group->name),
+                               size_of(*entry.group),
+                               "",
+                               false,
+                               true});
+    }
+}
+
+Sheet process_sheet(const model::System& system, const model::Process& process) {
+    Sheet out;
+    out.title = trimmed(process.name) + (process.module ? "  –  " + process.module->type : "");
+    std::map<std::string_view, std::size_t> node_of;
+    for (const auto& g : process.groups) {
+        node_of[g.id] = out.nodes.size();
+        out.nodes.push_back({box_of(g.icon, out.nodes.size()), trimmed(g.name), size_of(g), ""});
+    }
+    const std::size_t own = out.nodes.size();
+    add_outside(out, system, node_of);
+    for (const auto& c : system.connections) {
+        const auto from = node_of.find(c.source), to = node_of.find(c.target);
+        if (from == node_of.end() || to == node_of.end() || (from->second >= own && to->second >= own))
+            continue;
+        const Node &a = out.nodes[from->second], &b = out.nodes[to->second];
+        Edge e{{}, c.kind, {}};
+        const model::Line line = c.line.value_or(model::Line{});
+        if (a.outside || b.outside) {
+            const Point2 inner = a.outside ? b.anchor(line.target_anchor) : a.anchor(line.source_anchor);
+            const Node& outer = a.outside ? a : b;
+            const Point2 end{std::clamp(inner.x, outer.box.x + 12, outer.box.right() - 12),
+                             outer.box.bottom()};
+            e.points = a.outside ? std::vector{end, inner} : std::vector{inner, end};
+        } else if (from->second == to->second &&
+                   line.vertices.empty()) {  // a loop above the upper right corner
+            const double r = b.box.right(), t = b.box.y;
+            e.points = {{r - 10, t}, {r - 10, t - 18}, {r + 18, t - 18}, {r + 18, t + 12}, {r, t + 12}};
+        } else {
+            e.points.push_back(c.line ? a.anchor(line.source_anchor) : a.border(b.centre()));
+            for (const auto& v : line.vertices) e.points.push_back({v.x * scale, v.y * scale});
+            e.points.push_back(c.line ? b.anchor(line.target_anchor) : b.border(a.centre()));
+        }
+        out.edges.push_back(std::move(e));
+    }
+    return out;
+}
+
+Picture picture_of(Sheet sheet) {
+    Measure measure;
+    sheet.fit(measure.canvas());
+    return {sheet.extent.width, sheet.extent.height, [sheet](Canvas& canvas) { draw(canvas, sheet); }};
+}
+
+void draw_legend(Canvas& canvas, double x, double y) {
+    for (const auto& [kind, name] : {std::pair{InputKind::excitatory, "excitatory"},
+                                     {InputKind::inhibitory, "inhibitory"},
+                                     {InputKind::modulatory, "modulatory"}}) {
+        draw(canvas, Edge{{{x, y - 4}, {x + 34, y - 4}}, kind, {}});
+        canvas.text(x + 41, y, name, 12);
+        x += 130;
+    }
+}
+
+}  // namespace
+
+Picture system_diagram(const model::System& system) { return picture_of(system_sheet(system)); }
+
+Picture process_diagram(const model::System& system, const model::Process& process) {
+    return picture_of(process_sheet(system, process));
+}
+
+Picture diagram(const model::System& system, const std::string& title) {
+    std::vector<Picture> all = {system_diagram(system)};
+    for (const auto& p : system.processes) all.push_back(process_diagram(system, p));
+    // Rows of sheets, not much wider than the widest of them.
+    constexpr double top = 62, gap = 12;
+    double area = 0, widest = 0;
+    for (const auto& p : all) {
+        area += (p.width + gap) * (p.height + gap);
+        widest = std::max(widest, p.width + 2 * gap);
+    }
+    widest = std::max(widest, 1.25 * std::sqrt(area));
+    std::vector<Point2> places;
+    double x = gap, y = top, row = 0, right = 0;
+    for (const auto& p : all) {
+        if (x > gap && x + p.width > widest) x = gap, y += row + gap, row = 0;
+        places.push_back({x, y});
+        x += p.width + gap, row = std::max(row, p.height), right = std::max(right, x);
+    }
+    return {std::max(right, 460.0), y + row + gap, [=](Canvas& canvas) {
+                canvas.text(gap, 24, title, 16, 0, black, true);
+                draw_legend(canvas, gap, 48);
+                for (std::size_t i = 0; i < all.size(); ++i) {
+                    cairo_save(canvas.cairo());
+                    cairo_translate(canvas.cairo(), places[i].x, places[i].y);
+                    cairo_set_line_width(canvas.cairo(), 1);
+                    canvas.colour(pale);
+                    cairo_rectangle(canvas.cairo(), 0.5, 0.5, all[i].width - 1, all[i].height - 1);
+                    cairo_stroke(canvas.cairo());
+                    all[i].draw(canvas);
+                    cairo_restore(canvas.cairo());
+                }
+            }};
+}
+
+}  // namespace forage::plot

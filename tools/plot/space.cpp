@@ -1,0 +1,110 @@
+#include "tools/plot/space.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "tools/plot/axes.h"
+
+namespace forage::plot {
+namespace {
+
+ColourScale scale_of(const SpacePlot& plot) {
+    ColourScale scale;
+    for (const auto& f : plot.frames)
+        for (const double v : f.values) scale.include(v);
+    return scale;
+}
+
+/// Where things are on the sheet, in pixels.
+struct Sheet {
+    static constexpr double left = 66, top = 76, bar = 16, bar_gap = 22, bottom = 46;
+    int cell, across, down;
+    double step_x, step_y, panel_width, panel_height, width, height;
+
+    Sheet(const CellGrid& grid, std::size_t frames) {
+        const auto n = static_cast<int>(frames);
+        const int room_x = n == 1 ? 640 : 210, room_y = n == 1 ? 480 : 170;
+        cell = std::clamp(std::min(room_x / grid.width, room_y / grid.height), 1, n == 1 ? 48 : 20);
+        panel_width = cell * grid.width;
+        panel_height = cell * grid.height;
+        step_x = n == 1 ? panel_width : std::max(panel_width + 46, 96.0);
+        step_y = panel_height + (n == 1 ? 0 : 56);
+        // As many across as give a sheet about as wide as a page is, 4 to 3.
+        across = std::clamp(static_cast<int>(std::lround(std::sqrt(n * step_y / step_x * 4 / 3))), 1, n);
+        down = (n + across - 1) / across;
+        across = (n + down - 1) / down;
+        const double panels_x = (across - 1) * step_x + panel_width;
+        width = left + panels_x + bar_gap + bar + colour_bar_labels;
+        height = top + std::max((down - 1) * step_y + panel_height, 90.0) + bottom;
+    }
+    Box panel(std::size_t i) const {
+        return {left + static_cast<int>(i) % across * step_x, top + static_cast<int>(i) / across * step_y,
+                panel_width, panel_height};
+    }
+    Box colour_bar() const {
+        const double tall = (down - 1) * step_y + panel_height;
+        return {left + (across - 1) * step_x + panel_width + bar_gap, top, bar,
+                std::clamp(tall, 90.0, 480.0)};
+    }
+};
+
+void draw_panel(Canvas& canvas, const SpacePlot& plot, const SpaceFrame& frame, const ColourScale& scale,
+                const Box& box, bool single) {
+    const CellGrid& g = plot.grid;
+    draw_cells(canvas, box, g.width, g.height, [&](int column, int row) {
+        return scale(frame.values[static_cast<std::size_t>(row * g.width + column)]);
+    });
+    const auto divide = [&](int blocks, bool across) {
+        for (int b = 1; b < blocks; ++b) {
+            const double at = std::round((across ? box.width : box.height) * b / blocks);
+            if (across)
+                canvas.line(box.x + at, box.y, box.x + at, box.bottom(), white, 2);
+            else
+                canvas.line(box.x, box.y + at, box.right(), box.y + at, white, 2);
+        }
+    };
+    divide(plot.blocks_across, true);
+    divide(plot.blocks_down, false);
+    const Axes axes{box, {g.x - 0.5, g.x + g.width - 0.5}, {g.y - 0.5, g.y + g.height - 0.5}, true};
+    draw_axes(canvas, axes, {single ? g.numbered ? "cell" : "column of cells" : "", true},
+              {single && !g.numbered ? "row" : "", true, !g.numbered});
+    if (!single) canvas.text(box.x + box.width / 2, box.y - 6, fmt::format("cycle {}", frame.cycle), 12, 0.5);
+}
+
+Picture sheet_of(const SpacePlot& plot, std::vector<SpaceFrame> frames, const ColourScale& scale) {
+    const Sheet sheet(plot.grid, frames.size());
+    const std::string subtitle =
+        frames.size() == 1
+            ? fmt::format("cycle {}{}{}", frames[0].cycle, plot.subtitle.empty() ? "" : " · ", plot.subtitle)
+            : plot.subtitle;
+    Measure measure;
+    const double width = std::max({sheet.width, 24 + measure.canvas().width_of(plot.title, 15, true),
+                                   24 + measure.canvas().width_of(subtitle, 12), 260.0});
+    return {width, sheet.height, [=](Canvas& canvas) {
+                canvas.text(12, 22, plot.title, 15, 0, black, true);
+                canvas.text(12, 40, subtitle, 12, 0, grey);
+                for (std::size_t i = 0; i < frames.size(); ++i)
+                    draw_panel(canvas, plot, frames[i], scale, sheet.panel(i), frames.size() == 1);
+                draw_colour_bar(canvas, scale, sheet.colour_bar(), plot.quantity);
+            }};
+}
+
+}  // namespace
+
+Picture space_plot(const SpacePlot& plot) { return sheet_of(plot, plot.frames, scale_of(plot)); }
+
+std::vector<Picture> space_animation(const SpacePlot& plot) {
+    const ColourScale scale = scale_of(plot);
+    std::vector<Picture> out;
+    double width = 0;
+    for (const auto& f : plot.frames) {
+        out.push_back(sheet_of(plot, {f}, scale));
+        width = std::max(width, out.back().width);
+    }
+    for (auto& p : out) p.width = width;
+    return out;
+}
+
+}  // namespace forage::plot

@@ -1,0 +1,192 @@
+#include "tools/plot/time.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace forage::plot {
+namespace {
+
+constexpr std::size_t most_bins = 4000, most_lines = 10;
+constexpr double left = 84, top = 62, bottom = 50, area = 760;
+
+Interval cycles_of(const TimePlot& plot) {
+    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+    for (const auto& c : plot.curves)
+        if (!c.bins().empty()) {
+            low = std::min(low, c.bins().front().first);
+            high = std::max(high, c.bins().back().last);
+        }
+    if (low > high) return {0, 1};
+    return high > low ? Interval{low, high} : Interval{low - 0.5, high + 0.5};
+}
+
+Interval values_of(const TimePlot& plot) {
+    Interval out{0, 0};
+    bool any = false;
+    for (const auto& c : plot.curves)
+        for (const auto& b : c.bins())
+            if (std::isfinite(b.low) && std::isfinite(b.high)) {
+                out = any ? Interval{std::min(out.low, b.low), std::max(out.high, b.high)}
+                          : Interval{b.low, b.high};
+                any = true;
+            }
+    // Zero belongs to the picture unless the values are far from it.
+    if (out.low > 0 && out.low < 0.6 * out.high) out.low = 0;
+    if (out.high < 0 && out.high > 0.6 * out.low) out.high = 0;
+    if (out.size() <= 1e-12 * std::max(std::abs(out.low), std::abs(out.high)))
+        return {out.low - 0.5, out.high + 0.5};
+    const double margin = 0.05 * out.size();
+    return {out.low == 0 ? 0 : out.low - margin, out.high == 0 ? 0 : out.high + margin};
+}
+
+std::string time_title(const TimePlot& plot) {
+    return plot.seconds_per_cycle > 0 ? fmt::format("cycle (of {:.3g} s)", plot.seconds_per_cycle) : "cycle";
+}
+
+void draw_titles(Canvas& canvas, const TimePlot& plot) {
+    canvas.text(12, 22, plot.title, 15, 0, black, true);
+    canvas.text(12, 40, plot.subtitle, 12, 0, grey);
+}
+
+void draw_marks(Canvas& canvas, const TimePlot& plot, const Axes& axes, const Colour& colour) {
+    const double dash[] = {2, 3};
+    cairo_set_dash(canvas.cairo(), dash, 2, 0);
+    for (const double m : plot.marks)
+        if (m >= axes.x.low && m <= axes.x.high)
+            canvas.line(axes.px(m), axes.box.y, axes.px(m), axes.box.bottom(), colour);
+    cairo_set_dash(canvas.cairo(), nullptr, 0, 0);
+}
+
+void draw_curve(Canvas& canvas, const Axes& axes, const Curve& curve, const Colour& colour) {
+    cairo_t* c = canvas.cairo();
+    cairo_set_line_width(c, 1.6);
+    cairo_set_line_join(c, CAIRO_LINE_JOIN_ROUND);
+    canvas.colour(colour);
+    bool pen_down = false;
+    const auto to = [&](double x, double y) {
+        pen_down ? cairo_line_to(c, axes.px(x), axes.py(y)) : cairo_move_to(c, axes.px(x), axes.py(y));
+        pen_down = true;
+    };
+    for (const auto& b : curve.bins()) {
+        if (!std::isfinite(b.low) || !std::isfinite(b.high)) {
+            pen_down = false;
+            continue;
+        }
+        to(b.first, b.begin);
+        if (b.count == 1) continue;
+        if (const double middle = (b.first + b.last) / 2;
+            b.high > std::max(b.begin, b.end) || b.low < std::min(b.begin, b.end))
+            to(middle, b.low), to(middle, b.high);
+        to(b.last, b.end);
+    }
+    cairo_stroke(c);
+    if (curve.bins().size() > 1) return;
+    for (const auto& b : curve.bins()) {
+        cairo_arc(c, axes.px(b.first), axes.py(b.low), 3, 0, 2 * M_PI);
+        cairo_fill(c);
+    }
+}
+
+Picture lines(const TimePlot& plot) {
+    Measure measure;
+    double names = 0;
+    for (const auto& c : plot.curves) names = std::max(names, measure.canvas().width_of(c.name(), 12));
+    const bool legend = plot.curves.size() > 1;
+    const bool marked = !plot.marks.empty() && !plot.mark_name.empty();
+    if (marked) names = std::max(names, measure.canvas().width_of(plot.mark_name, 12));
+    const double right = legend || marked ? 52 + names : 24;
+    const Axes axes{{left, top, area, 320}, cycles_of(plot), values_of(plot)};
+    return {left + area + right, top + 320 + bottom, [=](Canvas& canvas) {
+                draw_titles(canvas, plot);
+                if (axes.y.low < 0 && axes.y.high > 0)
+                    canvas.line(axes.box.x, axes.py(0), axes.box.right(), axes.py(0), pale);
+                draw_marks(canvas, plot, axes, {0.6, 0.6, 0.6});
+                cairo_save(canvas.cairo());
+                cairo_rectangle(canvas.cairo(), axes.box.x, axes.box.y, axes.box.width, axes.box.height);
+                cairo_clip(canvas.cairo());
+                for (std::size_t i = 0; i < plot.curves.size(); ++i)
+                    draw_curve(canvas, axes, plot.curves[i], category(i));
+                cairo_restore(canvas.cairo());
+                draw_axes(canvas, axes, {time_title(plot), true}, {plot.quantity});
+                double y = top + 10;
+                const double x = axes.box.right() + 14;
+                for (std::size_t i = 0; legend && i < plot.curves.size(); ++i, y += 20) {
+                    canvas.line(x, y, x + 20, y, category(i), 2.5);
+                    canvas.text(x + 27, y + 4, plot.curves[i].name(), 12);
+                }
+                if (!marked) return;
+                const double dash[] = {2, 3};
+                cairo_set_dash(canvas.cairo(), dash, 2, 0);
+                canvas.line(x + 10, y - 7, x + 10, y + 7, {0.6, 0.6, 0.6});
+                cairo_set_dash(canvas.cairo(), nullptr, 0, 0);
+                canvas.text(x + 27, y + 4, plot.mark_name, 12);
+            }};
+}
+
+Picture rows(const TimePlot& plot) {
+    const auto count = static_cast<int>(plot.curves.size());
+    const int row = std::clamp(400 / count, 1, 16);
+    const double tall = row * count;
+    ColourScale scale;
+    for (const auto& c : plot.curves)
+        for (const auto& b : c.bins()) scale.include(b.high), scale.include(b.low);
+    const Axes axes{{left, top, area, tall}, cycles_of(plot), {0.5, count + 0.5}, true};
+    const double bar = std::max(tall, 90.0);
+    return {left + area + 22 + 16 + colour_bar_labels, top + bar + bottom, [=](Canvas& canvas) {
+                draw_titles(canvas, plot);
+                // One column per pixel: the value in the bin there that is the furthest from zero.
+                const auto value = [&](const Curve& curve, int column) {
+                    const double from = axes.x.low + axes.x.size() * column / area,
+                                 to = axes.x.low + axes.x.size() * (column + 1) / area;
+                    const auto& bins = curve.bins();
+                    auto at = std::partition_point(bins.begin(), bins.end(),
+                                                   [&](const auto& b) { return b.last < from; });
+                    if (at == bins.end()) --at;
+                    if (at != bins.begin() && at->first > to) --at;  // between two samples: the earlier one
+                    double out = std::abs(at->high) >= std::abs(at->low) ? at->high : at->low;
+                    for (++at; at != bins.end() && at->first < to; ++at)
+                        for (const double v : {at->low, at->high})
+                            if (std::abs(v) > std::abs(out)) out = v;
+                    return out;
+                };
+                draw_cells(canvas, axes.box, static_cast<int>(area), count, [&](int column, int r) {
+                    const auto& curve = plot.curves[static_cast<std::size_t>(r)];
+                    return curve.bins().empty() ? grey : scale(value(curve, column));
+                });
+                draw_marks(canvas, plot, axes, scale.interval().low < 0 ? grey : white);
+                draw_axes(canvas, axes, {time_title(plot), true}, {plot.cells, true});
+                draw_colour_bar(canvas, scale, {axes.box.right() + 22, top, 16, bar}, plot.quantity);
+            }};
+}
+
+}  // namespace
+
+void Curve::add(double cycle, double value) {
+    const auto join = [](Bin& a, const Bin& b) {
+        a.last = b.last, a.end = b.end, a.low = std::min(a.low, b.low), a.high = std::max(a.high, b.high);
+        a.count += b.count;
+    };
+    const Bin point{cycle, cycle, value, value, value, value, 1};
+    if (!bins_.empty() && bins_.back().count < per_bin_)
+        join(bins_.back(), point);
+    else
+        bins_.push_back(point);
+    if (bins_.size() <= most_bins) return;
+    for (std::size_t i = 0; 2 * i + 1 < bins_.size(); ++i) {
+        bins_[i] = bins_[2 * i];
+        join(bins_[i], bins_[2 * i + 1]);
+    }
+    const bool odd = bins_.size() % 2 == 1;
+    if (odd) bins_[bins_.size() / 2] = bins_.back();
+    bins_.resize((bins_.size() + 1) / 2);
+    per_bin_ *= 2;
+}
+
+Picture time_plot(const TimePlot& plot) {
+    return plot.curves.size() <= most_lines ? lines(plot) : rows(plot);
+}
+
+}  // namespace forage::plot
