@@ -3,11 +3,10 @@
 // Much of a system stands still most of the time: displays of a layer that is closed, senses that see
 // nothing, a constant. Three facts, each kept per group, let such parts cost nothing and change no bit:
 //
-//     changed     the last cycle whose activity differed from that of the cycle before
-//     same_input  what the next update reads is what the last one read: no source has changed, and no module
-//     wrote rests       the last update left every state as it was and asked for neither time nor random
-//     numbers, so that
-//                 with the same input the next one would too
+// - changed: the last cycle whose activity differed from that of the cycle before.
+// - same_input: what the next update reads is what the last one read; no source has changed, no module wrote.
+// - rests: the last update left every state as it was and asked for neither time nor random numbers, so that
+//   with the same input the next one would too.
 //
 // A group that rests and keeps its input is neither updated nor delivered to. Who changes something from
 // outside (an activity, a parameter) must say so: touch().
