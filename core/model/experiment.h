@@ -66,6 +66,7 @@ struct Sweep {
 
 struct Experiment {
     std::string path;
+    std::string note;           ///< for people
     std::string system, world;  ///< files, as seen from the working directory; no world when empty
     Location system_at, world_at;
     std::optional<double> world_pace;  ///< s of the world per s of the clock, instead of the world's own
@@ -81,6 +82,7 @@ struct Experiment {
     std::vector<TimedWish> changes;
     std::vector<ManipulationWish> manipulations;
     std::vector<RecordingWish> recordings;
+    std::vector<Wish> plots;
     std::vector<Measure> measures;
     std::vector<Sweep> sweeps;  ///< every combination is run with every seed
 };

@@ -26,6 +26,9 @@ class ExperimentReader {
     model::Experiment run() {
         const XMLElement& root = document_.root();
         experiment_.path = document_.source()->path;
+        each(root, "note", [&](const XMLElement& e) {
+            if (const char* note = e.GetText()) experiment_.note = note;
+        });
         each(root, "system", [&](const XMLElement& e) {
             experiment_.system = file(e, "file"), experiment_.system_at = at(e, "file");
         });
@@ -44,6 +47,7 @@ class ExperimentReader {
         each(root, "record", [&](const XMLElement& e) {
             experiment_.recordings.push_back({wish(e, "column"), whole(e, "every").value_or(1)});
         });
+        each(root, "plot", [&](const XMLElement& e) { experiment_.plots.push_back(wish(e, "what")); });
         each(root, "measure", [&](const XMLElement& e) { measure(e); });
         each(root, "sweep", [&](const XMLElement& e) { sweep(e); });
         return std::move(experiment_);

@@ -5,6 +5,7 @@
 
 import csv
 import pathlib
+import re
 import signal
 import statistics
 import subprocess
@@ -253,6 +254,20 @@ class Interrupted(Experiment):
             self.assertIn("did not end within 2 s", row["remark"])
 
 
+class Plots(Experiment):
+    def test_every_run_draws_what_the_file_asks_for(self):
+        text = ROBOT.replace("TRIALS", "3").replace('<measure name="never"', """<plot what="time:Bug/Light"/>
+  <plot what="space:Bug/Motor@20,40"/><plot what="trajectory"/><measure name="never\"""")
+        (self.here / "robot.xml").write_text(re.sub(r"<sweep.*Motor In.*/>", "", text))
+        self.forage("experiment", "robot.xml", "-o", "out")
+        runs = sorted((self.here / "out/runs").iterdir())
+        self.assertEqual(len(runs), 6)
+        for run in runs:
+            self.assertEqual(sorted(p.name for p in run.glob("*.png")),
+                             ["space_Bug_Motor_20_40.png", "time_Bug_Light.png", "trajectory.png"])
+        self.assertNotEqual((runs[0] / "time_Bug_Light.png").read_bytes(), (runs[1] / "time_Bug_Light.png").read_bytes())
+
+
 class Mistakes(Experiment):
     def test_all_mistakes_at_once_with_their_places(self):
         (self.here / "robot.xml").write_text(f"""<experiment>
@@ -260,7 +275,7 @@ class Mistakes(Experiment):
   <world file="{WORLD}"/>
   <length trials="3"/>
   <at when="trail 3" parameter="Bug/Light.threshold" value="x"/>
-  <record column="Bug/Ligth"/>
+  <record column="Bug/Ligth"/><plot what="space:Bug/Mothor"/><plot what="drawing"/>
   <measure name="a" first="max(Bug/Light) &gt; "/>
   <measure name="b" final="Bug/Light"/>
   <sweep parameter="Bug/Light.threshold" values="0 high"/>
@@ -268,7 +283,8 @@ class Mistakes(Experiment):
 """)
         said = self.forage("experiment", "robot.xml", status=2).stderr
         for place, message in (("5:13", "there is no group 'trail 3'"), ("5:33", "'x' is not a number"),
-                               ("6:19", "there is no group 'Bug/Ligth'"), ("7:28", "something is missing at its end"),
+                               ("6:19", "there is no group 'Bug/Ligth'"), ("6:43", "there is no group 'Bug/Mothor'"),
+                               ("6:74", "there is no plot 'drawing'"), ("7:28", "something is missing at its end"),
                                ("8:28", "'Bug/Light' has 32 cells"), ("9:52", "'high' is not a number")):
             self.assertRegex(said, rf"robot.xml:{place}: error: .*{message}")
         self.assertFalse((self.here / "forage-out").exists())

@@ -24,7 +24,7 @@ struct RecordOptions {
 struct RunOptions {
     Input input;
     RecordOptions record;
-    std::vector<std::string> plots;  ///< as plot_wish.h
+    std::vector<model::Wish> plots;  ///< as plot_wish.h
     std::string picture_format = "png";
     std::optional<std::uint64_t> cycles;
     std::optional<double> seconds;
@@ -64,15 +64,23 @@ struct ExperimentOptions {
     bool quiet = false;
 };
 
+struct TutorialOptions {
+    std::string exercise;   ///< its number; empty: list them
+    std::string directory;  ///< empty: forage-out/tutorial/ and the number
+};
+
 int run(const RunOptions& options);
 int plot(const PlotOptions& options);
 /// Runs every combination of an experiment file with every seed; what was finished before is not repeated.
 int experiment(const ExperimentOptions& options);
+/// Lists the exercises of the tutorial, or runs one.
+int tutorial(const TutorialOptions& options);
 int convert(const ConvertOptions& options);
 int check(const Input& input);
 /// Prints the tree of processes, groups and connections, with sizes and how each connection is computed.
 int describe(const Input& input);
-/// Writes a page that shows the pictures and tables of a directory of results: plain HTML, nothing from the net.
+/// Writes a page that shows the pictures and tables of a directory of results: plain HTML, nothing from the
+/// net.
 int view(const std::string& directory);
 /// Lists the types, or one with its parameters.
 int types(const std::string& name);

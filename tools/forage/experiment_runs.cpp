@@ -10,6 +10,7 @@
 #include "core/model/edit.h"
 #include "core/model/validate.h"
 #include "tools/forage/length.h"
+#include "tools/forage/pictures.h"
 #include "tools/forage/running.h"
 #include "tools/forage/schedule.h"
 #include "tools/forage/stop.h"
@@ -111,7 +112,7 @@ class Work {
             Diagnostics diagnostics;
             std::optional<Running> running;
             {
-                const std::lock_guard lock(building_);  // libraries that read files may not like company
+                const std::lock_guard lock(libraries_);
                 running = prepare(sources_, run.options, diagnostics);
             }
             if (!running) return failed(first_error(diagnostics));
@@ -141,7 +142,11 @@ class Work {
         }
         running.run_measures.see(running.simulation, running.now());
         result.measures = running.run_measures.values(running.loaded, running.simulation, running.now());
-        const auto problems = write_tables(run.options, running, outcome);
+        auto problems = write_tables(run.options, running, outcome);
+        if (problems.empty()) {
+            const std::lock_guard lock(libraries_);
+            problems = write_pictures(run.options, running, outcome);
+        }
         if (!problems.empty()) return failed(problems.front());
         write_result(run, key(index), result, outcome.files);
         return result;
@@ -155,7 +160,8 @@ class Work {
     std::vector<std::size_t> open_;  ///< runs that have no result yet
     std::size_t earlier_ = 0;        ///< runs that had one
     std::atomic<std::size_t> next_ = 0, done_ = 0, failed_ = 0;
-    std::mutex building_, results_mutex_;
+    std::mutex libraries_;  ///< those that read files and draw may not like company
+    std::mutex results_mutex_;
 };
 
 }  // namespace

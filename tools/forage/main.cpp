@@ -144,8 +144,11 @@ void add_recording(CLI::App& run, RunOptions& o) {
         ->check(seed())
         ->option_text("CYCLE")
         ->needs(record);
-    repeated(run.add_option(
-                 "-p,--plot", o.plots,
+    repeated(run.add_option_function<std::vector<std::string>>(
+                 "-p,--plot",
+                 [&o](const std::vector<std::string>& texts) {
+                     for (const auto& text : texts) o.plots.push_back({text});
+                 },
                  "Draw a picture: 'time:SOURCE', 'space:SOURCE@CYCLES', 'movie:SOURCE', 'connection:NAME' "
                  "or 'diagram', see 'forage plot --help'; may be repeated"))
         ->option_text("PLOT");
@@ -246,6 +249,17 @@ void add_run(CLI::App& app, RunOptions& o) {
     run.add_flag("-q,--quiet", o.quiet, "Print errors only");
 }
 
+void add_tutorial(CLI::App& app, TutorialOptions& o) {
+    auto& tutorial = *app.add_subcommand("tutorial", "List the exercises of the tutorial, or run one");
+    tutorial.footer(
+        "docs/tutorial has the text, the questions and their solutions.\n"
+        "Example:\n"
+        "  forage tutorial 3.1");
+    tutorial.add_option("EXERCISE", o.exercise, "Its number")->option_text(" ");
+    tutorial.add_option("-o,--output", o.directory, "Directory for results [forage-out/tutorial/EXERCISE]")
+        ->option_text("DIR");
+}
+
 void add_experiment(CLI::App& app, ExperimentOptions& o) {
     auto& experiment = *app.add_subcommand(
         "experiment", "Run a system many times, over seeds and parameters, on all cores, into one table");
@@ -321,19 +335,22 @@ int main(int argc, char** argv) {
     std::string type;
     add_run(app, run_options);
     add_experiment(app, experiment_options);
+    TutorialOptions tutorial_options;
+    add_tutorial(app, tutorial_options);
     add_plot(app, plot_options);
     add_convert(app, convert_options);
     auto& check_command =
         *app.add_subcommand("check", "Check a system (and world) and say everything that is wrong with it");
     add_input(check_command, check_input);
-    auto& describe_command =
-        *app.add_subcommand("describe", "Show what a system is made of: processes, groups, connections, sizes");
+    auto& describe_command = *app.add_subcommand(
+        "describe", "Show what a system is made of: processes, groups, connections, sizes");
     describe_command.footer("Example:\n  forage describe systems/reactive_foraging.iqr");
     add_input(describe_command, describe_input);
-    check_command.footer("Example:\n  forage check systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world");
+    check_command.footer(
+        "Example:\n  forage check systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world");
     std::string directory = "forage-out";
-    auto& view_command =
-        *app.add_subcommand("view", "Write a page, index.html, that shows the pictures and tables of results");
+    auto& view_command = *app.add_subcommand(
+        "view", "Write a page, index.html, that shows the pictures and tables of results");
     view_command.footer("Example:\n  forage view forage-out");
     view_command.add_option("DIR", directory, "Directory of results [forage-out]")->option_text(" ");
     auto& types_command =
@@ -343,13 +360,16 @@ int main(int argc, char** argv) {
     app.add_subcommand("schema", "Print a RELAX NG schema of system files, for editors")
         ->footer("Example:\n  forage schema > iqr.rng");
     std::string shell;
-    auto& completion_command = *app.add_subcommand("completion", "Print a script that completes command lines");
-    completion_command.footer("Example:\n  forage completion bash > ~/.local/share/bash-completion/completions/forage");
+    auto& completion_command =
+        *app.add_subcommand("completion", "Print a script that completes command lines");
+    completion_command.footer(
+        "Example:\n  forage completion bash > ~/.local/share/bash-completion/completions/forage");
     completion_command.add_option("SHELL", shell, "bash, zsh or fish")
         ->required()
         ->check(CLI::IsMember({"bash", "zsh", "fish"}))
         ->option_text(" ");
-    app.add_subcommand("man", "Print the manual page")->footer("Example:\n  forage man > forage.1; man ./forage.1");
+    app.add_subcommand("man", "Print the manual page")
+        ->footer("Example:\n  forage man > forage.1; man ./forage.1");
 
     try {
         if (argc == 1) {
@@ -378,6 +398,7 @@ int main(int argc, char** argv) {
     }
     try {
         if (app.got_subcommand("run")) return run(run_options);
+        if (app.got_subcommand("tutorial")) return tutorial(tutorial_options);
         if (app.got_subcommand("experiment")) return experiment(experiment_options);
         if (app.got_subcommand("plot")) return plot(plot_options);
         if (app.got_subcommand("check")) return check(check_input);

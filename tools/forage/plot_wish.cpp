@@ -62,9 +62,10 @@ std::string PlotWish::file(plot::Format format) const {
     return file_name(name) + std::string(plot::ending(kind == Kind::movie ? plot::Format::png : format));
 }
 
-std::optional<PlotWish> parse_plot(std::string_view text, std::string_view option, Diagnostics& diagnostics) {
+std::optional<PlotWish> parse_plot(std::string_view text, std::string_view option, Diagnostics& diagnostics,
+                                   Location where) {
     const auto bad = [&](std::string why, std::string hint) {
-        diagnostics.error({}, fmt::format("{} '{}': {}", option, text, why), std::move(hint));
+        diagnostics.error(where, fmt::format("{} '{}': {}", option, text, why), std::move(hint));
         return std::nullopt;
     };
     PlotWish out;

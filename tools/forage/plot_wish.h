@@ -42,6 +42,7 @@ struct PlotWish {
 };
 
 /// Reports what is not one; `option` says where the text stands.
-std::optional<PlotWish> parse_plot(std::string_view text, std::string_view option, Diagnostics& diagnostics);
+std::optional<PlotWish> parse_plot(std::string_view text, std::string_view option, Diagnostics& diagnostics,
+                                   Location at = {});
 
 }  // namespace forage::tool

@@ -89,19 +89,20 @@ std::string RowPlot::draw(plot::Format format, const PlotContext& context) const
     return plot::render_animation(plot::space_animation(p), seconds_per_frame);
 }
 
-LivePlots LivePlots::make(const std::vector<std::string>& wishes, const model::System& system,
+LivePlots LivePlots::make(const std::vector<model::Wish>& wishes, const model::System& system,
                           const engine::Simulation& simulation, Diagnostics& diagnostics) {
     LivePlots out;
-    for (const auto& text : wishes) {
-        auto wish = parse_plot(text, "--plot", diagnostics);
+    for (const auto& [text, at] : wishes) {
+        const std::string option = at.file ? "plot" : "--plot";
+        auto wish = parse_plot(text, option, diagnostics, at);
         if (!wish || wish->kind == PlotWish::Kind::trajectory)
             continue;  // every run in a world draws its paths
         if (!wish->of_cells()) {
-            check_structure(*wish, system, "--plot", diagnostics);
+            check_structure(*wish, system, option, diagnostics, at);
             out.others_.push_back(std::move(*wish));
             continue;
         }
-        auto source = observe::find_source(simulation, wish->what, "--plot", diagnostics);
+        auto source = observe::find_source(simulation, wish->what, option, diagnostics, at);
         if (!source) continue;
         out.plots_.emplace_back(std::move(*wish), source->what());
         out.sources_.push_back(std::move(*source));

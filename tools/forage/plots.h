@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/engine/simulation.h"
+#include "core/model/experiment.h"
 #include "core/model/system.h"
 #include "core/observe/source.h"
 #include "tools/forage/plot_wish.h"
@@ -47,7 +48,7 @@ class RowPlot {
 class LivePlots {
   public:
     /// Reports what is not there.
-    static LivePlots make(const std::vector<std::string>& wishes, const model::System& system,
+    static LivePlots make(const std::vector<model::Wish>& wishes, const model::System& system,
                           const engine::Simulation& simulation, Diagnostics& diagnostics);
     /// After each cycle.
     void follow(const engine::Simulation& simulation);

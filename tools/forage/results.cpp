@@ -52,7 +52,7 @@ nlohmann::ordered_json settings_json(const RunOptions& o, const Loaded& loaded) 
     if (o.record.until) json["record_until"] = *o.record.until;
     if (o.record.mean) json["record_mean"] = true;
     if (o.record.format != "csv") json["record_format"] = o.record.format;
-    if (!o.plots.empty()) json["plot"] = o.plots;
+    for (const auto& wish : o.plots) json["plot"].push_back(wish.text);
     if (!o.input.drive.empty()) json["drive"] = input_file(o.input.drive);
     for (const auto& wish : o.at) json["at"].push_back(wish.text());
     if (!o.until.empty()) json["until"] = o.until.text;

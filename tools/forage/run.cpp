@@ -8,12 +8,11 @@
 #include "tools/forage/commands.h"
 #include "tools/forage/files.h"
 #include "tools/forage/length.h"
+#include "tools/forage/pictures.h"
 #include "tools/forage/progress.h"
 #include "tools/forage/results.h"
 #include "tools/forage/running.h"
 #include "tools/forage/stop.h"
-#include "tools/forage/structure.h"
-#include "tools/plot/trajectory.h"
 
 namespace forage::tool {
 namespace {
@@ -33,54 +32,18 @@ void loop(const RunOptions& o, Running& r, const Length& length, Progress& progr
     }
 }
 
-/// What a picture says of the run.
-PlotContext context_of(const RunOptions& o, const Running& r, const Outcome& outcome) {
-    PlotContext out{picture_title(o, r.loaded), r.seconds_per_cycle, {}};
-    if (outcome.trials.empty()) return out;
-    const auto add = [&](const MeasuredTrial& t) {
-        out.trials.push_back(static_cast<double>(t.trial.first_cycle));
-    };
-    for (const auto& t : outcome.trials[0].finished) add(t);
-    if (outcome.trials[0].running) add(*outcome.trials[0].running);
-    return out;
-}
-
 /// Writes what a run leaves behind; what cannot be written does not keep the rest from being written. Returns
 /// what went wrong.
 std::vector<std::string> write_results(const RunOptions& o, Running& r, Outcome& outcome) {
     const auto earlier = files_of_last_run(o.directory);
     auto problems = write_tables(o, r, outcome);
-    const auto attempt = [&](const std::string& name, auto write) {
-        try {
-            write(o.directory + "/" + name);
-            outcome.files.push_back(name);
-        } catch (const std::exception& e) {
-            problems.emplace_back(e.what());
-        }
-    };
-    const plot::Format format = *plot::format_of("x." + o.picture_format);
-    const auto& world = r.loaded.world;
-    for (std::size_t i = 0; i < r.paths.size(); ++i) {
-        const std::string name = "trajectory" + robot_suffix(*world, i);
-        attempt(name + ".csv", [&](const std::string& path) { write_file(path, r.paths[i].csv()); });
-        attempt(name + std::string(plot::ending(format)), [&](const std::string& path) {
-            write_file(path, plot::render(plot::trajectory_plot(*world, r.paths[i].paths(),
-                                                                picture_title(o, r.loaded)),
-                                          format));
-        });
+    for (auto& problem : write_pictures(o, r, outcome)) problems.push_back(std::move(problem));
+    try {
+        write_file(o.directory + "/run.json", run_json(o, r.loaded, outcome));
+        outcome.files.emplace_back("run.json");
+    } catch (const std::exception& e) {
+        problems.emplace_back(e.what());
     }
-    for (const auto& p : r.plots.of_cells())
-        attempt(p.wish().file(format), [&](const std::string& path) {
-            write_file(path, p.draw(format, context_of(o, r, outcome)));
-        });
-    for (const auto& wish : r.plots.others())
-        attempt(wish.file(format), [&](const std::string& path) {
-            write_file(path,
-                       plot::render(structure_plot(wish, r.loaded.system, r.loaded.registry, &r.simulation,
-                                                   o.input.seed, picture_title(o, r.loaded)),
-                                    format));
-        });
-    attempt("run.json", [&](const std::string& path) { write_file(path, run_json(o, r.loaded, outcome)); });
     for (const auto& name : earlier)
         if (std::find(outcome.files.begin(), outcome.files.end(), name) == outcome.files.end())
             std::remove((o.directory + "/" + name).c_str());

@@ -87,6 +87,7 @@ std::string key_of(const PlannedRun& run, const model::Experiment& experiment, c
                                      m.patterns.empty() ? "" : digest(content_of(m.patterns.text)), m.every,
                                      m.step, or_null(m.times), m.backwards, m.from.text, m.until.text});
     for (const auto& r : o.recordings) key["record"].push_back({r.column.text, r.every});
+    for (const auto& wish : o.plots) key["plot"].push_back(wish.text);
     for (const auto& m : experiment.measures)
         key["measure"].push_back({static_cast<int>(m.kind), m.what.text});
     return key.dump();

@@ -78,7 +78,7 @@ plot::Picture picture_of(const model::Connection& c, const model::System& system
 }  // namespace
 
 const model::Connection* find_connection(const model::System& system, std::string_view name,
-                                         std::string_view option, Diagnostics& diagnostics) {
+                                         std::string_view option, Diagnostics& diagnostics, Location at) {
     std::vector<const model::Connection*> found;
     std::vector<std::string> names, ids;
     for (const auto& c : system.connections) {
@@ -88,21 +88,21 @@ const model::Connection* find_connection(const model::System& system, std::strin
     }
     if (found.size() == 1) return found.front();
     if (found.empty())
-        diagnostics.error({}, fmt::format("{}: there is no connection '{}'", option, name),
+        diagnostics.error(at, fmt::format("{}: there is no connection '{}'", option, name),
                           suggest(name, names));
     else
-        diagnostics.error({}, fmt::format("{}: '{}' names {} connections", option, name, found.size()),
+        diagnostics.error(at, fmt::format("{}: '{}' names {} connections", option, name, found.size()),
                           fmt::format("use the id: '{}'", fmt::join(ids, "', '")));
     return nullptr;
 }
 
 void check_structure(const PlotWish& wish, const model::System& system, std::string_view option,
-                     Diagnostics& diagnostics) {
-    if (wish.kind == PlotWish::Kind::connection) find_connection(system, wish.what, option, diagnostics);
+                     Diagnostics& diagnostics, Location at) {
+    if (wish.kind == PlotWish::Kind::connection) find_connection(system, wish.what, option, diagnostics, at);
     if (wish.kind != PlotWish::Kind::diagram || wish.what.empty() || find_process(system, wish.what)) return;
     std::vector<std::string> names;
     for (const auto& p : system.processes) names.emplace_back(model::trim(p.name));
-    diagnostics.error({}, fmt::format("{} '{}': there is no process '{}'", option, wish.text, wish.what),
+    diagnostics.error(at, fmt::format("{} '{}': there is no process '{}'", option, wish.text, wish.what),
                       suggest(wish.what, names));
 }
 

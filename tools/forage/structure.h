@@ -13,11 +13,11 @@ namespace forage::tool {
 
 /// Reports a diagram's process or a connection that is not there.
 void check_structure(const PlotWish& wish, const model::System& system, std::string_view option,
-                     Diagnostics& diagnostics);
+                     Diagnostics& diagnostics, Location at = {});
 
 /// The connection of this name or id; null when there is none, or several of that name, which is reported.
 const model::Connection* find_connection(const model::System& system, std::string_view name,
-                                         std::string_view option, Diagnostics& diagnostics);
+                                         std::string_view option, Diagnostics& diagnostics, Location at = {});
 
 /// The picture of a diagram or a connection that check_structure() has passed. A connection shows the
 /// strengths that the file gives; where synapses learn, those of `simulation`, or 0 without one. `run` says

@@ -1,9 +1,11 @@
 #include "tools/forage/sweep.h"
 
+#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>
 
+#include "core/model/lookup.h"
 #include "tools/forage/files.h"
 
 namespace forage::tool {
@@ -17,7 +19,9 @@ RunOptions common(const model::Experiment& e) {
     o.cycles = e.cycles, o.seconds = e.seconds, o.trials = e.trials, o.longest_trial = e.longest_trial;
     o.until = e.until, o.recordings = e.recordings, o.at = e.changes, o.measures = e.measures,
     o.manipulations = e.manipulations;
-    o.paths = false, o.quiet = true;
+    o.plots = e.plots, o.quiet = true;
+    o.paths = std::any_of(e.plots.begin(), e.plots.end(),
+                          [](const auto& plot) { return model::trim(plot.text) == "trajectory"; });
     return o;
 }
 

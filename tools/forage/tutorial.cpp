@@ -1,0 +1,103 @@
+// The exercises of the tutorial: experiment files whose note says what they are about.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/model/lookup.h"
+#include "core/xml/experiment.h"
+#include "tools/forage/commands.h"
+
+namespace forage::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Exercise {
+    std::string number;  ///< "3.1", what the file's name begins with, up to '-'
+    fs::path file;
+    std::string title;    ///< the first line of the note
+    std::string look_at;  ///< the others, without the blanks before them
+};
+
+/// The folder of exercises: beside the installed program, or else in the sources it was built from.
+fs::path folder() {
+    std::error_code none;
+    const fs::path program = fs::read_symlink("/proc/self/exe", none);
+    const fs::path installed = program.parent_path().parent_path() / "share/forage/systems/tutorial";
+    return fs::exists(installed, none) ? installed : fs::path(FORAGE_SOURCE_DIR) / "systems/tutorial";
+}
+
+void read_note(std::string_view note, Exercise& out) {
+    while (!note.empty()) {
+        const auto end = std::min(note.find('\n'), note.size());
+        const std::string line(model::trim(note.substr(0, end)));
+        note.remove_prefix(std::min(end + 1, note.size()));
+        if (out.title.empty())
+            out.title = line;
+        else if (!line.empty() || !out.look_at.empty())
+            out.look_at += "  " + line + "\n";
+    }
+    while (out.look_at.ends_with("  \n")) out.look_at.erase(out.look_at.size() - 3);
+}
+
+std::vector<Exercise> exercises(Diagnostics& diagnostics) {
+    std::vector<Exercise> out;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder(), none)) {
+        const std::string name = entry.path().filename().string();
+        const auto dash = name.find('-');
+        if (entry.path().extension() != ".xml" || dash == std::string::npos) continue;
+        const auto experiment = xml::read_experiment(entry.path().string(), diagnostics);
+        if (!experiment) continue;
+        Exercise exercise{name.substr(0, dash), entry.path(), {}, {}};
+        read_note(experiment->note, exercise);
+        out.push_back(std::move(exercise));
+    }
+    std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+    return out;
+}
+
+}  // namespace
+
+int tutorial(const TutorialOptions& o) {
+    Diagnostics diagnostics;
+    const auto all = exercises(diagnostics);
+    if (diagnostics.failed()) {
+        fmt::print(stderr, "{}", format(diagnostics));
+        return bad_input;
+    }
+    if (all.empty()) {
+        fmt::print(stderr, "error: there are no exercises in '{}'\n", folder().string());
+        return bad_input;
+    }
+    if (o.exercise.empty()) {
+        for (const auto& e : all) fmt::print("{:<5} {}\n", e.number, e.title);
+        fmt::print("\nforage tutorial {} runs the first one; docs/tutorial has the text.\n",
+                   all.front().number);
+        return fine;
+    }
+    const auto wanted =
+        std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.number == o.exercise; });
+    if (wanted == all.end()) {
+        std::vector<std::string> numbers;
+        for (const auto& e : all) numbers.push_back(e.number);
+        fmt::print(stderr, "error: there is no exercise '{}'\n  hint: {}\n", o.exercise,
+                   suggest(o.exercise, numbers));
+        return bad_input;
+    }
+    const std::string directory = o.directory.empty() ? "forage-out/tutorial/" + wanted->number : o.directory;
+    fmt::print("{} {}\n", wanted->number, wanted->title);
+    std::fflush(stdout);
+    const int status = experiment({.file = wanted->file.string(), .directory = directory});
+    if (status != fine) return status;
+    fmt::print("look at\n{}", wanted->look_at);
+    for (const auto& run : fs::directory_iterator(fs::path(directory) / "runs"))
+        for (const auto& file : fs::directory_iterator(run))
+            if (file.path().extension() == ".png") fmt::print("  {}\n", file.path().string());
+    return fine;
+}
+
+}  // namespace forage::tool
