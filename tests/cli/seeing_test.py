@@ -161,6 +161,9 @@ class Formats(Cli):
         for form in ("npz", "h5"):
             command = [FORAGE, "run", SYSTEM, "--world", WORLD, "--seconds", "1000", "--realtime", "-r", "Bug/Light", "--format", form, "-o", "out"]
             process = subprocess.Popen(command, cwd=self.here, stdout=subprocess.PIPE, text=True)
+            while not list(self.here.glob("out/*.part")):  # it runs
+                self.assertIsNone(process.poll())
+                time.sleep(0.05)
             time.sleep(1)
             process.send_signal(signal.SIGINT)
             process.communicate(timeout=20)
