@@ -7,6 +7,7 @@
 #include "core/engine/plan.h"
 #include "core/model/lookup.h"
 #include "core/model/validate.h"
+#include "core/types/reason.h"
 
 namespace forage::engine {
 namespace {
@@ -71,11 +72,30 @@ class Compiler {
         } catch (const std::bad_alloc&) {
             budget_.report_exhausted(diagnostics_);
             return nullptr;
+        } catch (const NotMade&) {
+            return nullptr;
         }
         return std::move(plan_);
     }
 
   private:
+    struct NotMade {};  ///< reported
+
+    /// An object of a type with the parameters that the file sets.
+    template <class Type>
+    auto make(const Type& type, const model::TypeUse& use) {
+        try {
+            auto out = type.make();
+            model::apply(use.settings, type.parameters, out->parameters());
+            return out;
+        } catch (const std::bad_alloc&) {
+            throw;
+        } catch (...) {
+            diagnostics_.error(use.at, fmt::format("{} could not be made: {}", type.name, reason()));
+            throw NotMade{};
+        }
+    }
+
     void add_groups() {
         const auto paths = model::group_paths(system_);
         std::map<const model::Group*, std::string> path_of;
@@ -93,8 +113,7 @@ class Compiler {
             plan.cells = plan.shape.cells;
             plan.stride = Arena::stride(plan.cells);
             plan.type = *registry_.neuron(g->neuron.type);
-            plan.neuron = plan.type.make();
-            model::apply(g->neuron.settings, plan.type.parameters, plan.neuron->parameters());
+            plan.neuron = make(plan.type, g->neuron);
             plan.random = RandomStream(seed_, g->id);
             plan.output = plan.type.output();
             for (const auto& s : plan.type.states) plan.states.push_back({nullptr, s.history});
@@ -119,8 +138,7 @@ class Compiler {
             ModulePlan plan;
             plan.process = std::string(model::trim(p->name)), plan.process_id = p->id;
             plan.type = *registry_.module(p->module->type);
-            plan.module = plan.type.make();
-            model::apply(p->module->settings, plan.type.parameters, plan.module->parameters());
+            plan.module = make(plan.type, *p->module);
             plan.ports.process = plan.process;
             plan.ports.random = RandomStream(seed_, p->id);
             for (const bool outputs : {false, true}) {
@@ -174,8 +192,7 @@ class Compiler {
             plan.source = group_of(c->source), plan.target = group_of(c->target);
             auto& target = plan_->groups[static_cast<std::size_t>(plan.target)];
             plan.type = *registry_.synapse(c->synapse->type);
-            plan.synapse = plan.type.make();
-            model::apply(c->synapse->settings, plan.type.parameters, plan.synapse->parameters());
+            plan.synapse = make(plan.type, *c->synapse);
             plan.effective = target.type.reads[static_cast<std::size_t>(c->kind)];
             if (!(forms_ == Forms::fastest && plan.type.has_gain && make_regular(*c, plan)) &&
                 !make_list(*c, plan))
@@ -290,7 +307,11 @@ class Compiler {
         arena.allocate();
 
         for (auto& g : plan_->groups) {
-            for (std::size_t s = 0; s < g.states.size(); ++s) g.states[s].ring = arena.at(g.state_offsets[s]);
+            for (std::size_t s = 0; s < g.states.size(); ++s) {
+                g.states[s].ring = arena.at(g.state_offsets[s]);
+                if (const double initial = g.type.states[s].initial; initial != 0)
+                    std::fill_n(g.states[s].ring, g.states[s].depth * g.stride, initial);
+            }
             for (std::size_t k = 0; k < g.inputs.size(); ++k)
                 for (std::size_t i = 0; i < 2; ++i) g.inputs[k][i] = arena.at(g.input_offsets[k][i]);
             if (g.history > 0) g.history_ring = arena.at(g.history_offset);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/engine/simulation.h"
+#include "core/types/reason.h"
 #include "core/types/simd.h"
 
 namespace forage::engine {
@@ -99,9 +100,9 @@ void run(Plan& plan, ConnectionPlan& c, std::uint64_t cycle, double* target, Thr
             c.kernel->deliver(history, target);
         else
             c.plastic->learn(history);
-    } catch (const std::exception& e) {
+    } catch (...) {
         throw RunError(fmt::format("{} of connection '{}' failed in cycle {}: {}", c.type.name, c.name, cycle,
-                                   e.what()));
+                                   reason()));
     }
 }
 
@@ -131,13 +132,13 @@ void update(GroupPlan& g, std::uint64_t cycle, double* scratch, double* before) 
     if (small && cycle > 0) std::copy_n(activity_row(g, cycle - 1), g.cells, old);
 
     NeuronColumns columns(g.cells, g.stride, cycle,
-                          {g.inputs[0][g.row], g.inputs[1][g.row], g.inputs[2][g.row]}, g.states.data(),
-                          &g.random, scratch, {!g.fed[0], !g.fed[1], !g.fed[2]});
+                          {g.inputs[0][g.row], g.inputs[1][g.row], g.inputs[2][g.row]}, g.states, &g.random,
+                          scratch, {!g.fed[0], !g.fed[1], !g.fed[2]});
     try {
         g.neuron->update(columns);
-    } catch (const std::exception& e) {
+    } catch (...) {
         throw RunError(
-            fmt::format("{} of group '{}' failed in cycle {}: {}", g.type.name, g.path, cycle, e.what()));
+            fmt::format("{} of group '{}' failed in cycle {}: {}", g.type.name, g.path, cycle, reason()));
     }
     g.rests = look && columns.timeless() && at_rest(g, before);
     if (g.rests) return;

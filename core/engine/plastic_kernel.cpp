@@ -16,7 +16,10 @@ PlasticKernel::PlasticKernel(connectivity::Synapses s, int target_cells, const S
       size_(static_cast<Index>(pre_cell_.size())),
       target_cells_(target_cells) {
     for (double& f : factor_) f = s.reference - f;
-    for (std::size_t i = 0; i < type.states.size(); ++i) state_offsets_.push_back(arena.reserve(size_));
+    for (const auto& state : type.states) {
+        state_offsets_.push_back(arena.reserve(size_));
+        initial_.push_back(state.initial);
+    }
     const Index part = std::min(size_, block);
     for (std::size_t i = 0; i < type.feedback.size(); ++i) feedback_offsets_.push_back(arena.reserve(part));
     pre_offset_ = arena.reserve(part);
@@ -28,7 +31,10 @@ PlasticKernel::PlasticKernel(connectivity::Synapses s, int target_cells, const S
 
 void PlasticKernel::place(Arena& arena, std::vector<Ring> feedback) {
     feedback_ = std::move(feedback);
-    for (const auto offset : state_offsets_) states_.emplace_back(arena.at(offset), size_);
+    for (std::size_t i = 0; i < state_offsets_.size(); ++i) {
+        states_.emplace_back(arena.at(state_offsets_[i]), size_);
+        if (initial_[i] != 0) states_[i].setConstant(initial_[i]);
+    }
     for (const auto offset : feedback_offsets_) {
         gathered_.push_back(arena.at(offset));
         feedback_columns_.emplace_back(arena.at(offset), std::min(size_, block));

@@ -40,6 +40,7 @@ class PlasticKernel final : public Kernel {
     Index size_, target_cells_;
     Arena::Offset pre_offset_, psp_offset_ = 0, sum_offset_;
     std::vector<Arena::Offset> state_offsets_, feedback_offsets_;
+    std::vector<double> initial_;  ///< of the states
 
     double* pre_ = nullptr;       ///< source activity, per synapse of a block
     double* psp_ring_ = nullptr;  ///< attenuated output of the last longest_ + 1 cycles; null without delays

@@ -8,6 +8,7 @@
 #include "core/engine/plan.h"
 #include "core/engine/thread_pool.h"
 #include "core/model/validate.h"
+#include "core/types/reason.h"
 
 namespace forage::engine {
 namespace {
@@ -63,9 +64,9 @@ void Simulation::start() {
             bind_inputs(m);
             ModuleFrame frame(0, m.in, m.out, &m.written);
             m.module->start(m.ports, frame);
-        } catch (const std::exception& e) {
+        } catch (...) {
             throw RunError(
-                fmt::format("{} of process '{}' could not start: {}", m.type.name, m.process, e.what()));
+                fmt::format("{} of process '{}' could not start: {}", m.type.name, m.process, reason()));
         }
         note_changes(m);
     }
@@ -112,9 +113,9 @@ void Simulation::update_modules() {
             bind_inputs(m);
             ModuleFrame frame(cycle_, m.in, m.out, &m.written);
             m.module->update(frame);
-        } catch (const std::exception& e) {
+        } catch (...) {
             throw RunError(fmt::format("{} of process '{}' failed in cycle {}: {}", m.type.name, m.process,
-                                       cycle_, e.what()));
+                                       cycle_, reason()));
         }
         note_changes(m);
     }
@@ -158,6 +159,12 @@ Column Simulation::output(int group) {
     auto& g = at(plan_->groups, group);
     touch(g, cycle_);
     return {activity_row(g, shown_), g.cells};
+}
+
+Column Simulation::writable_state(int group, int state) {
+    auto& g = at(plan_->groups, group);
+    touch(g, cycle_);
+    return {current_row(g, state, shown_), g.cells};
 }
 
 int Simulation::modules() const { return static_cast<int>(plan_->modules.size()); }

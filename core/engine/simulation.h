@@ -88,6 +88,8 @@ class Simulation {
     ConstColumn state(int group, int state) const;
     /// Activity, to overwrite after update_groups(). To be asked for again in every cycle.
     Column output(int group);
+    /// The same for any state: what its next update reads of the last cycle.
+    Column writable_state(int group, int state);
     /// To be told after anything that its next update depends on was changed by other means than set() and
     /// output().
     void group_changed(int group);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/model/lookup.h"
+#include "core/types/reason.h"
 
 namespace forage::model {
 namespace {
@@ -113,10 +114,15 @@ class Validator {
     template <class Type>
     void check_with_type(const TypeUse& use, const Type& type) {
         if (!type.check) return;
-        const auto object = type.make();
-        apply(use.settings, type.parameters, object->parameters());
         Problems problems;
-        type.check(object->parameters(), problems);
+        try {
+            const auto object = type.make();
+            apply(use.settings, type.parameters, object->parameters());
+            type.check(object->parameters(), problems);
+        } catch (...) {
+            return out_.error(use.at,
+                              fmt::format("{} failed to check its parameters: {}", type.name, reason()));
+        }
         for (const auto& problem : problems.all) {
             Location at = use.at;
             for (const auto& s : use.settings)
@@ -241,10 +247,15 @@ class Validator {
 
     /// Lets the module itself look at its parameters and groups.
     void check_with_type(const ModuleUse& use, const ModuleType& type, const ModulePorts& ports) {
-        const auto module = type.make();
-        apply(use.settings, type.parameters, module->parameters());
         Problems problems;
-        module->check(ports, problems);
+        try {
+            const auto module = type.make();
+            apply(use.settings, type.parameters, module->parameters());
+            module->check(ports, problems);
+        } catch (...) {
+            return out_.error(use.at,
+                              fmt::format("{} failed to check its parameters: {}", type.name, reason()));
+        }
         for (const auto& problem : problems.all) {
             Location at = use.at;
             for (const auto& s : use.settings)

@@ -6,8 +6,7 @@
 //     void check(const ModulePorts&, Problems&);     // optional: sizes that belong together
 //     void start(const ModulePorts&);                // optional: once, before the first cycle; or
 //     void start(const ModulePorts&, ModuleFrame&);  // ... what it writes is received in cycle 0
-//     void update(ModuleFrame&);                     // once per cycle, after the groups, before the
-//     connections
+//     void update(ModuleFrame&);                     // once per cycle, between groups and connections
 //
 // A module reads the output activity of its input groups of this cycle. What it writes into an output is
 // excitatory input of that group in the next cycle. An output keeps its values until it is written again.
@@ -23,14 +22,15 @@
 #include "core/types/parameter.h"
 #include "core/types/problems.h"
 #include "core/types/random.h"
+#include "core/types/type_error.h"
 
 namespace forage {
 
 /// A cross reference that a module declares: a named place for one group.
 struct ModulePort {
-    std::string name;           ///< as in the file's <XRef name="..">
+    std::string name;           ///< as in the file's `<XRef name="..">`
     std::string label;          ///< as shown to people
-    bool is_output = false;     ///< written by the module (<XRefHolder name="OutputToGroup">)
+    bool is_output = false;     ///< written by the module (`<XRefHolder name="OutputToGroup">`)
     bool optional = false;      ///< may be absent or unset; the original refuses a system with an unset one
     int width = 0, height = 0;  ///< required size of the group, 0: any
     int cells = 0;              ///< required number of cells, 0: any
@@ -57,18 +57,28 @@ class ModuleFrame {
                 std::vector<char>* written = nullptr)
         : cycle_(cycle), in_(in), out_(out), written_(written) {}
     std::uint64_t cycle() const { return cycle_; }
-    const ConstColumn& input(std::size_t port) const { return in_[port]; }  ///< activity of this cycle
+    const ConstColumn& input(std::size_t port) const {  ///< activity of this cycle
+        return in_[declared("input", port, in_.size())];
+    }
     /// To be written now, received in the next cycle. An output that a module does not take in a cycle is not
     /// looked at: take those only that change, and take them again in every cycle.
     Column output(std::size_t port) const {
+        declared("output", port, out_.size());
         if (written_) (*written_)[port] = 1;
         return out_[port];
     }
-    Index output_size(std::size_t port) const { return out_[port].size(); }  ///< 0: unset
+    Index output_size(std::size_t port) const {  ///< 0: unset
+        return out_[declared("output", port, out_.size())].size();
+    }
     std::size_t inputs() const { return in_.size(); }
     std::size_t outputs() const { return out_.size(); }
 
   private:
+    static std::size_t declared(const char* what, std::size_t port, std::size_t ports) {
+        if (port >= ports) detail::not_declared(what, static_cast<long long>(port), ports);
+        return port;
+    }
+
     std::uint64_t cycle_;
     const std::vector<ConstColumn>& in_;
     const std::vector<Column>& out_;
@@ -169,6 +179,8 @@ class ModuleModel final : public ModuleInstance {
 /// content): every module of a system starts as a copy of it.
 template <class T>
 ModuleType module_type(T prototype = {}) {
+    static_assert(
+        requires(T t, ModuleFrame & f) { t.update(f); }, "a module type needs void update(ModuleFrame&)");
     ModuleType type;
     ModuleSpec<T> spec(type);
     T::describe(spec);

@@ -2,8 +2,8 @@
 // parameters, with
 //
 //     static void describe(NeuronSpec<T>&);      // name, parameters, states: the only place that lists them
-//     void check(Problems&) const;               // optional: parameters that say something else than they
-//     seem to void update(NeuronColumns&) const;         // one cycle, for all cells of a group
+//     void check(Problems&) const;               // optional: warns of parameters that do not fit together
+//     void update(NeuronColumns&) const;         // one cycle, for all cells of a group
 //
 // neurons/linear_threshold.h is the example to copy.
 #pragma once
@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "core/types/parameter.h"
 #include "core/types/problems.h"
 #include "core/types/random.h"
+#include "core/types/type_error.h"
 
 namespace forage {
 
@@ -27,9 +29,10 @@ namespace forage {
 struct StateInfo {
     std::string name;
     std::string label;
-    int history = 1;
+    int history = 1;        ///< cycles for which past values are kept, 1 or more
     bool output = false;    ///< what connections and modules read; exactly one per type
     bool feedback = false;  ///< offered to synapses that learn from their target
+    double initial = 0;     ///< of all cells and past cycles, before the first update
 };
 
 /// What a neuron type's update sees: the columns of one group in one cycle.
@@ -44,7 +47,7 @@ class NeuronColumns {
     };
 
     NeuronColumns(Index size, Index stride, std::uint64_t cycle, std::array<double*, input_kinds> inputs,
-                  const State* states, const RandomStream* random, double* scratch,
+                  std::span<const State> states, const RandomStream* random, double* scratch,
                   std::array<bool, input_kinds> silent = {})
         : size_(size),
           stride_(stride),
@@ -71,9 +74,11 @@ class NeuronColumns {
     /// State i as it was `ago` cycles ago; 0 < ago < the state's history.
     ConstColumn past(int i, int ago) const { return {row(i, ago), size_}; }
 
-    /// All states in order of declaration: `auto [vm, act] = c.states<2>();`
+    /// All states in order of declaration: `auto [vm, act] = c.states<2>();` Throws TypeError when the type
+    /// declares more or fewer.
     template <int N>
     std::array<Column, N> states() const {
+        if (states_.size() != N) detail::not_as_many(N, states_.size());
         return [this]<int... I>(std::integer_sequence<int, I...>) {
             return std::array<Column, N>{state(I)...};
         }
@@ -106,7 +111,10 @@ class NeuronColumns {
   private:
     Column input(InputKind kind) const { return {inputs_[static_cast<std::size_t>(kind)], size_}; }
     double* row(int i, int ago) const {
-        const State& s = states_[i];
+        const auto index = static_cast<std::size_t>(i);  // of a negative one: very large
+        if (index >= states_.size()) detail::not_declared("state", i, states_.size());
+        const State& s = states_[index];
+        if (ago < 0 || ago > s.depth) detail::not_kept(i, ago, s.depth);
         const auto now = static_cast<std::int64_t>(cycle_ % static_cast<std::uint64_t>(s.depth));
         return s.ring + ((now - ago + s.depth) % s.depth) * stride_;
     }
@@ -114,7 +122,7 @@ class NeuronColumns {
     Index size_, stride_;
     std::uint64_t cycle_;
     std::array<double*, input_kinds> inputs_;
-    const State* states_;
+    std::span<const State> states_;
     const RandomStream* random_;
     double* scratch_;
     std::array<bool, input_kinds> silent_;
@@ -162,17 +170,18 @@ class NeuronSpec {
         type_.parameters.push_back(detail::make_parameter(std::move(name), member));
         return {type_.parameters, type_.parameters.size() - 1};
     }
-    NeuronSpec& state(std::string name, std::string label, int history = 1) {
-        return type_.states.push_back({std::move(name), std::move(label), history}), *this;
+    NeuronSpec& state(std::string name, std::string label, int history = 1, double initial = 0) {
+        return add({std::move(name), std::move(label), history, false, false, initial});
     }
-    NeuronSpec& output(std::string name, std::string label, int history = 1) {
-        return type_.states.push_back({std::move(name), std::move(label), history, true, true}), *this;
+    NeuronSpec& output(std::string name, std::string label, int history = 1, double initial = 0) {
+        return add({std::move(name), std::move(label), history, true, true, initial});
     }
-    NeuronSpec& feedback(std::string name, std::string label, int history = 1) {
-        return type_.states.push_back({std::move(name), std::move(label), history, false, true}), *this;
+    NeuronSpec& feedback(std::string name, std::string label, int history = 1, double initial = 0) {
+        return add({std::move(name), std::move(label), history, false, true, initial});
     }
 
   private:
+    NeuronSpec& add(StateInfo state) { return type_.states.push_back(std::move(state)), *this; }
     NeuronType& type_;
 };
 
@@ -192,6 +201,9 @@ class NeuronModel final : public NeuronInstance {
 
 template <class T>
 NeuronType neuron_type() {
+    static_assert(
+        requires(const T t, NeuronColumns& c) { t.update(c); },
+        "a neuron type needs void update(NeuronColumns&) const");
     NeuronType type;
     NeuronSpec<T> spec(type);
     T::describe(spec);

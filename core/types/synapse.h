@@ -2,8 +2,8 @@
 // its parameters, with
 //
 //     static void describe(SynapseSpec<T>&);
-//     void check(Problems&) const;               // optional: parameters that say something else than they
-//     seem to void update(SynapseColumns&) const;     // one cycle, for some synapses at a time
+//     void check(Problems&) const;               // optional: warns of parameters that do not fit together
+//     void update(SynapseColumns&) const;        // one cycle, for some synapses at a time
 //
 // A type that only multiplies its input by a constant declares that constant with `gain` and needs no
 // update(). The engine then attenuates and delays what the type puts out; synapses/fixed_weight.h is the
@@ -19,6 +19,7 @@
 #include "core/types/column.h"
 #include "core/types/parameter.h"
 #include "core/types/problems.h"
+#include "core/types/type_error.h"
 
 namespace forage {
 
@@ -27,11 +28,12 @@ struct SynapseStateInfo {
     std::string name;
     std::string label;
     bool output = false;  ///< the postsynaptic potential, before attenuation and delay; exactly one per type
+    double initial = 0;   ///< of all synapses, before the first update
 };
 
 /// A state of the target's neuron that the synapse reads, `delay` cycles old.
 struct FeedbackInfo {
-    std::string name;  ///< as in <XRefHolder name="Freedback"><XRef name="..">
+    std::string name;  ///< as in `<XRefHolder name="Freedback"><XRef name="..">`
     std::string label;
     bool required = true;
 };
@@ -42,9 +44,16 @@ class SynapseColumns {
     SynapseColumns(ConstColumn pre, const std::vector<Column>& states,
                    const std::vector<ConstColumn>& feedback)
         : pre_(pre), states_(states), feedback_(feedback) {}
-    const ConstColumn& pre() const { return pre_; }           ///< source cell's activity of this cycle
-    Column state(std::size_t i) const { return states_[i]; }  ///< own states, in order of declaration
-    const ConstColumn& feedback(std::size_t i) const { return feedback_[i]; }
+    const ConstColumn& pre() const { return pre_; }  ///< source cell's activity of this cycle
+    Column state(std::size_t i) const {              ///< own states, in order of declaration
+        if (i >= states_.size()) detail::not_declared("state", static_cast<long long>(i), states_.size());
+        return states_[i];
+    }
+    const ConstColumn& feedback(std::size_t i) const {
+        if (i >= feedback_.size())
+            detail::not_declared("feedback", static_cast<long long>(i), feedback_.size());
+        return feedback_[i];
+    }
 
   private:
     ConstColumn pre_;
@@ -89,8 +98,8 @@ class SynapseSpec {
         type_.parameters.push_back(detail::make_parameter(std::move(name), member));
         return {type_.parameters, type_.parameters.size() - 1};
     }
-    SynapseSpec& state(std::string name, std::string label) {
-        return type_.states.push_back({std::move(name), std::move(label)}), *this;
+    SynapseSpec& state(std::string name, std::string label, double initial = 0) {
+        return type_.states.push_back({std::move(name), std::move(label), false, initial}), *this;
     }
     SynapseSpec& output(std::string name, std::string label) {
         return type_.states.push_back({std::move(name), std::move(label), true}), *this;
@@ -127,6 +136,9 @@ class SynapseModel final : public SynapseInstance {
 
 template <class T>
 SynapseType synapse_type() {
+    static_assert(
+        requires(const T t, SynapseColumns& c) { t.update(c); } || requires(const T t) { t.gain(); },
+        "a synapse type needs void update(SynapseColumns&) const, or double gain() const");
     SynapseType type;
     SynapseSpec<T> spec(type);
     T::describe(spec);

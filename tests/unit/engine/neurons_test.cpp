@@ -27,7 +27,7 @@ struct Cells {
         excitation << nan, 5;
         const RandomStream random(1, "group");
         NeuronColumns columns(stride, stride, 0, {excitation.data(), inhibition.data(), modulation.data()},
-                              states.data(), &random, scratch.data());
+                              states, &random, scratch.data());
         type.make()->update(columns);
         output = rings[static_cast<std::size_t>(type.output())].head(stride);
         if (type.states[0].name == "vm") potential = rings[0].head(stride);
@@ -67,9 +67,9 @@ TEST_CASE(
     const RandomStream random(1, "group");
     Eigen::ArrayXd scratch(3);
     const auto draws = [&](std::uint64_t cycle, std::uint32_t draw) -> Eigen::ArrayXd {
-        return NeuronColumns(3, 3, cycle, {}, nullptr, &random, scratch.data()).uniform(draw);
+        return NeuronColumns(3, 3, cycle, {}, {}, &random, scratch.data()).uniform(draw);
     };
-    CHECK((draws(5, 0) == NeuronColumns(3, 3, 5, {}, nullptr, &random, scratch.data()).uniform()).all());
+    CHECK((draws(5, 0) == NeuronColumns(3, 3, 5, {}, {}, &random, scratch.data()).uniform()).all());
     CHECK((draws(5, 1) == draws(5, 1)).all());
     CHECK((draws(5, 0) != draws(5, 1)).all());
     CHECK((draws(5, 1) != draws(6, 1)).all());
