@@ -17,12 +17,15 @@ ALLOWED = {
     'core/engine': {'core/connectivity', 'core/model', 'core/types'},
     'core/xml': {'core/connectivity', 'core/model', 'core/types'},
     'core/observe': {'core/engine', 'core/xml', 'core/connectivity', 'core/model', 'core/types'},
-    'core/plugin': {'core/engine', 'core/xml', 'core/connectivity', 'core/model', 'core/types'},
+    'core/plugin': {'core/model', 'core/types'},
     # Shipped types use what a plugin can use, and nothing of each other's.
     'neurons': {'core/types'},
     'synapses': {'core/types'},
     'modules': {'core/types'},
     'bug_interface': {'core/types', 'core/model'},
+    # What other projects see.
+    'tools/api': {'core/engine', 'core/xml', 'core/plugin', 'core/connectivity', 'core/model', 'core/types', 'neurons',
+                  'synapses', 'modules'},
 }
 ALLOWED['tools'] = set(ALLOWED)
 ROOMS = set(ALLOWED)
@@ -41,7 +44,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 def room_of(path):
     """The room that a path from the root lies in, or None."""
-    return next((room for room in ROOMS if path == room or path.startswith(room + '/')), None)
+    return max((room for room in ROOMS if path == room or path.startswith(room + '/')), key=len, default=None)
 
 
 def check_include(path, bracket, header):

@@ -46,6 +46,7 @@ struct ConvertOptions {
     std::string input, output;         ///< .iqr or .iqrProcess, both
     std::vector<std::string> imports;  ///< process files to add
     std::string extract;               ///< name or id of a process to write on its own
+    std::vector<std::string> plugins;
     bool embed = false, lenient = false;
 };
 
@@ -59,14 +60,20 @@ struct PlotOptions {
 struct ExperimentOptions {
     std::string file;
     std::string directory;  ///< empty: forage-out/ and the file's name
-    int jobs = 0;           ///< runs at a time; 0: one per core
-    bool fresh = false;     ///< repeat finished runs
+    std::vector<std::string> plugins = {};
+    int jobs = 0;        ///< runs at a time; 0: one per core
+    bool fresh = false;  ///< repeat finished runs
     bool quiet = false;
 };
 
 struct TutorialOptions {
     std::string exercise;   ///< its number; empty: list them
     std::string directory;  ///< empty: forage-out/tutorial/ and the number
+};
+
+struct BuildPluginOptions {
+    std::string source;
+    std::string output;  ///< empty: in the folder plugins beside the source
 };
 
 int run(const RunOptions& options);
@@ -83,8 +90,13 @@ int describe(const Input& input);
 /// net.
 int view(const std::string& directory);
 /// Lists the types, or one with its parameters.
-int types(const std::string& name);
-/// Prints a RELAX NG schema of system files with the types that ship.
-int schema();
+int types(const std::string& name, const std::vector<std::string>& plugins);
+/// Prints a RELAX NG schema of system files with these types.
+int schema(const std::vector<std::string>& plugins);
+
+/// Writes a project with a plugin into the folder `name`; `kind` is neuron, synapse or module.
+int new_project(const std::string& kind, const std::string& name);
+/// Compiles a source file to a plugin, with the compiler that CXX names or c++, and tries whether it loads.
+int build_plugin(const BuildPluginOptions& options);
 
 }  // namespace forage::tool

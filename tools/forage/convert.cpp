@@ -33,14 +33,14 @@ void warn_of_loss(const model::System& system, const model::ProcessFile& file, D
 
 /// Links and file names are relative to the system file: makes them lead from `to` where they led from
 /// `from`.
-void move_files(model::System& system, const std::string& from, const std::string& to) {
+void move_files(model::System& system, const std::string& from, const std::string& to,
+                const Registry& registry) {
     const fs::path old_place = fs::absolute(from).parent_path(), new_place = fs::absolute(to).parent_path();
     if (fs::weakly_canonical(old_place) == fs::weakly_canonical(new_place)) return;
     const auto move = [&](std::string& path) {
         if (!path.empty() && fs::path(path).is_relative())
             path = fs::relative(old_place / path, new_place).generic_string();
     };
-    const Registry registry = shipped_types(nullptr, nullptr);
     for (auto& p : system.processes) {
         auto& written = p.linked() ? p.placeholder.front() : p;
         move(written.path);
@@ -77,6 +77,7 @@ std::string converted(const ConvertOptions& o, Diagnostics& diagnostics) {
         return xml::write_process(*file);
     }
     auto system = xml::read_system(o.input, diagnostics);
+    const auto plugins = load_plugins(o.plugins, o.input, diagnostics);  // their parameters may name files
     if (!system) return {};
     for (const auto& path : o.imports)
         if (auto file = xml::read_process(path, diagnostics); file && !diagnostics.failed())
@@ -89,7 +90,7 @@ std::string converted(const ConvertOptions& o, Diagnostics& diagnostics) {
         return {};
     }
     if (!to_process) {
-        move_files(*system, o.input, o.output);
+        move_files(*system, o.input, o.output, known_types(plugins));
         return xml::write_system(*system);
     }
     if (o.extract.empty()) {

@@ -52,6 +52,7 @@ int experiment(const ExperimentOptions& o) {
     Sources sources;
     if (wanted) {
         runs = planned_runs(*wanted, directory);
+        for (auto& run : runs) run.options.input.plugins = o.plugins;
         sources = read(runs.front().options.input, diagnostics);
         check_experiment(*wanted, sources, runs, diagnostics);
     }

@@ -1,5 +1,6 @@
 #include "tools/forage/load.h"
 
+#include <cstdlib>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include "bug_interface/world/sdf_reader.h"
 #include "core/model/edit.h"
 #include "core/model/validate.h"
+#include "core/plugin/search.h"
 #include "core/xml/reader.h"
 #include "modules/modules.h"
 #include "modules/replay/replay.h"
@@ -53,6 +55,20 @@ Registry shipped_types(bug::World* world, std::shared_ptr<const replay::DriveTab
     return registry;
 }
 
+std::vector<plugin::Plugin> load_plugins(const std::vector<std::string>& named, const std::string& system,
+                                         Diagnostics& diagnostics) {
+    const char* path = std::getenv("FORAGE_PLUGIN_PATH");
+    const auto files = plugin::find(named, path ? path : "", system, diagnostics);
+    if (files.empty()) return {};
+    return plugin::load(files, shipped_types(nullptr, nullptr), diagnostics);
+}
+
+Registry known_types(const std::vector<plugin::Plugin>& plugins) {
+    Registry registry = shipped_types(nullptr, nullptr);
+    plugin::add(plugins, registry);
+    return registry;
+}
+
 double cycles_per_second(const model::System& system) {
     return system.cycles_per_second > 0 ? system.cycles_per_second : 25;
 }
@@ -63,6 +79,7 @@ Sources read(const Input& input, Diagnostics& diagnostics) {
     out.system = read_any(input.system, diagnostics);
     if (!input.world.empty()) out.world = bug::read_world(input.world, diagnostics);
     out.drive = read_table(input.drive, diagnostics);
+    out.plugins = load_plugins(input.plugins, input.system, diagnostics);
     return out;
 }
 
@@ -80,6 +97,8 @@ std::optional<Loaded> assemble(const Sources& sources, const Input& input, Diagn
     out.drive = sources.drive;
 
     out.registry = shipped_types(out.world.get(), out.drive);
+    plugin::add(sources.plugins, out.registry);
+    for (const auto& p : sources.plugins) out.plugins.push_back(p.path);
     if (sources.system) {
         for (const auto& wish : input.settings)
             model::set(out.system, out.registry, wish.text, diagnostics, wish.at);

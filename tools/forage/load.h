@@ -10,6 +10,7 @@
 #include "bug_interface/world/description.h"
 #include "core/model/experiment.h"
 #include "core/model/system.h"
+#include "core/plugin/plugin.h"
 #include "core/types/registry.h"
 #include "modules/replay/drive_table.h"
 
@@ -20,6 +21,7 @@ struct Input {
     std::string system, world;          ///< paths; no world when empty
     std::vector<model::Wish> settings;  ///< "Process/Group.parameter=value"
     std::string drive;                  ///< table for moduleReplay; none when empty
+    std::vector<std::string> plugins;   ///< shared objects and folders of them, besides those that are found
     bool lenient = false;
     std::uint64_t seed = 1;
     std::optional<double>
@@ -32,6 +34,7 @@ struct Sources {
     std::optional<model::System> system;              ///< none when it could not be read
     std::optional<bug::WorldDescription> world;       ///< none without one, and when it could not be read
     std::shared_ptr<const replay::DriveTable> drive;  ///< null without one
+    std::vector<plugin::Plugin> plugins;
 };
 
 /// Everything read and checked. Registry and system refer to world and table: keep them together.
@@ -40,10 +43,17 @@ struct Loaded {
     std::unique_ptr<bug::World> world;  ///< null without one
     model::System system;
     std::shared_ptr<const replay::DriveTable> drive;  ///< null without one
+    std::vector<std::string> plugins;                 ///< their files
 };
 
 /// The types that ship. Robots live in `world` and moduleReplay plays `drive`; either may be null.
 Registry shipped_types(bug::World* world, std::shared_ptr<const replay::DriveTable> drive);
+/// The plugins that `named`, FORAGE_PLUGIN_PATH and the folder plugins beside `system` hold; no system when
+/// empty.
+std::vector<plugin::Plugin> load_plugins(const std::vector<std::string>& named, const std::string& system,
+                                         Diagnostics& diagnostics);
+/// The types that ship and those of the plugins, for what needs no world.
+Registry known_types(const std::vector<plugin::Plugin>& plugins);
 
 /// Reads the files, and reports what keeps them from being read.
 Sources read(const Input& input, Diagnostics& diagnostics);

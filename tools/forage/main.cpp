@@ -47,6 +47,14 @@ CLI::Option* repeated(CLI::Option* option) {
     return option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+void add_plugins(CLI::App& command, std::vector<std::string>& plugins) {
+    repeated(command.add_option("--plugin", plugins,
+                                "Plugin with more types (.so), or a folder of plugins, besides those in "
+                                "FORAGE_PLUGIN_PATH and in the folder plugins beside the system; may be "
+                                "repeated"))
+        ->option_text("PATH");
+}
+
 void add_input(CLI::App& command, Input& input) {
     command.add_option("SYSTEM", input.system, "System file (.iqr), or a process on its own (.iqrProcess)")
         ->required()
@@ -62,6 +70,7 @@ void add_input(CLI::App& command, Input& input) {
             "Change a parameter: 'Process/Group.parameter=value', 'Process.parameter=value' for a module, "
             "'Connection.parameter=value' for a synapse; may be repeated"))
         ->option_text("WHERE=VALUE");
+    add_plugins(command, input.plugins);
     command.add_flag("--lenient", input.lenient,
                      "Unknown parameters and attributes are warnings, not errors");
 }
@@ -274,6 +283,7 @@ void add_experiment(CLI::App& app, ExperimentOptions& o) {
     experiment.add_option("-j,--jobs", o.jobs, "Runs at a time [one per core]")
         ->check(count())
         ->option_text("N");
+    add_plugins(experiment, o.plugins);
     experiment.add_flag("--fresh", o.fresh, "Repeat runs that are finished");
     experiment.add_flag("-q,--quiet", o.quiet, "Print errors only");
 }
@@ -294,8 +304,30 @@ void add_convert(CLI::App& app, ConvertOptions& o) {
     convert
         .add_option("--extract", o.extract, "Write this process alone, with the connections among its groups")
         ->option_text("PROCESS");
+    add_plugins(convert, o.plugins);
     convert.add_flag("--embed", o.embed, "Write the content of linked processes instead of the links");
     convert.add_flag("--lenient", o.lenient, "Unknown elements and attributes are warnings, and left out");
+}
+
+void add_new(CLI::App& app, std::string& kind, std::string& name) {
+    auto& command = *app.add_subcommand("new", "Write a small project with a type of your own");
+    command.footer("Example:\n  forage new neuron adaptive");
+    command.add_option("KIND", kind, "neuron, synapse or module")
+        ->required()
+        ->check(CLI::IsMember({"neuron", "synapse", "module"}))
+        ->option_text(" ");
+    command.add_option("NAME", name, "Name of the folder, and of the type after its kind")
+        ->required()
+        ->option_text(" ");
+}
+
+void add_build_plugin(CLI::App& app, BuildPluginOptions& o) {
+    auto& command = *app.add_subcommand("build-plugin", "Compile a source file with types of your own");
+    command.footer(
+        "The compiler is the one that CXX names, or c++.\nExample:\n  forage build-plugin adaptive.cpp");
+    command.add_option("FILE", o.source, "Source file (.cpp)")->required()->option_text(" ");
+    command.add_option("-o,--output", o.output, "Plugin to write [plugins/NAME.so beside FILE]")
+        ->option_text("FILE");
 }
 
 /// What was probably meant by the first word of the command line that does not exist; empty when all do.
@@ -339,6 +371,10 @@ int main(int argc, char** argv) {
     add_tutorial(app, tutorial_options);
     add_plot(app, plot_options);
     add_convert(app, convert_options);
+    BuildPluginOptions build_options;
+    std::string new_kind, new_name;
+    add_new(app, new_kind, new_name);
+    add_build_plugin(app, build_options);
     auto& check_command =
         *app.add_subcommand("check", "Check a system (and world) and say everything that is wrong with it");
     add_input(check_command, check_input);
@@ -357,8 +393,9 @@ int main(int argc, char** argv) {
         *app.add_subcommand("types", "List the neuron, synapse and module types, or describe one");
     types_command.footer("Example:\n  forage types neuronLinearThreshold");
     types_command.add_option("NAME", type, "The type to describe")->option_text(" ");
-    app.add_subcommand("schema", "Print a RELAX NG schema of system files, for editors")
-        ->footer("Example:\n  forage schema > iqr.rng");
+    auto& schema_command =
+        *app.add_subcommand("schema", "Print a RELAX NG schema of system files, for editors");
+    schema_command.footer("Example:\n  forage schema > iqr.rng");
     std::string shell;
     auto& completion_command =
         *app.add_subcommand("completion", "Print a script that completes command lines");
@@ -370,6 +407,9 @@ int main(int argc, char** argv) {
         ->option_text(" ");
     app.add_subcommand("man", "Print the manual page")
         ->footer("Example:\n  forage man > forage.1; man ./forage.1");
+    std::vector<std::string> plugins;
+    add_plugins(types_command, plugins);
+    add_plugins(schema_command, plugins);
 
     try {
         if (argc == 1) {
@@ -404,11 +444,13 @@ int main(int argc, char** argv) {
         if (app.got_subcommand("check")) return check(check_input);
         if (app.got_subcommand("describe")) return describe(describe_input);
         if (app.got_subcommand("convert")) return convert(convert_options);
-        if (app.got_subcommand("schema")) return schema();
         if (app.got_subcommand("view")) return view(directory);
         if (app.got_subcommand("man")) return fmt::print("{}", man_page(app)), fine;
         if (app.got_subcommand("completion")) return fmt::print("{}", completion(app, shell)), fine;
-        return types(type);
+        if (app.got_subcommand("new")) return new_project(new_kind, new_name);
+        if (app.got_subcommand("build-plugin")) return build_plugin(build_options);
+        if (app.got_subcommand("schema")) return schema(plugins);
+        return types(type, plugins);
     } catch (const std::exception& e) {
         fmt::print(stderr, "error: {}\n", e.what());
         return run_failed;

@@ -53,6 +53,7 @@ nlohmann::ordered_json settings_json(const RunOptions& o, const Loaded& loaded) 
     if (o.record.mean) json["record_mean"] = true;
     if (o.record.format != "csv") json["record_format"] = o.record.format;
     for (const auto& wish : o.plots) json["plot"].push_back(wish.text);
+    for (const auto& path : loaded.plugins) json["plugins"].push_back(input_file(path));
     if (!o.input.drive.empty()) json["drive"] = input_file(o.input.drive);
     for (const auto& wish : o.at) json["at"].push_back(wish.text());
     if (!o.until.empty()) json["until"] = o.until.text;

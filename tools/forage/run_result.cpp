@@ -47,6 +47,7 @@ class Digests {
         }
         for (const auto& inner : model.models) add(inner);
     }
+    void add_file(const std::string& path) { all_[path] = digest(content_of(path)); }
     /// The digests alone: a result holds in whatever directory its files are.
     std::string text() const {
         std::string out;
@@ -62,6 +63,7 @@ class Digests {
 
 std::string digests_of(const model::Experiment& experiment, const Sources& sources) {
     Digests system, world;
+    for (const auto& p : sources.plugins) system.add_file(p.path);
     system.add(sources.system->at);
     for (const auto& p : sources.system->processes) system.add(p.at);
     if (!sources.world) return system.text();

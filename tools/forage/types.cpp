@@ -87,15 +87,28 @@ void list(std::string_view kind, const Map& types) {
     for (const auto& [name, type] : types) fmt::print("  {:<28} {}\n", name, type.doc);
 }
 
+/// The types that ship and those of plugins; empty when one cannot be loaded, which is said.
+std::optional<Registry> registry_with(const std::vector<std::string>& plugins) {
+    Diagnostics diagnostics;
+    const auto loaded = load_plugins(plugins, "", diagnostics);
+    fmt::print(stderr, "{}", format(diagnostics));
+    if (diagnostics.failed()) return std::nullopt;
+    return known_types(loaded);
+}
+
 }  // namespace
 
-int schema() {
-    fmt::print("{}", xml::relax_ng(shipped_types(nullptr, nullptr)));
+int schema(const std::vector<std::string>& plugins) {
+    const auto registry = registry_with(plugins);
+    if (!registry) return bad_input;
+    fmt::print("{}", xml::relax_ng(*registry));
     return fine;
 }
 
-int types(const std::string& name) {
-    const Registry registry = shipped_types(nullptr, nullptr);
+int types(const std::string& name, const std::vector<std::string>& plugins) {
+    const auto found = registry_with(plugins);
+    if (!found) return bad_input;
+    const Registry& registry = *found;
     if (name.empty()) {
         list("Neurons", registry.neurons());
         list("Synapses", registry.synapses());

@@ -1,0 +1,43 @@
+# What `cmake --install` and `cpack` put where.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(FORAGE_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/Forage)
+set(FORAGE_HEADER_DIR ${CMAKE_INSTALL_INCLUDEDIR}/forage)
+
+install(TARGETS forage EXPORT ForageSdk RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY systems DESTINATION ${CMAKE_INSTALL_DATADIR}/forage)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# Includes of headers are written from the project's root: <forage/plugin.h> for users, "core/..." in the headers.
+install(DIRECTORY tools/api/forage/ DESTINATION ${FORAGE_HEADER_DIR} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY core/types core/model DESTINATION ${FORAGE_HEADER_DIR}/core FILES_MATCHING PATTERN "*.h" PATTERN philox.h EXCLUDE)
+install(FILES core/engine/simulation.h core/engine/sharing_trial.h DESTINATION ${FORAGE_HEADER_DIR}/core/engine)
+
+# Plugins need Eigen alone; programs that run systems need what Forage itself is made with.
+set(directories INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${FORAGE_HEADER_DIR})
+install(TARGETS forage_sdk forage_random EXPORT ForageSdk ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/forage ${directories})
+install(TARGETS forage_api forage_types forage_model forage_connectivity forage_xml forage_engine forage_plugin forage_neurons
+                forage_synapses forage_modules
+        EXPORT ForageEmbedding ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/forage ${directories})
+install(EXPORT ForageSdk NAMESPACE forage:: DESTINATION ${FORAGE_CMAKE_DIR})
+install(EXPORT ForageEmbedding NAMESPACE forage:: DESTINATION ${FORAGE_CMAKE_DIR})
+configure_package_config_file(cmake/ForageConfig.cmake.in ForageConfig.cmake INSTALL_DESTINATION ${FORAGE_CMAKE_DIR})
+write_basic_package_version_file(ForageConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/ForageConfig.cmake ${PROJECT_BINARY_DIR}/ForageConfigVersion.cmake
+              cmake/ForagePlugin.cmake
+        DESTINATION ${FORAGE_CMAKE_DIR})
+
+# `cpack --config build/release/CPackConfig.cmake` makes the .deb.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME forage)
+set(CPACK_PACKAGE_CONTACT "The authors of Forage <forage@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++, cmake, make | ninja-build, libeigen3-dev, fonts-dejavu-core")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libfmt-dev, libtinyxml2-dev")
+include(CPack)

@@ -1,0 +1,138 @@
+#include "core/plugin/plugin.h"
+
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/plugin/rehearsal.h"
+#include "core/plugin/shared_object.h"
+#include "core/types/reason.h"
+
+namespace forage::plugin {
+namespace {
+
+/// What is wrong with a header whose first members only can be trusted; empty when nothing.
+std::string mismatch(const PluginHeader& header) {
+    if (header.sdk_version != sdk_version)
+        return fmt::format("was built with version {} of the SDK, this program has version {}",
+                           header.sdk_version, sdk_version);
+    const std::string_view theirs = header.abi;
+    if (theirs != detail::abi)
+        return fmt::format("was built for {}, this program for {}", theirs, detail::abi);
+    if (header.layout != detail::layout)
+        return fmt::format(
+            "was built with other compiler settings than this program (both say {}, but the "
+            "sizes of objects differ)",
+            theirs);
+    return {};
+}
+
+class Loader {
+  public:
+    Loader(const Registry& shipped, Diagnostics& diagnostics) : known_(shipped), diagnostics_(diagnostics) {}
+
+    std::optional<Plugin> load(const std::string& path) {
+        const auto* header =
+            static_cast<const PluginHeader*>(load_symbol(path, "forage_plugin", diagnostics_));
+        if (!header) return std::nullopt;
+        if (const std::string what = mismatch(*header); !what.empty()) {
+            error(path, what, "build the plugin again, with the compiler and the SDK of this Forage");
+            return std::nullopt;
+        }
+        Plugin out{path, {}};
+        const int errors_before = diagnostics_.errors();
+        for (std::size_t i = 0; i < header->count; ++i) declare(out, header->types[i]);
+        if (diagnostics_.errors() > errors_before) return std::nullopt;
+        return out;
+    }
+
+  private:
+    void error(const std::string& path, const std::string& what, std::string hint = {}) {
+        diagnostics_.error({}, fmt::format("plugin '{}' {}", path, what), std::move(hint));
+    }
+
+    void declare(Plugin& out, const detail::PluginEntry& entry) {
+        PluginTypes one;
+        try {
+            entry.declare(one);
+        } catch (...) {
+            return error(out.path,
+                         fmt::format("fails: its type {} throws in its constructor or describe(): {}",
+                                     demangled(entry.name()), reason()),
+                         "describe() and the constructor run before any system is loaded: what can fail "
+                         "belongs into update(), or a module's start()");
+        }
+        for (auto& t : one.neurons) accept(out, t, "neuron", known_.neuron(t.name), out.types.neurons);
+        for (auto& t : one.synapses) accept(out, t, "synapse", known_.synapse(t.name), out.types.synapses);
+        for (auto& t : one.modules) accept(out, t, "module", known_.module(t.name), out.types.modules);
+    }
+
+    template <class Type>
+    void accept(Plugin& out, Type& type, std::string_view kind, const Type* same, std::vector<Type>& types) {
+        if (same) {
+            const auto owner = owners_.find(fmt::format("{} {}", kind, type.name));
+            return error(out.path,
+                         fmt::format("has a {} type '{}', and so has {}", kind, type.name,
+                                     owner == owners_.end()      ? "Forage itself"
+                                     : owner->second == out.path ? "the same plugin once more"
+                                                                 : fmt::format("plugin '{}'", owner->second)),
+                         "give one of them another name in describe()");
+        }
+        if (const std::string what = fault(type); !what.empty())
+            return error(out.path,
+                         fmt::format("has a {} type '{}' that does not work: {}", kind, type.name, what));
+        try {
+            known_.add(type);
+        } catch (const std::invalid_argument& e) {
+            return error(out.path,
+                         fmt::format("has a {} type that does not hold together: {}", kind, e.what()));
+        }
+        owners_[fmt::format("{} {}", kind, type.name)] = out.path;
+        types.push_back(std::move(type));
+    }
+
+    /// What is wrong with a type when it is made and tried out; empty when nothing.
+    template <class Type>
+    static std::string fault(const Type& type) {
+        try {
+            type.make();
+        } catch (...) {
+            return fmt::format("its constructor throws: {}", reason());
+        }
+        if constexpr (std::is_same_v<Type, NeuronType>)
+            for (const auto& s : type.states)
+                if (s.history < 1)
+                    return fmt::format("state '{}' has a history of {}, the least is 1", s.name, s.history);
+        if constexpr (!std::is_same_v<Type, ModuleType>)
+            if (type.output() >= 0) return rehearse(type);
+        return {};
+    }
+
+    Registry known_;
+    std::map<std::string, std::string> owners_;  ///< plugins by kind and name of a type
+    Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+std::vector<Plugin> load(const std::vector<std::string>& paths, const Registry& shipped,
+                         Diagnostics& diagnostics) {
+    std::vector<Plugin> out;
+    Loader loader(shipped, diagnostics);
+    for (const auto& path : paths)
+        if (auto plugin = loader.load(path)) out.push_back(std::move(*plugin));
+    return out;
+}
+
+void add(const std::vector<Plugin>& plugins, Registry& registry) {
+    for (const auto& p : plugins) {
+        for (const auto& t : p.types.neurons) registry.add(t);
+        for (const auto& t : p.types.synapses) registry.add(t);
+        for (const auto& t : p.types.modules) registry.add(t);
+    }
+}
+
+}  // namespace forage::plugin

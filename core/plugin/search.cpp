@@ -1,0 +1,59 @@
+#include "core/plugin/search.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include <fmt/format.h>
+
+namespace forage::plugin {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Found {
+  public:
+    /// A file, or all shared objects of a folder.
+    void add(const fs::path& path) {
+        std::error_code ignored;
+        if (!fs::is_directory(path, ignored)) return add_file(path);
+        std::vector<fs::path> files;
+        for (const auto& entry : fs::directory_iterator(path, ignored))
+            if (entry.path().extension() == ".so") files.push_back(entry.path());
+        std::sort(files.begin(), files.end());
+        for (const auto& file : files) add_file(file);
+    }
+    std::vector<std::string> files() && { return std::move(files_); }
+
+  private:
+    void add_file(const fs::path& path) {
+        std::error_code ignored;
+        if (seen_.insert(fs::weakly_canonical(path, ignored)).second) files_.push_back(path.string());
+    }
+    std::vector<std::string> files_;
+    std::set<fs::path> seen_;
+};
+
+}  // namespace
+
+std::vector<std::string> find(const std::vector<std::string>& named, const std::string& path,
+                              const std::string& beside, Diagnostics& diagnostics) {
+    Found found;
+    std::error_code ignored;
+    for (const auto& name : named) found.add(name);  // loading reports those that do not exist
+    std::istringstream parts(path);
+    for (std::string part; std::getline(parts, part, ':');) {
+        if (part.empty()) continue;
+        if (fs::exists(part, ignored))
+            found.add(part);
+        else
+            diagnostics.warning({}, fmt::format("FORAGE_PLUGIN_PATH: there is no '{}'", part));
+    }
+    if (!beside.empty())
+        if (const auto folder = fs::path(beside).parent_path() / "plugins"; fs::is_directory(folder, ignored))
+            found.add(folder);
+    return std::move(found).files();
+}
+
+}  // namespace forage::plugin

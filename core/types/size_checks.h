@@ -1,0 +1,31 @@
+// Included before everything else in plugins: Eigen says when columns of different sizes are combined,
+// instead of writing past their ends. One comparison per expression and group; access to single cells is
+// checked in debug builds only.
+#pragma once
+
+#include <string_view>
+
+#include "core/types/type_error.h"
+
+namespace forage::detail {
+
+/// Whether a condition of Eigen's is about the sizes of whole arrays.
+constexpr bool compares_sizes(std::string_view condition) {
+    return condition.find("==") != std::string_view::npos;
+}
+[[noreturn, gnu::cold, gnu::noinline]] inline void sizes_differ(const char* condition) {
+    throw TypeError("it computes with columns of different sizes (Eigen: " + std::string(condition) + ")");
+}
+
+}  // namespace forage::detail
+
+#ifdef NDEBUG
+#define FORAGE_CHECKED(text) ::forage::detail::compares_sizes(text)
+#else
+#define FORAGE_CHECKED(text) true
+#endif
+#define eigen_assert(condition)                                           \
+    do {                                                                  \
+        if constexpr (FORAGE_CHECKED(#condition))                         \
+            if (!(condition)) ::forage::detail::sizes_differ(#condition); \
+    } while (false)

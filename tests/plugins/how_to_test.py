@@ -1,0 +1,105 @@
+"""Follows docs/how-to literally, in an empty folder, with a Forage that is installed from its package.
+
+    how_to_test.py BUILD_DIRECTORY HOW_TO_DIRECTORY
+
+Files are the code blocks whose lead says `NAME`; commands are the blocks of `sh`; the block of `text` behind
+one is what its last command prints.
+"""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BUILD = pathlib.Path(sys.argv[1]).resolve()
+PAGES = pathlib.Path(sys.argv[2]).resolve()
+BLOCK = re.compile(r"(?:^(?P<lead>(?!```)[^\n]*)\n\n)?^```(?P<language>\w+)\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
+
+
+def run(command, here, environment=None, status=0):
+    done = subprocess.run(command, shell=isinstance(command, str), cwd=here, env=environment, capture_output=True,
+                          text=True, timeout=300)
+    if done.returncode != status:
+        raise AssertionError(f"{command}: {done.returncode}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+class HowTo(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        run(["cpack", "--config", BUILD / "CPackConfig.cmake", "-B", cls.folder / "package"], cls.folder)
+        [cls.package] = (cls.folder / "package").glob("*.deb")
+        run(["dpkg-deb", "-x", cls.package, cls.folder / "root"], cls.folder)
+        prefix = cls.folder / "root/usr"
+        cls.environment = {"PATH": f"{prefix}/bin:/usr/local/bin:/usr/bin:/bin", "HOME": str(cls.folder),
+                           "CMAKE_PREFIX_PATH": str(prefix), "LANG": "C.UTF-8"}
+
+    def follow(self, page):
+        """Writes the files and runs the commands of a page; returns how many commands there were."""
+        here = start = self.folder / page
+        start.mkdir()
+        printed, commands = "", 0
+        for block in BLOCK.finditer((PAGES / f"{page}.md").read_text()):
+            language, text = block["language"], block["text"]
+            if language == "text":
+                self.assertEqual(printed, text, f"{page}: {commands}. command")
+            elif language == "sh":
+                for line in text.splitlines():
+                    commands += 1
+                    if line.startswith("cd "):
+                        here = (here / line[3:]).resolve()
+                    else:
+                        printed = run(line, here, self.environment)
+            else:
+                names = re.findall(r"`([\w.]+\.\w+)`", block["lead"] or "")
+                self.assertTrue(names, f"{page}: a block without a file's name: {text[:60]}")
+                (here / names[-1]).write_text(text)
+        self.assertEqual(here, start)
+        return commands
+
+    def test_every_page_is_followed_to_its_last_block(self):
+        for page in ("write-a-neuron", "embed"):
+            text = (PAGES / f"{page}.md").read_text()
+            self.assertEqual(len(re.findall(r"^```\w+$", text, re.MULTILINE)), len(list(BLOCK.finditer(text))), page)
+
+    def test_write_a_neuron(self):
+        self.assertGreaterEqual(self.follow("write-a-neuron"), 15)
+
+    def test_embed(self):
+        self.assertGreaterEqual(self.follow("embed"), 3)
+
+    def test_projects_of_all_kinds_build_and_pass_their_test(self):
+        for kind in ("neuron", "synapse", "module"):
+            with self.subTest(kind):
+                run(f"forage new {kind} my-{kind}_2", self.folder, self.environment)
+                here = self.folder / f"my-{kind}_2"
+                for command in ("cmake -B build", "cmake --build build", "ctest --test-dir build"):
+                    run(command, here, self.environment)
+                # The project's test can fail.
+                expected = here / "expected.csv"
+                expected.write_text(expected.read_text().replace("\n0,0", "\n0,7"))
+                run("ctest --test-dir build", here, self.environment, status=8)
+
+    def test_what_ships_is_found_from_the_package(self):
+        systems = self.folder / "root/usr/share/forage/systems"
+        run(f"forage run {systems}/reactive_foraging.iqr --world {systems}/worlds/basic_arena.world --trials 1",
+            self.folder, self.environment)
+        self.assertIn("1.1 ", run("forage tutorial", self.folder, self.environment))
+
+    def test_the_package_depends_on_libraries_and_holds_no_path_of_the_build(self):
+        depends = run(["dpkg-deb", "-f", self.package, "Depends"], self.folder)
+        for library in ("libtinyxml2", "libopencv-core", "libbullet"):
+            self.assertIn(library, depends)
+        for file in (self.folder / "root/usr/lib").rglob("*.cmake"):
+            self.assertNotIn(str(BUILD), file.read_text(), file.name)
+
+
+if __name__ == "__main__":
+    os.environ.pop("FORAGE_PLUGIN_PATH", None)
+    unittest.main(argv=sys.argv[:1], verbosity=2)

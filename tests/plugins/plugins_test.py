@@ -1,0 +1,222 @@
+"""Plugins: how they are found, and what is said of broken ones.
+
+    plugins_test.py FORAGE_PROGRAM DIRECTORY_OF_BUILT_PLUGINS
+"""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+FORAGE = str(pathlib.Path(sys.argv[1]).resolve())
+BROKEN = pathlib.Path(sys.argv[2]).resolve() / "broken"
+
+# What a person is told of a broken plugin: the error, and a part of the hint.
+CORPUS = {
+    "behind_the_end": (r"has a neuron type 'neuronBehindTheEnd' that does not work: it writes beside its columns", ""),
+    "half_good": (r"neuron type 'neuronBad' declares the state 'act' twice", ""),
+    "no_history": (r"state 'act' has a history of 0, the least is 1", ""),
+    "no_output": (r"neuron type 'neuronNoOutput' declares 0 output states, it must have exactly one", ""),
+    "no_plugin": (r"is a shared object, but no plugin", "put FORAGE_PLUGIN"),
+    "no_such_state": (r"'neuronNoSuchState' that does not work: it uses state 4, but declares 1", ""),
+    "other_abi": (r"was built for .*_GLIBCXX_USE_CXX11_ABI=0.*, this program for ", "build the plugin again"),
+    "other_layout": (r"was built with other compiler settings than this program", "build the plugin again"),
+    "other_size": (r"'neuronOtherSize' that does not work: it computes with columns of different sizes", ""),
+    "other_version": (r"was built with version 2 of the SDK, this program has version 1", "build the plugin again"),
+    "shipped_name": (r"has a neuron type 'neuronLinearThreshold', and so has Forage itself", "another name"),
+    "synapse_feedback": (r"'synapseBlind' that does not work: it uses feedback 0, but declares 0", ""),
+    "three_states": (r"'neuronThreeStates' that does not work: it uses 3 states, but declares 2", ""),
+    "throws_in_constructor": (r"its type ThrowingConstructor throws in its constructor or describe\(\): no device", "update()"),
+    "throws_in_describe": (r"its type ThrowingDescribe throws in .*: something that is not a std::exception", "update()"),
+    "unresolved": (r"uses 'lab::calibrate\(double\)', which is defined nowhere", "add the source file"),
+}
+LOADED = {"module_output", "throws_in_update", "twice_a", "twice_b"}  # nothing is wrong with these until they meet
+
+SYSTEM = """<System id="s" name="small" cylesPerSecond="25">
+  <Process id="p" name="P" enableModule="true">
+    {module}
+    <Group id="a" name="A">
+      <Topology><TopologyRect hcount="2" vcount="1"/></Topology>
+      <Neuron name="{neuron}"/>
+    </Group>
+  </Process>
+</System>
+"""
+
+
+class Plugins(unittest.TestCase):
+    def setUp(self):
+        directory = tempfile.TemporaryDirectory()
+        self.addCleanup(directory.cleanup)
+        self.here = pathlib.Path(directory.name)
+
+    def forage(self, *arguments, status=0, path=None):
+        environment = {k: v for k, v in os.environ.items() if k != "FORAGE_PLUGIN_PATH"}
+        if path is not None:
+            environment["FORAGE_PLUGIN_PATH"] = str(path)
+        done = subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, env=environment, capture_output=True,
+                              text=True, timeout=120)
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done
+
+    def system(self, neuron, module="", name="system.iqr"):
+        (self.here / name).write_text(SYSTEM.format(neuron=neuron, module=module))
+        return name
+
+
+class Broken(Plugins):
+    def test_each_broken_plugin_has_its_message(self):
+        self.assertEqual({p.stem for p in BROKEN.glob("*.so")}, set(CORPUS) | LOADED)
+        system = self.system("neuronNumeric")
+        for name, (message, hint) in CORPUS.items():
+            with self.subTest(name):
+                for command in (["run", system, "-c", 5], ["check", system], ["types"], ["schema"],
+                                ["convert", system, "out.iqr"]):
+                    done = self.forage(*command, "--plugin", BROKEN / f"{name}.so", status=2)
+                    self.assertRegex(done.stderr, r"error: plugin '.*" + name + r"\.so' .*" + message)
+                    self.assertEqual(done.stderr.count("error:"), 1)
+                    if hint:
+                        self.assertRegex(done.stderr, r"\n  hint: .*" + re.escape(hint))
+                self.assertEqual(sorted(p.name for p in self.here.iterdir()), [system])
+
+    def test_files_that_are_no_shared_objects(self):
+        (self.here / "text.so").write_text("hello")
+        (self.here / "empty.so").write_text("")
+        (self.here / "mine.cpp").write_text("int x;")
+        (self.here / "cut.so").write_bytes((BROKEN / "twice_a.so").read_bytes()[:1000])
+        for file, message, hint in (("text.so", "is not a shared object", "forage build-plugin FILE.cpp"),
+                                    ("empty.so", "is not a shared object", "forage build-plugin FILE.cpp"),
+                                    ("mine.cpp", "is not a shared object", "compile it first: 'forage build-plugin mine.cpp'"),
+                                    ("cut.so", "is cut off", "forage build-plugin"),
+                                    ("absent.so", "there is no plugin 'absent.so'", "a plugin is a shared object")):
+            done = self.forage("types", "--plugin", file, status=2)
+            self.assertIn(message, done.stderr)
+            self.assertIn(hint, done.stderr)
+
+    def test_all_broken_plugins_are_reported_at_once(self):
+        done = self.forage("types", "--plugin", BROKEN, status=2)
+        self.assertEqual(done.stderr.count("error:"), len(CORPUS) + 1)  # and twice_b, because of twice_a
+
+    def test_two_plugins_with_one_name(self):
+        done = self.forage("types", "--plugin", BROKEN / "twice_a.so", "--plugin", BROKEN / "twice_b.so", status=2)
+        self.assertRegex(done.stderr, r"plugin '.*twice_b.so' has a neuron type 'neuronTwice', and so has plugin '.*twice_a.so'")
+
+    def test_a_plugin_that_is_found_twice_is_loaded_once(self):
+        self.forage("types", "--plugin", BROKEN / "twice_a.so", "--plugin", BROKEN / "twice_a.so", path=BROKEN / "twice_a.so")
+
+    def test_an_exception_in_an_update_stops_the_run_and_keeps_what_was_recorded(self):
+        system = self.system("neuronThrowingUpdate")
+        done = self.forage("run", system, "-c", 100, "--plugin", BROKEN / "throws_in_update.so", "--record", "P/A",
+                           "-o", "out", status=1)
+        self.assertIn("error: neuronThrowingUpdate of group 'P/A' failed in cycle 7: out of range", done.stderr)
+        rows = (self.here / "out/P_A_act.csv").read_text().splitlines()
+        self.assertEqual(rows[1:], [f"{c},{c + 1},{c + 1}" for c in range(7)])
+        self.assertTrue((self.here / "out/run.json").exists())
+        self.assertFalse(list((self.here / "out").glob("*.part")))
+
+    def test_a_module_that_uses_an_output_it_has_not(self):
+        system = self.system("neuronNumeric", '<Module name="moduleLoud"/>')
+        done = self.forage("run", system, "-c", 5, "--plugin", BROKEN / "module_output.so", "-o", "", status=1)
+        self.assertIn("moduleLoud of process 'P' failed in cycle 0: it uses output 1, but declares 1", done.stderr)
+
+
+# A system in which every type of the twins has a part, with random spikes, learning and delayed feedback.
+TWINS = """<System id="s" name="twins" cylesPerSecond="25">
+  <Process id="p" name="P" enableModule="true">
+    <Module name="differenceModule{twin}">
+      <XRefHolder name="InputFromGroup"><XRef name="_location" target="a"/><XRef name="_goal" target="b"/></XRefHolder>
+      <XRefHolder name="OutputToGroup"><XRef name="_diff" target="d"/></XRefHolder>
+    </Module>
+    <Group id="a" name="A"><Topology><TopologyRect hcount="6" vcount="5"/></Topology>
+      <Neuron name="neuronRandomSpike{twin}"><Parameter name="probability" value="0.2"/></Neuron></Group>
+    <Group id="b" name="B"><Topology><TopologyRect hcount="6" vcount="5"/></Topology>
+      <Neuron name="neuronLinearThreshold{twin}"><Parameter name="vmPrs" value="0.7"/>
+        <Parameter name="probability" value="0.8"/><Parameter name="threshold" value="0.1"/></Neuron></Group>
+    <Group id="d" name="D"><Topology><TopologyRect hcount="11" vcount="9"/></Topology>
+      <Neuron name="neuronLinearThreshold{twin}"/></Group>
+  </Process>
+  <Connection id="c" name="C" source="a" target="b" type="excitatory">
+    <Pattern><PatternForeach><All/><All/></PatternForeach></Pattern>
+    <Arborization><ArbRect width="3" height="3" direction="RF" initialization_probability="0.5"/></Arborization>
+    <AttenuationFunction><FunUniform value="0"/></AttenuationFunction><DelayFunction><FunUniform value="2"/></DelayFunction>
+    <Synapse name="synapseHebbian{twin}"><XRefHolder name="Freedback"><XRef name="postact" target="vm"/></XRefHolder></Synapse>
+  </Connection>
+  <Connection id="e" name="E" source="a" target="b" type="excitatory">
+    <Pattern><PatternMapped type="center"><All/><All/></PatternMapped></Pattern>
+    <Arborization><ArbRect width="3" height="3" direction="RF" initialization_probability="1"/></Arborization>
+    <AttenuationFunction><FunUniform value="0"/></AttenuationFunction><DelayFunction><FunUniform value="0"/></DelayFunction>
+    <Synapse name="synapseFixedWeight"/>
+  </Connection>
+</System>
+"""
+
+
+class Twins(Plugins):
+    def recorded(self, twin):
+        system = f"system{twin}.iqr"
+        (self.here / system).write_text(TWINS.format(twin=twin))
+        change = "cycle 100: P/B.vmPrs=0.3"  # parameters of plugins change while they run, too
+        self.forage("run", system, "--plugin", BROKEN.parent / "twins.so", "-c", 300, "--at", change, "-o", f"out{twin}",
+                    *[word for column in ("A", "B", "B:vm", "D") for word in ("--record", f"P/{column}")])
+        return {p.name: p.read_bytes() for p in (self.here / f"out{twin}").glob("*.csv")}
+
+    def test_a_type_gives_the_same_bits_as_a_plugin(self):
+        shipped, twin = self.recorded(""), self.recorded("Twin")
+        self.assertEqual(set(shipped), {"P_A_act.csv", "P_B_act.csv", "P_B_vm.csv", "P_D_act.csv"})
+        for name, content in shipped.items():
+            self.assertGreater(len(set(content.split(b"\n"))), 5, name)  # something happens
+            self.assertEqual(twin[name], content, name)
+
+
+class Found(Plugins):
+    PLUGIN = BROKEN / "twice_a.so"
+
+    def test_option_path_and_folder_beside_the_system(self):
+        (self.here / "sub").mkdir()
+        system = self.system("neuronTwice", name="sub/system.iqr")
+        self.assertIn("there is no neuron type 'neuronTwice'", self.forage("check", system, status=2).stderr)
+        self.forage("check", system, "--plugin", self.PLUGIN)
+        self.forage("check", system, path=self.PLUGIN)
+        (self.here / "more").mkdir()
+        shutil.copy(self.PLUGIN, self.here / "more")
+        (self.here / "more/notes.txt").write_text("not a plugin")
+        self.forage("check", system, "--plugin", "more")
+        self.forage("check", system, path="/nowhere:more:")
+        (self.here / "more").rename(self.here / "sub/plugins")
+        self.forage("check", system)
+        self.forage("run", system, "-c", 3, "-o", "out")
+        self.assertIn("twice_a.so", (self.here / "out/run.json").read_text())
+        self.forage("convert", system, "copy.iqr")
+        self.forage("check", "copy.iqr", status=2)  # the folder is beside the other one
+
+    def test_an_experiment_takes_plugins_too_and_repeats_runs_when_they_change(self):
+        system = self.system("neuronTwice")
+        (self.here / "e.xml").write_text(f'<experiment><system file="{system}"/><length cycles="5"/>'
+                                         '<measure name="x" final="mean(P/A)"/></experiment>')
+        self.forage("experiment", "e.xml", status=2)
+        (self.here / "plugins").mkdir()
+        shutil.copy(self.PLUGIN, self.here / "plugins")
+        self.forage("experiment", "e.xml", "-o", "out")
+        [result] = self.here.glob("out/**/result.json")
+        first = result.read_text()
+        with (self.here / "plugins/twice_a.so").open("ab") as file:
+            file.write(b"another build")
+        self.forage("experiment", "e.xml", "-o", "out")
+        self.assertNotEqual(result.read_text(), first)
+
+    def test_a_folder_of_the_path_that_is_not_there_is_a_warning(self):
+        done = self.forage("types", path="/nowhere")
+        self.assertIn("warning: FORAGE_PLUGIN_PATH: there is no '/nowhere'", done.stderr)
+
+    def test_types_and_schema_list_them(self):
+        self.assertIn("neuronTwice", self.forage("types", "--plugin", self.PLUGIN).stdout)
+        self.assertIn("Factor.", self.forage("types", "neuronTwice", "--plugin", self.PLUGIN).stdout)
+        self.assertIn("neuronTwice", self.forage("schema", "--plugin", self.PLUGIN).stdout)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,116 @@
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include "tools/forage/commands.h"
+#include "tools/forage/files.h"
+
+extern char** environ;
+
+namespace forage::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where headers and libraries are, as seen from the program that runs.
+struct Sdk {
+    fs::path headers, library;
+    std::vector<std::string> includes;
+};
+
+std::optional<Sdk> find_sdk() {
+    const fs::path program = fs::read_symlink("/proc/self/exe"), prefix = program.parent_path().parent_path();
+    const fs::path installed = prefix / FORAGE_INCLUDE_DIR;
+    if (fs::exists(installed / "forage/plugin.h"))
+        return Sdk{installed / "forage",
+                   prefix / FORAGE_LIBRARY_DIR / "forage/libforage_random.a",
+                   {installed.string(), (installed / "forage").string()}};
+    // Not installed: the program is where it was built.
+    const fs::path source = FORAGE_SOURCE_DIR;
+    if (fs::exists(source / "tools/api/forage/plugin.h"))
+        return Sdk{
+            source, prefix / "core/types/libforage_random.a", {(source / "tools/api").string(), source.string()}};
+    return std::nullopt;
+}
+
+/// Runs a command and waits for it; its exit status, or -1 when it cannot be run.
+int run_command(std::vector<std::string> words) {
+    std::vector<char*> arguments;
+    for (auto& w : words) arguments.push_back(w.data());
+    arguments.push_back(nullptr);
+    pid_t child = 0;
+    int status = 0;
+    if (posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments.data(), environ) != 0) return -1;
+    if (waitpid(child, &status, 0) != child || !WIFEXITED(status)) return -1;
+    return WEXITSTATUS(status);
+}
+
+int refuse(const std::string& what, const std::string& hint) {
+    fmt::print(stderr, "error: {}\n  hint: {}\n", what, hint);
+    return bad_input;
+}
+
+}  // namespace
+
+int build_plugin(const BuildPluginOptions& o) {
+    if (!fs::is_regular_file(o.source))
+        return refuse(fmt::format("there is no file '{}'", o.source),
+                      "forage new neuron NAME writes an example");
+    const auto sdk = find_sdk();
+    if (!sdk)
+        return refuse("the headers of Forage are not where they were installed",
+                      "install Forage again: cmake --install, or its package");
+    const fs::path source = o.source;
+    const std::string output =
+        o.output.empty() ? (source.parent_path() / "plugins" / source.stem()).string() + ".so" : o.output;
+    if (const auto folder = fs::path(output).parent_path(); !folder.empty()) make_directory(folder.string());
+
+    const char* named = std::getenv("CXX");
+    const std::string compiler = named && *named ? named : "c++";
+    std::vector<std::string> words = {compiler,
+                                      "-std=c++20",
+                                      "-O3",
+                                      "-DNDEBUG",
+                                      "-fPIC",
+                                      "-shared",
+                                      "-Wall",
+                                      "-Wextra",
+                                      "-ffp-contract=off",
+                                      "-fvisibility=hidden",
+                                      "-fvisibility-inlines-hidden",
+                                      "-include",
+                                      (sdk->headers / "core/types/size_checks.h").string()};
+    for (const auto& folder : sdk->includes) words.push_back("-I" + folder);
+    for (const std::string folder : {FORAGE_EIGEN_DIR, "/usr/include/eigen3", "/usr/local/include/eigen3"})
+        if (fs::exists(folder)) words.insert(words.end(), {"-isystem", folder});
+    words.insert(words.end(), {o.source, sdk->library.string(), "-o", partial(output)});
+    const int status = run_command(words);
+    if (status == -1 || status == 127)
+        return refuse(fmt::format("the compiler '{}' cannot be run", compiler),
+                      "install g++ (Debian: apt install g++ libeigen3-dev), or name another one in CXX");
+    if (status != 0) {
+        std::error_code ignored;
+        fs::remove(partial(output), ignored);
+        fmt::print(stderr, "error: '{}' does not compile; the compiler says why above\n", o.source);
+        return bad_input;
+    }
+    Diagnostics diagnostics;
+    load_plugins({partial(output)}, "", diagnostics);
+    if (diagnostics.failed()) {
+        fmt::print(stderr, "{}", format(diagnostics));
+        fs::remove(partial(output));
+        return bad_input;
+    }
+    finish(output);
+    fmt::print("{}: use it with --plugin {}{}\n", output, output,
+               o.output.empty() ? fmt::format(", or from systems in '{}' as it is",
+                                              source.has_parent_path() ? source.parent_path().string() : ".")
+                                : "");
+    return fine;
+}
+
+}  // namespace forage::tool
