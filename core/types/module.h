@@ -8,6 +8,7 @@
 //     void start(const ModulePorts&, ModuleFrame&);  // ... what it writes is received in cycle 0
 //     void update(ModuleFrame&);                     // once per cycle, after the groups, before the
 //     connections
+//     void checkpoint(Archive&);                     // for a type with members beside its parameters: archive.h
 //
 // A module reads the output activity of its input groups of this cycle. What it writes into an output is
 // excitatory input of that group in the next cycle. An output keeps its values until it is written again.
@@ -19,7 +20,9 @@
 #include <string>
 #include <vector>
 
+#include "core/types/archive.h"
 #include "core/types/column.h"
+#include "core/types/members.h"
 #include "core/types/parameter.h"
 #include "core/types/problems.h"
 #include "core/types/random.h"
@@ -83,6 +86,8 @@ class ModuleInstance {
     virtual void check(const ModulePorts&, Problems&) = 0;
     virtual void start(const ModulePorts&, ModuleFrame&) = 0;
     virtual void update(ModuleFrame&) = 0;
+    /// Members beside the parameters, which change while the system runs.
+    virtual void checkpoint(Archive&) = 0;
 };
 
 struct ModuleType {
@@ -90,6 +95,7 @@ struct ModuleType {
     std::vector<Parameter> parameters;
     std::vector<ModulePort> ports;
     bool any_ports = false;  ///< takes whatever cross references the file gives it, in file order
+    bool checkpoints = true;  ///< it has a checkpoint(Archive&), or nothing but parameters
     std::function<std::unique_ptr<ModuleInstance>()> make;
 };
 
@@ -158,6 +164,9 @@ class ModuleModel final : public ModuleInstance {
             value_.start(ports);
     }
     void update(ModuleFrame& frame) override { value_.update(frame); }
+    void checkpoint(Archive& archive) override {
+        if constexpr (requires { value_.checkpoint(archive); }) value_.checkpoint(archive);
+    }
 
   private:
     T value_;
@@ -172,6 +181,8 @@ ModuleType module_type(T prototype = {}) {
     ModuleType type;
     ModuleSpec<T> spec(type);
     T::describe(spec);
+    type.checkpoints =
+        requires(T t, Archive a) { t.checkpoint(a); } || only_parameters<T>(type.parameters);
     type.make = [prototype] { return std::make_unique<detail::ModuleModel<T>>(prototype); };
     return type;
 }

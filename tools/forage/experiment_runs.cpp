@@ -127,6 +127,7 @@ class Work {
         const auto* world = running.loaded.world.get();
         const Length length(run.options, world, running.seconds_per_cycle);
         RunResult result;
+        if (running.recordings) running.recordings->begin();
         while (!length.over(running.simulation.cycle()) && !running.done() && result.stopped.empty()) {
             running.cycle();
             part.store(length.done(running.simulation.cycle()), std::memory_order_relaxed);

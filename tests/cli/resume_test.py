@@ -1,0 +1,189 @@
+"""Runs that are stopped, by signals, kills and faults, and go on: what they leave behind.
+
+    resume_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [TestClass...]
+"""
+
+import os
+import random
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from cli_test import FORAGE, PROJECT, SMALL_SYSTEM, WORLD, Cli
+
+DAC = str(PROJECT / "systems/dac_foraging.iqr")
+KILLS = int(os.environ.get("FORAGE_KILLS", "50"))
+
+# All kinds of files, means that are not complete, a change that depends on what happened, a manipulation.
+EVERYTHING = ("run", DAC, "--world", WORLD, "--seed", "3", "--hash", "-q",
+              "-r", "Selection/Motor In", "-r", "mean:Selection/Approach=mean.csv", "-r", "Adaptive/CS:pot=cs.npy",
+              "-r", "Adaptive/Weights Display=all.npz", "-r", "Adaptive/prototype=all.npz",
+              "-r", "Adaptive/CR=layers.h5", "-r", "Adaptive/discrepancy=layers.h5", "-r", "Bug/Light=light.dat",
+              "--every", "7", "--record-mean",
+              "-p", "time:Adaptive/discrepancy", "-p", "space:Bug/Light@100,900", "-p", "movie:Adaptive/CS",
+              "--at", "max(Bug/Light) > 0.3: Adaptive.eta=0.02", "--at", "cycle 1000: Selection/Explore.probability=0.3",
+              "--add", "Bug/Light(3,1)=0.01; every 13; from cycle 200; times 30")
+
+
+class Stopped(Cli):
+    """Compares a run that was stopped with one that was not."""
+
+    def start(self, *arguments):
+        return subprocess.Popen([FORAGE, *map(str, arguments)], cwd=self.here, stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, text=True)
+
+    def stop(self, process, after, how=signal.SIGKILL):
+        """Stops a program after some time, unless it ends before; returns its status, None when killed."""
+        try:
+            out, err = process.communicate(timeout=after)
+        except subprocess.TimeoutExpired:
+            process.send_signal(how)
+            out, err = process.communicate(timeout=60)
+        if how == signal.SIGKILL and process.returncode == -signal.SIGKILL:
+            return None
+        # Before it runs, nothing is to be finished: then the signal ends it.
+        self.assertIn(process.returncode, (0, 128 + how, -how), out + err)
+        return process.returncode
+
+    def until_there_is(self, name):
+        """Waits for the checkpoint that a run is to write."""
+        for _ in range(600):
+            if (self.here / name).exists():
+                return
+            time.sleep(0.05)
+        self.fail(f"there is no {name}")
+
+    def content(self, directory):
+        return {p.name: p.read_bytes() for p in (self.here / directory).iterdir()}
+
+    def assert_same(self, directory, expected="through"):
+        one, other = self.content(directory), self.content(expected)
+        self.assertEqual(sorted(one), sorted(other))
+        for name in other:
+            self.assertEqual(one[name], other[name], f"{name}: {len(one[name])} and {len(other[name])} bytes")
+
+
+class Resume(Stopped):
+    def setUp(self):
+        super().setUp()
+        self.arguments = (*EVERYTHING, "--cycles", 3000)
+
+    def through(self):
+        self.forage(*self.arguments, "-o", "through")
+
+    def test_a_run_with_checkpoints_leaves_behind_what_one_without_does(self):
+        self.through()
+        self.forage(*self.arguments, "--checkpoint-every", 100, "-o", "out")
+        self.assert_same("out")
+
+    def test_signals_stop_in_order_and_it_goes_on(self):
+        self.through()
+        for how, status in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            out = f"out{status}"
+            process = self.start(*self.arguments, "--checkpoint-every", 500, "-o", out)
+            self.until_there_is(f"{out}/checkpoint.forage")
+            process.send_signal(how)
+            _, err = process.communicate(timeout=20)
+            self.assertEqual(process.returncode, status, err)
+            names = sorted(p.name for p in (self.here / out).iterdir())
+            self.assertIn("checkpoint.forage", names)
+            self.assertIn("all.npz", names)
+            self.assertIn("run.json", names)
+            self.assertFalse([n for n in names if n.endswith(".part")])
+            process = self.start("resume", out)
+            self.stop(process, 0.3, how)
+            self.assertEqual(self.stop(self.start("resume", out), 90, how), 0)
+            self.assert_same(out)
+
+    def test_a_damaged_checkpoint_is_refused_and_the_previous_one_is_used(self):
+        self.through()
+        process = self.start(*self.arguments, "--checkpoint-every", 100, "-o", "killed")
+        self.until_there_is("killed/checkpoint.previous.forage")
+        self.assertIsNone(self.stop(process, 0))
+        for damage in ("bit", "short", "empty", "other"):
+            shutil.copytree(self.here / "killed", self.here / damage)
+            path = self.here / damage / "checkpoint.forage"
+            data = bytearray(path.read_bytes())
+            if damage == "bit":
+                data[len(data) // 2] ^= 4
+            elif damage == "short":
+                del data[-1]
+            elif damage == "empty":
+                data.clear()
+            else:
+                data[0] ^= 1
+            path.write_bytes(data)
+            one = self.forage("resume", path, status=2)
+            self.assertRegex(one.stderr, "^error: .*checkpoint.forage' is " + ("not a checkpoint" if damage == "other" else "damaged"))
+            process = self.start("resume", damage)
+            self.stop(process, 0.3)  # the damaged one must not have taken the other's place
+            if (self.here / damage / "checkpoint.previous.forage").exists():
+                done = self.forage("resume", damage)
+                self.assertRegex(done.stderr, "warning: .*checkpoint.forage' is |^$")
+                self.assertEqual(done.stdout, "")
+            self.assert_same(damage)
+        for name in ("checkpoint.forage", "checkpoint.previous.forage"):
+            (self.here / "killed" / name).write_bytes(b"forage")
+        both = self.forage("resume", "killed", status=2)
+        self.assertEqual(both.stderr.count("damaged"), 2)
+
+    def test_what_it_cannot_go_on_with_is_said(self):
+        done = self.forage("resume", self.here, status=2)
+        self.assertRegex(done.stderr, "there is no checkpoint in .*\n  hint: .*--checkpoint-every")
+        system, drive = self.here / "small.iqr", self.here / "drive.csv"
+        system.write_text(SMALL_SYSTEM)
+        drive.write_text("cycle,process,target,v0...\n0,P,out,1,2\n")
+        process = self.start("run", "small.iqr", "--drive", "drive.csv", "-r", "P/A", "--cycles", 100000, "--realtime",
+                             "--checkpoint-every", 5, "-o", "out")
+        self.until_there_is("out/checkpoint.previous.forage")
+        self.assertIsNone(self.stop(process, 0))
+        for path in (system, drive):
+            before = path.read_text()
+            path.write_text(before + ("\n" if path == system else "5,P,out,1,1\n"))
+            done = self.forage("resume", "out", status=2)
+            self.assertRegex(done.stderr, f"'{path.name}' is not what it was when the run began\n  hint: ")
+            path.write_text(before)
+        recording = self.here / "out/P_A_act.csv.part"
+        rows = recording.read_bytes()
+        recording.write_bytes(rows[:40])
+        done = self.forage("resume", "out", status=2)
+        self.assertRegex(done.stderr, "P_A_act.csv.part' has 40 bytes, and should have")
+        recording.unlink()
+        done = self.forage("resume", "out", status=2)
+        self.assertRegex(done.stderr, "P_A_act.csv' is not there")
+        for wrong in ("0", "-3", "2.5", "x", "0 s", ""):
+            self.forage("run", "small.iqr", "--checkpoint-every", wrong, status=2)
+        done = self.forage("run", "small.iqr", "--drive", "drive.csv", "--checkpoint-every", "10", "-o", "", status=2)
+        self.assertIn("needs a directory", done.stderr)
+
+
+class Kill(Stopped):
+    def test_killed_at_any_moment_it_leaves_behind_what_it_would_have(self):
+        chance = random.Random(1)
+        arguments = (*EVERYTHING, "--cycles", 1500)
+        begun = time.monotonic()
+        self.forage(*arguments, "-o", "through")
+        whole = time.monotonic() - begun
+        kills = runs = 0
+        while kills < KILLS:
+            out = f"out{runs}"
+            every = chance.choice((1, 7, 50, 200))
+            process = self.start(*arguments, "--checkpoint-every", every, "-o", out)
+            while True:
+                status = self.stop(process, chance.uniform(0, 1.5 * whole))
+                if status == 0:
+                    break
+                kills += 1
+                there = [p.name for p in (self.here / out).glob("checkpoint*.forage")] if (self.here / out).exists() else []
+                again = ("resume", out, "-q") if there else (*arguments, "--checkpoint-every", every, "-o", out)
+                process = self.start(*again)
+            self.assert_same(out)
+            shutil.rmtree(self.here / out)
+            runs += 1
+        print(f"killed {kills} times in {runs} runs: nothing lost")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=["resume_test.py", *__import__("sys").argv[3:]])
