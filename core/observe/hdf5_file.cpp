@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 
+#include <fcntl.h>
 #include <hdf5_hl.h>
+#include <unistd.h>
 
 #include "core/observe/hdf5_handle.h"
 #include "core/observe/hdf5_recording.h"
@@ -227,6 +231,10 @@ std::unique_ptr<RowFile> open_hdf5_file(const std::string& path, const RowFileHe
     const std::string again = path + ".again";
     auto file = std::make_unique<Hdf5File>(again, header);
     copy_rows(path, header, go_on->rows, *file);
+    file->flush();  // a checkpoint counts on these rows
+    const int written = open(again.c_str(), O_RDONLY | O_CLOEXEC);
+    if (written < 0 || fsync(written) != 0 || close(written) != 0)
+        throw std::runtime_error(fmt::format("cannot write '{}': {}", again, std::strerror(errno)));
     std::filesystem::rename(again, path);
     return file;
 }
