@@ -5,13 +5,15 @@
 
 import os
 import random
+import re
+import resource
 import shutil
 import signal
 import subprocess
 import time
 import unittest
 
-from cli_test import FORAGE, PROJECT, SMALL_SYSTEM, WORLD, Cli
+from cli_test import FORAGE, PROJECT, SMALL_SYSTEM, SYSTEM, WORLD, Cli
 
 DAC = str(PROJECT / "systems/dac_foraging.iqr")
 KILLS = int(os.environ.get("FORAGE_KILLS", "50"))
@@ -159,10 +161,74 @@ class Resume(Stopped):
         self.assertIn("needs a directory", done.stderr)
 
 
+class Faults(Stopped):
+    def limited(self, size, *arguments):
+        """A run whose files cannot grow above a size: to a program that is what a full disk is."""
+        return subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, capture_output=True, text=True, timeout=120,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
+
+    def test_a_full_disk_stops_the_run_and_what_was_written_stays(self):
+        arguments = ("run", SYSTEM, "--world", WORLD, "--seconds", 600, "-r", "Bug/Light", "-q")
+        self.forage(*arguments, "-o", "whole")
+        for form in ("csv", "npy", "dat"):
+            self.forage(*arguments, "--format", form, "-o", f"whole_{form}")
+            done = self.limited(150_000, *arguments, "--format", form, "-o", form)
+            self.assertEqual(done.returncode, 1)
+            self.assertRegex(done.stderr, "(?m)^error: cannot write '.*': File too large$")
+            name = "recording.dat" if form == "dat" else f"Bug_Light_act.{form}"
+            rows, whole = (self.here / form / name).read_bytes(), (self.here / f"whole_{form}" / name).read_bytes()
+            self.assertGreater(len(rows), 50_000)
+            if form == "npy":
+                size = int.from_bytes(rows[8:10], "little") + 10
+                shape = re.search(rb"'shape': \((\d+),\)", rows)
+                self.assertEqual(int(shape[1]), (len(rows) - size) // (8 * 33))
+                rows, whole = rows[size:], whole[size:]
+            else:
+                self.assertTrue(rows.endswith(b"\n"))
+            self.assertTrue(whole.startswith(rows))
+            self.assertFalse(list((self.here / form).glob("*.part")))
+
+    def test_a_full_disk_keeps_the_checkpoint_before(self):
+        arguments = (*EVERYTHING[:7], "-r", "Bug/Light", "--cycles", 3000, "--checkpoint-every", 200)
+        self.forage(*arguments, "-o", "through")
+        done = self.limited(400_000, *arguments, "-o", "out")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("File too large", done.stderr)
+        self.forage("resume", "out")
+        self.assert_same("out")
+
+    def test_a_directory_that_vanishes_stops_the_run(self):
+        for arguments in ((), ("-r", "Bug/Light"), ("--checkpoint-every", 1000000)):
+            process = self.start("run", SYSTEM, "--world", WORLD, "--cycles", 10 ** 9, "-q", "-o", "out", *arguments)
+            time.sleep(1)
+            shutil.rmtree(self.here / "out")
+            _, err = process.communicate(timeout=20)
+            self.assertEqual((process.returncode, err), (1, "error: the directory 'out' is not there any more\n"))
+            self.assertFalse((self.here / "out").exists())
+
+    def test_numbers_that_are_not_finite_are_reported_once_where_they_began(self):
+        text = SMALL_SYSTEM.replace('name="excGain" value="1"', 'name="excGain" value="1e300"')
+        (self.here / "small.iqr").write_text(text)
+        (self.here / "drive.csv").write_text("cycle,process,target,v0...\n0,P,out,1,1\n3,P,out,1,1e10\n")
+        arguments = ("run", "small.iqr", "--drive", "drive.csv", "--cycles", 10, "-r", "P/A", "-o", "out")
+        where = r"in cycle 4 'vm' of 'P/A' becomes inf in cell \(2, 1\)"
+        done = self.forage(*arguments)
+        self.assertRegex(done.stderr, rf"^warning: {where}\n  hint: .*\n$")
+        self.assertRegex(done.stdout, rf"diverged +{where}")
+        self.assertEqual(len(self.table("out/P_A_act.csv")), 11)
+        done = self.forage(*arguments, "--on-nan", "stop", status=1)
+        self.assertRegex(done.stderr, rf"^error: stopped: {where}\n$")
+        self.assertEqual(len(self.table("out/P_A_act.csv")), 6)
+        done = self.forage(*arguments, "--on-nan", "ignore")
+        self.assertEqual(done.stderr, "")
+        self.assertNotIn("diverged", done.stdout)
+        self.forage(*arguments, "--on-nan", "perhaps", status=2)
+
+
 class Kill(Stopped):
     def test_killed_at_any_moment_it_leaves_behind_what_it_would_have(self):
         chance = random.Random(1)
-        arguments = (*EVERYTHING, "--cycles", 1500)
+        arguments = (*EVERYTHING, "--cycles", 800)
         begun = time.monotonic()
         self.forage(*arguments, "-o", "through")
         whole = time.monotonic() - begun
@@ -171,12 +237,9 @@ class Kill(Stopped):
             out = f"out{runs}"
             every = chance.choice((1, 7, 50, 200))
             process = self.start(*arguments, "--checkpoint-every", every, "-o", out)
-            while True:
-                status = self.stop(process, chance.uniform(0, 1.5 * whole))
-                if status == 0:
-                    break
+            while self.stop(process, chance.uniform(0, whole) if kills < KILLS else 120) is None:
                 kills += 1
-                there = [p.name for p in (self.here / out).glob("checkpoint*.forage")] if (self.here / out).exists() else []
+                there = (self.here / out).exists() and any((self.here / out).glob("checkpoint*.forage"))
                 again = ("resume", out, "-q") if there else (*arguments, "--checkpoint-every", every, "-o", out)
                 process = self.start(*again)
             self.assert_same(out)

@@ -45,7 +45,7 @@ class Checkpoints {
     CheckpointOrigin origin_;
 };
 
-/// Reports what keeps this run from being checkpointed.
+/// Reports what keeps this run from being checkpointed, or its state from being digested, if that is wanted.
 void check_checkpoints(const RunOptions& options, const Loaded& loaded, const engine::Simulation& simulation,
                        Diagnostics& diagnostics);
 

@@ -2,8 +2,10 @@
 #include <chrono>
 #include <cstdio>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "tools/forage/checkpoint.h"
 #include "tools/forage/checkpoint_file.h"
@@ -19,14 +21,34 @@
 namespace forage::tool {
 namespace {
 
+/// Notices, once a second, that the directory for results is not there any more: what is written into open files
+/// would be lost.
+class Watch {
+  public:
+    explicit Watch(std::string directory) : directory_(std::move(directory)) {}
+    bool gone() const { return !directory_.empty() && access(directory_.c_str(), F_OK) != 0; }
+    std::string reason() const { return fmt::format("the directory '{}' is not there any more", directory_); }
+    void look() {
+        const auto now = std::chrono::steady_clock::now();
+        if (now < next_) return;
+        next_ = now + std::chrono::seconds(1);
+        if (gone()) throw std::runtime_error(reason());
+    }
+
+  private:
+    std::string directory_;
+    std::chrono::steady_clock::time_point next_;
+};
+
 /// Runs until the end, or until something stops it. Throws what a cycle or a recording throws.
-void loop(const RunOptions& o, Running& r, const Length& length, Checkpoints& checkpoints, Progress& progress,
-          Outcome& outcome) {
+void loop(const RunOptions& o, Running& r, const Length& length, Checkpoints& checkpoints, Watch& watch,
+          Progress& progress, Outcome& outcome) {
     auto& simulation = r.simulation;
     const double begun = r.seconds();
     bool told = !r.diverged.empty();  // before the run went on
     while (!length.over(simulation.cycle()) && !r.done()) {
         r.cycle();
+        watch.look();
         if (!r.diverged.empty() && !told) {
             told = true;
             progress.clear();
@@ -92,9 +114,10 @@ int carry_on(const RunOptions& options, const Sources& sources, Running& running
     outcome.length = length.cycles();
     outcome.first_cycle = running.simulation.cycle();
     std::vector<std::string> problems;
+    Watch watch(options.directory);
     try {
         Checkpoints checkpoints(options, sources, running);
-        loop(options, running, length, checkpoints, progress, outcome);
+        loop(options, running, length, checkpoints, watch, progress, outcome);
     } catch (const std::exception& e) {
         outcome.stopped = e.what();
         problems.emplace_back(e.what());
@@ -104,7 +127,9 @@ int carry_on(const RunOptions& options, const Sources& sources, Running& running
     progress.clear();
     if (options.hash) outcome.state = state_digest(running);
 
-    if (!options.directory.empty())
+    if (watch.gone())
+        problems = {watch.reason()};
+    else if (!options.directory.empty())
         for (auto& problem : write_results(options, running, outcome))
             if (std::find(problems.begin(), problems.end(), problem) == problems.end())
                 problems.push_back(std::move(problem));

@@ -105,7 +105,7 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
             make_directory(o.directory);
             out.recordings.emplace(std::move(files), o.record, o.directory, run_attributes(o, out.loaded));
         }
-        if (o.paths && out.loaded.world)
+        if (o.paths && !o.directory.empty() && out.loaded.world)
             for (std::size_t i = 0; i < out.loaded.world->bugs(); ++i)
                 out.paths.emplace_back(*out.loaded.world, i);
         return out;
