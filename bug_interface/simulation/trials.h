@@ -26,9 +26,7 @@ struct Trial {
     double smallest_distance = std::numeric_limits<double>::infinity();  ///< robot to nearest target, middle
                                                                          ///< to middle, over all substeps, m
     bool target() const { return smallest_distance < reach; }
-    void checkpoint(Archive& archive) {
-        archive(number, start, end, first_cycle, cycles, smallest_distance);
-    }
+    void checkpoint(Archive& archive) { archive(number, start, end, first_cycle, cycles, smallest_distance); }
 };
 
 /// One robot's trials.

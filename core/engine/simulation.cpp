@@ -18,15 +18,16 @@ auto& at(std::vector<T>& all, int index) {
     return all[static_cast<std::size_t>(index)];
 }
 
-/// The first number of a group that is not finite, by states, then by cells.
-NotFinite find_not_finite(const GroupPlan& g, int group, std::uint64_t cycle) {
-    NotFinite out{group, 0, 0, cycle, 0};
+/// The first number of a group's update that is not finite, by states, then by cells. None when somebody
+/// else put it there, in a cycle that is remembered.
+std::optional<NotFinite> find_not_finite(const GroupPlan& g, int group, std::uint64_t cycle) {
     for (std::size_t state = 0; state < g.states.size(); ++state) {
         const double* row = state_row(g, state, cycle);
         for (Index cell = 0; cell < g.cells; ++cell)
-            if (!std::isfinite(row[cell])) return {group, static_cast<int>(state), cell, cycle, row[cell]};
+            if (!std::isfinite(row[cell]))
+                return NotFinite{group, static_cast<int>(state), cell, cycle, row[cell]};
     }
-    return out;
+    return std::nullopt;
 }
 
 }  // namespace
@@ -106,7 +107,7 @@ void Simulation::update_groups() {
     for (int i = 0; i < groups() && plan_->watched; ++i)
         if (!at(plan_->groups, i).finite) {
             not_finite_ = find_not_finite(at(plan_->groups, i), i, cycle_);
-            plan_->watched = false;
+            plan_->watched = !not_finite_;
         }
 }
 

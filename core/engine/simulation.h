@@ -75,8 +75,8 @@ class Simulation {
         return cycle_;
     }  ///< the number of completed cycles; the next one has this number
 
-    /// Whether updates are looked at for numbers that are not finite; at first they are not. Ends with the first
-    /// one.
+    /// Whether updates are looked at for numbers that are not finite; at first they are not. Ends with the
+    /// first one.
     void watch(bool wanted);
     /// The first one that was seen: in the first group of the first cycle, by states, then by cells.
     const std::optional<NotFinite>& not_finite() const { return not_finite_; }
@@ -91,9 +91,9 @@ class Simulation {
     void set(const model::Assignment& change);
 
     /// All that decides the cycles to come, and what can be looked at now: states, inputs, parameters, what
-    /// modules keep. Between cycles, after start(); to be read into a simulation of the same system, built with
-    /// the same seed. Throws ArchiveError when it does not fit, and RunError for modules of a type that does
-    /// not declare what it keeps.
+    /// modules keep. Between cycles, after start(); to be read into a simulation of the same system, built
+    /// with the same seed. Throws ArchiveError when it does not fit, and RunError for modules of a type that
+    /// does not declare what it keeps.
     void checkpoint(Archive& archive);
 
     // Groups, numbered in order of update. What is read here is of the running cycle, or of the last one

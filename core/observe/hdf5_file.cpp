@@ -167,9 +167,8 @@ class Hdf5File final : public RowFile {
     void add_source(const Recorded& s) {
         std::vector<hsize_t> row;
         if (!s.mean) row = {static_cast<hsize_t>(s.cells.height), static_cast<hsize_t>(s.cells.width)};
-        sets_.push_back({Growing(file_, place_of(s), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, row, chunk_),
-                         s.size(),
-                         {}});
+        sets_.push_back(
+            {Growing(file_, place_of(s), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, row, chunk_), s.size(), {}});
         const hid_t set = sets_.back().set.id();
         attribute(set, "name", s.name);
         attribute(set, "label", s.label);
@@ -215,8 +214,7 @@ void copy_rows(const std::string& from, const RowFileHeader& header, std::uint64
         row.clear();
         for (Recording* s : sources) {
             if (!s->next(cycle, part))
-                throw ShortFile(
-                    fmt::format("'{}' has {} rows, and should have {} at least", from, i, count));
+                throw ShortFile(fmt::format("'{}' has {} rows, and should have {} at least", from, i, count));
             row.insert(row.end(), part.begin(), part.end());
         }
         to.add(cycle, row);

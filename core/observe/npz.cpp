@@ -36,8 +36,8 @@ void extract_npz(const std::string& path, const std::string& name, const std::st
         throw std::runtime_error(fmt::format("cannot take '{}' out of '{}': {}", name, path, what));
     };
     int error = 0;
-    const std::unique_ptr<zip_t, decltype(&zip_discard)> archive(
-        zip_open(path.c_str(), ZIP_RDONLY, &error), zip_discard);
+    const std::unique_ptr<zip_t, decltype(&zip_discard)> archive(zip_open(path.c_str(), ZIP_RDONLY, &error),
+                                                                 zip_discard);
     if (!archive) fail("it cannot be opened");
     const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> in(
         zip_fopen(archive.get(), (name + ".npy").c_str(), 0), zip_fclose);

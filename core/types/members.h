@@ -34,8 +34,8 @@ constexpr std::size_t members() {
 
 }  // namespace detail
 
-/// Whether `parameters` are all members that T has: then they are all there is to save of it. It cannot be seen
-/// of a type with a constructor or private members, which has to say what is to be saved.
+/// Whether `parameters` are all members that T has: then they are all there is to save of it. It cannot be
+/// seen of a type with a constructor or private members, which has to say what is to be saved.
 template <class T>
 bool only_parameters(std::vector<Parameter> parameters) {
     if constexpr (std::is_empty_v<T>) return true;

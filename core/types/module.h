@@ -8,7 +8,8 @@
 //     void start(const ModulePorts&, ModuleFrame&);  // ... what it writes is received in cycle 0
 //     void update(ModuleFrame&);                     // once per cycle, after the groups, before the
 //     connections
-//     void checkpoint(Archive&);                     // for a type with members beside its parameters: archive.h
+//     void checkpoint(Archive&);                     // for a type with members beside its parameters:
+//     archive.h
 //
 // A module reads the output activity of its input groups of this cycle. What it writes into an output is
 // excitatory input of that group in the next cycle. An output keeps its values until it is written again.
@@ -94,7 +95,7 @@ struct ModuleType {
     std::string name, label, doc;
     std::vector<Parameter> parameters;
     std::vector<ModulePort> ports;
-    bool any_ports = false;  ///< takes whatever cross references the file gives it, in file order
+    bool any_ports = false;   ///< takes whatever cross references the file gives it, in file order
     bool checkpoints = true;  ///< it has a checkpoint(Archive&), or nothing but parameters
     std::function<std::unique_ptr<ModuleInstance>()> make;
 };
@@ -181,8 +182,8 @@ ModuleType module_type(T prototype = {}) {
     ModuleType type;
     ModuleSpec<T> spec(type);
     T::describe(spec);
-    type.checkpoints =
-        requires(T t, Archive a) { t.checkpoint(a); } || only_parameters<T>(type.parameters);
+    type.checkpoints = requires(T t, Archive a) { t.checkpoint(a); }
+    || only_parameters<T>(type.parameters);
     type.make = [prototype] { return std::make_unique<detail::ModuleModel<T>>(prototype); };
     return type;
 }

@@ -40,8 +40,8 @@ void check_checkpoints(const RunOptions& o, const Loaded& loaded, const engine::
                 {},
                 fmt::format("{}: the module type '{}' of process '{}' does not say what it "
                             "keeps beside its parameters",
-                            o.checkpoint_every ? "--checkpoint-every" : "--hash",
-                            simulation.module_type(m), simulation.module_process(m)),
+                            o.checkpoint_every ? "--checkpoint-every" : "--hash", simulation.module_type(m),
+                            simulation.module_process(m)),
                 "give the type a member 'void checkpoint(forage::Archive& archive)' that lists its members");
 }
 

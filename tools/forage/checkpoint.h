@@ -49,8 +49,8 @@ class Checkpoints {
 void check_checkpoints(const RunOptions& options, const Loaded& loaded, const engine::Simulation& simulation,
                        Diagnostics& diagnostics);
 
-/// A digest of all that decides the cycles to come, in system and world: two runs that were the same have the same
-/// one. Throws RunError for modules that do not declare what they keep.
+/// A digest of all that decides the cycles to come, in system and world: two runs that were the same have the
+/// same one. Throws RunError for modules that do not declare what they keep.
 std::string state_digest(Running& running);
 
 }  // namespace forage::tool

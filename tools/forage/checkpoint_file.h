@@ -16,8 +16,9 @@ class CheckpointError : public std::runtime_error {
 std::string checkpoint_path(const std::string& directory);
 std::string previous_checkpoint_path(const std::string& directory);
 
-/// Writes `content` with a version, its length and a checksum (64-bit FNV-1a), by way of another name, so that
-/// it survives a power cut; the checkpoint that was there becomes the previous one. Throws std::runtime_error.
+/// Writes `content` with a version, its length and a checksum (64-bit FNV-1a), by way of another name, so
+/// that it survives a power cut; the checkpoint that was there becomes the previous one. Throws
+/// std::runtime_error.
 void write_checkpoint(const std::string& directory, std::string_view content);
 /// What write_checkpoint() wrote. Throws CheckpointError.
 std::string read_checkpoint(const std::string& path);

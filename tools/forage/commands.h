@@ -49,7 +49,7 @@ struct RunOptions {
     std::vector<model::ManipulationWish> manipulations;
     int threads = 1;
     std::string directory = "forage-out";
-    bool paths = true;  ///< follow the robots
+    bool paths = true;                                   ///< follow the robots
     std::optional<CheckpointInterval> checkpoint_every;  ///< none without
     OnNan on_nan = OnNan::warn;
     bool hash = false;  ///< give a digest of the state at the end
@@ -91,8 +91,8 @@ struct TutorialOptions {
 };
 
 int run(const RunOptions& options);
-/// Goes on with a run that was stopped, from its last checkpoint: what it leaves behind is then what it would have
-/// left without a stop.
+/// Goes on with a run that was stopped, from its last checkpoint: what it leaves behind is then what it would
+/// have left without a stop.
 int resume(const ResumeOptions& options, const RunParser& parse);
 int plot(const PlotOptions& options);
 /// Runs every combination of an experiment file with every seed; what was finished before is not repeated.

@@ -134,6 +134,7 @@ class Work {
             if (noted_signal()) return std::nullopt;
             result.stopped = length.hopeless();
         }
+        result.diverged = running.diverged;
         Outcome outcome;
         note(running, outcome);
         result.cycles = outcome.cycles, result.seconds = outcome.seconds;

@@ -262,16 +262,16 @@ void add_run(CLI::App& app, RunOptions& o) {
         ->check(count())
         ->option_text("N");
     run.add_option_function<std::string>(
-           "--checkpoint-every",
-           [&o](const std::string& text) { o.checkpoint_every = parse_interval(text); },
+           "--checkpoint-every", [&o](const std::string& text) { o.checkpoint_every = parse_interval(text); },
            "Write a checkpoint every N cycles, or every 'N s' of the world: after a stop, be it a power cut, "
            "'forage resume' goes on from there")
         ->option_text("N");
-    run.add_option("--on-nan", o.on_nan,
-                   "When a number becomes NaN or infinite: 'warn' once and go on, 'stop', or 'ignore' it [warn]")
-        ->transform(CLI::CheckedTransformer(
-                        std::map<std::string, OnNan>{
-                            {"warn", OnNan::warn}, {"stop", OnNan::stop}, {"ignore", OnNan::ignore}})
+    run.add_option(
+           "--on-nan", o.on_nan,
+           "When a number becomes NaN or infinite: 'warn' once and go on, 'stop', or 'ignore' it [warn]")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, OnNan>{{"warn", OnNan::warn},
+                                                                         {"stop", OnNan::stop},
+                                                                         {"ignore", OnNan::ignore}})
                         .description(""))
         ->option_text("HOW");
     run.add_flag("--hash", o.hash, "Give a digest of the state at the end: equal runs have the same one");

@@ -38,10 +38,11 @@ void check_files(const CheckpointOrigin& origin, const InputFiles& now, Diagnost
     for (const auto& [path, digest] : origin.files) {
         const auto same = now.find(path);
         if (same != now.end() && same->second == digest) continue;
-        diagnostics.error({},
-                          fmt::format("'{}' is not what it was when the run began{}", path,
-                                      same == now.end() ? ": it is not read any more" : ""),
-                          "a run goes on with the same files only; restore it, or start anew with 'forage run'");
+        diagnostics.error(
+            {},
+            fmt::format("'{}' is not what it was when the run began{}", path,
+                        same == now.end() ? ": it is not read any more" : ""),
+            "a run goes on with the same files only; restore it, or start anew with 'forage run'");
     }
 }
 

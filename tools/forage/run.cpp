@@ -21,8 +21,8 @@
 namespace forage::tool {
 namespace {
 
-/// Notices, once a second, that the directory for results is not there any more: what is written into open files
-/// would be lost.
+/// Notices, once a second, that the directory for results is not there any more: what is written into open
+/// files would be lost.
 class Watch {
   public:
     explicit Watch(std::string directory) : directory_(std::move(directory)) {}

@@ -43,7 +43,8 @@ std::string without_paths(const InputFiles& files) {
 std::string digests_of(const model::Experiment& experiment, const Sources& sources) {
     const std::string system = without_paths(system_files(sources));
     if (!sources.world) return system;
-    return fmt::format("{} {} {}", system, file_digest(experiment.world), without_paths(world_files(sources)));
+    return fmt::format("{} {} {}", system, file_digest(experiment.world),
+                       without_paths(world_files(sources)));
 }
 
 std::string key_of(const PlannedRun& run, const model::Experiment& experiment, const std::string& digests) {
@@ -61,8 +62,8 @@ std::string key_of(const PlannedRun& run, const model::Experiment& experiment, c
     for (const auto& wish : o.at) key["at"].push_back(wish.text());
     for (const auto& m : o.manipulations)
         key["manipulate"].push_back({static_cast<int>(m.mode), m.group.text, m.cells.text,
-                                     m.patterns.empty() ? "" : file_digest(m.patterns.text), m.every,
-                                     m.step, or_null(m.times), m.backwards, m.from.text, m.until.text});
+                                     m.patterns.empty() ? "" : file_digest(m.patterns.text), m.every, m.step,
+                                     or_null(m.times), m.backwards, m.from.text, m.until.text});
     for (const auto& r : o.recordings) key["record"].push_back({r.column.text, r.every});
     for (const auto& wish : o.plots) key["plot"].push_back(wish.text);
     for (const auto& m : experiment.measures)
@@ -78,6 +79,7 @@ std::optional<RunResult> read_result(const PlannedRun& run, const std::string& k
         RunResult out;
         out.stopped = result.at("stopped"), out.cycles = result.at("cycles"),
         out.seconds = result.at("seconds");
+        out.diverged = result.value("diverged", "");
         out.trials = or_empty<std::uint64_t>(result.at("trials"));
         out.reached = or_empty<std::uint64_t>(result.at("reached"));
         for (const auto& m : result.at("measures")) out.measures.push_back(or_empty<double>(m));
@@ -104,6 +106,7 @@ void write_result(const PlannedRun& run, const std::string& key, const RunResult
     json["run"] = Json::parse(key);
     auto& r = json["result"];
     r["stopped"] = result.stopped, r["cycles"] = result.cycles, r["seconds"] = result.seconds;
+    if (!result.diverged.empty()) r["diverged"] = result.diverged;
     r["trials"] = or_null(result.trials), r["reached"] = or_null(result.reached);
     r["measures"] = Json::array();
     for (const auto& m : result.measures) r["measures"].push_back(or_null(m));

@@ -34,7 +34,8 @@ void Running::cycle() {
     if (run_measures.waiting()) run_measures.see(simulation, now());
     for (auto& m : manipulations) m.look(simulation, now());
     simulation.update_groups();
-    if (simulation.not_finite() && diverged.empty()) diverged = describe(*simulation.not_finite(), simulation);
+    if (simulation.not_finite() && diverged.empty())
+        diverged = describe(*simulation.not_finite(), simulation);
     clamp.apply(simulation);
     for (auto& m : manipulations) m.apply(simulation);
     simulation.update_modules();

@@ -19,11 +19,7 @@ struct Counting {
         s.param("gain", &Counting::gain);
     }
     void update(ModuleFrame& frame) { frame.output(0) = gain * ++count; }
-    void checkpoint(Archive& archive)
-        requires declared
-    {
-        archive(count);
-    }
+    void checkpoint(Archive& archive) requires declared { archive(count); }
 };
 
 /// Cell 2 becomes infinite in cycle 5.
@@ -76,7 +72,8 @@ TEST_CASE("A module type that does not declare its members cannot be part of a c
     const CountingSystem<false> s;
     auto simulation = run(s.system, s.types);
     Archive out;
-    CHECK_THROWS_WITH(simulation.checkpoint(out), Catch::Matchers::Contains("counting of process 'P' cannot be part"));
+    CHECK_THROWS_WITH(simulation.checkpoint(out),
+                      Catch::Matchers::Contains("counting of process 'P' cannot be part"));
 }
 
 TEST_CASE("A checkpoint of another system is refused") {
@@ -92,8 +89,9 @@ TEST_CASE("A checkpoint of another system is refused") {
 }
 
 TEST_CASE("The first number that is not finite is found, with any number of threads, when it is looked for") {
-    for (const double value : {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-                               std::numeric_limits<double>::quiet_NaN()})
+    for (const double value :
+         {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+          std::numeric_limits<double>::quiet_NaN()})
         for (const int threads : {1, 4}) {
             Registry types = registry();
             auto type = neuron_type<Bursting>();

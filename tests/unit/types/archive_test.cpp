@@ -40,8 +40,8 @@ struct All {
     Eigen::ArrayXf array;
 
     void checkpoint(Archive& a) {
-        a(flag, small, large, real, mood, text, numbers, parts, nested, queue, fixed, plain, by_name, pair, some,
-          none, matrix, array);
+        a(flag, small, large, real, mood, text, numbers, parts, nested, queue, fixed, plain, by_name, pair,
+          some, none, matrix, array);
     }
 };
 
