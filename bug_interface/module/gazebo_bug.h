@@ -42,6 +42,7 @@ class GazeboBug {
     /// Throws std::runtime_error without a world or robot, or when another module has the robot.
     void start(const ModulePorts& ports);
     void update(ModuleFrame& frame);
+    void checkpoint(Archive&) {}  // the robot is a part of its world
 
   private:
     void copy_scans(ModuleFrame& frame) const;

@@ -3,12 +3,15 @@
 
 #include <span>
 
+#include "core/types/archive.h"
+
 namespace forage::bug {
 
 /// Speeds that a robot is driven with. They hold at once: there is no inertia to overcome.
 struct MotorCommand {
     double forward = 0;  ///< m/s, along the robot's heading
     double turn = 0;     ///< rad/s, counter-clockwise: to the left
+    void checkpoint(Archive& archive) { archive(forward, turn); }
     friend bool operator==(const MotorCommand&, const MotorCommand&) = default;
 };
 

@@ -87,11 +87,11 @@ class Physics::Engine {
         for (int m = 0; m < dispatcher_.getNumManifolds(); ++m)
             dispatcher_.getManifoldByIndexInternal(m)->clearManifold();
         world_.performDiscreteCollisionDetection();
-        if (set_friction() == 0) return;
+        find_touching();
+        if (touching_.empty()) return;
         info_.m_timeStep = static_cast<btScalar>(step);
-        solver_.solveGroup(bodies_.data(), static_cast<int>(bodies_.size()),
-                           dispatcher_.getInternalManifoldPointer(), dispatcher_.getNumManifolds(), nullptr,
-                           0, info_, nullptr, &dispatcher_);
+        solver_.solveGroup(bodies_.data(), static_cast<int>(bodies_.size()), touching_.data(),
+                           static_cast<int>(touching_.size()), nullptr, 0, info_, nullptr, &dispatcher_);
         for (std::size_t i = 0; i < states.size(); ++i) {
             const auto& linear = rigid(i).getLinearVelocity();
             const auto& angular = rigid(i).getAngularVelocity();
@@ -108,18 +108,24 @@ class Physics::Engine {
   private:
     btRigidBody& rigid(std::size_t body) { return *static_cast<btRigidBody*>(bodies_[body]); }
 
-    /// The smaller coefficient of two surfaces counts, as in the original. Returns the number of contacts.
-    int set_friction() {
-        int contacts = 0;
+    /// The pairs that touch, with their friction: the smaller coefficient of two surfaces counts, as in the
+    /// original. In order of the objects: Bullet's own order, in which it solves, tells who met whom before.
+    void find_touching() {
+        touching_.clear();
         for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) {
             btPersistentManifold* contact = dispatcher_.getManifoldByIndexInternal(m);
+            if (contact->getNumContacts() == 0) continue;
+            touching_.push_back(contact);
             const btScalar friction =
                 std::min(contact->getBody0()->getFriction(), contact->getBody1()->getFriction());
             for (int p = 0; p < contact->getNumContacts(); ++p)
                 contact->getContactPoint(p).m_combinedFriction = friction;
-            contacts += contact->getNumContacts();
         }
-        return contacts;
+        const auto place = [](const btPersistentManifold* c) {
+            return std::pair(c->getBody0()->getWorldArrayIndex(), c->getBody1()->getWorldArrayIndex());
+        };
+        std::sort(touching_.begin(), touching_.end(),
+                  [&](const auto* a, const auto* b) { return place(a) < place(b); });
     }
 
     void add(const Obstacle& o) {
@@ -172,6 +178,7 @@ class Physics::Engine {
     std::vector<std::unique_ptr<btCollisionShape>> shapes_;
     std::vector<std::unique_ptr<btRigidBody>> objects_;
     std::vector<btCollisionObject*> bodies_;  ///< those of `objects_` that move
+    std::vector<btPersistentManifold*> touching_;
     btContactSolverInfo info_;
     btCollisionWorld world_;
 };

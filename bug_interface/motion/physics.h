@@ -55,6 +55,12 @@ class Physics {
 
     std::uint64_t contact_steps() const { return contact_steps_; }  ///< how often Bullet was called
 
+    /// Where everything is. Bullet's own memory is no part of it: no step depends on it.
+    void checkpoint(Archive& archive) {
+        for (State& s : states_) archive(s.pose, s.present, s.clearance);
+        archive(contact_steps_);
+    }
+
   private:
     struct State {
         Pose2 pose;

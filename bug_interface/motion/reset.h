@@ -52,6 +52,7 @@ class Reset {
     Pose2 start() { return draw(first_start + starts_++); }
 
     const ResetPlan& plan() const { return plan_; }
+    void checkpoint(Archive& archive) { archive(left_, glimpses_, starts_); }
 
     static constexpr int substeps = 1001;  ///< that a reset takes
 

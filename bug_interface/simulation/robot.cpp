@@ -107,6 +107,13 @@ void Robot::Scan::run(const Pose2& body, std::uint64_t sample, bool with_noise, 
     scanner.to_activity(ranges, cells);
 }
 
+void Robot::checkpoint(Archive& archive) {
+    archive.same(name, "a robot");
+    archive(pose, command);
+    if (reset) archive(*reset);
+    archive(*trials, snapshot, rendered);
+}
+
 void Robot::sense(bool with_noise, std::uint64_t sample, std::span<const Pose2> all) {
     snapshot.pose = pose;
     if (proximity) proximity->run(pose, sample, with_noise, all, snapshot.proximity);

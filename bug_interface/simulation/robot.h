@@ -24,6 +24,8 @@ struct BugSnapshot {
     std::vector<std::uint8_t>
         image;  ///< rows from the top, red, green, blue; up to date only where asked for
     int image_width = 0, image_height = 0;  ///< pixels; 0: no camera
+
+    void checkpoint(Archive& archive) { archive(pose, proximity, target, image); }
 };
 
 /// A part of a robot in its model's frame.
@@ -78,6 +80,9 @@ class Robot {
     /// `robots`, of which this is one. Has no effect before make_camera().
     void render(bool with_noise, std::uint64_t sample, std::span<const Pose2> all,
                 const std::vector<Robot>& robots);
+
+    /// What happens to it.
+    void checkpoint(Archive& archive);
 
     // ---- what it is; constant ----
     std::string name;

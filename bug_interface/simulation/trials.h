@@ -26,6 +26,7 @@ struct Trial {
     double smallest_distance = std::numeric_limits<double>::infinity();  ///< robot to nearest target, middle
                                                                          ///< to middle, over all substeps, m
     bool target() const { return smallest_distance < reach; }
+    void checkpoint(Archive& archive) { archive(number, start, end, first_cycle, cycles, smallest_distance); }
 };
 
 /// One robot's trials.
@@ -48,6 +49,7 @@ class TrialLog {
     const std::vector<Trial>& finished() const { return finished_; }
     /// The trial that runs now, after `done` cycles; while the robot is reset, the one to come.
     Trial current(const Pose2& pose, std::uint64_t done) const;
+    void checkpoint(Archive& archive) { archive(finished_, current_, running_, smallest_squared_); }
 
   private:
     std::vector<Eigen::Vector2d> targets_;

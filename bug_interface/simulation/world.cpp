@@ -157,6 +157,13 @@ void World::render() {
         if (robot.wants_image) robot.render(options_.noise, cycle_, poses_, robots_);
 }
 
+void World::checkpoint(Archive& archive) {
+    archive.same(robots_.size(), "the number of robots");
+    archive(cycle_, substep_);
+    for (Robot& robot : robots_) robot.checkpoint(archive);
+    archive(poses_, *physics_);
+}
+
 std::vector<std::string> World::bug_names() const {
     std::vector<std::string> names;
     for (const Robot& robot : robots_) names.push_back(robot.name);

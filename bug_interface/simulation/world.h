@@ -66,6 +66,10 @@ class World {
     /// Whether step() renders this robot's image.
     void need_image(std::size_t bug, bool needed);
 
+    /// All that changes in it; between cycles. To be read into a world made of the same description, with the
+    /// same options, which the same modules have started to use. Throws ArchiveError when it does not fit.
+    void checkpoint(Archive& archive);
+
     /// Holds until the next command. The first is to stand still.
     void command(std::size_t bug, const MotorCommand& command) { robots_[bug].command = command; }
     /// A robot obeys one module: empty when it has one already. The claim ends with the returned object.

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "core/model/diagnostic.h"
+#include "core/types/archive.h"
 
 namespace forage::bug {
 
@@ -110,6 +111,7 @@ struct WorldDescription {
 /// A pose in the plane.
 struct Pose2 {
     double x = 0, y = 0, yaw = 0;
+    void checkpoint(Archive& archive) { archive(x, y, yaw); }
 };
 
 inline double yaw_of(const Pose& pose) { return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0)); }

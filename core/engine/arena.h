@@ -18,6 +18,7 @@ class Arena {
     Offset reserve(Index cells, Index rows = 1);
     void allocate();
     double* at(Offset offset) { return block_.get() + offset; }
+    double* data() { return block_.get(); }     ///< all of it
     std::size_t size() const { return size_; }  ///< in doubles
 
     /// Distance between two rows of `cells` numbers.

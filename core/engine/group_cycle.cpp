@@ -40,6 +40,17 @@ bool all_zero(const double* row, Index n) {
     return true;
 }
 
+/// Of a multiple of eight numbers. x - x is 0, or NaN when x is NaN or infinite.
+FORAGE_SIMD bool all_finite(const double* row, Index n) {
+    constexpr Index lanes = 8;
+    double sums[lanes] = {};
+    for (Index i = 0; i < n; i += lanes)
+        for (Index k = 0; k < lanes; ++k) sums[k] += row[i + k] - row[i + k];
+    double sum = 0;
+    for (const double s : sums) sum += s;
+    return sum == 0;
+}
+
 /// Calls visit(row) for all rows of all states.
 template <class Visit>
 void each_row(const GroupPlan& g, Visit visit) {
@@ -108,10 +119,14 @@ void run(Plan& plan, ConnectionPlan& c, std::uint64_t cycle, double* target, Thr
 
 }  // namespace
 
-double* activity_row(const GroupPlan& g, std::uint64_t cycle) {
-    const auto& s = g.states[static_cast<std::size_t>(g.output)];
+double* state_row(const GroupPlan& g, std::size_t state, std::uint64_t cycle) {
+    const auto& s = g.states[state];
     if (s.depth == 1) return s.ring;  // saves a division for every connection
     return s.ring + static_cast<Index>(cycle % static_cast<std::uint64_t>(s.depth)) * g.stride;
+}
+
+double* activity_row(const GroupPlan& g, std::uint64_t cycle) {
+    return state_row(g, static_cast<std::size_t>(g.output), cycle);
 }
 
 std::size_t compared_numbers(const GroupPlan& g) {
@@ -119,7 +134,7 @@ std::size_t compared_numbers(const GroupPlan& g) {
     return (numbers <= compared_states ? numbers : 0) + static_cast<std::size_t>(g.stride);
 }
 
-void update(GroupPlan& g, std::uint64_t cycle, double* scratch, double* before) {
+void update(GroupPlan& g, std::uint64_t cycle, double* scratch, double* before, bool watched) {
     if (g.rests) return;
     if (g.delivered) g.row ^= 1;
     g.delivered = false;
@@ -140,6 +155,8 @@ void update(GroupPlan& g, std::uint64_t cycle, double* scratch, double* before) 
         throw RunError(
             fmt::format("{} of group '{}' failed in cycle {}: {}", g.type.name, g.path, cycle, reason()));
     }
+    // All rows follow each other, filled up with zeros; an older one that is not finite was found before.
+    if (watched) g.finite = all_finite(g.states.front().ring, static_cast<Index>(state_numbers(g)));
     g.rests = look && columns.timeless() && at_rest(g, before);
     if (g.rests) return;
     const double* now = activity_row(g, cycle);

@@ -17,11 +17,14 @@
 
 namespace forage::engine {
 
+/// A group's state in `cycle`.
+double* state_row(const GroupPlan& group, std::size_t state, std::uint64_t cycle);
 /// A group's activity in `cycle`.
 double* activity_row(const GroupPlan& group, std::uint64_t cycle);
 
 /// Updates the states, unless the group rests. `scratch` and `before` are one thread's.
-void update(GroupPlan& group, std::uint64_t cycle, double* scratch, double* before);
+/// `watched`: notes whether they are finite.
+void update(GroupPlan& group, std::uint64_t cycle, double* scratch, double* before, bool watched);
 
 /// How many numbers `before` must hold for a group.
 std::size_t compared_numbers(const GroupPlan& group);

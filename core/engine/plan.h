@@ -45,6 +45,7 @@ struct GroupPlan {
     bool rests = false;          ///< with this input an update changes nothing
     std::int64_t changed = 0;    ///< the last cycle whose activity differed from that of the cycle before
     bool silent = false;         ///< the activity is 0; noticed for large groups only
+    bool finite = true;          ///< no update that was watched gave a state NaN or an infinity
 };
 
 struct ModulePlan {
@@ -87,6 +88,7 @@ struct Plan {
     std::vector<std::vector<double>> scratch;  ///< one row of the widest group per thread
     std::vector<std::vector<double>> before;   ///< per thread: states to compare with
     Arena arena;
+    bool watched = false;  ///< updates are looked at for numbers that are not finite
 };
 
 /// What the numbers of a system may take: 16 GiB. Lists of synapses come on top.

@@ -1,6 +1,7 @@
 #include "core/engine/simulation.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -18,9 +19,16 @@ auto& at(std::vector<T>& all, int index) {
     return all[static_cast<std::size_t>(index)];
 }
 
-double* current_row(const GroupPlan& g, int state, std::uint64_t cycle) {
-    const auto& s = g.states[static_cast<std::size_t>(state)];
-    return s.ring + static_cast<Index>(cycle % static_cast<std::uint64_t>(s.depth)) * g.stride;
+/// The first number of a group's update that is not finite, by states, then by cells. None when somebody
+/// else put it there, in a cycle that is remembered.
+std::optional<NotFinite> find_not_finite(const GroupPlan& g, int group, std::uint64_t cycle) {
+    for (std::size_t state = 0; state < g.states.size(); ++state) {
+        const double* row = state_row(g, state, cycle);
+        for (Index cell = 0; cell < g.cells; ++cell)
+            if (!std::isfinite(row[cell]))
+                return NotFinite{group, static_cast<int>(state), cell, cycle, row[cell]};
+    }
+    return std::nullopt;
 }
 
 }  // namespace
@@ -93,9 +101,15 @@ void Simulation::update_groups() {
     shown_ = cycle_;
     auto work = [this](int group, int thread) {
         update(at(plan_->groups, group), cycle_, at(plan_->scratch, thread).data(),
-               at(plan_->before, thread).data());
+               at(plan_->before, thread).data(), plan_->watched);
     };
     try_sharing(update_cost(*plan_), updates_, [&](bool shared) { pool_->run(groups(), work, shared); });
+    if (!plan_->watched) return;
+    for (int i = 0; i < groups() && plan_->watched; ++i)
+        if (!at(plan_->groups, i).finite) {
+            not_finite_ = find_not_finite(at(plan_->groups, i), i, cycle_);
+            plan_->watched = !not_finite_;
+        }
 }
 
 /// Lets a module see the activity of this cycle; before the first one, zeros.
@@ -136,6 +150,8 @@ void Simulation::update_connections() {
     ++cycle_;
 }
 
+void Simulation::watch(bool wanted) { plan_->watched = wanted; }
+
 void Simulation::group_changed(int group) { touch(at(plan_->groups, group), cycle_); }
 
 int Simulation::threads() const { return pool_->threads(); }
@@ -152,7 +168,7 @@ ConstColumn Simulation::input(int group, InputKind kind) const {
 
 ConstColumn Simulation::state(int group, int state) const {
     const auto& g = at(plan_->groups, group);
-    return {current_row(g, state, shown_), g.cells};
+    return {state_row(g, static_cast<std::size_t>(state), shown_), g.cells};
 }
 
 Column Simulation::output(int group) {

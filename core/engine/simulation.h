@@ -27,6 +27,14 @@ class RunError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// Where a system began to diverge: a state of a cell that an update left NaN or infinite.
+struct NotFinite {
+    int group = 0, state = 0;
+    Index cell = 0;
+    std::uint64_t cycle = 0;
+    double value = 0;
+};
+
 /// Runs a system cycle by cycle. A cycle is
 ///
 ///     update_groups()       each group reads what was delivered at the end of the last cycle
@@ -67,6 +75,12 @@ class Simulation {
         return cycle_;
     }  ///< the number of completed cycles; the next one has this number
 
+    /// Whether updates are looked at for numbers that are not finite; at first they are not. Ends with the
+    /// first one.
+    void watch(bool wanted);
+    /// The first one that was seen: in the first group of the first cycle, by states, then by cells.
+    const std::optional<NotFinite>& not_finite() const { return not_finite_; }
+
     // Parameters while the system runs. An assignment names something by its id in the system that was built.
 
     /// Reports what set() would refuse, and what the types find wrong when these are made in this order.
@@ -75,6 +89,12 @@ class Simulation {
     /// running cycle, if that is still to come. Throws RunError for parameters that are read at start only
     /// and for modules that are disabled.
     void set(const model::Assignment& change);
+
+    /// All that decides the cycles to come, and what can be looked at now: states, inputs, parameters, what
+    /// modules keep. Between cycles, after start(); to be read into a simulation of the same system, built
+    /// with the same seed. Throws ArchiveError when it does not fit, and RunError for modules of a type that
+    /// does not declare what it keeps.
+    void checkpoint(Archive& archive);
 
     // Groups, numbered in order of update. What is read here is of the running cycle, or of the last one
     // between cycles.
@@ -125,6 +145,7 @@ class Simulation {
     std::unique_ptr<ThreadPool> pool_;
     bool started_ = false;
     std::uint64_t cycle_ = 0;
+    std::optional<NotFinite> not_finite_;
     std::uint64_t shown_ = 0;  ///< the cycle whose numbers are looked at
 };
 

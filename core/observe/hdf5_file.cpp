@@ -2,15 +2,21 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
 
+#include <fcntl.h>
 #include <hdf5_hl.h>
+#include <unistd.h>
 
 #include "core/observe/hdf5_handle.h"
+#include "core/observe/hdf5_recording.h"
 
 namespace forage::observe {
 namespace {
 
-constexpr std::size_t block = 1 << 16;  ///< bytes of a data set that are written at once
+constexpr std::size_t block = 1 << 16;  ///< bytes of rows that are written at once
 
 void check(herr_t status, const std::string& what) {
     if (status < 0) throw std::runtime_error(fmt::format("HDF5: cannot {}", what));
@@ -60,14 +66,12 @@ void add_groups(hid_t file, const std::string& place) {
 class Growing {
   public:
     Growing(hid_t file, const std::string& place, hid_t disk_type, hid_t memory_type,
-            std::vector<hsize_t> row)
+            std::vector<hsize_t> row, std::size_t rows_of_a_chunk)
         : memory_type_(memory_type), shape_{0} {
         shape_.insert(shape_.end(), row.begin(), row.end());
-        std::size_t size = 8;
-        for (const auto n : row) size *= n;
         std::vector<hsize_t> most = shape_, chunk = shape_;
         most[0] = H5S_UNLIMITED;
-        chunk[0] = std::max<hsize_t>(1, block / size);
+        chunk[0] = rows_of_a_chunk;
         const Hdf5Handle space(H5Screate_simple(rank(), shape_.data(), most.data()), H5Sclose,
                                "make a space");
         add_groups(file, place);
@@ -112,7 +116,10 @@ class Hdf5File final : public RowFile {
         H5Pset_obj_track_times(options, false);
         file_ = {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, options, access), H5Fclose, "write '" + path + "'"};
         for (const auto& [name, text] : header.attributes) attribute(file_, name, text);
-        cycle_.emplace(file_, "/cycle", H5T_STD_U64LE, H5T_NATIVE_UINT64, std::vector<hsize_t>{});
+        std::size_t row = 1;
+        for (const auto& s : header.sources) row += s.size();
+        chunk_ = std::max<std::size_t>(1, block / (8 * row));
+        cycle_.emplace(file_, "/cycle", H5T_STD_U64LE, H5T_NATIVE_UINT64, std::vector<hsize_t>{}, chunk_);
         H5DSset_scale(cycle_->id(), "cycle");
         attribute(cycle_->id(), "unit", "cycle");
         attribute(cycle_->id(), "every", static_cast<std::int64_t>(header.every));
@@ -127,8 +134,8 @@ class Hdf5File final : public RowFile {
                           numbers.begin() + static_cast<std::ptrdiff_t>(s.size));
             numbers = numbers.subspan(s.size);
         }
-        held_ += 8 * row_;
-        if (held_ >= block) flush();
+        // With the end of a chunk: then chunks lie in the same order in the file whenever else it is flushed.
+        if (++rows_ % chunk_ == 0) flush();
     }
 
     void flush() override {
@@ -137,12 +144,13 @@ class Hdf5File final : public RowFile {
             for (auto& s : sets_) s.set.append(s.rows.data(), cycles_.size()), s.rows.clear();
             cycle_->append(cycles_.data(), cycles_.size());  // last: the rows it counts are there
             cycles_.clear();
-            held_ = 0;
         } catch (const std::exception& e) {
             end();
             throw std::runtime_error(fmt::format("cannot write '{}': {}", path_, e.what()));
         }
     }
+
+    RowFilePosition position() const override { return {rows_, 0}; }
 
     void close() override {
         flush();
@@ -159,7 +167,8 @@ class Hdf5File final : public RowFile {
     void add_source(const Recorded& s) {
         std::vector<hsize_t> row;
         if (!s.mean) row = {static_cast<hsize_t>(s.cells.height), static_cast<hsize_t>(s.cells.width)};
-        sets_.push_back({Growing(file_, place_of(s), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, row), s.size(), {}});
+        sets_.push_back(
+            {Growing(file_, place_of(s), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, row, chunk_), s.size(), {}});
         const hid_t set = sets_.back().set.id();
         attribute(set, "name", s.name);
         attribute(set, "label", s.label);
@@ -171,7 +180,6 @@ class Hdf5File final : public RowFile {
         H5DSattach_scale(set, cycle_->id(), 0);
         static constexpr std::array<const char*, 3> dimensions = {"cycle", "row", "column"};
         for (unsigned d = 0; d <= row.size(); ++d) H5DSset_label(set, d, dimensions[d]);
-        row_ += s.size();
     }
 
     bool end() {
@@ -185,13 +193,48 @@ class Hdf5File final : public RowFile {
     std::optional<Growing> cycle_;
     std::vector<Set> sets_;
     std::vector<std::uint64_t> cycles_;
-    std::size_t row_ = 1, held_ = 0;  ///< numbers of a row; bytes that are held back
+    std::size_t chunk_ = 1;  ///< rows of a chunk, in all data sets
+    std::uint64_t rows_ = 0;
 };
+
+/// The first `count` rows of the file at `from`, which holds what `header` says.
+void copy_rows(const std::string& from, const RowFileHeader& header, std::uint64_t count, RowFile& to) {
+    const auto recordings = open_hdf5_recording(from);
+    std::vector<Recording*> sources;
+    for (const auto& s : header.sources)
+        for (const auto& r : recordings)
+            if (r->what().name == s.name && r->what().mean == s.mean && r->what().size() == s.size() &&
+                r->what().group_id == s.group_id)
+                sources.push_back(r.get());
+    if (sources.size() != header.sources.size())
+        throw std::runtime_error(fmt::format("'{}' is not the recording of this run", from));
+    std::vector<double> row, part;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        std::uint64_t cycle = 0;
+        row.clear();
+        for (Recording* s : sources) {
+            if (!s->next(cycle, part))
+                throw ShortFile(fmt::format("'{}' has {} rows, and should have {} at least", from, i, count));
+            row.insert(row.end(), part.begin(), part.end());
+        }
+        to.add(cycle, row);
+    }
+}
 
 }  // namespace
 
-std::unique_ptr<RowFile> open_hdf5_file(const std::string& path, const RowFileHeader& header) {
-    return std::make_unique<Hdf5File>(path, header);
+std::unique_ptr<RowFile> open_hdf5_file(const std::string& path, const RowFileHeader& header,
+                                        const std::optional<RowFilePosition>& go_on) {
+    if (!go_on) return std::make_unique<Hdf5File>(path, header);
+    const std::string again = path + ".again";
+    auto file = std::make_unique<Hdf5File>(again, header);
+    copy_rows(path, header, go_on->rows, *file);
+    file->flush();  // a checkpoint counts on these rows
+    const int written = open(again.c_str(), O_RDONLY | O_CLOEXEC);
+    if (written < 0 || fsync(written) != 0 || close(written) != 0)
+        throw std::runtime_error(fmt::format("cannot write '{}': {}", again, std::strerror(errno)));
+    std::filesystem::rename(again, path);
+    return file;
 }
 
 }  // namespace forage::observe

@@ -35,6 +35,9 @@ class Manipulation {
     /// Between update_groups() and update_modules() of each cycle.
     void apply(engine::Simulation& simulation);
 
+    /// How far it is.
+    void checkpoint(Archive& archive) { archive(begun_, over_, waited_, next_, played_); }
+
   private:
     Settings s_;
     bool begun_ = false, over_ = false;

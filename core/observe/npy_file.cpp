@@ -8,12 +8,13 @@ namespace forage::observe {
 
 static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
 
-NpyFile::NpyFile(const std::string& path, const Recorded& what) : file_(path) {
+NpyFile::NpyFile(const std::string& path, const Recorded& what, const std::optional<RowFilePosition>& go_on)
+    : rows_(go_on ? go_on->rows : 0), file_(path, go_on ? std::optional(go_on->bytes) : std::nullopt) {
     const std::string field = what.state.empty() ? "value" : what.state;
     type_ = what.mean ? fmt::format("[('cycle', '<u8'), ('{}', '<f8')]", field)
                       : fmt::format("[('cycle', '<u8'), ('{}', '<f8', ({}, {}))]", field, what.cells.height,
                                     what.cells.width);
-    file_.buffer() = head(0);
+    if (!go_on) file_.buffer() = head(0);
 }
 
 std::string NpyFile::head(std::uint64_t rows) const {

@@ -10,9 +10,10 @@ namespace forage::observe {
 /// counts the rows that are on disk, so that the file can be loaded at any time, also after a kill.
 class NpyFile final : public RowFile {
   public:
-    NpyFile(const std::string& path, const Recorded& what);
+    NpyFile(const std::string& path, const Recorded& what, const std::optional<RowFilePosition>& go_on);
     void add(std::uint64_t cycle, std::span<const double> numbers) override;
     void flush() override { file_.flush(head(rows_)); }
+    RowFilePosition position() const override { return {rows_, file_.written()}; }
     void close() override { flush(), file_.close(); }
 
   private:

@@ -1,5 +1,8 @@
 #include "core/observe/npz.h"
 
+#include <array>
+#include <fstream>
+#include <memory>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -26,6 +29,25 @@ void join_npz(const std::string& path, const std::vector<std::pair<std::string, 
     const std::string reason = archive ? zip_strerror(archive) : "it cannot be opened";
     if (archive) zip_discard(archive);
     throw std::runtime_error(fmt::format("cannot write '{}': {}", path, reason));
+}
+
+void extract_npz(const std::string& path, const std::string& name, const std::string& npy) {
+    const auto fail = [&](const std::string& what) {
+        throw std::runtime_error(fmt::format("cannot take '{}' out of '{}': {}", name, path, what));
+    };
+    int error = 0;
+    const std::unique_ptr<zip_t, decltype(&zip_discard)> archive(zip_open(path.c_str(), ZIP_RDONLY, &error),
+                                                                 zip_discard);
+    if (!archive) fail("it cannot be opened");
+    const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> in(
+        zip_fopen(archive.get(), (name + ".npy").c_str(), 0), zip_fclose);
+    if (!in) fail(zip_strerror(archive.get()));
+    std::ofstream out(npy, std::ios::binary);
+    std::array<char, 1 << 16> block;
+    zip_int64_t n = 0;
+    while (out && (n = zip_fread(in.get(), block.data(), block.size())) > 0) out.write(block.data(), n);
+    out.close();
+    if (n < 0 || !out) fail(n < 0 ? "it is damaged" : "the disk is full");
 }
 
 }  // namespace forage::observe

@@ -11,4 +11,7 @@ namespace forage::observe {
 /// when one cannot be read or the archive cannot be written.
 void join_npz(const std::string& path, const std::vector<std::pair<std::string, std::string>>& arrays);
 
+/// Takes the array `name` out of such a file again, as a .npy file. Throws std::runtime_error.
+void extract_npz(const std::string& path, const std::string& name, const std::string& npy);
+
 }  // namespace forage::observe

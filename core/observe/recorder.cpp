@@ -29,6 +29,11 @@ void Recorder::record(const engine::Simulation& simulation) {
     add(cycle - place, sums_);
 }
 
+RowFilePosition Recorder::flush() {
+    file_->flush();
+    return file_->position();
+}
+
 void Recorder::sample(const engine::Simulation& simulation) {
     std::size_t at = 0;
     for (const auto& s : sources_) {

@@ -27,6 +27,10 @@ class Recorder {
     /// Adds the row of the cycle that was just completed, if it gives one. Throws std::runtime_error when it
     /// cannot be written; what was written before stays.
     void record(const engine::Simulation& simulation);
+    /// Puts all rows on disk. Throws std::runtime_error.
+    RowFilePosition flush();
+    /// The beginning of a mean that is not complete.
+    void checkpoint(Archive& archive) { archive(sums_, summed_); }
     /// Writes what is still held back. Throws std::runtime_error when that fails.
     void close() { file_->close(); }
 

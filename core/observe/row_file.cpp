@@ -14,22 +14,35 @@
 namespace forage::observe {
 
 std::unique_ptr<RowFile> open_row_file(RecordingFormat format, const std::string& path,
-                                       const RowFileHeader& header) {
+                                       const RowFileHeader& header,
+                                       const std::optional<RowFilePosition>& go_on) {
     switch (format) {
         case RecordingFormat::csv:
-            return std::make_unique<CsvFile>(path, header.sources.at(0));
+            return std::make_unique<CsvFile>(path, header.sources.at(0), go_on);
         case RecordingFormat::npy:
-            return std::make_unique<NpyFile>(path, header.sources.at(0));
+            return std::make_unique<NpyFile>(path, header.sources.at(0), go_on);
         case RecordingFormat::sampler:
-            return std::make_unique<SamplerFile>(path, header);
+            return std::make_unique<SamplerFile>(path, header, go_on);
         case RecordingFormat::hdf5:
             break;
     }
-    return open_hdf5_file(path, header);
+    return open_hdf5_file(path, header, go_on);
 }
 
-BlockFile::BlockFile(std::string path) : path_(std::move(path)) {
-    out_.open(path_, std::ios::binary | std::ios::out | std::ios::trunc);
+BlockFile::BlockFile(std::string path, std::optional<std::uint64_t> go_on) : path_(std::move(path)) {
+    std::error_code error;
+    if (go_on) {
+        const auto size = std::filesystem::file_size(path_, error);
+        if (!error && size < *go_on)
+            throw ShortFile(
+                fmt::format("'{}' has {} bytes, and should have {} at least", path_, size, *go_on));
+        if (!error) std::filesystem::resize_file(path_, *go_on, error);
+        if (error) throw std::runtime_error(fmt::format("cannot write '{}': {}", path_, error.message()));
+        written_ = *go_on;
+        out_.open(path_, std::ios::binary | std::ios::in | std::ios::out | std::ios::ate);
+    } else {
+        out_.open(path_, std::ios::binary | std::ios::out | std::ios::trunc);
+    }
     if (!out_) throw std::runtime_error(fmt::format("cannot write '{}': {}", path_, std::strerror(errno)));
 }
 

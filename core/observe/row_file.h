@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -22,6 +23,17 @@ enum class RecordingFormat {
     sampler,  ///< the original's data sampler
 };
 
+/// A file that should be gone on with lacks rows, or is not there.
+class ShortFile : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Where a file of rows is when all of them are on disk.
+struct RowFilePosition {
+    std::uint64_t rows = 0, bytes = 0;  ///< bytes: 0 where they do not tell
+    void checkpoint(Archive& archive) { archive(rows, bytes); }
+};
+
 /// A file of rows, one per sampled cycle. Whatever ends the run, it holds complete rows only; what was
 /// flushed is there even when the program is killed.
 class RowFile {
@@ -32,6 +44,8 @@ class RowFile {
     virtual void add(std::uint64_t cycle, std::span<const double> numbers) = 0;
     /// Puts all rows on disk. Throws std::runtime_error.
     virtual void flush() = 0;
+    /// After flush(): where to go on from.
+    virtual RowFilePosition position() const = 0;
     /// Ends the file; nothing happens when it had failed before. Throws std::runtime_error.
     virtual void close() = 0;
 };
@@ -44,9 +58,11 @@ struct RowFileHeader {
     std::vector<std::pair<std::string, std::string>> attributes;
 };
 
-/// Opens `path` to be written. Throws std::runtime_error when it cannot be opened.
+/// Opens `path` to be written, anew or, after what it holds up to a position, to go on: the rest is cut off.
+/// Throws std::runtime_error when it cannot be opened, ShortFile when it holds less.
 std::unique_ptr<RowFile> open_row_file(RecordingFormat format, const std::string& path,
-                                       const RowFileHeader& header);
+                                       const RowFileHeader& header,
+                                       const std::optional<RowFilePosition>& go_on = std::nullopt);
 
 /// Whether a file of this format holds several sources.
 constexpr bool holds_several(RecordingFormat format) {
@@ -56,7 +72,9 @@ constexpr bool holds_several(RecordingFormat format) {
 /// A file to which whole rows are appended in blocks.
 class BlockFile {
   public:
-    explicit BlockFile(std::string path);
+    /// Empty, or what it holds up to `go_on` bytes.
+    BlockFile(std::string path, std::optional<std::uint64_t> go_on);
+    std::uint64_t written() const { return written_; }  ///< bytes of complete rows on disk
     bool open() const { return out_.is_open(); }
     std::string& buffer() { return buffer_; }  ///< complete rows only
     bool full() const { return buffer_.size() >= block; }
@@ -69,7 +87,7 @@ class BlockFile {
     static constexpr std::size_t block = 1 << 16;
     [[noreturn]] void fail();
     std::string path_, buffer_;
-    std::uint64_t written_ = 0;  ///< bytes of complete rows on disk
+    std::uint64_t written_ = 0;
     std::fstream out_;
 };
 

@@ -30,6 +30,12 @@ class Schedule {
 
     const std::vector<Entry>& entries() const { return entries_; }
 
+    /// What has acted.
+    void checkpoint(Archive& archive) {
+        for (auto& e : entries_) archive.same(e.text, "a change"), archive(e.cycle);
+        archive(waiting_);
+    }
+
   private:
     std::vector<Entry> entries_;
     std::size_t waiting_ = 0;

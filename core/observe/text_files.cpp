@@ -7,7 +7,17 @@
 
 namespace forage::observe {
 
-CsvFile::CsvFile(const std::string& path, const Recorded& what) : file_(path) {
+namespace {
+
+std::optional<std::uint64_t> bytes_of(const std::optional<RowFilePosition>& position) {
+    return position ? std::optional(position->bytes) : std::nullopt;
+}
+
+}  // namespace
+
+CsvFile::CsvFile(const std::string& path, const Recorded& what, const std::optional<RowFilePosition>& go_on)
+    : file_(path, bytes_of(go_on)) {
+    if (go_on) return;
     file_.buffer() = "cycle";
     for (std::size_t i = 0; i < what.size(); ++i) file_.buffer() += "," + what.cell_name(i);
     file_.buffer() += '\n';
@@ -21,8 +31,10 @@ void CsvFile::add(std::uint64_t cycle, std::span<const double> numbers) {
     if (file_.full()) file_.flush();
 }
 
-SamplerFile::SamplerFile(const std::string& path, const RowFileHeader& header)
-    : file_(path), every_(header.every) {
+SamplerFile::SamplerFile(const std::string& path, const RowFileHeader& header,
+                         const std::optional<RowFilePosition>& go_on)
+    : file_(path, bytes_of(go_on)), every_(header.every), samples_(go_on ? go_on->rows : 0) {
+    if (go_on) return;
     std::string& out = file_.buffer();
     for (const auto& s : header.sources) out += fmt::format("# \"{}\"={}\n", s.group, s.group_id);
     out += "cycle;";

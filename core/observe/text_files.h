@@ -9,9 +9,10 @@ namespace forage::observe {
 /// `cell1,cell2,...`, in order). Numbers are the shortest text that reads back as the same double.
 class CsvFile final : public RowFile {
   public:
-    CsvFile(const std::string& path, const Recorded& what);
+    CsvFile(const std::string& path, const Recorded& what, const std::optional<RowFilePosition>& go_on);
     void add(std::uint64_t cycle, std::span<const double> numbers) override;
     void flush() override { file_.flush(); }
+    RowFilePosition position() const override { return {0, file_.written()}; }
     void close() override { file_.flush(), file_.close(); }
 
   private:
@@ -23,9 +24,11 @@ class CsvFile final : public RowFile {
 /// there, the first column is the number of the sample times the interval.
 class SamplerFile final : public RowFile {
   public:
-    SamplerFile(const std::string& path, const RowFileHeader& header);
+    SamplerFile(const std::string& path, const RowFileHeader& header,
+                const std::optional<RowFilePosition>& go_on);
     void add(std::uint64_t cycle, std::span<const double> numbers) override;
     void flush() override { file_.flush(); }
+    RowFilePosition position() const override { return {samples_, file_.written()}; }
     void close() override { file_.flush(), file_.close(); }
 
   private:

@@ -7,6 +7,8 @@
 //     void start(const ModulePorts&);                // optional: once, before the first cycle; or
 //     void start(const ModulePorts&, ModuleFrame&);  // ... what it writes is received in cycle 0
 //     void update(ModuleFrame&);                     // once per cycle, between groups and connections
+//     void checkpoint(Archive&);                     // for a type with members beside its parameters:
+//     archive.h
 //
 // A module reads the output activity of its input groups of this cycle. What it writes into an output is
 // excitatory input of that group in the next cycle. An output keeps its values until it is written again.
@@ -18,7 +20,9 @@
 #include <string>
 #include <vector>
 
+#include "core/types/archive.h"
 #include "core/types/column.h"
+#include "core/types/members.h"
 #include "core/types/parameter.h"
 #include "core/types/problems.h"
 #include "core/types/random.h"
@@ -93,13 +97,16 @@ class ModuleInstance {
     virtual void check(const ModulePorts&, Problems&) = 0;
     virtual void start(const ModulePorts&, ModuleFrame&) = 0;
     virtual void update(ModuleFrame&) = 0;
+    /// Members beside the parameters, which change while the system runs.
+    virtual void checkpoint(Archive&) = 0;
 };
 
 struct ModuleType {
     std::string name, label, doc;
     std::vector<Parameter> parameters;
     std::vector<ModulePort> ports;
-    bool any_ports = false;  ///< takes whatever cross references the file gives it, in file order
+    bool any_ports = false;   ///< takes whatever cross references the file gives it, in file order
+    bool checkpoints = true;  ///< it has a checkpoint(Archive&), or nothing but parameters
     std::function<std::unique_ptr<ModuleInstance>()> make;
 };
 
@@ -168,6 +175,9 @@ class ModuleModel final : public ModuleInstance {
             value_.start(ports);
     }
     void update(ModuleFrame& frame) override { value_.update(frame); }
+    void checkpoint(Archive& archive) override {
+        if constexpr (requires { value_.checkpoint(archive); }) value_.checkpoint(archive);
+    }
 
   private:
     T value_;
@@ -184,6 +194,8 @@ ModuleType module_type(T prototype = {}) {
     ModuleType type;
     ModuleSpec<T> spec(type);
     T::describe(spec);
+    type.checkpoints = requires(T t, Archive a) { t.checkpoint(a); }
+    || only_parameters<T>(type.parameters);
     type.make = [prototype] { return std::make_unique<detail::ModuleModel<T>>(prototype); };
     return type;
 }

@@ -1,6 +1,7 @@
 // Parameters of a type: declared once, used by the XML check, --set, `forage types` and the docs.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -34,6 +35,7 @@ struct Parameter {
     bool at_start = false;  ///< read when the run starts and never again; all others anew in each update
     std::function<void(void*, const ParameterValue&)> set;
     std::function<ParameterValue(const void*)> get;
+    std::size_t offset = 0, size = 0;  ///< of the member, bytes
 };
 
 /// Reads `text` as a value of `kind` ("true"/"false", a number in C notation whatever the locale, any text).
@@ -94,7 +96,11 @@ Parameter make_parameter(std::string name, M T::*member) {
     p.label = name;
     p.name = std::move(name);
     p.kind = kind_of<M>();
-    p.default_value = ParameterValue(T{}.*member);
+    const T defaults{};
+    p.default_value = ParameterValue(defaults.*member);
+    p.offset = static_cast<std::size_t>(reinterpret_cast<const char*>(&(defaults.*member)) -
+                                        reinterpret_cast<const char*>(&defaults));
+    p.size = sizeof(M);
     p.set = [member](void* object, const ParameterValue& v) {
         static_cast<T*>(object)->*member = std::get<M>(v);
     };

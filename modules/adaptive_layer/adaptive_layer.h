@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "core/types/archive.h"
+
 namespace forage::adaptive {
 
 using Eigen::Index;
@@ -53,6 +55,8 @@ class AdaptiveLayer {
     /// most 1e-5. 1 at start; below 1 once it runs, when x and e are not negative.
     double discrepancy() const { return discrepancy_; }
     const Eigen::MatrixXd& weights() const { return w_; }  ///< W, N x K, after the last step
+
+    void checkpoint(Archive& archive) { archive(w_, y_, e_, discrepancy_, finite_); }
 
   private:
     void respond(const Values& x);

@@ -24,6 +24,7 @@ class AdaptiveLayerModule {
     void start(const ModulePorts& ports);
     /// Throws std::runtime_error when a file that was asked for cannot be read or written.
     void update(ModuleFrame& frame);
+    void checkpoint(Archive& archive) { archive(layer_, display_old_); }
 
     AdaptiveLayer& layer() { return layer_; }
 

@@ -20,6 +20,7 @@ class ColourModule {
     void check(const ModulePorts& ports, Problems& problems) const;
     void start(const ModulePorts& ports);
     void update(ModuleFrame& frame);
+    void checkpoint(Archive& archive) { archive(hue_, value_, shown_); }
 
   private:
     HueBins bins_;

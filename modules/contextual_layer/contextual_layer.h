@@ -47,6 +47,8 @@ class ContextualLayer {
     bool open() const { return open_; }
     Index stored_row() const { return stored_row_; }  ///< the sequence that the last step stored, or -1
 
+    void checkpoint(Archive& archive) { archive(recent_, memory_, action_, stored_row_, open_); }
+
   private:
     void acquire(const Inputs& in);
 

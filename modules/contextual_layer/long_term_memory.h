@@ -48,6 +48,10 @@ class LongTermMemory {
     /// Action of a live segment, M cells.
     auto action(Index row, Index column) const { return actions_.col(row * longest_ + column); }
 
+    void checkpoint(Archive& archive) {
+        archive(prototypes_, actions_, lengths_, distance_, collector_, trigger_, selected_, next_);
+    }
+
   private:
     Index longest_ = 0;
     PrototypeStore prototypes_;  ///< of the live segments; key row NS + column

@@ -18,6 +18,7 @@ class ContextualLayerModule {
     void check(const ModulePorts& ports, Problems& problems) const;
     void start(const ModulePorts& ports);
     void update(ModuleFrame& frame);
+    void checkpoint(Archive& archive) { archive(layer_, displayed_); }
 
     const ContextualLayer& layer() const { return layer_; }
 

@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "core/types/archive.h"
+
 namespace forage::contextual {
 
 using Eigen::Index;
@@ -27,6 +29,10 @@ class PrototypeStore {
     /// rounds: P_i / max P, 1/N and the running sum to single precision. Allocates nothing. `distances` is
     /// the same array every time: what is known to be in it is not written again.
     void compare(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances);
+
+    void checkpoint(Archive& archive) {
+        archive(blocks_, used_, silent_, keys_, slots_, compared_, current_, present_);
+    }
 
   private:
     static constexpr Index lanes = 16;  ///< prototypes per block

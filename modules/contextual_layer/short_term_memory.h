@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "core/types/archive.h"
+
 namespace forage::contextual {
 
 using Eigen::Index;
@@ -12,7 +14,8 @@ class ShortTermMemory {
   public:
     ShortTermMemory() = default;
     ShortTermMemory(Index slots, Index prototype_cells, Index action_cells)
-        : prototypes_(prototype_cells, slots), actions_(action_cells, slots) {}
+        : prototypes_(Eigen::ArrayXXf::Zero(prototype_cells, slots)),
+          actions_(Eigen::ArrayXXf::Zero(action_cells, slots)) {}
 
     /// Remembers a couplet; when all slots are taken the oldest is forgotten.
     void append(const Eigen::Ref<const Eigen::ArrayXd>& prototype,
@@ -29,6 +32,8 @@ class ShortTermMemory {
     /// The prototype, or action, that was appended `age` couplets ago; 0 is the newest.
     auto prototype(Index age) const { return prototypes_.col(slot(age)); }
     auto action(Index age) const { return actions_.col(slot(age)); }
+
+    void checkpoint(Archive& archive) { archive(prototypes_, actions_, next_, size_); }
 
   private:
     Index slot(Index age) const { return (next_ - 1 - age + slots()) % slots(); }

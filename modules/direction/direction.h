@@ -39,6 +39,7 @@ class DirectionModule {
     void check(const ModulePorts& ports, Problems& problems) const;
     void start(const ModulePorts& ports) { width_ = ports.inputs[0].shape.width; }
     void update(ModuleFrame& frame) const;
+    void checkpoint(Archive&) {}  // all is known from the start
 
   private:
     Index width_ = 1;  ///< of location and goal

@@ -29,6 +29,9 @@ struct Replay {
     void check(const ModulePorts& ports, Problems& problems);
     void start(const ModulePorts& ports, ModuleFrame& frame);
     void update(ModuleFrame& frame);
+    void checkpoint(Archive& archive) {
+        for (auto& c : cursors_) archive(c.next);
+    }
 
   private:
     struct Cursor {

@@ -78,3 +78,39 @@ TEST_CASE("Neither the number of threads nor the form of the connections changes
         REQUIRE(one == trace(system, registry, 1, true));
     }
 }
+
+TEST_CASE("A simulation stopped in any cycle and resumed is the one that ran through, to the last bit") {
+    Registry registry;
+    add_neurons(registry);
+    add_synapses(registry);
+    const auto build = [&](const model::System& system, int threads) {
+        Diagnostics diagnostics;
+        auto s = engine::Simulation::build(
+            system, registry, {.seed = 7, .threads = threads, .worth_sharing = threads > 1 ? 0.0 : 1e9},
+            diagnostics);
+        REQUIRE(s);
+        s->start();
+        return std::move(*s);
+    };
+    for (std::uint64_t seed = 1; seed <= models(); ++seed) {
+        const model::System system = test::RandomModel(seed).make();
+        INFO("seed " << seed << "\n" << xml::write_system(system));
+        constexpr std::uint64_t cycles = 24;
+        auto through = build(system, 1);
+        Archive stopped, end;
+        for (std::uint64_t t = 0; t < cycles; ++t) {
+            if (t == seed % cycles) through.checkpoint(stopped);
+            through.step();
+        }
+        through.checkpoint(end);
+
+        auto resumed = build(system, 1 + static_cast<int>(seed % 2));
+        Archive from{std::string_view(stopped.bytes())};
+        resumed.checkpoint(from);
+        REQUIRE(from.left().empty());
+        while (resumed.cycle() < cycles) resumed.step();
+        Archive again;
+        resumed.checkpoint(again);
+        REQUIRE(again.bytes() == end.bytes());
+    }
+}

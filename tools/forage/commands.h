@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,8 +22,18 @@ struct RecordOptions {
     bool mean = false;                   ///< over as many cycles as there are from row to row
 };
 
+/// How often a run writes checkpoints.
+struct CheckpointInterval {
+    double amount = 0;        ///< above 0
+    bool in_seconds = false;  ///< of the world, instead of cycles
+};
+
+/// What is done when a number becomes NaN or infinite.
+enum class OnNan { warn, stop, ignore };
+
 struct RunOptions {
     Input input;
+    std::vector<std::string> arguments;  ///< of the command line, which these options come from
     RecordOptions record;
     std::vector<model::Wish> plots;  ///< as plot_wish.h
     std::string picture_format = "png";
@@ -38,9 +49,19 @@ struct RunOptions {
     std::vector<model::ManipulationWish> manipulations;
     int threads = 1;
     std::string directory = "forage-out";
-    bool paths = true;  ///< follow the robots
+    bool paths = true;                                   ///< follow the robots
+    std::optional<CheckpointInterval> checkpoint_every;  ///< none without
+    OnNan on_nan = OnNan::warn;
+    bool hash = false;  ///< give a digest of the state at the end
     bool real_time = false, quiet = false;
 };
+
+struct ResumeOptions {
+    std::string path;  ///< a directory of results, or a checkpoint in it
+    bool quiet = false;
+};
+/// Makes options of the arguments of `forage run`.
+using RunParser = std::function<RunOptions(const std::vector<std::string>& arguments)>;
 
 struct ConvertOptions {
     std::string input, output;         ///< .iqr or .iqrProcess, both
@@ -77,6 +98,9 @@ struct BuildPluginOptions {
 };
 
 int run(const RunOptions& options);
+/// Goes on with a run that was stopped, from its last checkpoint: what it leaves behind is then what it would
+/// have left without a stop.
+int resume(const ResumeOptions& options, const RunParser& parse);
 int plot(const PlotOptions& options);
 /// Runs every combination of an experiment file with every seed; what was finished before is not repeated.
 int experiment(const ExperimentOptions& options);

@@ -75,6 +75,9 @@ int experiment(const ExperimentOptions& o) {
     }
     write_durably(results_file, results_csv(*wanted, runs, *results));
     write_durably(summary_file, summary_csv(*wanted, runs, *results));
+    for (std::size_t i = 0; i < runs.size(); ++i)
+        if (!(*results)[i].diverged.empty())
+            fmt::print(stderr, "warning: run '{}': {}\n", runs[i].name, (*results)[i].diverged);
     std::size_t failures = 0;
     for (std::size_t i = 0; i < runs.size(); ++i)
         if (!(*results)[i].failure.empty()) {

@@ -114,6 +114,7 @@ class Work {
             {
                 const std::lock_guard lock(libraries_);
                 running = prepare(sources_, run.options, diagnostics);
+                if (running && running->recordings) running->recordings->begin();
             }
             if (!running) return failed(first_error(diagnostics));
             return make(index, *running, part);
@@ -130,9 +131,13 @@ class Work {
         while (!length.over(running.simulation.cycle()) && !running.done() && result.stopped.empty()) {
             running.cycle();
             part.store(length.done(running.simulation.cycle()), std::memory_order_relaxed);
-            if (noted_signal()) return std::nullopt;
+            if (noted_signal()) {
+                if (running.recordings) running.recordings->finish();
+                return std::nullopt;
+            }
             result.stopped = length.hopeless();
         }
+        result.diverged = running.diverged;
         Outcome outcome;
         note(running, outcome);
         result.cycles = outcome.cycles, result.seconds = outcome.seconds;

@@ -94,7 +94,7 @@ std::string results_csv(const model::Experiment& e, std::span<const PlannedRun> 
         if (trials) fields.push_back(field(r.trials)), fields.push_back(field(r.reached));
         for (std::size_t m = 0; m < e.measures.size(); ++m)
             fields.push_back(failed ? "" : field(r.measures[m]));
-        fields.push_back(field(failed ? r.failure : r.stopped));
+        fields.push_back(field(failed ? r.failure : r.stopped.empty() ? r.diverged : r.stopped));
         out += row(fields);
     }
     return out;

@@ -56,9 +56,10 @@ void write_file(const std::string& path, std::string_view text) {
     finish(path);
 }
 
-void write_durably(const std::string& path, std::string_view text) {
+void write_durably(const std::string& path, std::string_view text, const std::string& keep) {
     write_partial(path, text);
     flush(partial(path), O_RDONLY);
+    if (!keep.empty() && std::filesystem::exists(path)) std::filesystem::rename(path, keep);
     finish(path);
     flush_directory(path);
 }

@@ -12,8 +12,9 @@ std::string partial(const std::string& path);
 void finish(const std::string& path);
 /// Writes `text` to `path` by way of partial(path). Throws std::runtime_error.
 void write_file(const std::string& path, std::string_view text);
-/// The same, and makes sure that the file survives a power cut.
-void write_durably(const std::string& path, std::string_view text);
+/// The same, and makes sure that the file survives a power cut. What was there before gets the name `keep`,
+/// if that is not empty.
+void write_durably(const std::string& path, std::string_view text, const std::string& keep = {});
 /// Makes sure that what was written to a file, and its name, survive a power cut. Throws std::runtime_error.
 void flush_to_disk(const std::string& path);
 /// 64-bit FNV-1a in hexadecimal digits: tells whether a text has changed.

@@ -15,6 +15,7 @@ struct MemoryFill {
     double mean_length() const {  ///< segments of a sequence in use
         return sequences ? static_cast<double>(segments) / static_cast<double>(sequences) : 0;
     }
+    void checkpoint(Archive& archive) { archive(sequences, segments, all_sequences, all_segments); }
 };
 
 /// The first adaptive and the first contextual layer of a system, if it has them. To be asked about the

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/model/diagnostic.h"
+#include "core/model/lookup.h"
 #include "core/types/parameter.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/manipulations.h"
@@ -41,6 +42,21 @@ CLI::Validator count() {
 CLI::Validator seed() {
     return number_that([](double v) { return v >= 0 && v < 1.8e19 && v == std::floor(v); },
                        "a whole number, at least 0");
+}
+
+/// "500" cycles or "10 s" of the world.
+CheckpointInterval parse_interval(const std::string& text) {
+    std::string_view number = model::trim(text);
+    CheckpointInterval out;
+    out.in_seconds = number.ends_with("s");
+    if (out.in_seconds) number = model::trim(number.substr(0, number.size() - 1));
+    const auto value = forage::parse_parameter(forage::ParameterKind::real, number);
+    if (value) out.amount = std::get<double>(*value);
+    if (!(out.amount > 0) || (!out.in_seconds && out.amount != std::floor(out.amount)))
+        throw CLI::ValidationError(
+            "--checkpoint-every",
+            fmt::format("'{}' is neither a number of cycles nor of seconds, such as '1000' or '60 s'", text));
+    return out;
 }
 
 CLI::Option* repeated(CLI::Option* option) {
@@ -254,8 +270,45 @@ void add_run(CLI::App& app, RunOptions& o) {
     run.add_option("--threads", o.threads, "For large systems; the numbers do not depend on it [1]")
         ->check(count())
         ->option_text("N");
+    run.add_option_function<std::string>(
+           "--checkpoint-every", [&o](const std::string& text) { o.checkpoint_every = parse_interval(text); },
+           "Write a checkpoint every N cycles, or every 'N s' of the world: after a stop, be it a power cut, "
+           "'forage resume' goes on from there")
+        ->option_text("N");
+    run.add_option(
+           "--on-nan", o.on_nan,
+           "When a number becomes NaN or infinite: 'warn' once and go on, 'stop', or 'ignore' it [warn]")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, OnNan>{{"warn", OnNan::warn},
+                                                                         {"stop", OnNan::stop},
+                                                                         {"ignore", OnNan::ignore}})
+                        .description(""))
+        ->option_text("HOW");
+    run.add_flag("--hash", o.hash, "Give a digest of the state at the end: equal runs have the same one");
     run.add_flag("--realtime", o.real_time, "No faster than the clock: one second of the world per second");
     run.add_flag("-q,--quiet", o.quiet, "Print errors only");
+}
+
+void add_resume(CLI::App& app, ResumeOptions& o) {
+    auto& resume = *app.add_subcommand("resume", "Go on with a run that was stopped, from its checkpoint");
+    resume.footer(
+        "What the run leaves behind is then the same, byte for byte, as if it had never been stopped.\n"
+        "Example:\n"
+        "  forage run systems/reactive_foraging.iqr -w systems/worlds/basic_arena.world --seconds 3600 \\\n"
+        "      --checkpoint-every 10000\n"
+        "  forage resume forage-out");
+    resume.add_option("FROM", o.path, "Directory of results, or one of the checkpoints in it")
+        ->required()
+        ->option_text("DIR|FILE");
+    resume.add_flag("-q,--quiet", o.quiet, "Print errors only");
+}
+
+RunOptions parse_run(std::vector<std::string> arguments) {
+    CLI::App app;
+    RunOptions options;
+    add_run(app, options);
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+    app.parse(arguments);
+    return options;
 }
 
 void add_tutorial(CLI::App& app, TutorialOptions& o) {
@@ -366,6 +419,8 @@ int main(int argc, char** argv) {
     Input check_input, describe_input;
     std::string type;
     add_run(app, run_options);
+    ResumeOptions resume_options;
+    add_resume(app, resume_options);
     add_experiment(app, experiment_options);
     TutorialOptions tutorial_options;
     add_tutorial(app, tutorial_options);
@@ -437,7 +492,11 @@ int main(int argc, char** argv) {
         return bad_input;
     }
     try {
-        if (app.got_subcommand("run")) return run(run_options);
+        if (app.got_subcommand("run")) {
+            run_options.arguments.assign(argv + 1, argv + argc);
+            return run(run_options);
+        }
+        if (app.got_subcommand("resume")) return resume(resume_options, parse_run);
         if (app.got_subcommand("tutorial")) return tutorial(tutorial_options);
         if (app.got_subcommand("experiment")) return experiment(experiment_options);
         if (app.got_subcommand("plot")) return plot(plot_options);

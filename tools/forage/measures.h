@@ -16,6 +16,8 @@ namespace forage::tool {
 struct Sighting {
     int patch = 0;              ///< of the world's patches
     double prototype_peak = 0;  ///< of the strongest cell of the prototype
+
+    void checkpoint(Archive& archive) { archive(patch, prototype_peak); }
 };
 
 /// What is measured of a trial.
@@ -32,6 +34,8 @@ struct TrialMeasures {
         double cue, distractor;
     };
     std::optional<Peaks> peaks() const;
+
+    void checkpoint(Archive& archive) { archive(start, patches, discrepancy, memory); }
 };
 
 /// Follows one robot and the layers of its system through a run.
@@ -50,6 +54,8 @@ class Measures {
     const std::vector<bug::Patch>& patches() const { return patches_; }
     /// "cyan > red": what came into view, by colour.
     std::string route(const TrialMeasures& trial) const;
+
+    void checkpoint(Archive& archive) { archive(finished_, seen_); }
 
   private:
     TrialMeasures at_end(const bug::Trial& trial, const engine::Simulation& simulation) const;

@@ -21,14 +21,18 @@ class PathLog {
     /// trial,cycle,x,y,yaw of every point: where the robot was at the end of that cycle.
     std::string csv() const;
 
+    void checkpoint(Archive& archive) { archive(finished_, current_, count_, spacing_); }
+
   private:
     struct Point {
         std::uint64_t cycle;
         bug::Pose2 pose;
+        void checkpoint(Archive& archive) { archive(cycle, pose); }
     };
     struct Trial {
         std::vector<Point> points;
         bool reached = false, finished = false;
+        void checkpoint(Archive& archive) { archive(points, reached, finished); }
     };
     void add(std::uint64_t cycle, const bug::Pose2& pose, bool always);
     void thin();

@@ -34,6 +34,12 @@ class RowPlot {
     std::string draw(plot::Format format, const PlotContext& context) const;
     const PlotWish& wish() const { return wish_; }
 
+    /// What it has taken up.
+    void checkpoint(Archive& archive) {
+        for (auto& c : curves_) archive(c);
+        archive(frames_, rows_, keep_every_, first_, last_);
+    }
+
   private:
     void add_frame(std::uint64_t cycle, std::span<const double> numbers);
 
@@ -52,6 +58,10 @@ class LivePlots {
                           const engine::Simulation& simulation, Diagnostics& diagnostics);
     /// After each cycle.
     void follow(const engine::Simulation& simulation);
+
+    void checkpoint(Archive& archive) {
+        for (auto& p : plots_) archive(p);
+    }
 
     const std::vector<RowPlot>& of_cells() const { return plots_; }
     const std::vector<PlotWish>& others() const { return others_; }  ///< diagrams and connections

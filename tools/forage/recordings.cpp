@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -104,28 +105,62 @@ std::vector<RecordingFile> recorded_files(const RunOptions& options, const engin
 Recordings::Recordings(std::vector<RecordingFile> files, const RecordOptions& options,
                        const std::string& directory,
                        const std::vector<std::pair<std::string, std::string>>& attributes)
-    : directory_(directory) {
-    try {
-        for (auto& f : files) {
-            observe::RowFileHeader header{{}, f.every, attributes};
-            for (const auto& s : f.sources) {
-                header.sources.push_back(s.what());
-                entries_.push_back({f.archive.empty() ? f.name : f.archive, s.what().name, s.what().label});
-            }
-            const std::string path = directory + "/" + f.name;
-            auto file = observe::open_row_file(f.format, partial(path), header);
-            all_.push_back({f.name,
-                            path,
-                            f.archive,
-                            f.sources.front().what().name,
-                            {std::move(file),
-                             std::move(f.sources),
-                             {f.every, options.from, options.until, options.mean}}});
+    : options_(options), directory_(directory) {
+    for (auto& f : files) {
+        observe::RowFileHeader header{{}, f.every, attributes};
+        for (const auto& s : f.sources) {
+            header.sources.push_back(s.what());
+            entries_.push_back({f.archive.empty() ? f.name : f.archive, s.what().name, s.what().label});
         }
+        std::string path = directory + "/" + f.name;
+        all_.push_back({std::move(f), std::move(path), std::move(header), std::nullopt});
+    }
+}
+
+void Recordings::open(File& f, const std::optional<observe::RowFilePosition>& go_on) {
+    f.recorder.emplace(observe::open_row_file(f.file.format, partial(f.path), f.header, go_on),
+                       f.file.sources,
+                       observe::Sampling{f.file.every, options_.from, options_.until, options_.mean});
+}
+
+void Recordings::begin() {
+    try {
+        for (auto& f : all_) open(f, std::nullopt);
     } catch (...) {
-        for (const auto& r : all_) std::remove(partial(r.path).c_str());
+        for (const auto& f : all_)
+            if (f.recorder) std::remove(partial(f.path).c_str());
         throw;
     }
+}
+
+/// A file that was finished, when the run was stopped in order, grows under its other name again.
+void Recordings::reopen(const File& f) const {
+    namespace fs = std::filesystem;
+    if (fs::exists(partial(f.path))) return;
+    const std::string archive = directory_ + "/" + f.file.archive;
+    if (!f.file.archive.empty() && fs::exists(archive))
+        observe::extract_npz(archive, f.header.sources.front().name, partial(f.path));
+    else if (f.file.archive.empty() && fs::exists(f.path))
+        fs::rename(f.path, partial(f.path));
+    else
+        throw observe::ShortFile(fmt::format("the recording '{}' is not there", f.path));
+}
+
+void Recordings::checkpoint(Archive& archive) {
+    archive.same(all_.size(), "the number of recordings");
+    std::vector<observe::RowFilePosition> positions;
+    for (auto& f : all_) {
+        archive.same(f.path.substr(directory_.size()), "a recording");
+        auto& position = positions.emplace_back();
+        if (!archive.loading()) position = f.recorder->flush();
+        archive(position);
+        if (!archive.loading()) flush_to_disk(partial(f.path));
+    }
+    if (archive.loading()) {
+        for (const auto& f : all_) reopen(f);  // all are there before any is changed
+        for (std::size_t i = 0; i < all_.size(); ++i) open(all_[i], positions[i]);
+    }
+    for (auto& f : all_) archive(*f.recorder);
 }
 
 std::string Recordings::finish() {
@@ -138,13 +173,13 @@ std::string Recordings::finish() {
         }
     };
     std::map<std::string, std::vector<std::pair<std::string, std::string>>> archives;
-    for (auto& r : all_) {
-        attempt([&] { r.recorder.close(); });
+    for (auto& f : all_) {
+        attempt([&] { f.recorder->close(); });
         // What it holds is whole in any case.
-        if (r.archive.empty())
-            attempt([&] { tool::finish(r.path); });
+        if (f.file.archive.empty())
+            attempt([&] { tool::finish(f.path); });
         else
-            archives[r.archive].emplace_back(r.source, partial(r.path));
+            archives[f.file.archive].emplace_back(f.header.sources.front().name, partial(f.path));
     }
     for (const auto& [name, arrays] : archives)
         attempt([&, &name = name, &arrays = arrays] {

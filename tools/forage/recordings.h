@@ -1,6 +1,7 @@
 // The recordings of a run: files that grow under another name and get their own when the run ends.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,14 +25,19 @@ std::vector<RecordingFile> recorded_files(const RunOptions& options, const engin
 
 class Recordings {
   public:
-    /// `attributes` is what a file may say of the run. Throws std::runtime_error when a file cannot be
-    /// opened; none is left then.
+    /// `attributes` is what a file may say of the run.
     Recordings(std::vector<RecordingFile> files, const RecordOptions& options, const std::string& directory,
                const std::vector<std::pair<std::string, std::string>>& attributes);
 
+    /// Begins the files. Throws std::runtime_error when one cannot be opened; none is left then.
+    void begin();
+    /// Writing: brings all rows to the disk and notes where the files are. Reading: goes on where they were,
+    /// instead of begin(), also in files that had got their names. Throws std::runtime_error.
+    void checkpoint(Archive& archive);
+
     /// After each cycle. Throws std::runtime_error when a file cannot be written.
     void record(const engine::Simulation& simulation) {
-        for (auto& r : all_) r.recorder.record(simulation);
+        for (auto& f : all_) f.recorder->record(simulation);
     }
     /// Closes every file and gives it its name, also when one of them fails. Returns what went wrong; empty
     /// when nothing did.
@@ -46,11 +52,17 @@ class Recordings {
     const std::vector<Entry>& entries() const { return entries_; }
 
   private:
-    struct Open {
-        std::string name, path, archive, source;
-        observe::Recorder recorder;
+    struct File {
+        RecordingFile file;
+        std::string path;
+        observe::RowFileHeader header;
+        std::optional<observe::Recorder> recorder;  ///< once it is open
     };
-    std::vector<Open> all_;
+    void open(File& file, const std::optional<observe::RowFilePosition>& go_on);
+    void reopen(const File& file) const;
+
+    std::vector<File> all_;
+    RecordOptions options_;
     std::string directory_;
     std::vector<Entry> entries_;
 };

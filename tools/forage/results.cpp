@@ -81,6 +81,8 @@ std::string run_json(const RunOptions& o, const Loaded& loaded, const Outcome& o
     result["cycles"] = outcome.cycles;
     result["seconds"] = outcome.seconds;
     if (!outcome.stopped.empty()) result["stopped"] = outcome.stopped;
+    if (!outcome.diverged.empty()) result["diverged"] = outcome.diverged;
+    if (!outcome.state.empty()) result["state"] = outcome.state;
     for (const auto& [text, cycle] : outcome.changes)
         result["changes"].push_back(
             {{"at", text}, {"cycle", cycle ? nlohmann::ordered_json(*cycle) : nlohmann::ordered_json()}});
@@ -124,9 +126,10 @@ std::string summary(const RunOptions& o, const Loaded& loaded, const Outcome& ou
     if (!outcome.stopped.empty()) line("stopped", outcome.stopped);
     line("cycles", fmt::format("{} ({:.1f} s {})", outcome.cycles, outcome.seconds,
                                loaded.world ? "in the world" : "at the system's pace"));
-    line("speed", fmt::format("{:.0f} cycles/s, {:.0f} x real time ({:.2f} s)",
-                              static_cast<double>(outcome.cycles) / outcome.clock,
-                              outcome.seconds / outcome.clock, outcome.clock));
+    const auto done = static_cast<double>(outcome.cycles - outcome.first_cycle);
+    line("speed", fmt::format("{:.0f} cycles/s, {:.0f} x real time ({:.2f} s)", done / outcome.clock,
+                              outcome.seconds * done / (static_cast<double>(outcome.cycles) * outcome.clock),
+                              outcome.clock));
     for (const auto& [text, cycle] : outcome.changes)
         line(cycle ? "changed" : "not changed", cycle ? fmt::format("in cycle {}, at {}", *cycle, text)
                                                       : fmt::format("at {}: it never was", text));
@@ -136,6 +139,9 @@ std::string summary(const RunOptions& o, const Loaded& loaded, const Outcome& ou
             for (const auto& [what, text] : trials_summary(*loaded.world, outcome.trials[i]))
                 line(name + what, text);
         }
+    if (!outcome.diverged.empty()) line("diverged", outcome.diverged);
+    if (!outcome.state.empty()) line("state", outcome.state);
+    if (outcome.resumable) line("to go on", "forage resume " + o.directory);
     if (!outcome.files.empty())
         line("written", fmt::format("{}: {}", o.directory, fmt::join(outcome.files, ", ")));
     return out;

@@ -14,11 +14,15 @@ namespace forage::tool {
 struct Outcome {
     std::optional<std::uint64_t> length;  ///< cycles that were asked for; empty when trials end the run
     std::uint64_t cycles = 0;
-    double seconds = 0;  ///< of the world
-    double clock = 0;    ///< s of the clock
+    std::uint64_t first_cycle = 0;  ///< in which it went on, 0 for a run from the start
+    double seconds = 0;             ///< of the world
+    double clock = 0;               ///< s of the clock
     std::vector<std::pair<std::string, std::optional<std::uint64_t>>>
-        changes;          ///< of --at, and the first cycle in which each acted; empty: it never did
-    std::string stopped;  ///< why it ended before its time; empty when it did not
+        changes;             ///< of --at, and the first cycle in which each acted; empty: it never did
+    std::string diverged;    ///< where numbers began to be not finite; empty: they are
+    std::string stopped;     ///< why it ended before its time; empty when it did not
+    std::string state;       ///< a digest of it at the end; empty when it is not wanted
+    bool resumable = false;  ///< there is a checkpoint to go on from
     std::vector<std::string> files;
     std::vector<Recordings::Entry> recordings;
     std::vector<Trials> trials;  ///< of each robot of the world

@@ -2,9 +2,13 @@
 #include <chrono>
 #include <cstdio>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include "tools/forage/checkpoint.h"
+#include "tools/forage/checkpoint_file.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/files.h"
 #include "tools/forage/length.h"
@@ -17,17 +21,48 @@
 namespace forage::tool {
 namespace {
 
+/// Notices, once a second, that the directory for results is not there any more: what is written into open
+/// files would be lost.
+class Watch {
+  public:
+    explicit Watch(std::string directory) : directory_(std::move(directory)) {}
+    bool gone() const { return !directory_.empty() && access(directory_.c_str(), F_OK) != 0; }
+    std::string reason() const { return fmt::format("the directory '{}' is not there any more", directory_); }
+    void look() {
+        const auto now = std::chrono::steady_clock::now();
+        if (now < next_) return;
+        next_ = now + std::chrono::seconds(1);
+        if (gone()) throw std::runtime_error(reason());
+    }
+
+  private:
+    std::string directory_;
+    std::chrono::steady_clock::time_point next_;
+};
+
 /// Runs until the end, or until something stops it. Throws what a cycle or a recording throws.
-void loop(const RunOptions& o, Running& r, const Length& length, Progress& progress, Outcome& outcome) {
+void loop(const RunOptions& o, Running& r, const Length& length, Checkpoints& checkpoints, Watch& watch,
+          Progress& progress, Outcome& outcome) {
     auto& simulation = r.simulation;
+    const double begun = r.seconds();
+    bool told = !r.diverged.empty();  // before the run went on
     while (!length.over(simulation.cycle()) && !r.done()) {
         r.cycle();
+        watch.look();
+        if (!r.diverged.empty() && !told) {
+            told = true;
+            progress.clear();
+            if (o.on_nan == OnNan::stop) throw std::runtime_error("stopped: " + r.diverged);
+            fmt::print(stderr, "warning: {}\n  hint: --on-nan stop ends the run there\n", r.diverged);
+        }
+        checkpoints.follow(r);
         if (o.real_time)
-            if (const double ahead = r.seconds() - progress.elapsed(); ahead > 0)
+            if (const double ahead = r.seconds() - begun - progress.elapsed(); ahead > 0)
                 std::this_thread::sleep_for(std::chrono::duration<double>(ahead));
         if (progress.due())
             progress.draw({length.done(simulation.cycle()), simulation.cycle(), r.seconds(), length.text()});
         outcome.stopped = noted_signal() ? stopped_by(noted_signal()) : length.hopeless();
+        if (noted_signal()) checkpoints.stop(r);
         if (!outcome.stopped.empty()) return;
     }
 }
@@ -57,31 +92,51 @@ int run(const RunOptions& options) {
     if (!(options.recordings.empty() && options.plots.empty()) && options.directory.empty())
         diagnostics.error({}, "--record and --plot need a directory to write to",
                           "leave out -o '' or name one");
-    auto running = prepare(read(options.input, diagnostics), options, diagnostics);
+    const Sources sources = read(options.input, diagnostics);
+    auto running = prepare(sources, options, diagnostics);
     if (diagnostics.failed() || !options.quiet) fmt::print(stderr, "{}", format(diagnostics));
     if (!running) return bad_input;
+    try {
+        if (!options.directory.empty()) remove_checkpoints(options.directory);  // of another run
+        if (running->recordings) running->recordings->begin();
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "error: {}\n", e.what());
+        return bad_input;
+    }
+    return carry_on(options, sources, *running);
+}
 
+int carry_on(const RunOptions& options, const Sources& sources, Running& running) {
     note_signals();
-    const Length length(options, running->loaded.world.get(), running->seconds_per_cycle);
+    const Length length(options, running.loaded.world.get(), running.seconds_per_cycle);
     Progress progress(!options.quiet);
     Outcome outcome;
     outcome.length = length.cycles();
+    outcome.first_cycle = running.simulation.cycle();
     std::vector<std::string> problems;
+    Watch watch(options.directory);
     try {
-        loop(options, *running, length, progress, outcome);
+        Checkpoints checkpoints(options, sources, running);
+        loop(options, running, length, checkpoints, watch, progress, outcome);
     } catch (const std::exception& e) {
         outcome.stopped = e.what();
         problems.emplace_back(e.what());
     }
-    note(*running, outcome);
+    note(running, outcome);
     outcome.clock = std::max(progress.elapsed(), 1e-9);
     progress.clear();
+    if (options.hash) outcome.state = state_digest(running);
 
-    if (!options.directory.empty())
-        for (auto& problem : write_results(options, *running, outcome))
+    if (watch.gone())
+        problems = {watch.reason()};
+    else if (!options.directory.empty())
+        for (auto& problem : write_results(options, running, outcome))
             if (std::find(problems.begin(), problems.end(), problem) == problems.end())
                 problems.push_back(std::move(problem));
-    if (!options.quiet) fmt::print("{}", summary(options, running->loaded, outcome));
+    const bool finished = problems.empty() && !noted_signal();
+    if (options.checkpoint_every && finished) remove_checkpoints(options.directory);
+    outcome.resumable = options.checkpoint_every && !finished && has_checkpoint(options.directory);
+    if (!options.quiet) fmt::print("{}", summary(options, running.loaded, outcome));
     for (const auto& problem : problems) fmt::print(stderr, "error: {}\n", problem);
     if (!problems.empty()) return run_failed;
     return noted_signal() ? 128 + noted_signal() : fine;

@@ -28,6 +28,11 @@ class RunMeasures {
     std::vector<std::optional<double>> values(const Loaded& loaded, const engine::Simulation& simulation,
                                               const observe::Moment& now) const;
 
+    void checkpoint(Archive& archive) {
+        for (auto& e : entries_) archive(e.first);
+        archive(waiting_);
+    }
+
   private:
     struct Entry {
         model::Measure wish;

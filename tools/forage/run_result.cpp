@@ -3,12 +3,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "tools/forage/files.h"
+#include "tools/forage/input_files.h"
 
 namespace forage::tool {
 namespace {
@@ -31,44 +31,20 @@ std::optional<T> or_empty(const Json& json) {
     return json.is_null() ? std::nullopt : std::optional(json.get<T>());
 }
 
-/// Digests by path, of what was read.
-class Digests {
-  public:
-    void add(const Location& where) {
-        if (where.file) all_[where.file->path] = digest(where.file->text);
-    }
-    void add(const bug::Model& model) {
-        add(model.where);
-        for (const auto& link : model.links) {
-            add(link.where);
-            for (const auto& v : link.visuals)
-                if (!v.material.texture.empty() && !all_.contains(v.material.texture))
-                    all_[v.material.texture] = digest(content_of(v.material.texture));
-        }
-        for (const auto& inner : model.models) add(inner);
-    }
-    void add_file(const std::string& path) { all_[path] = digest(content_of(path)); }
-    /// The digests alone: a result holds in whatever directory its files are.
-    std::string text() const {
-        std::string out;
-        for (const auto& [path, digest] : all_) out += digest;
-        return digest(out);
-    }
-
-  private:
-    std::map<std::string, std::string> all_;
-};
+/// The digests alone: a result holds in whatever directory its files are.
+std::string without_paths(const InputFiles& files) {
+    std::string out;
+    for (const auto& [path, digest] : files) out += digest;
+    return digest(out);
+}
 
 }  // namespace
 
 std::string digests_of(const model::Experiment& experiment, const Sources& sources) {
-    Digests system, world;
-    for (const auto& p : sources.plugins) system.add_file(p.path);
-    system.add(sources.system->at);
-    for (const auto& p : sources.system->processes) system.add(p.at);
-    if (!sources.world) return system.text();
-    for (const auto& m : sources.world->models) world.add(m);
-    return fmt::format("{} {} {}", system.text(), digest(content_of(experiment.world)), world.text());
+    const std::string system = without_paths(system_files(sources));
+    if (!sources.world) return system;
+    return fmt::format("{} {} {}", system, file_digest(experiment.world),
+                       without_paths(world_files(sources)));
 }
 
 std::string key_of(const PlannedRun& run, const model::Experiment& experiment, const std::string& digests) {
@@ -86,8 +62,8 @@ std::string key_of(const PlannedRun& run, const model::Experiment& experiment, c
     for (const auto& wish : o.at) key["at"].push_back(wish.text());
     for (const auto& m : o.manipulations)
         key["manipulate"].push_back({static_cast<int>(m.mode), m.group.text, m.cells.text,
-                                     m.patterns.empty() ? "" : digest(content_of(m.patterns.text)), m.every,
-                                     m.step, or_null(m.times), m.backwards, m.from.text, m.until.text});
+                                     m.patterns.empty() ? "" : file_digest(m.patterns.text), m.every, m.step,
+                                     or_null(m.times), m.backwards, m.from.text, m.until.text});
     for (const auto& r : o.recordings) key["record"].push_back({r.column.text, r.every});
     for (const auto& wish : o.plots) key["plot"].push_back(wish.text);
     for (const auto& m : experiment.measures)
@@ -103,6 +79,7 @@ std::optional<RunResult> read_result(const PlannedRun& run, const std::string& k
         RunResult out;
         out.stopped = result.at("stopped"), out.cycles = result.at("cycles"),
         out.seconds = result.at("seconds");
+        out.diverged = result.value("diverged", "");
         out.trials = or_empty<std::uint64_t>(result.at("trials"));
         out.reached = or_empty<std::uint64_t>(result.at("reached"));
         for (const auto& m : result.at("measures")) out.measures.push_back(or_empty<double>(m));
@@ -129,6 +106,7 @@ void write_result(const PlannedRun& run, const std::string& key, const RunResult
     json["run"] = Json::parse(key);
     auto& r = json["result"];
     r["stopped"] = result.stopped, r["cycles"] = result.cycles, r["seconds"] = result.seconds;
+    if (!result.diverged.empty()) r["diverged"] = result.diverged;
     r["trials"] = or_null(result.trials), r["reached"] = or_null(result.reached);
     r["measures"] = Json::array();
     for (const auto& m : result.measures) r["measures"].push_back(or_null(m));

@@ -11,8 +11,9 @@
 namespace forage::tool {
 
 struct RunResult {
-    std::string failure;  ///< why there are no numbers; empty when there are
-    std::string stopped;  ///< why it ended before its time; empty when it did not
+    std::string failure;   ///< why there are no numbers; empty when there are
+    std::string stopped;   ///< why it ended before its time; empty when it did not
+    std::string diverged;  ///< where numbers began to be not finite; empty: they are
     std::uint64_t cycles = 0;
     double seconds = 0;                            ///< of the world
     std::optional<std::uint64_t> trials, reached;  ///< of the first robot: finished ones, and at the target

@@ -1,5 +1,8 @@
 #include "tools/forage/running.h"
 
+#include <fmt/format.h>
+
+#include "tools/forage/checkpoint.h"
 #include "tools/forage/files.h"
 #include "tools/forage/length.h"
 #include "tools/forage/manipulations.h"
@@ -7,6 +10,20 @@
 #include "tools/forage/tables.h"
 
 namespace forage::tool {
+namespace {
+
+std::string describe(const engine::NotFinite& what, const engine::Simulation& simulation) {
+    const auto shape = simulation.shape(what.group);
+    const auto place = shape.cells == shape.width * shape.height
+                           ? fmt::format("({}, {})", what.cell % shape.width + 1, what.cell / shape.width + 1)
+                           : fmt::format("{}", what.cell + 1);
+    return fmt::format("in cycle {} '{}' of '{}' becomes {} in cell {}", what.cycle,
+                       simulation.type(what.group).states[static_cast<std::size_t>(what.state)].name,
+                       simulation.path(what.group), what.value, place);
+}
+
+}  // namespace
+
 observe::Moment Running::now() const {
     const int trial = has_trials(loaded) ? static_cast<int>(loaded.world->trials(0).size()) + 1 : 0;
     return {simulation.cycle(), seconds(), trial};
@@ -17,6 +34,8 @@ void Running::cycle() {
     if (run_measures.waiting()) run_measures.see(simulation, now());
     for (auto& m : manipulations) m.look(simulation, now());
     simulation.update_groups();
+    if (simulation.not_finite() && diverged.empty())
+        diverged = describe(*simulation.not_finite(), simulation);
     clamp.apply(simulation);
     for (auto& m : manipulations) m.apply(simulation);
     simulation.update_modules();
@@ -26,6 +45,20 @@ void Running::cycle() {
     plots.follow(simulation);
     for (auto& m : measures) m.follow(simulation);
     for (auto& p : paths) p.follow();
+}
+
+void Running::checkpoint(Archive& archive) {
+    archive(simulation);
+    if (loaded.world) archive(*loaded.world);
+    archive(schedule);
+    for (auto& m : manipulations) archive(m);
+    archive(run_measures);
+    for (auto& m : measures) archive(m);
+    archive(plots);
+    for (auto& p : paths) archive(p);
+    archive(diverged);
+    if (!diverged.empty()) simulation.watch(false);
+    if (recordings) archive(*recordings);
 }
 
 std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diagnostics& diagnostics) {
@@ -45,10 +78,12 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
     auto manipulated = manipulations(o.manipulations, *loaded, *simulation, diagnostics);
     auto files = recorded_files(o, *simulation, diagnostics);
     auto plots = LivePlots::make(o.plots, loaded->system, *simulation, diagnostics);
+    check_checkpoints(o, *loaded, *simulation, diagnostics);
     RunMeasures run_measures(o.measures, *loaded, *simulation, diagnostics);
     if (diagnostics.failed()) return std::nullopt;
     try {
         simulation->start();
+        simulation->watch(o.on_nan != OnNan::ignore);
         const double seconds_per_cycle =
             loaded->world ? loaded->world->seconds_per_cycle() : 1 / cycles_per_second(loaded->system);
         Running out{std::move(*loaded),
@@ -62,6 +97,7 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
                     {},
                     std::move(plots),
                     std::nullopt,
+                    {},
                     {}};
         if (out.loaded.world)
             for (std::size_t i = 0; i < out.loaded.world->bugs(); ++i)
@@ -70,7 +106,7 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
             make_directory(o.directory);
             out.recordings.emplace(std::move(files), o.record, o.directory, run_attributes(o, out.loaded));
         }
-        if (o.paths && out.loaded.world)
+        if (o.paths && !o.directory.empty() && out.loaded.world)
             for (std::size_t i = 0; i < out.loaded.world->bugs(); ++i)
                 out.paths.emplace_back(*out.loaded.world, i);
         return out;
@@ -105,6 +141,7 @@ std::string robot_suffix(const bug::World& world, std::size_t robot) {
 void note(const Running& running, Outcome& outcome) {
     outcome.cycles = running.simulation.cycle();
     outcome.seconds = running.seconds();
+    outcome.diverged = running.diverged;
     for (const auto& e : running.schedule.entries()) outcome.changes.push_back({e.text, e.cycle});
     for (std::size_t i = 0; i < running.measures.size(); ++i)
         outcome.trials.push_back(

@@ -32,10 +32,15 @@ struct Running {
     LivePlots plots;
     std::optional<Recordings> recordings;  ///< none without a directory
     std::vector<PathLog> paths;            ///< one per robot, when they are wanted
+    std::string diverged;  ///< where numbers began to be not finite; empty: they are, or nobody looks
 
     /// One cycle: changes that are due, the system, its world; then what was seen is written down. Throws
     /// what a cycle or a recording throws.
     void cycle();
+
+    /// All of it that changes. Recordings come last: nothing is touched on the disk when something else does
+    /// not fit.
+    void checkpoint(Archive& archive);
 
     observe::Moment now() const;  ///< before the next cycle
     double seconds() const { return static_cast<double>(simulation.cycle()) * seconds_per_cycle; }
@@ -43,9 +48,13 @@ struct Running {
     bool done() const { return until && until->holds(simulation, now()); }
 };
 
-/// Builds and starts everything. Whatever is wrong with what a person gave is found here, before the first
-/// cycle and before anything is written; empty when `diagnostics` got an error.
+/// Builds and starts everything but the recordings. Whatever is wrong with what a person gave is found here,
+/// before the first cycle and before anything is written; empty when `diagnostics` got an error.
 std::optional<Running> prepare(const Sources& sources, const RunOptions& options, Diagnostics& diagnostics);
+
+/// Runs from where it is to its end, or until something stops it, and writes what a run leaves behind.
+/// Returns the exit status.
+int carry_on(const RunOptions& options, const Sources& sources, Running& running);
 
 /// How it went.
 void note(const Running& running, Outcome& outcome);

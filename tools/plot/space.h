@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/types/archive.h"
 #include "tools/plot/canvas.h"
 
 namespace forage::plot {
@@ -19,6 +20,7 @@ struct CellGrid {
 struct SpaceFrame {
     std::uint64_t cycle;
     std::vector<double> values;
+    void checkpoint(Archive& archive) { archive(cycle, values); }
 };
 
 struct SpacePlot {

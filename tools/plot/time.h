@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/types/archive.h"
 #include "tools/plot/axes.h"
 #include "tools/plot/canvas.h"
 
@@ -22,9 +23,12 @@ class Curve {
         double begin, end;   ///< values there
         double low, high;
         double count;
+        void checkpoint(Archive& archive) { archive(first, last, begin, end, low, high, count); }
     };
     const std::string& name() const { return name_; }
     const std::vector<Bin>& bins() const { return bins_; }
+
+    void checkpoint(Archive& archive) { archive(bins_, per_bin_); }
 
   private:
     std::string name_;

@@ -1,0 +1,179 @@
+// What changes while a system runs, as bytes and back: how types take part in checkpoints.
+//
+// A module type that has members beside its parameters declares
+//
+//     void checkpoint(Archive& archive) { archive(weights_, step_, open_); }
+//
+// and this one list is used to write and to read them. What start() makes anew from the ports and the
+// parameters need not be in it. modules/adaptive_layer/module.h is the example to copy.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <deque>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace forage {
+
+/// A checkpoint does not fit what it is read into.
+class ArchiveError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Writes values, or reads them back in the same order: numbers, booleans, enumerations, strings, vectors,
+/// deques, arrays, maps, pairs, optional values, Eigen's matrices and arrays, and whatever has a member
+/// `checkpoint(Archive&)`. The bytes are those of little-endian memory; equal values give equal bytes.
+class Archive {
+  public:
+    /// Writes.
+    Archive() = default;
+    /// Reads `bytes`, which must outlive it.
+    explicit Archive(std::string_view bytes) : left_(bytes), loading_(true) {}
+
+    bool loading() const { return loading_; }
+    const std::string& bytes() const { return bytes_; }  ///< that were written
+    std::string_view left() const { return left_; }      ///< that are not read yet
+
+    /// Writes the values, or reads them. Throws ArchiveError when there is nothing left to read.
+    template <class... T>
+    void operator()(T&... values) {
+        (value(values), ...);
+    }
+
+    /// Rows of numbers whose number is known.
+    template <class T>
+    void numbers(T* first, std::size_t count) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        if (loading_)
+            std::memcpy(static_cast<void*>(first), take(count, sizeof(T)), count * sizeof(T));
+        else
+            bytes_.append(reinterpret_cast<const char*>(first), count * sizeof(T));
+    }
+
+    /// Something that cannot change: throws ArchiveError, naming it, when what is read is something else.
+    template <class T>
+    void same(const T& here, std::string_view what) {
+        T there = here;
+        (*this)(there);
+        if (!(there == here))
+            throw ArchiveError("the checkpoint is of something else: " + std::string(what) + " differs");
+    }
+
+  private:
+    static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
+
+    const char* take(std::size_t count, std::size_t size) {
+        if (count > left_.size() / size) throw ArchiveError("the checkpoint ends too early");
+        const char* at = left_.data();
+        left_.remove_prefix(count * size);
+        return at;
+    }
+    std::size_t count(std::size_t here) {
+        auto n = static_cast<std::uint64_t>(here);
+        value(n);
+        // Each element takes a byte at least; so a wrong number cannot ask for all memory.
+        if (loading_ && n > left_.size()) throw ArchiveError("the checkpoint ends too early");
+        return static_cast<std::size_t>(n);
+    }
+
+    template <class T>
+    void value(T& v) {
+        if constexpr (requires { v.checkpoint(*this); }) {
+            v.checkpoint(*this);
+        } else if constexpr (std::is_same_v<T, bool>) {
+            auto byte = static_cast<std::uint8_t>(v);
+            numbers(&byte, 1);
+            v = byte != 0;
+        } else if constexpr (std::is_base_of_v<Eigen::PlainObjectBase<T>, T>) {
+            matrix(v);
+        } else {
+            static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>,
+                          "give the type a member checkpoint(Archive&)");
+            numbers(&v, 1);
+        }
+    }
+    template <class T>
+    void elements(T& all) {
+        using Element = typename T::value_type;
+        all.resize(count(all.size()));
+        if constexpr (std::is_arithmetic_v<Element> && requires { all.data(); })
+            numbers(all.data(), all.size());
+        else
+            for (auto& v : all) value(v);
+    }
+    void value(std::string& v) { elements(v); }
+    template <class T>
+    void value(std::vector<T>& v) {
+        static_assert(!std::is_same_v<T, bool>, "use std::vector<char>");
+        elements(v);
+    }
+    template <class T>
+    void value(std::deque<T>& v) {
+        elements(v);
+    }
+    template <class T, std::size_t N>
+    void value(std::array<T, N>& v) {
+        for (auto& each : v) value(each);
+    }
+    template <class T, std::size_t N>
+    void value(T (&v)[N]) {
+        for (auto& each : v) value(each);
+    }
+    template <class A, class B>
+    void value(std::pair<A, B>& v) {
+        value(v.first), value(v.second);
+    }
+    template <class T>
+    void value(std::optional<T>& v) {
+        bool there = v.has_value();
+        value(there);
+        if (there && !v) v.emplace();
+        if (!there) v.reset();
+        if (v) value(*v);
+    }
+    template <class Key, class T, class... More>
+    void value(std::map<Key, T, More...>& v) {
+        std::size_t n = count(v.size());
+        if (!loading_) {
+            for (auto& [key, each] : v) {
+                Key copy = key;
+                value(copy), value(each);
+            }
+            return;
+        }
+        for (v.clear(); n > 0; --n) {
+            Key key{};
+            value(key);
+            value(v[key]);
+        }
+    }
+    template <class T>
+    void matrix(T& v) {
+        auto rows = static_cast<std::int64_t>(v.rows()), columns = static_cast<std::int64_t>(v.cols());
+        value(rows), value(columns);
+        if (loading_) {
+            const auto most = static_cast<std::int64_t>(left_.size() / sizeof(typename T::Scalar));
+            if (rows < 0 || columns < 0 || (rows > 0 && columns > most / rows))
+                throw ArchiveError("the checkpoint ends too early");
+            v.resize(rows, columns);
+        }
+        numbers(v.data(), static_cast<std::size_t>(v.size()));
+    }
+
+    std::string bytes_;
+    std::string_view left_;
+    bool loading_ = false;
+};
+
+}  // namespace forage

@@ -1,0 +1,255 @@
+"""Runs that are stopped, by signals, kills and faults, and go on: what they leave behind.
+
+    resume_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [TestClass...]
+"""
+
+import os
+import random
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from cli_test import FORAGE, PROJECT, SMALL_SYSTEM, SYSTEM, WORLD, Cli
+
+DAC = str(PROJECT / "systems/dac_foraging.iqr")
+KILLS = int(os.environ.get("FORAGE_KILLS", "50"))
+
+# All kinds of files, means that are not complete, a change that depends on what happened, a manipulation.
+EVERYTHING = ("run", DAC, "--world", WORLD, "--seed", "3", "--hash", "-q",
+              "-r", "Selection/Motor In", "-r", "mean:Selection/Approach=mean.csv", "-r", "Adaptive/CS:pot=cs.npy",
+              "-r", "Adaptive/Weights Display=all.npz", "-r", "Adaptive/prototype=all.npz",
+              "-r", "Adaptive/CR=layers.h5", "-r", "Adaptive/discrepancy=layers.h5", "-r", "Bug/Light=light.dat",
+              "--every", "7", "--record-mean",
+              "-p", "time:Adaptive/discrepancy", "-p", "space:Bug/Light@100,900", "-p", "movie:Adaptive/CS",
+              "--at", "max(Bug/Light) > 0.3: Adaptive.eta=0.02", "--at", "cycle 1000: Selection/Explore.probability=0.3",
+              "--add", "Bug/Light(3,1)=0.01; every 13; from cycle 200; times 30")
+
+
+class Stopped(Cli):
+    """Compares a run that was stopped with one that was not."""
+
+    def start(self, *arguments):
+        return subprocess.Popen([FORAGE, *map(str, arguments)], cwd=self.here, stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, text=True)
+
+    def stop(self, process, after, how=signal.SIGKILL):
+        """Stops a program after some time, unless it ends before; returns its status, None when killed."""
+        try:
+            out, err = process.communicate(timeout=after)
+        except subprocess.TimeoutExpired:
+            process.send_signal(how)
+            out, err = process.communicate(timeout=60)
+        if how == signal.SIGKILL and process.returncode == -signal.SIGKILL:
+            return None
+        # Before it runs, nothing is to be finished: then the signal ends it.
+        self.assertIn(process.returncode, (0, 128 + how, -how), out + err)
+        return process.returncode
+
+    def until_there_is(self, name):
+        """Waits for the checkpoint that a run is to write."""
+        for _ in range(600):
+            if (self.here / name).exists():
+                return
+            time.sleep(0.05)
+        self.fail(f"there is no {name}")
+
+    def content(self, directory):
+        return {p.name: p.read_bytes() for p in (self.here / directory).iterdir()}
+
+    def assert_same(self, directory, expected="through"):
+        one, other = self.content(directory), self.content(expected)
+        self.assertEqual(sorted(one), sorted(other))
+        for name in other:
+            self.assertEqual(one[name], other[name], f"{name}: {len(one[name])} and {len(other[name])} bytes")
+
+
+class Resume(Stopped):
+    def setUp(self):
+        super().setUp()
+        self.arguments = (*EVERYTHING, "--cycles", 3000)
+
+    def through(self):
+        self.forage(*self.arguments, "-o", "through")
+
+    def test_a_run_with_checkpoints_leaves_behind_what_one_without_does(self):
+        self.through()
+        self.forage(*self.arguments, "--checkpoint-every", 100, "-o", "out")
+        self.assert_same("out")
+
+    def test_signals_stop_in_order_and_it_goes_on(self):
+        self.through()
+        for how, status in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            out = f"out{status}"
+            process = self.start(*self.arguments, "--checkpoint-every", 500, "-o", out)
+            self.until_there_is(f"{out}/checkpoint.forage")
+            process.send_signal(how)
+            _, err = process.communicate(timeout=20)
+            self.assertEqual(process.returncode, status, err)
+            names = sorted(p.name for p in (self.here / out).iterdir())
+            self.assertIn("checkpoint.forage", names)
+            self.assertIn("all.npz", names)
+            self.assertIn("run.json", names)
+            self.assertFalse([n for n in names if n.endswith(".part")])
+            process = self.start("resume", out)
+            self.stop(process, 0.3, how)
+            self.assertEqual(self.stop(self.start("resume", out), 90, how), 0)
+            self.assert_same(out)
+
+    def test_a_damaged_checkpoint_is_refused_and_the_previous_one_is_used(self):
+        self.through()
+        process = self.start(*self.arguments, "--checkpoint-every", 100, "-o", "killed")
+        self.until_there_is("killed/checkpoint.previous.forage")
+        self.assertIsNone(self.stop(process, 0))
+        for damage in ("bit", "short", "empty", "other"):
+            shutil.copytree(self.here / "killed", self.here / damage)
+            path = self.here / damage / "checkpoint.forage"
+            data = bytearray(path.read_bytes())
+            if damage == "bit":
+                data[len(data) // 2] ^= 4
+            elif damage == "short":
+                del data[-1]
+            elif damage == "empty":
+                data.clear()
+            else:
+                data[0] ^= 1
+            path.write_bytes(data)
+            one = self.forage("resume", path, status=2)
+            self.assertRegex(one.stderr, "^error: .*checkpoint.forage' is " + ("not a checkpoint" if damage == "other" else "damaged"))
+            process = self.start("resume", damage)
+            self.stop(process, 0.3)  # the damaged one must not have taken the other's place
+            if (self.here / damage / "checkpoint.previous.forage").exists():
+                done = self.forage("resume", damage)
+                self.assertRegex(done.stderr, "warning: .*checkpoint.forage' is |^$")
+                self.assertEqual(done.stdout, "")
+            self.assert_same(damage)
+        for name in ("checkpoint.forage", "checkpoint.previous.forage"):
+            (self.here / "killed" / name).write_bytes(b"forage")
+        both = self.forage("resume", "killed", status=2)
+        self.assertEqual(both.stderr.count("damaged"), 2)
+
+    def test_what_it_cannot_go_on_with_is_said(self):
+        done = self.forage("resume", self.here, status=2)
+        self.assertRegex(done.stderr, "there is no checkpoint in .*\n  hint: .*--checkpoint-every")
+        system, drive = self.here / "small.iqr", self.here / "drive.csv"
+        system.write_text(SMALL_SYSTEM)
+        drive.write_text("cycle,process,target,v0...\n0,P,out,1,2\n")
+        process = self.start("run", "small.iqr", "--drive", "drive.csv", "-r", "P/A", "--cycles", 100000, "--realtime",
+                             "--checkpoint-every", 5, "-o", "out")
+        self.until_there_is("out/checkpoint.previous.forage")
+        self.assertIsNone(self.stop(process, 0))
+        for path in (system, drive):
+            before = path.read_text()
+            path.write_text(before + ("\n" if path == system else "5,P,out,1,1\n"))
+            done = self.forage("resume", "out", status=2)
+            self.assertRegex(done.stderr, f"'{path.name}' is not what it was when the run began\n  hint: ")
+            path.write_text(before)
+        recording = self.here / "out/P_A_act.csv.part"
+        rows = recording.read_bytes()
+        recording.write_bytes(rows[:40])
+        done = self.forage("resume", "out", status=2)
+        self.assertRegex(done.stderr, "P_A_act.csv.part' has 40 bytes, and should have")
+        recording.unlink()
+        done = self.forage("resume", "out", status=2)
+        self.assertRegex(done.stderr, "P_A_act.csv' is not there")
+        for wrong in ("0", "-3", "2.5", "x", "0 s", ""):
+            self.forage("run", "small.iqr", "--checkpoint-every", wrong, status=2)
+        done = self.forage("run", "small.iqr", "--drive", "drive.csv", "--checkpoint-every", "10", "-o", "", status=2)
+        self.assertIn("needs a directory", done.stderr)
+
+
+class Faults(Stopped):
+    def limited(self, size, *arguments):
+        """A run whose files cannot grow above a size: to a program that is what a full disk is."""
+        return subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, capture_output=True, text=True, timeout=120,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
+
+    def test_a_full_disk_stops_the_run_and_what_was_written_stays(self):
+        arguments = ("run", SYSTEM, "--world", WORLD, "--seconds", 600, "-r", "Bug/Light", "-q")
+        self.forage(*arguments, "-o", "whole")
+        for form in ("csv", "npy", "dat"):
+            self.forage(*arguments, "--format", form, "-o", f"whole_{form}")
+            done = self.limited(150_000, *arguments, "--format", form, "-o", form)
+            self.assertEqual(done.returncode, 1)
+            self.assertRegex(done.stderr, "(?m)^error: cannot write '.*': File too large$")
+            name = "recording.dat" if form == "dat" else f"Bug_Light_act.{form}"
+            rows, whole = (self.here / form / name).read_bytes(), (self.here / f"whole_{form}" / name).read_bytes()
+            self.assertGreater(len(rows), 50_000)
+            if form == "npy":
+                size = int.from_bytes(rows[8:10], "little") + 10
+                shape = re.search(rb"'shape': \((\d+),\)", rows)
+                self.assertEqual(int(shape[1]), (len(rows) - size) // (8 * 33))
+                rows, whole = rows[size:], whole[size:]
+            else:
+                self.assertTrue(rows.endswith(b"\n"))
+            self.assertTrue(whole.startswith(rows))
+            self.assertFalse(list((self.here / form).glob("*.part")))
+
+    def test_a_full_disk_keeps_the_checkpoint_before(self):
+        arguments = (*EVERYTHING[:8], "-r", "Adaptive/Weights Display", "--cycles", 1500, "--checkpoint-every", 100)
+        self.forage(*arguments, "-o", "through")
+        done = self.limited(4_000_000, *arguments, "-o", "out")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("File too large", done.stderr)
+        self.assertGreater((self.here / "out/Adaptive_Weights_Display_act.csv").stat().st_size, 2_000_000)
+        self.forage("resume", "out")
+        self.assert_same("out")
+
+    def test_a_directory_that_vanishes_stops_the_run(self):
+        for arguments in ((), ("-r", "Bug/Light"), ("--checkpoint-every", 1000000)):
+            process = self.start("run", SYSTEM, "--world", WORLD, "--cycles", 10 ** 9, "-q", "-o", "out", *arguments)
+            time.sleep(1)
+            shutil.rmtree(self.here / "out")
+            _, err = process.communicate(timeout=20)
+            self.assertEqual((process.returncode, err), (1, "error: the directory 'out' is not there any more\n"))
+            self.assertFalse((self.here / "out").exists())
+
+    def test_numbers_that_are_not_finite_are_reported_once_where_they_began(self):
+        text = SMALL_SYSTEM.replace('name="excGain" value="1"', 'name="excGain" value="1e300"')
+        (self.here / "small.iqr").write_text(text)
+        (self.here / "drive.csv").write_text("cycle,process,target,v0...\n0,P,out,1,1\n3,P,out,1,1e10\n")
+        arguments = ("run", "small.iqr", "--drive", "drive.csv", "--cycles", 10, "-r", "P/A", "-o", "out")
+        where = r"in cycle 4 'vm' of 'P/A' becomes inf in cell \(2, 1\)"
+        done = self.forage(*arguments)
+        self.assertRegex(done.stderr, rf"(?m)^warning: {where}\n  hint: --on-nan stop.*\n\Z")
+        self.assertEqual(done.stderr.count("becomes"), 1)
+        self.assertRegex(done.stdout, rf"diverged +{where}")
+        self.assertEqual(len(self.table("out/P_A_act.csv")), 11)
+        done = self.forage(*arguments, "--on-nan", "stop", status=1)
+        self.assertRegex(done.stderr, rf"(?m)^error: stopped: {where}\n\Z")
+        self.assertEqual(len(self.table("out/P_A_act.csv")), 6)
+        done = self.forage(*arguments, "--on-nan", "ignore")
+        self.assertNotIn("becomes", done.stderr)
+        self.assertNotIn("diverged", done.stdout)
+        self.forage(*arguments, "--on-nan", "perhaps", status=2)
+
+
+class Kill(Stopped):
+    def test_killed_at_any_moment_it_leaves_behind_what_it_would_have(self):
+        chance = random.Random(1)
+        arguments = (*EVERYTHING, "--cycles", 800)
+        begun = time.monotonic()
+        self.forage(*arguments, "-o", "through")
+        whole = time.monotonic() - begun
+        kills = runs = 0
+        while kills < KILLS:
+            out = f"out{runs}"
+            every = chance.choice((1, 7, 50, 200))
+            process = self.start(*arguments, "--checkpoint-every", every, "-o", out)
+            most = kills + 10
+            while self.stop(process, chance.uniform(0, whole) if kills < most else 120) is None:
+                kills += 1
+                there = (self.here / out).exists() and any((self.here / out).glob("checkpoint*.forage"))
+                again = ("resume", out, "-q") if there else (*arguments, "--checkpoint-every", every, "-o", out)
+                process = self.start(*again)
+            self.assert_same(out)
+            shutil.rmtree(self.here / out)
+            runs += 1
+        print(f"killed {kills} times in {runs} runs: nothing lost")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=["resume_test.py", *__import__("sys").argv[3:]])

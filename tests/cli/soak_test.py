@@ -1,0 +1,57 @@
+"""A long run of the whole DAC system: the same end whatever else happens, and no growth of memory.
+
+    soak_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [CYCLES]
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+FORAGE, PROJECT = (pathlib.Path(p).resolve() for p in sys.argv[1:3])
+CYCLES = int(sys.argv[3]) if len(sys.argv) > 3 else 40_000
+RECORD = ("-r", "Adaptive/CR", "-r", "mean:Adaptive/Weights Display=weights.npy", "--every", CYCLES // 1000, "-p", "time:Adaptive/discrepancy")
+VARIANTS = {
+    "one thread, no results": (),
+    "four threads, recorded": ("--threads", 4, *RECORD),
+    "one thread, recorded, with checkpoints": (*RECORD, "--checkpoint-every", CYCLES // 7),
+}
+
+
+def memory(process):
+    """MB that a program has in memory."""
+    try:
+        text = pathlib.Path(f"/proc/{process.pid}/statm").read_text()
+        return int(text.split()[1]) * 4096 / 1e6
+    except (FileNotFoundError, IndexError):
+        return 0
+
+
+def run(name, more, out):
+    process = subprocess.Popen(list(map(str, (FORAGE, "run", PROJECT / "systems/dac_foraging.iqr", "--world",
+                                              PROJECT / "systems/worlds/basic_arena.world", "--cycles", CYCLES, "--hash",
+                                              "-o", out, *more))), stdout=subprocess.PIPE, text=True)
+    begun, seen = time.monotonic(), []
+    while process.poll() is None:
+        time.sleep(min(1, CYCLES / 1e6))
+        seen.append(memory(process))
+    text = process.stdout.read()
+    assert process.returncode == 0, f"{name}: status {process.returncode}"
+    state = re.search(r"state +(\w{16})", text)[1]
+    trials = int(re.search(r"trials +(\d+)", text)[1])
+    seen = [m for m in seen if m]
+    early, late = seen[len(seen) // 4], max(seen[len(seen) // 4:-len(seen) // 10])  # without the pictures at the end
+    print(f"{name}: {CYCLES} cycles, {trials} trials, {time.monotonic() - begun:.0f} s, state {state}, "
+          f"{early:.1f} MB after a quarter, {late:.1f} MB at most", flush=True)
+    # What is known of each trial is kept; where there are results, the path too, up to a million points.
+    bound = 1 + 1e-3 * trials + (min(100, CYCLES * 100e-6) if out else 0)
+    assert late - early < bound, f"{name}: the memory grows by {late - early:.1f} MB, more than {bound:.1f}"
+    return state
+
+
+with tempfile.TemporaryDirectory() as directory:
+    states = {name: run(name, more, pathlib.Path(directory) / str(i) if more else "")
+              for i, (name, more) in enumerate(VARIANTS.items())}
+assert len(set(states.values())) == 1, states

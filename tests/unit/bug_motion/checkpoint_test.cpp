@@ -1,0 +1,113 @@
+// Worlds that are stopped and go on.
+#include <random>
+
+#include "tests/unit/bug_motion/worlds.h"
+
+using namespace forage;
+using namespace forage::bug;
+
+namespace {
+
+constexpr std::size_t crowd = 7;
+constexpr double room = 1.4;  ///< m, inside; for seven robots of 0.4 m
+
+std::vector<Obstacle> walls() {
+    std::vector<Obstacle> out(5);
+    for (std::size_t i = 0; i < 4; ++i) {
+        Outline& o = out[i].outline;
+        const double side = i % 2 ? -1 : 1, middle = side * (room / 2 + 0.1);
+        (i < 2 ? o.x : o.y) = middle;
+        o.cos_yaw = 1, o.sin_yaw = 0;
+        o.half_x = i < 2 ? 0.1 : room / 2 + 0.2, o.half_y = i < 2 ? room / 2 + 0.2 : 0.1;
+    }
+    out[4].outline.round = true, out[4].outline.radius = 0.1;
+    return out;
+}
+
+/// Robots that push each other and the walls all the time.
+class Crowd {
+  public:
+    Crowd() : physics_(walls(), std::vector<Body>(crowd), 0.001) {
+        for (std::size_t i = 0; i < crowd; ++i)
+            physics_.place(i, {-0.45 + 0.45 * static_cast<double>(i % 3),
+                               -0.45 + 0.45 * static_cast<double>(i / 3), static_cast<double>(i)});
+    }
+    void step(std::uint64_t t) {
+        std::mt19937 chance(static_cast<unsigned>(t / 100));  // the same for all that are at t
+        std::vector<MotorCommand> drives(crowd);
+        for (auto& d : drives) {
+            d.forward = static_cast<double>(chance() % 1000) / 500;
+            d.turn = static_cast<double>(chance() % 1000) / 100 - 5;
+        }
+        physics_.step(drives);
+    }
+    std::string state() {
+        Archive out;
+        out(physics_);
+        return out.bytes();
+    }
+    void restore(const std::string& state) {
+        Archive in{std::string_view(state)};
+        in(physics_);
+    }
+    std::uint64_t contact_steps() const { return physics_.contact_steps(); }
+
+  private:
+    Physics physics_;
+};
+
+}  // namespace
+
+TEST_CASE("Robots that push each other go on from a checkpoint as if nothing had happened, to the last bit") {
+    Crowd through;
+    std::uint64_t t = 0;
+    for (int stop = 0; stop < 20; ++stop) {
+        for (int i = 0; i < 317; ++i) through.step(t++);
+        Crowd resumed;
+        if (stop % 2)
+            for (std::uint64_t other = 0; other < 200; ++other)
+                resumed.step(10 * other);  // met others before
+        resumed.restore(through.state());
+        std::uint64_t later = t;
+        for (int i = 0; i < 400; ++i) resumed.step(later++);
+        Crowd beside;
+        beside.restore(through.state());
+        for (; t < later; ++t) through.step(t), beside.step(t);
+        REQUIRE(resumed.state() == through.state());
+        REQUIRE(beside.state() == through.state());
+    }
+    CHECK(through.contact_steps() > t / 2);
+}
+
+TEST_CASE("A world goes on from a checkpoint of any cycle, in trials and resets, with pictures and noise") {
+    WorldOptions options;
+    options.seed = 5;
+    const auto make = [&] {
+        auto world = test::make_world(test::description("basic_arena"), options);
+        world->need_image(0, true);
+        return world;
+    };
+    const auto step = [](World& world) {
+        const auto t = static_cast<double>(world.cycle());
+        world.command(0, {3, std::sin(0.05 * t)});
+        world.step();
+    };
+    const auto through = make();
+    bool reset = false;
+    while (through->trials(0).size() < 6) {
+        step(*through);
+        if (through->cycle() % 11) continue;
+        reset |= through->resetting(0);
+        Archive out;
+        through->checkpoint(out);
+        const auto resumed = make();
+        Archive in{std::string_view(out.bytes())};
+        resumed->checkpoint(in);
+        REQUIRE(in.left().empty());
+        for (int i = 0; i < 7; ++i) step(*through), step(*resumed);
+        Archive one, other;
+        through->checkpoint(one), resumed->checkpoint(other);
+        REQUIRE(one.bytes() == other.bytes());
+    }
+    CHECK(reset);
+}

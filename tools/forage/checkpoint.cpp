@@ -1,0 +1,55 @@
+#include "tools/forage/checkpoint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "tools/forage/checkpoint_file.h"
+#include "tools/forage/files.h"
+
+namespace forage::tool {
+
+Checkpoints::Checkpoints(const RunOptions& o, const Sources& sources, const Running& running)
+    : directory_(o.directory) {
+    const auto& wanted = o.checkpoint_every;
+    if (!wanted) return;
+    const double cycles = wanted->in_seconds ? wanted->amount / running.seconds_per_cycle : wanted->amount;
+    every_ = static_cast<std::uint64_t>(std::max(1.0, std::round(std::min(cycles, 1e15))));
+    origin_ = {FORAGE_VERSION, o.arguments, std::filesystem::current_path().string(),
+               input_files(o, sources, running.loaded), 0};
+}
+
+void Checkpoints::write(Running& running) {
+    Archive archive;
+    origin_.cycle = running.simulation.cycle();
+    archive(origin_, running);
+    write_checkpoint(directory_, archive.bytes());
+}
+
+void check_checkpoints(const RunOptions& o, const Loaded& loaded, const engine::Simulation& simulation,
+                       Diagnostics& diagnostics) {
+    if (!o.checkpoint_every && !o.hash) return;
+    if (o.checkpoint_every && o.directory.empty())
+        diagnostics.error({}, "--checkpoint-every needs a directory to write to",
+                          "leave out -o '' or name one");
+    for (int m = 0; m < simulation.modules(); ++m)
+        if (!loaded.registry.module(simulation.module_type(m))->checkpoints)
+            diagnostics.error(
+                {},
+                fmt::format("{}: the module type '{}' of process '{}' does not say what it "
+                            "keeps beside its parameters",
+                            o.checkpoint_every ? "--checkpoint-every" : "--hash", simulation.module_type(m),
+                            simulation.module_process(m)),
+                "give the type a member 'void checkpoint(forage::Archive& archive)' that lists its members");
+}
+
+std::string state_digest(Running& running) {
+    Archive archive;
+    archive(running.simulation);
+    if (running.loaded.world) archive(*running.loaded.world);
+    return digest(archive.bytes());
+}
+
+}  // namespace forage::tool

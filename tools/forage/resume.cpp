@@ -1,0 +1,111 @@
+// Goes on with a run from its checkpoint.
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "tools/forage/checkpoint.h"
+#include "tools/forage/checkpoint_file.h"
+#include "tools/forage/commands.h"
+
+namespace forage::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where a run left off, tied to nothing yet.
+struct Found {
+    std::string path, content;
+    CheckpointOrigin origin;
+    std::string_view state;  ///< of `content`
+};
+
+std::unique_ptr<Found> open_checkpoint(const std::string& path) {
+    auto out = std::make_unique<Found>();
+    out->path = path;
+    out->content = read_checkpoint(path);
+    Archive archive{std::string_view(out->content)};
+    archive(out->origin);
+    if (out->origin.version != FORAGE_VERSION)
+        throw CheckpointError(fmt::format("checkpoint '{}' was written by forage {}, and this is {}", path,
+                                          out->origin.version, FORAGE_VERSION));
+    out->state = archive.left();
+    return out;
+}
+
+/// Reports files that are not what the run was started with.
+void check_files(const CheckpointOrigin& origin, const InputFiles& now, Diagnostics& diagnostics) {
+    for (const auto& [path, digest] : origin.files) {
+        const auto same = now.find(path);
+        if (same != now.end() && same->second == digest) continue;
+        diagnostics.error(
+            {},
+            fmt::format("'{}' is not what it was when the run began{}", path,
+                        same == now.end() ? ": it is not read any more" : ""),
+            "a run goes on with the same files only; restore it, or start anew with 'forage run'");
+    }
+}
+
+/// The run as it was when the checkpoint was written. Throws what is wrong with the checkpoint; empty when
+/// `diagnostics` got an error.
+std::optional<Running> restore(const Found& found, const RunOptions& options, const Sources& sources,
+                               Diagnostics& diagnostics) {
+    if (diagnostics.failed()) return std::nullopt;
+    auto running = prepare(sources, options, diagnostics);
+    if (!running) return std::nullopt;
+    check_files(found.origin, input_files(options, sources, running->loaded), diagnostics);
+    if (diagnostics.failed()) return std::nullopt;
+    Archive archive(found.state);
+    archive(*running);
+    if (!archive.left().empty()) throw ArchiveError("there is more in the checkpoint than the run keeps");
+    return running;
+}
+
+}  // namespace
+
+int resume(const ResumeOptions& o, const RunParser& parse) {
+    const fs::path given = fs::absolute(o.path);
+    const bool whole_directory = fs::is_directory(given);
+    const std::string directory = (whole_directory ? given : given.parent_path()).string();
+    std::vector<std::string> paths = {given.string()};
+    if (whole_directory) paths = {checkpoint_path(directory), previous_checkpoint_path(directory)};
+    if (whole_directory && !fs::exists(paths[0]) && !fs::exists(paths[1])) {
+        fmt::print(stderr, "error: there is no checkpoint in '{}'\n  hint: {}\n", o.path,
+                   fs::exists(given / "run.json")
+                       ? "the run is finished, or was made without --checkpoint-every"
+                       : "a run writes checkpoints with --checkpoint-every, into its directory (-o)");
+        return bad_input;
+    }
+    std::string refused;
+    for (const auto& path : paths) try {
+            if (whole_directory && !fs::exists(path)) continue;  // killed between two renames
+            const auto found = open_checkpoint(path);
+            std::error_code moved;
+            fs::current_path(found->origin.working_directory, moved);  // or stay, when it is gone
+            RunOptions options = parse(found->origin.arguments);
+            options.arguments = found->origin.arguments;
+            options.directory = directory;
+            options.quiet |= o.quiet;
+            Diagnostics diagnostics;
+            const Sources sources = read(options.input, diagnostics);
+            auto running = restore(*found, options, sources, diagnostics);
+            if (diagnostics.failed() || !options.quiet) fmt::print(stderr, "{}", format(diagnostics));
+            if (!running) return bad_input;
+            if (!refused.empty()) fmt::print(stderr, "warning: {}\n", refused);
+            if (!refused.empty() || !options.quiet)
+                fmt::print(stderr, "going on from cycle {}\n", running->simulation.cycle());
+            // One that is newer, and damaged or not wanted, must not be kept instead of this one.
+            if (path != checkpoint_path(directory)) fs::remove(checkpoint_path(directory));
+            return carry_on(options, sources, *running);
+        } catch (const CheckpointError& e) {
+            refused += (refused.empty() ? "" : "\n") + std::string(e.what());
+        } catch (const ArchiveError& e) {
+            refused += fmt::format("{}checkpoint '{}': {}", refused.empty() ? "" : "\n", path, e.what());
+        } catch (const observe::ShortFile& e) {
+            refused += fmt::format("{}checkpoint '{}': {}", refused.empty() ? "" : "\n", path, e.what());
+        }
+    fmt::print(stderr, "error: {}\n", refused);
+    return bad_input;
+}
+
+}  // namespace forage::tool
