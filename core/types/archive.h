@@ -27,7 +27,7 @@
 namespace forage {
 
 /// A checkpoint does not fit what it is read into.
-class ArchiveError : public std::runtime_error {
+class __attribute__((visibility("default"))) ArchiveError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
