@@ -39,6 +39,7 @@ struct RunOptions {
     int threads = 1;
     std::string directory = "forage-out";
     bool paths = true;  ///< follow the robots
+    std::string video;  ///< .gif or .png file to film the world to; none when empty
     bool real_time = false, quiet = false;
 };
 
@@ -64,6 +65,12 @@ struct ExperimentOptions {
     bool quiet = false;
 };
 
+struct WorldCommand {
+    std::string file;     ///< .world
+    std::string picture;  ///< .png, .svg or .pdf; empty: the world's name with .png, here
+    bool game = false;
+};
+
 struct TutorialOptions {
     std::string exercise;   ///< its number; empty: list them
     std::string directory;  ///< empty: forage-out/tutorial/ and the number
@@ -77,6 +84,8 @@ int experiment(const ExperimentOptions& options);
 int tutorial(const TutorialOptions& options);
 int convert(const ConvertOptions& options);
 int check(const Input& input);
+/// Checks a world, lists what is in it and draws it from above.
+int world(const WorldCommand& options);
 /// Prints the tree of processes, groups and connections, with sizes and how each connection is computed.
 int describe(const Input& input);
 /// Writes a page that shows the pictures and tables of a directory of results: plain HTML, nothing from the

@@ -17,8 +17,9 @@ struct Outcome {
     double seconds = 0;  ///< of the world
     double clock = 0;    ///< s of the clock
     std::vector<std::pair<std::string, std::optional<std::uint64_t>>>
-        changes;          ///< of --at, and the first cycle in which each acted; empty: it never did
-    std::string stopped;  ///< why it ended before its time; empty when it did not
+        changes;             ///< of --at, and the first cycle in which each acted; empty: it never did
+    std::string stopped;     ///< why it ended before its time; empty when it did not
+    std::size_t frames = 0;  ///< of the film
     std::vector<std::string> files;
     std::vector<Recordings::Entry> recordings;
     std::vector<Trials> trials;  ///< of each robot of the world

@@ -73,6 +73,11 @@ int run(const RunOptions& options) {
         outcome.stopped = e.what();
         problems.emplace_back(e.what());
     }
+    if (running->film) try {
+            outcome.frames = running->film->finish();
+        } catch (const std::exception& e) {
+            problems.emplace_back(e.what());
+        }
     note(*running, outcome);
     outcome.clock = std::max(progress.elapsed(), 1e-9);
     progress.clear();
