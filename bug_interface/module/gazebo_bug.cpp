@@ -57,9 +57,7 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
         .label("Cycles per second")
         .unit("1/s")
         .doc("No effect: the robot moves in lock-step with the system.");
-    s.param("comkey", &T::comkey)
-        .label("Communication key")
-        .doc("Robots with the same key hear each other. No effect yet.");
+    s.param("comkey", &T::comkey).label("Communication key").doc("Robots with the same key hear each other.");
     s.param("gripper", &T::gripper)
         .label("Has gripper")
         .at_start()
@@ -199,6 +197,8 @@ void GazeboBug::check(const ModulePorts& ports, Problems& problems) {
     };
     scanner(proximity, world_->snapshot(*bug).proximity.size(), "laser");
     scanner(target, world_->snapshot(*bug).target.size(), "laser_target");
+    if (gripper && world_->has_gripper(*bug))
+        scanner(gripper_scan, world_->snapshot(*bug).gripper.size(), "laser_gripper");
 }
 
 void GazeboBug::start(const ModulePorts& ports) {
@@ -223,12 +223,17 @@ void GazeboBug::start(const ModulePorts& ports) {
     if (world_->snapshot(bug_).image_width == 0) image_ = {};
     unused_.assign(static_cast<std::size_t>(image_.cells), 0);
     world_->need_image(bug_, image_.cells > 0);
+    world_->need_gripper_scan(bug_, gripper && ports.outputs[gripper_scan].shape.cells > 0);
 }
 
 void GazeboBug::update(ModuleFrame& frame) {
     const auto& activity = frame.input(motor);
     world_->command(bug_, decode_motor({activity.data(), static_cast<std::size_t>(activity.size())},
                                        motor_.width, motor_.height, trans_speed, rot_speed));
+    if (gripper && frame.input(gripper_command).size() == 1)
+        world_->grip(bug_, frame.input(gripper_command)[0] > 0.5);
+    const auto& said = frame.input(audio_out);
+    world_->say(bug_, comkey, {said.data(), static_cast<std::size_t>(said.size())});
     copy_scans(frame);
     copy_pose(frame);
     if (image_.cells > 0) copy_image(frame);
@@ -241,6 +246,9 @@ void GazeboBug::copy_scans(ModuleFrame& frame) const {
     };
     copy(seen.proximity, frame.output(proximity));
     copy(seen.target, frame.output(target));
+    if (gripper && frame.output_size(gripper_scan) > 0) copy(seen.gripper, frame.output(gripper_scan));
+    if (frame.output_size(audio_in) > 0)
+        std::copy(seen.heard.begin(), seen.heard.end(), frame.output(audio_in).data());
 }
 
 void GazeboBug::copy_pose(ModuleFrame& frame) const {

@@ -20,9 +20,12 @@ namespace forage::bug {
 ///   _image_RH, .._BV      the camera's picture, row 0 is the far one
 ///   placeCell, headCell   where the robot is and where it looks, in fields
 ///
-/// The robot moves in lock-step with the system, so that the parameter cps of the original, updates per
-/// second of the module's own clock, has no effect. Gripper and audio: the groups are accepted; their inputs
-/// are not used and _proximityGripper and _audio_in stay 0.
+///   _proximityGripper     the rays between the fingers; the outer cells see the robot's own palm
+///   _audio_in             what others with the same communication key say: _audio_out, quieter with distance
+///
+/// One cell of _gripper closes the gripper above 0.5 and opens it below, without effect on a robot that has
+/// none. The robot moves in lock-step with the system, so that the parameter cps of the original, updates per
+/// second of the module's own clock, has no effect.
 class GazeboBug {
   public:
     GazeboBug() = default;

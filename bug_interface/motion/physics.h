@@ -1,8 +1,10 @@
-// Robots that drive over a plane, slide along walls and stop at each other.
+// Bodies that drive over a plane, slide along walls, stop at each other and push what is loose.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bug_interface/motion/motor.h"
@@ -11,69 +13,120 @@
 
 namespace forage::bug {
 
+/// Things touch only where they share heights. Heights come in at most 32 layers; a mask has a bit for each.
+using LayerMask = std::uint32_t;
+inline constexpr std::size_t most_layers = 32;
+
 /// Something that stands in the way and never moves, seen from above.
 struct Obstacle {
     Outline outline;
-    double friction = 1;  ///< Coulomb coefficient; of a contact it is the smaller one of the two surfaces
+    double friction = 1;     ///< Coulomb coefficient; of a contact it is the smaller one of the two surfaces
+    LayerMask layers = ~0u;  ///< those that it reaches into
 };
 
-/// A round robot.
+/// A part of a body, in the body's frame.
+struct Part {
+    Outline outline;
+    int layer = 0;
+    double friction = 0.1;
+};
+
+/// Something that moves: a robot, which is driven, or a loose thing, which keeps its velocity until contacts
+/// and the floor change it.
 struct Body {
-    double radius = 0.2;    ///< m
+    double radius = 0.2;    ///< of its round middle, m; 0: it has none
     double mass = 5;        ///< kg
     double inertia = 1;     ///< about the vertical axis, kg m^2
-    double friction = 0.1;  ///< Coulomb coefficient
+    double friction = 0.1;  ///< Coulomb coefficient, of the middle
+    int layer = 0;          ///< of the middle
+    std::vector<Part> parts;
+    bool driven = true;
+    double slowing = 0;       ///< by the floor, of a loose thing, m/s^2
+    double slowing_turn = 0;  ///< rad/s^2
 };
 
-/// Moves bodies in steps. In every step each body is given its velocity anew, contacts take away what would
-/// lead into an obstacle or another body, friction takes its share, and the rest moves the body: x += v
+/// Moves bodies in steps. In every step each driven body is given its velocity anew, contacts take away what
+/// would lead into an obstacle or another body, friction takes its share, and the rest moves the body: x += v
 /// cos(yaw) dt, y += v sin(yaw) dt, yaw += w dt, with the yaw from the start of the step.
 ///
-/// Contacts are resolved by Bullet, and only in steps in which some body could touch something. Far from
-/// everything Bullet would change nothing and is not called: both ways give the same bits. There is no
-/// restitution, no friction with the floor, and nothing of a contact lasts longer than its step.
+/// Contacts are resolved by Bullet, and only in steps in which some body could touch something, among the
+/// bodies that could. Far from everything Bullet would change nothing and is not called: both ways give the
+/// same bits. There is no restitution, and nothing of a contact lasts longer than its step, except the
+/// velocity of loose things.
 class Physics {
   public:
     /// When Bullet is called. `always` is for tests and benchmarks.
     enum class Contacts { when_near, always };
 
-    /// `step`: duration of a step, s.
+    /// `step`: duration of a step, s. `meets[i]`: the layers that share heights with layer i; all do when
+    /// empty.
     Physics(std::span<const Obstacle> obstacles, std::span<const Body> bodies, double step,
-            Contacts contacts = Contacts::when_near);
+            Contacts contacts = Contacts::when_near, std::vector<LayerMask> meets = {});
     ~Physics();
     Physics(const Physics&) = delete;
     Physics& operator=(const Physics&) = delete;
 
     const Pose2& pose(std::size_t body) const { return states_[body].pose; }  ///< m; yaw in (-pi, pi]
-    /// Puts a body somewhere.
+    /// Puts a body somewhere, at rest.
     void place(std::size_t body, const Pose2& pose);
     /// Takes a body out of the world: it touches nothing and does not move until it is placed again.
     void lift(std::size_t body);
+    bool present(std::size_t body) const { return states_[body].present; }
 
-    /// One step; `drives[i]` is what body i is driven with.
+    /// One step; `drives[i]` is what body i is driven with. Loose things need none.
     void step(std::span<const MotorCommand> drives);
+
+    /// Moves parts of a body within its frame (numbers of its parts, and where they are to be), unless they
+    /// would get into something that cannot give way. Loose things in the way are pushed. Returns whether it
+    /// was done.
+    bool swing(std::size_t body, std::span<const std::pair<std::size_t, Outline>> parts);
+
+    /// Whether a body that is not there could be placed at `pose` without overlapping anything.
+    bool has_room(std::size_t body, const Pose2& pose) const;
+
+    /// How many pairs of shapes of this loose thing and a driven body touched in the last step.
+    int touches(std::size_t body) const { return states_[body].touches; }
+    double speed(std::size_t body) const;                                      ///< m/s, in the last step
+    double turning(std::size_t body) const { return velocities_[body].turn; }  ///< rad/s, in the last step
+    std::span<const Part> parts(std::size_t body) const { return bodies_[body].parts; }
 
     std::uint64_t contact_steps() const { return contact_steps_; }  ///< how often Bullet was called
 
     /// Where everything is. Bullet's own memory is no part of it: no step depends on it.
     void checkpoint(Archive& archive) {
-        for (State& s : states_) archive(s.pose, s.present, s.clearance);
+        for (State& s : states_) archive(s.pose, s.present, s.clearance, s.reach, s.layers, s.touches);
+        for (Velocity& v : velocities_) archive(v.x, v.y, v.turn);
         archive(contact_steps_);
+        for (std::size_t i = 0; i < bodies_.size(); ++i) checkpoint_parts(i, archive);
     }
 
   private:
     struct State {
         Pose2 pose;
         bool present = false;
-        double clearance = 0;  ///< m that the body can move for sure before it touches anything
+        bool involved = false;  ///< in this step, with what Bullet has to look at
+        double clearance = 0;   ///< m that the body can move for sure before it touches anything
+        double reach = 0;       ///< radius of a circle round all that it ever was, m
+        LayerMask layers = 0;   ///< of its middle and parts
+        int touches = 0;
     };
     struct Velocity {
-        double x, y, turn;  ///< m/s, m/s, rad/s
+        double x = 0, y = 0, turn = 0;  ///< m/s, m/s, rad/s
     };
     class Engine;  ///< Bullet's side
 
+    void drive(std::size_t body, const MotorCommand& command);
     bool near_something(std::size_t body, double travel);
+    void checkpoint_parts(std::size_t body, Archive& archive);
     void measure_clearance(std::size_t body);
+    void involve_neighbours();
+    void grow(std::size_t body);
+    bool meet(LayerMask layers, int layer) const { return layers & meets_[static_cast<std::size_t>(layer)]; }
+    bool fixed_in_the_way(std::size_t body, const Part& now, const Outline& then, int layer) const;
+    bool is_free(std::size_t thing, const Pose2& from, const Pose2& to) const;
+    /// Calls visit(outline in the world, layer) for the middle and the parts of a body at `pose`.
+    template <class F>
+    void each_shape(std::size_t body, const Pose2& pose, F&& visit) const;
 
     std::vector<Obstacle> obstacles_;
     std::vector<Body> bodies_;
@@ -81,6 +134,7 @@ class Physics {
     std::vector<Velocity> velocities_;  ///< of this step
     double step_;
     Contacts contacts_;
+    std::vector<LayerMask> meets_;
     std::uint64_t contact_steps_ = 0;
     std::unique_ptr<Engine> engine_;
 };

@@ -8,20 +8,6 @@
 #include "bug_interface/simulation/surroundings.h"
 
 namespace forage::bug {
-namespace {
-
-/// `outline`, given in the frame of a robot at `robot`, in the world.
-Outline moved(const Outline& outline, const Pose2& robot) {
-    const double c = std::cos(robot.yaw), s = std::sin(robot.yaw);
-    Outline out = outline;
-    out.x = robot.x + c * outline.x - s * outline.y;
-    out.y = robot.y + s * outline.x + c * outline.y;
-    out.cos_yaw = c * outline.cos_yaw - s * outline.sin_yaw;
-    out.sin_yaw = s * outline.cos_yaw + c * outline.sin_yaw;
-    return out;
-}
-
-}  // namespace
 
 Pose in_space(const Pose2& pose) {
     Pose out = Pose::Identity();
@@ -30,8 +16,9 @@ Pose in_space(const Pose2& pose) {
     return out;
 }
 
-Robot::Robot(const Model& model, std::uint64_t seed_, Diagnostics& diagnostics)
-    : name(model.name), seed(seed_), pose(in_plane(model.pose)) {
+Robot::Robot(const Model& model, std::size_t number_, std::uint64_t seed_, Heights& heights,
+             Diagnostics& diagnostics)
+    : name(model.name), number(number_), seed(seed_), pose(in_plane(model.pose)) {
     const Link& link = *robot_link(model);
     link_pose = link.pose;
     range_sensors = link.range_sensors;
@@ -52,23 +39,44 @@ Robot::Robot(const Model& model, std::uint64_t seed_, Diagnostics& diagnostics)
         diagnostics.error(
             shape->where,
             fmt::format("the body of robot '{}' does not stand upright on its model's origin", name));
-    low = body_pose.translation().z() - shape->shape.size.z() / 2;
-    high = body_pose.translation().z() + shape->shape.size.z() / 2;
-    body = {shape->shape.size.x() / 2, link.mass, link.inertia_z, shape->friction};
+    const auto layer_of = [&](const Solid& solid) {
+        const double middle = solid.pose.translation().z(), half = solid.size.z() / 2;
+        return heights.layer(middle - half, middle + half);
+    };
+    const Solid body_solid{ShapeKind::cylinder, body_pose, shape->shape.size};
+    body.radius = shape->shape.size.x() / 2, body.mass = link.mass, body.inertia = link.inertia_z;
+    body.friction = shape->friction, body.layer = layer_of(body_solid);
+    bool layers = body.layer >= 0;
 
-    Model at_origin = model;
-    at_origin.pose = Pose::Identity();
-    each_link(at_origin, Pose::Identity(), [&](const Link& l, const Pose& p) {
-        for (const Visual& v : l.visuals)
+    for (const bug::Limb& limb : limbs_of(model, hinges)) {
+        for (const Collision& c : limb.link->collisions) {
+            if (c.shape.kind == ShapeKind::plane) continue;
+            const Solid solid{c.shape.kind, limb.home * c.pose, c.shape.size};
+            const bool of_body = &c == &*shape;
+            solids.push_back({number, limb.hinge, solid, of_body});
+            if (of_body) continue;
+            const auto outline = cut(solid, solid.pose.translation().z());
+            const int layer = layer_of(solid);
+            layers &= layer >= 0;
+            if (!outline) continue;
+            limbs.push_back({*outline, limb.hinge});
+            body.parts.push_back({*outline, layer, c.friction});
+        }
+        for (const Visual& v : limb.link->visuals)
             if (v.shape.kind != ShapeKind::plane)
-                visuals.push_back({p * v.pose,
-                                   {{v.shape.kind, Pose::Identity(), v.shape.size}, v.material},
-                                   l.name == "bug"});
-    });
+                sights.push_back({number,
+                                  limb.hinge,
+                                  limb.home * v.pose,
+                                  {{v.shape.kind, Pose::Identity(), v.shape.size}, v.material},
+                                  limb.link == &link});
+    }
+    if (!layers)
+        diagnostics.error(model.where,
+                          fmt::format("more than {} different heights of things that move", most_layers),
+                          "give robots and loose things the same heights");
 }
 
-void Robot::surround(const WorldDescription& world, const std::vector<std::vector<Solid>>& robots,
-                     std::size_t self) {
+void Robot::surround(std::span<const Solid> still, std::span<const MovingSolid> moving) {
     const auto make = [&](std::string_view sensor, Stream use,
                           std::vector<double>& cells) -> std::optional<Scan> {
         const auto found = std::find_if(range_sensors.begin(), range_sensors.end(),
@@ -76,32 +84,34 @@ void Robot::surround(const WorldDescription& world, const std::vector<std::vecto
         if (found == range_sensors.end()) return {};
         Scan scan{RangeScanner(*found, link_pose),
                   random(use),
+                  found->rate > 0 ? 1 / found->rate : 0,
+                  0,
                   {},
                   {},
                   std::vector<double>(static_cast<std::size_t>(found->rays))};
-        for (const Model& model : world.models) {
-            if (robot_link(model)) continue;
-            for (const Solid& solid : solids_of(model))
-                if (const auto outline = cut(solid, scan.scanner.height())) scan.around.push_back(*outline);
-        }
-        for (std::size_t other = 0; other < robots.size(); ++other)
-            for (const Solid& solid : robots[other])
-                if (const auto outline = cut(solid, scan.scanner.height()); outline && other != self)
-                    scan.moving.push_back({other, *outline});
-        scan.around.resize(scan.around.size() + scan.moving.size());
+        for (const Solid& solid : still)
+            if (const auto outline = cut(solid, scan.scanner.height())) scan.around.push_back(*outline);
+        for (const MovingSolid& m : moving)
+            if (const auto outline = cut(m.solid, scan.scanner.height());
+                outline && !(m.body == number && m.of_body))
+                scan.moving.push_back({m.body, m.hinge, *outline});
+        scan.still = scan.around.size();
+        scan.around.reserve(scan.still + scan.moving.size());
         cells.assign(scan.ranges.size(), 0);
         return scan;
     };
     proximity = make("laser", proximity_noise, snapshot.proximity);
     target = make("laser_target", target_noise, snapshot.target);
+    gripper = make("laser_gripper", gripper_noise, snapshot.gripper);
     if (camera_sensor)
         snapshot.image_width = camera_sensor->width, snapshot.image_height = camera_sensor->height;
 }
 
-void Robot::Scan::run(const Pose2& body, std::uint64_t sample, bool with_noise, std::span<const Pose2> all,
+void Robot::Scan::run(const Pose2& body, std::uint64_t sample, bool with_noise, const Stage& stage,
                       std::span<double> cells) {
-    auto at = around.end() - static_cast<std::ptrdiff_t>(moving.size());
-    for (const Moving& m : moving) *at++ = moved(m.outline, all[m.robot]);
+    around.resize(still);
+    for (const MovingOutline& m : moving)
+        if (stage.present[m.body]) around.push_back(m.at(stage));
     scanner.scan(body, around, ranges);
     if (with_noise) scanner.add_noise(ranges, noise, sample);
     scanner.to_activity(ranges, cells);
@@ -109,15 +119,16 @@ void Robot::Scan::run(const Pose2& body, std::uint64_t sample, bool with_noise, 
 
 void Robot::checkpoint(Archive& archive) {
     archive.same(name, "a robot");
-    archive(pose, command);
+    archive(pose, command, hinges, voice);
     if (reset) archive(*reset);
-    archive(*trials, snapshot, rendered);
+    archive(*trials, snapshot, history, scans, pictures, rendered);
 }
 
-void Robot::sense(bool with_noise, std::uint64_t sample, std::span<const Pose2> all) {
+void Robot::sense(bool with_noise, std::uint64_t sample, const Stage& stage) {
     snapshot.pose = pose;
-    if (proximity) proximity->run(pose, sample, with_noise, all, snapshot.proximity);
-    if (target) target->run(pose, sample, with_noise, all, snapshot.target);
+    if (proximity) proximity->run(pose, sample, with_noise, stage, snapshot.proximity);
+    if (target) target->run(pose, sample, with_noise, stage, snapshot.target);
+    if (gripper && wants_gripper_scan) gripper->run(pose, sample, with_noise, stage, snapshot.gripper);
 }
 
 void Robot::make_camera(std::shared_ptr<const Scene> scene) {
@@ -129,17 +140,14 @@ void Robot::make_camera(std::shared_ptr<const Scene> scene) {
     snapshot.image.resize(values);
 }
 
-void Robot::render(bool with_noise, std::uint64_t sample, std::span<const Pose2> all,
-                   const std::vector<Robot>& robots) {
+void Robot::render(bool with_noise, std::uint64_t sample, const Stage& stage,
+                   std::span<const MovingSight> all) {
     if (!camera || rendered == sample) return;
     moving_.clear();
-    for (std::size_t i = 0; i < robots.size(); ++i) {
-        const Pose there = in_space(all[i]);
-        for (const RobotVisual& v : robots[i].visuals) {
-            if (&robots[i] == this && v.of_body) continue;
-            moving_.push_back(v.visual);
-            moving_.back().solid.pose = there * v.pose;
-        }
+    for (const MovingSight& sight : all) {
+        if ((sight.body == number && sight.of_body) || !stage.present[sight.body]) continue;
+        moving_.push_back(sight.visual);
+        moving_.back().solid.pose = sight.at(stage);
     }
     camera->render(pose, moving_, picture_);
     if (with_noise) {
@@ -149,6 +157,20 @@ void Robot::render(bool with_noise, std::uint64_t sample, std::span<const Pose2>
             snapshot.image[i] = static_cast<std::uint8_t>(std::clamp(picture_[i], 0.0f, 1.0f) * 255 + 0.5f);
     }
     rendered = sample;
+}
+
+void Robot::move_gripper(Physics& physics, double step) {
+    for (std::size_t h = 0; h < hinges.size(); ++h) {
+        const double before = hinges[h].angle, after = hinges.next(h, step);
+        if (after == before) continue;
+        hinges.set(h, after);
+        swung_.clear();
+        for (std::size_t l = 0; l < limbs.size(); ++l)
+            if (hinges.turns_with(limbs[l].hinge, static_cast<int>(h)))
+                swung_.emplace_back(
+                    l, moved(limbs[l].home, hinges.frame(static_cast<std::size_t>(limbs[l].hinge))));
+        if (!physics.swing(number, swung_)) hinges.set(h, before);
+    }
 }
 
 }  // namespace forage::bug

@@ -1,17 +1,22 @@
 // One robot of a simulated world: what it is, what it senses, what it was told.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bug_interface/motion/gripper.h"
 #include "bug_interface/motion/motor.h"
 #include "bug_interface/motion/physics.h"
 #include "bug_interface/motion/reset.h"
 #include "bug_interface/sensing/camera.h"
 #include "bug_interface/sensing/range_scan.h"
+#include "bug_interface/simulation/heights.h"
+#include "bug_interface/simulation/stage.h"
 #include "bug_interface/simulation/trials.h"
+#include "bug_interface/simulation/voice.h"
 
 namespace forage::bug {
 
@@ -21,75 +26,83 @@ struct BugSnapshot {
     std::vector<double>
         proximity;  ///< of scanner "laser", activity 0..1, cell 0 is the leftmost ray; empty without it
     std::vector<double> target;  ///< of scanner "laser_target", the same way: the light
+    std::vector<double>
+        gripper;         ///< of scanner "laser_gripper", the same way; up to date only where asked for
+    SoundCells heard{};  ///< the sum of what all others said, as loud as it is here
     std::vector<std::uint8_t>
         image;  ///< rows from the top, red, green, blue; up to date only where asked for
     int image_width = 0, image_height = 0;  ///< pixels; 0: no camera
 
-    void checkpoint(Archive& archive) { archive(pose, proximity, target, image); }
-};
-
-/// A part of a robot in its model's frame.
-struct RobotVisual {
-    Pose pose;
-    VisualSolid visual;
-    bool of_body = true;  ///< of the body itself, which the robot's own camera looks away from
+    void checkpoint(Archive& archive) { archive(pose, proximity, target, gripper, heard, image); }
 };
 
 /// A part of World, which alone makes, moves and asks robots; the members are public for it. They are used in
-/// this order: the constructor; surround(), when all robots are there; then in every cycle `pose` is set, and
-/// sense() and render() look at the world from it. What is said of a member holds from then on.
+/// this order: the constructor; surround(), when all robots are there; then in every cycle sense() and
+/// render() look at the world from where the stage has it. What is said of a member holds from then on.
 class Robot {
   public:
-    /// A range scanner and what it sees. `around` ends with the outlines of the other robots, one for each
-    /// element of `moving`, in that order; run() puts them where those robots are.
+    /// A range scanner and what it sees.
     struct Scan {
-        struct Moving {
-            std::size_t robot;
-            Outline outline;  ///< in the frame of that robot
-        };
         RangeScanner scanner;
         RandomStream noise;
-        std::vector<Outline> around;  ///< what stands still, then what moves
-        std::vector<Moving> moving;
+        double period = 0;            ///< s of the world; 0: as often as asked
+        std::size_t still = 0;        ///< the first of `around` stand still
+        std::vector<Outline> around;  ///< then what moves, where it is now
+        std::vector<MovingOutline> moving;
         std::vector<double> ranges;  ///< m
 
-        /// Scans from `body`, with all robots at `all`, into `cells`, one for each ray. `sample` counts the
-        /// scans: the same one has the same noise.
-        void run(const Pose2& body, std::uint64_t sample, bool with_noise, std::span<const Pose2> all,
+        /// Scans from `body` into `cells`, one for each ray. `sample` counts the scans: the same one has the
+        /// same noise.
+        void run(const Pose2& body, std::uint64_t sample, bool with_noise, const Stage& stage,
                  std::span<double> cells);
     };
-
+    /// A part of it that moves on hinges or is fixed beside the round body.
+    struct Limb {
+        Outline home;  ///< in the robot's frame, with its hinges at 0
+        int hinge = -1;
+    };
     /// Uses of random numbers; each is a stream of its own.
-    enum Stream : std::uint32_t { motor_noise, proximity_noise, target_noise, image_noise, reset_draws };
+    enum Stream : std::uint32_t {
+        motor_noise,
+        proximity_noise,
+        target_noise,
+        image_noise,
+        reset_draws,
+        gripper_noise
+    };
 
-    /// `model` has a robot_link(). An error when its body is no upright cylinder round the model's origin.
-    Robot(const Model& model, std::uint64_t seed, Diagnostics& diagnostics);
+    /// `model` has a robot_link(). An error when its body is no upright cylinder round the model's origin,
+    /// and when there are too many `heights`.
+    Robot(const Model& model, std::size_t number, std::uint64_t seed, Heights& heights,
+          Diagnostics& diagnostics);
 
     RandomStream random(Stream use) const { return {seed, "bug " + name, use}; }
 
-    /// Makes the scanners and gives them what is around: what stands still in `world`, and of each robot i
-    /// `robots[i]`, its solids in its own frame. `self` is the number of this robot, which does not see
-    /// itself.
-    void surround(const WorldDescription& world, const std::vector<std::vector<Solid>>& robots,
-                  std::size_t self);
-    /// Writes pose and scans of `sample` into the snapshot, with the robots at `all` (this one too).
-    void sense(bool with_noise, std::uint64_t sample, std::span<const Pose2> all);
+    /// Makes the scanners. `still`: what stands still, `moving`: what moves, both solids cut at all heights
+    /// by whoever asks; a robot does not see its own body, but its gripper.
+    void surround(std::span<const Solid> still, std::span<const MovingSolid> moving);
+    /// Writes pose and scans of `sample` into the snapshot.
+    void sense(bool with_noise, std::uint64_t sample, const Stage& stage);
     /// Has no effect without a camera sensor, or when it is made already.
     void make_camera(std::shared_ptr<const Scene> scene);
-    /// Writes the picture of `sample` into the snapshot, unless it is there already. `all` are the poses of
-    /// `robots`, of which this is one. Has no effect before make_camera().
-    void render(bool with_noise, std::uint64_t sample, std::span<const Pose2> all,
-                const std::vector<Robot>& robots);
+    /// Writes the picture of `sample` into the snapshot, unless it is there already. `sights`: what moves.
+    /// Has no effect before make_camera().
+    void render(bool with_noise, std::uint64_t sample, const Stage& stage,
+                std::span<const MovingSight> sights);
+    /// Turns the hinges for a substep of `step` s, as far as nothing is in the way.
+    void move_gripper(Physics& physics, double step);
 
     /// What happens to it.
     void checkpoint(Archive& archive);
 
     // ---- what it is; constant ----
     std::string name;
+    std::size_t number;  ///< of this robot
     std::uint64_t seed;  ///< of the world
     Body body;
-    double low = 0, high = 0;           ///< what the body reaches from and to, m above the floor
-    std::vector<RobotVisual> visuals;   ///< what other cameras see of it
+    std::vector<MovingSolid> solids;    ///< its collision shapes
+    std::vector<MovingSight> sights;    ///< what cameras see of it
+    std::vector<Limb> limbs;            ///< of `body.parts`
     Pose link_pose = Pose::Identity();  ///< of the body's link in the model; sensors stand on it
     std::vector<RangeSensor> range_sensors;
     std::optional<CameraSensor> camera_sensor;
@@ -97,22 +110,26 @@ class Robot {
     // ---- what happens to it ----
     Pose2 pose;            ///< at the end of the last cycle; while it is reset, a drawn one
     MotorCommand command;  ///< holds until the next
+    Hinges hinges;
     RandomStream motor_random, image_random;
-    std::optional<Reset> reset;             ///< empty: it is never put back
-    std::optional<TrialLog> trials;         ///< always there once the world is made
-    std::optional<Scan> proximity, target;  ///< of the sensors "laser" and "laser_target"
-    std::optional<Camera> camera;           ///< made when a picture is first asked for
+    std::optional<Reset> reset;      ///< empty: it is never put back
+    std::optional<TrialLog> trials;  ///< always there once the world is made
+    std::optional<Scan> proximity, target,
+        gripper;                   ///< of the sensors "laser", "laser_target", "laser_gripper"
+    std::optional<Camera> camera;  ///< made when a picture is first asked for
+    Voice voice;
     BugSnapshot snapshot;
+    std::vector<BugSnapshot> history;       ///< the last ones, where modules get them late
     bool wants_image = false;               ///< whether World::step() renders
+    bool wants_gripper_scan = false;        ///< whether the gripper's rays are scanned
+    std::uint64_t scans = 0, pictures = 0;  ///< how many there were, at the sensors' own rates
     std::optional<std::uint64_t> rendered;  ///< the sample that the snapshot's image is of
     std::weak_ptr<void> claim;              ///< held by the module that drives it
 
   private:
     std::vector<float> picture_;
-    std::vector<MovingVisual> moving_;
+    std::vector<VisualSolid> moving_;
+    std::vector<std::pair<std::size_t, Outline>> swung_;
 };
-
-/// The pose in space of something that stands on the floor.
-Pose in_space(const Pose2& pose);
 
 }  // namespace forage::bug

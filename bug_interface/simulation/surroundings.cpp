@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "bug_interface/simulation/thing.h"
+
 namespace forage::bug {
 namespace {
 
@@ -48,12 +50,25 @@ std::optional<double> common_height(const Solid& solid, double low, double high)
     return solid.kind == ShapeKind::sphere ? std::clamp(middle, from, to) : (from + to) / 2;
 }
 
-std::vector<Obstacle> obstacles_of(const WorldDescription& world, double low, double high) {
+std::vector<Obstacle> obstacles_of(const WorldDescription& world, const Heights& heights) {
     std::vector<Obstacle> out;
     each_static_collision(world, [&](const Collision& collision, const Solid& solid) {
-        const auto height = common_height(solid, low, high);
-        if (!height) return;
-        if (const auto outline = cut(solid, *height)) out.push_back({*outline, collision.friction});
+        const std::size_t first = out.size();  // of this solid
+        for (std::size_t layer = 0; layer < heights.ranges().size(); ++layer) {
+            const auto& [low, high] = heights.ranges()[layer];
+            const auto height = common_height(solid, low, high);
+            if (!height) continue;
+            const auto outline = cut(solid, *height);
+            if (!outline) continue;
+            // Upright solids are the same at all heights; spheres are not.
+            const auto same =
+                std::find_if(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
+                             [&](const Obstacle& o) { return o.outline.radius == outline->radius; });
+            if (same == out.end())
+                out.push_back({*outline, collision.friction, LayerMask{1} << layer});
+            else
+                same->layers |= LayerMask{1} << layer;
+        }
     });
     return out;
 }
@@ -84,7 +99,7 @@ std::vector<Floor> floors_of(const WorldDescription& world) {
 std::vector<DrawnSolid> drawing_of(const WorldDescription& world) {
     std::vector<DrawnSolid> out;
     for (const Model& model : world.models)
-        if (!robot_link(model))
+        if (!robot_link(model) && !is_loose(model))
             each_link(model, Pose::Identity(), [&](const Link& link, const Pose& pose) {
                 for (const Visual& v : link.visuals)
                     if (v.shape.kind != ShapeKind::plane)

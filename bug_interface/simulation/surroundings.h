@@ -8,6 +8,7 @@
 
 #include "bug_interface/motion/physics.h"
 #include "bug_interface/sensing/outline.h"
+#include "bug_interface/simulation/heights.h"
 #include "bug_interface/world/description.h"
 
 namespace forage::bug {
@@ -46,16 +47,16 @@ std::vector<Solid> solids_of(const Model& model);
 /// mm.
 std::optional<double> common_height(const Solid& solid, double low, double high);
 
-/// What bodies that reach from `low` to `high` bump into, in static models: the outline at the middle of the
-/// heights they share. World takes the heights of all its robots together.
-std::vector<Obstacle> obstacles_of(const WorldDescription& world, double low, double high);
+/// What bodies bump into, in static models: for each layer of `heights` the outline at the middle of the
+/// heights that it shares with a solid.
+std::vector<Obstacle> obstacles_of(const WorldDescription& world, const Heights& heights);
 
 /// The middles of all targets: cylinders in static models that the light sensors (at 0.35 m) meet and the
 /// proximity sensors (at 0.175 m) do not.
 std::vector<Eigen::Vector2d> targets_of(const WorldDescription& world);
 
 std::vector<Floor> floors_of(const WorldDescription& world);
-/// What a map of the world shows: the visible solids of everything but robots, in file order.
+/// What a map of the world shows: the visible solids of everything that stands still, in file order.
 std::vector<DrawnSolid> drawing_of(const WorldDescription& world);
 
 }  // namespace forage::bug

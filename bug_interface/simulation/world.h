@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "bug_interface/motion/physics.h"
+#include "bug_interface/simulation/game.h"
 #include "bug_interface/simulation/robot.h"
 #include "bug_interface/simulation/surroundings.h"
+#include "bug_interface/simulation/thing.h"
 #include "bug_interface/simulation/trials.h"
 #include "bug_interface/world/description.h"
 #include "core/model/diagnostic.h"
@@ -23,6 +25,9 @@ struct WorldOptions {
     std::optional<double>
         real_time_factor;  ///< seconds of the world per second of the clock; default: what the file asks for
     bool noise = true;     ///< of motors, scanners and cameras; resets are drawn all the same
+    bool native_rates = false;  ///< scans and pictures at the rates of their sensors, instead of every cycle
+    int late = 0;               ///< cycles by which what is sensed reaches the modules later
+    bool game = false;          ///< play the challenge's game, also where the world has no rules
 };
 
 /// Robots in a world. A robot is a model with a link named "bug" and the velocity plugin; those with the
@@ -33,8 +38,8 @@ struct WorldOptions {
 /// reset) have random streams of their own, so that doing without one of them leaves the others as they are.
 /// Not to be used from two threads at a time. Robots are counted from 0, in file order.
 ///
-/// What a robot bumps into is what stands at any height that some robot of the world reaches: with robots of
-/// different heights a low one stops at things that only a high one would touch.
+/// What is neither fixed nor a robot is loose: it can be pushed and carried. Things touch where they share
+/// heights.
 class World {
   public:
     /// Null when the world cannot be simulated; `diagnostics` then says why.
@@ -59,7 +64,8 @@ class World {
     std::size_t bugs() const { return robots_.size(); }
     std::vector<std::string> bug_names() const;
     std::optional<std::size_t> find(std::string_view bug) const;
-    const BugSnapshot& snapshot(std::size_t bug) const { return robots_[bug].snapshot; }
+    /// What modules get: of the last cycle, or of an earlier one when the options have it late.
+    const BugSnapshot& snapshot(std::size_t bug) const;
     /// The picture of the last snapshot, rendered when first asked for; empty without a camera.
     /// Throws std::runtime_error when a floor's picture cannot be read.
     std::span<const std::uint8_t> image(std::size_t bug);
@@ -72,6 +78,19 @@ class World {
 
     /// Holds until the next command. The first is to stand still.
     void command(std::size_t bug, const MotorCommand& command) { robots_[bug].command = command; }
+    /// Opens or closes the gripper; it closes only after it was opened. Holds until the next.
+    void grip(std::size_t bug, bool close) { robots_[bug].hinges.command(close); }
+    bool has_gripper(std::size_t bug) const { return !robots_[bug].hinges.empty(); }
+    double gripper_angle(std::size_t bug, std::size_t hinge) const {
+        return robots_[bug].hinges[hinge].angle;
+    }  ///< rad
+    /// Whether the gripper's rays are scanned.
+    void need_gripper_scan(std::size_t bug, bool needed);
+    /// What a robot says in this cycle to all with the same key, who hear it in the next. To be told in every
+    /// cycle.
+    void say(std::size_t bug, std::string_view key, std::span<const double> cells) {
+        robots_[bug].voice.say(key, cells, robots_[bug].snapshot.pose);
+    }
     /// A robot obeys one module: empty when it has one already. The claim ends with the returned object.
     std::shared_ptr<void> claim(std::size_t bug);
 
@@ -91,14 +110,35 @@ class World {
     const std::vector<Eigen::Vector2d>& targets() const { return targets_; }  ///< their middles, m
     std::optional<ResetPlan> reset_plan() const { return plan_; }             ///< start poses and bounds
     std::vector<Floor> floors() const { return floors_of(description_); }     ///< for drawing
-    std::vector<DrawnSolid> drawing() const { return drawing_of(description_); }
+    /// For drawing: what stands still, and where loose things are now.
+    std::vector<DrawnSolid> drawing() const;
+    std::size_t things() const { return things_.size(); }
+    const Thing& thing(std::size_t i) const { return things_[i]; }
+    /// Where a loose thing is; empty when it is away.
+    std::optional<Pose2> thing_pose(std::size_t i) const;
+    const Game& game() const { return game_; }
+    const Robot& robot(std::size_t bug) const { return robots_[bug]; }
+    const Stage& stage() const { return stage_; }  ///< at the last snapshot
+    std::span<const MovingSight> moving_sights() const { return sights_; }
+    /// What stands still, for cameras. Throws std::runtime_error when a floor's picture cannot be read.
+    std::shared_ptr<const Scene> scene();
     const WorldDescription& description() const { return description_; }
     const Physics& physics() const { return *physics_; }
 
   private:
     World(const WorldDescription& description, const WorldOptions& options);
     bool build(Diagnostics& diagnostics);
+    void add_robot(const Model& model, Diagnostics& diagnostics);
+    void add_things(Diagnostics& diagnostics);
+    void add_game();
+    void surround();
     bool in_reset(std::size_t bug);  ///< one substep of the reset rule: true when the robot is not driven
+    void drive(std::size_t bug);
+    void set_stage();
+    void sense_when_due();
+    void colour_resources();
+    void hear();
+    void remember();
     void make_camera(std::size_t bug);
     std::uint64_t substeps_before(std::uint64_t cycle) const;
 
@@ -108,8 +148,15 @@ class World {
     std::uint64_t cycle_ = 0, substep_ = 0;
     std::optional<ResetPlan> plan_;
     std::vector<Eigen::Vector2d> targets_;
+    Heights heights_;
     std::vector<Robot> robots_;
-    std::vector<Pose2> poses_;          ///< of all robots at the last snapshot
+    std::vector<Thing> things_;
+    std::vector<Body> bodies_;          ///< of the robots, then of the things
+    std::vector<std::size_t> by_name_;  ///< the robots, in byte order of their names
+    std::vector<Voice*> voices_;
+    Game game_;
+    Stage stage_;
+    std::vector<MovingSight> sights_;   ///< of all that moves
     std::vector<MotorCommand> drives_;  ///< of this substep, with noise
     std::unique_ptr<Physics> physics_;
     std::shared_ptr<const Scene> scene_;  ///< made for the first image

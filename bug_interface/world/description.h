@@ -58,6 +58,7 @@ struct RangeSensor {
     double first_angle = 0, last_angle = 0;  ///< rad
     double min_range = 0, max_range = 1;     ///< m; nearer things are invisible
     double noise = 0;                        ///< standard deviation, m
+    double rate = 0;                         ///< scans per second of the world; 0: whenever asked
 };
 
 /// A pinhole camera that looks along its x axis.
@@ -69,6 +70,7 @@ struct CameraSensor {
     int width = 32, height = 28;  ///< pixels
     double far = 20;              ///< nothing is drawn beyond, m
     double noise = 0;             ///< standard deviation, of a channel in 0..1
+    double rate = 0;              ///< pictures per second of the world; 0: whenever asked
 };
 
 struct Link {
@@ -88,6 +90,16 @@ struct Plugin {
     std::string name, filename;
 };
 
+/// A vertical hinge between two links. Its angle is 0 where the model's file puts the links.
+struct Hinge {
+    Location where;
+    std::string name, parent,
+        child;                     ///< names of links; "MODEL::LINK" of a link in a model that is fixed here
+    Pose pose = Pose::Identity();  ///< in the child link: the axis stands at its origin
+    double sense = 1;              ///< 1: the child turns to the left as the angle grows; -1: to the right
+    double lower = 0, upper = 0;   ///< limits of the angle, rad
+};
+
 struct Model {
     Location where;
     std::string name;
@@ -95,7 +107,26 @@ struct Model {
     bool is_static = false;
     std::vector<Link> links;
     std::vector<Plugin> plugins;
+    std::vector<Hinge> hinges;
     std::vector<Model> models;  ///< fixed to this one
+};
+
+/// Where resources of a game appear.
+struct GameSite {
+    double x = 0, y = 0;  ///< m
+    double chance = 0;    ///< that one appears in a second, 0..1
+};
+
+/// A game of two teams that collect resources; the defaults are the robotics challenge's.
+struct GameRules {
+    Location where;
+    double duration = 300;        ///< s
+    double stale_after = 30;      ///< s after which a resource that nobody holds is bad, and yellow
+    double dissolves_after = 50;  ///< s after which it is taken away
+    int points = 2;               ///< for a good resource at a home
+    int penalty = -1;             ///< for a bad one
+    int most = 16;                ///< resources at a time
+    std::vector<GameSite> sites;  ///< none: drawn from the challenge's table
 };
 
 /// Everything of a world file that Forage uses.
@@ -106,6 +137,7 @@ struct WorldDescription {
     float ambient = 0.4f;                ///< light from everywhere, 0..1
     std::optional<Eigen::Vector3d> sun;  ///< unit vector towards a directional light
     std::vector<Model> models;
+    std::optional<GameRules> game;  ///< of the plugin libforage_game.so
 };
 
 /// A pose in the plane.

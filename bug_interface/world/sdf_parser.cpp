@@ -80,6 +80,17 @@ std::vector<std::string_view> reasons(std::string_view console) {
     return out;
 }
 
+/// Where `what` begins in a line of `text`, or else its first tag; counts from 1. 0: there is none. (The
+/// library counts lines only.)
+int column_of(std::string_view what, std::string_view text, int line) {
+    for (; line > 1 && !text.empty(); --line)
+        text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+    text = text.substr(0, text.find('\n'));
+    auto column = text.find(what);
+    if (column == std::string_view::npos) column = text.find('<');
+    return column == std::string_view::npos ? 0 : static_cast<int>(column) + 1;
+}
+
 int number(std::string_view text) {
     int out = 0;
     std::from_chars(text.data(), text.data() + text.size(), out);
@@ -170,10 +181,12 @@ void SdfParser::report(const std::string& path, const sdf::Errors& errors, const
         if (chain && inside_chain) continue;
         inside_chain = true;
         if (message.find("not defined in SDF") != std::string::npos) {
-            report_unknown(where, message);
+            report_unknown(at(where.file->path, where.line, std::string(between(message, "Element[", "]"))),
+                           message);
             inside_chain = false;
         } else if (chain) {
-            report_reason(where, std::string(between(message, "<", ">")),
+            const std::string element(between(message, "<", ">"));
+            report_reason(at(where.file->path, where.line, element), element,
                           reason == why.end() ? std::string_view{} : *reason++);
         } else if (message.find("<include> element missing 'uri'") != std::string::npos) {
             diagnostics_.error(where, "this <include> does not say what to include",
@@ -229,6 +242,8 @@ void SdfParser::report_reason(const Location& where, const std::string& element,
             where,
             fmt::format("<{}> cannot be '{}'", element, value.substr(0, value.find_last_not_of(' ') + 1)),
             hint.empty() ? "a number is expected here, with a point and without a unit" : hint);
+    } else if (reason.find("finite") != std::string_view::npos) {
+        diagnostics_.error(where, fmt::format("<{}> holds a number that is not finite", element), hint);
     } else if (reason.find("nvalid boolean") != std::string_view::npos) {
         diagnostics_.error(where, fmt::format("<{}> must be true or false", element));
     } else if (reason.find("mpty string") != std::string_view::npos) {
@@ -251,12 +266,14 @@ std::vector<std::string> SdfParser::children_of(const std::string& element) cons
     return {names.begin(), names.end()};
 }
 
-Location SdfParser::at(const std::string& file, int line) {
+Location SdfParser::at(const std::string& file, int line, const std::string& element) {
     auto& known = files_[file];
     if (!known) known = std::make_shared<SourceFile>(SourceFile{file, read_text(file).value_or("")});
-    return {known, line, 0};
+    return {known, line, line > 0 ? column_of("<" + element, known->text, line) : 0};
 }
 
-Location SdfParser::at(const sdf::ElementPtr& e) { return at(e->FilePath(), e->LineNumber().value_or(0)); }
+Location SdfParser::at(const sdf::ElementPtr& e) {
+    return at(e->FilePath(), e->LineNumber().value_or(0), e->GetName());
+}
 
 }  // namespace forage::bug

@@ -28,7 +28,8 @@ class SdfParser {
     /// The file that the model.config in `folder` names for this version of the format; may be empty.
     static std::string model_file(const std::string& folder);
 
-    Location at(const std::string& file, int line);
+    /// `element`: what stands at that line, for the column.
+    Location at(const std::string& file, int line, const std::string& element = {});
     Location at(const sdf::ElementPtr& element);
 
   private:

@@ -161,8 +161,20 @@ class Reader {
     // ---- values ----
 
     template <class T>
-    static T value(const sdf::ElementPtr& parent, const std::string& name, T otherwise) {
-        return parent->HasElement(name) ? parent->GetElement(name)->Get<T>() : otherwise;
+    T value(const sdf::ElementPtr& parent, const std::string& name, T otherwise) {
+        if (!parent->HasElement(name)) return otherwise;
+        const auto e = parent->GetElement(name);
+        T out = e->Get<T>();
+        if constexpr (requires { out.IsFinite(); }) {
+            if (!out.IsFinite()) return not_finite(e), otherwise;
+        } else if constexpr (std::is_same_v<T, double>) {
+            if (!std::isfinite(out)) return not_finite(e), otherwise;
+        }
+        return out;
+    }
+
+    void not_finite(const sdf::ElementPtr& e) {
+        diagnostics_.error(at(e), fmt::format("<{}> holds a number that is not finite", e->GetName()));
     }
 
     static std::string name_of(const sdf::ElementPtr& e) {
@@ -206,8 +218,9 @@ class Reader {
         if (e->HasAttribute("relative_to") && !e->Get<std::string>("relative_to").empty())
             diagnostics_.error(at(e), "poses relative to a named frame are not supported",
                                "give the pose relative to the enclosing element");
-        check_angles(e);
         const auto p = e->Get<ignition::math::Pose3d>();
+        if (!p.IsFinite()) return not_finite(e), Pose::Identity();
+        check_angles(e);
         Pose pose = Pose::Identity();
         pose.translation() = Eigen::Vector3d(p.Pos().X(), p.Pos().Y(), p.Pos().Z());
         pose.linear() =
@@ -238,7 +251,7 @@ class Reader {
             diagnostics_.error(at(kind), fmt::format("shape <{}> is not supported", kind->GetName()),
                                "the shapes are <plane>, <box>, <cylinder> and <sphere>");
         }
-        if ((shape.size.array() < 0).any()) diagnostics_.error(at(kind), "a size is negative");
+        if (kind && (shape.size.array() < 0).any()) diagnostics_.error(at(kind), "a size is negative");
         return shape;
     }
 
@@ -301,9 +314,19 @@ class Reader {
         return {};
     }
 
-    static double noise_of(const sdf::ElementPtr& e) {
+    double noise_of(const sdf::ElementPtr& e) {
         const auto stddev = child(e, {"noise", "stddev"});
-        return stddev ? stddev->Get<double>() : 0.0;
+        if (!stddev) return 0;
+        const double noise = stddev->Get<double>();
+        if (!(noise >= 0 && std::isfinite(noise)))
+            diagnostics_.error(at(stddev), "a standard deviation is a finite number, at least 0");
+        return noise;
+    }
+
+    double rate_of(const sdf::ElementPtr& sensor) {
+        const double rate = value(sensor, "update_rate", 0.0);
+        if (rate < 0) diagnostics_.error(at(sensor), "an <update_rate> cannot be negative");
+        return rate;
     }
 
     // ---- elements ----
@@ -325,7 +348,7 @@ class Reader {
             s.rays = value(scan, "samples", 1);
             s.first_angle = value(scan, "min_angle", 0.0), s.last_angle = value(scan, "max_angle", 0.0);
             s.min_range = value(range, "min", 0.0), s.max_range = value(range, "max", 1.0);
-            s.noise = noise_of(ray);
+            s.noise = noise_of(ray), s.rate = rate_of(e);
             if (s.rays < 1 || !(s.max_range > s.min_range))
                 diagnostics_.error(
                     s.where, fmt::format("ray sensor '{}' needs at least one sample and min < max", s.name));
@@ -342,7 +365,7 @@ class Reader {
             if (const auto image = child(camera, {"image"}))
                 s.width = value(image, "width", 32), s.height = value(image, "height", 28);
             if (const auto clip = child(camera, {"clip"})) s.far = value(clip, "far", 20.0);
-            s.noise = noise_of(camera);
+            s.noise = noise_of(camera), s.rate = rate_of(e);
             if (s.width < 1 || s.height < 1 || s.width > 4096 || s.height > 4096)
                 diagnostics_.error(s.where, fmt::format("camera '{}' has an impossible image size", s.name));
             if (!(s.horizontal_fov > 0 && s.horizontal_fov < 3.1))
@@ -373,12 +396,37 @@ class Reader {
         return link;
     }
 
+    /// Joints that do not turn fix their links, as everything in a model is fixed here.
+    void read_joint(const sdf::ElementPtr& e, Model& model) {
+        const auto axis = child(e, {"axis"});
+        if (e->Get<std::string>("type") != "revolute" || !axis) return;
+        Hinge hinge;
+        hinge.where = at(e), hinge.name = name_of(e), hinge.pose = pose_of(e);
+        hinge.parent = value(e, "parent", std::string()), hinge.child = value(e, "child", std::string());
+        const auto xyz = value(axis, "xyz", ignition::math::Vector3d(0, 0, 1));
+        if (const auto limit = child(axis, {"limit"}))
+            hinge.lower = value(limit, "lower", -1e16), hinge.upper = value(limit, "upper", 1e16);
+        if (hinge.lower == hinge.upper) return;
+        if (std::abs(xyz.X()) > 1e-6 || std::abs(xyz.Y()) > 1e-6 || xyz.Z() == 0) {
+            diagnostics_.warning(
+                at(axis),
+                fmt::format("the axis of joint '{}' is not vertical: it does not turn here", hinge.name));
+            return;
+        }
+        hinge.sense = xyz.Z() > 0 ? 1 : -1;
+        if (!(hinge.lower < hinge.upper))
+            diagnostics_.error(at(axis),
+                               fmt::format("joint '{}' has its lower limit above the upper one", hinge.name));
+        model.hinges.push_back(std::move(hinge));
+    }
+
     Model read_model(const sdf::ElementPtr& e) {
         Model model;
         model.where = at(e), model.name = name_of(e), model.pose = pose_of(e);
         model.is_static = value(e, "static", false);
         each(e, "link", [&](const sdf::ElementPtr& l) { model.links.push_back(read_link(l)); });
         each_model(e, model.models, [](const sdf::ElementPtr&) {});
+        each(e, "joint", [&](const sdf::ElementPtr& j) { read_joint(j, model); });
         read_plugins(e, model);
         return model;
     }
@@ -399,6 +447,45 @@ class Reader {
             if (content.model) models.push_back(placed(*content.model, e));
             if (content.light) visit_light(content.light);
         }
+    }
+
+    /// A plugin's children are not in the format: they come as text.
+    GameRules read_game(const sdf::ElementPtr& e) {
+        GameRules rules;
+        rules.where = at(e);
+        const std::vector<std::string> known = {
+            "duration", "stale_after", "dissolves_after", "points", "penalty", "most", "site"};
+        for (auto c = e->GetFirstElement(); c; c = c->GetNextElement()) {
+            const std::string name = c->GetName(), text = c->Get<std::string>();
+            std::istringstream in(text);
+            std::vector<double> v;
+            for (double number; in >> number;) v.push_back(number);
+            const std::size_t wanted = name == "site" ? 3 : 1;
+            if (std::find(known.begin(), known.end(), name) == known.end()) {
+                diagnostics_.error(at(c), fmt::format("<{}> is no rule of a game", name),
+                                   suggest(name, known));
+            } else if (v.size() != wanted || !in.eof()) {
+                diagnostics_.error(
+                    at(c), fmt::format("<{}> cannot be '{}'", name, text),
+                    wanted == 3 ? "a site is x y chance: m, m, and how likely a resource appears in a second"
+                                : "a number is expected here");
+            } else if (name == "site") {
+                if (!(v[2] >= 0 && v[2] <= 1))
+                    diagnostics_.error(at(c), fmt::format("a chance of {} is not from 0 to 1", v[2]));
+                rules.sites.push_back({v[0], v[1], v[2]});
+            } else if (name == "points" || name == "penalty") {
+                (name == "points" ? rules.points : rules.penalty) = static_cast<int>(v[0]);
+            } else if (!(v[0] > 0 && v[0] <= 1e6)) {
+                diagnostics_.error(at(c), fmt::format("<{}> must be above 0", name));
+            } else if (name == "most") {
+                rules.most = static_cast<int>(std::min(v[0], 200.0));
+            } else {
+                (name == "duration"      ? rules.duration
+                 : name == "stale_after" ? rules.stale_after
+                                         : rules.dissolves_after) = v[0];
+            }
+        }
+        return rules;
     }
 
     WorldDescription read_world_element(const sdf::ElementPtr& e) {
@@ -425,6 +512,16 @@ class Reader {
             }
         };
         each(e, "light", read_light);
+        each(e, "plugin", [&](const sdf::ElementPtr& p) {
+            if (p->Get<std::string>("filename") == "libforage_game.so")
+                world.game = read_game(p);
+            else
+                diagnostics_.warning(
+                    at(p),
+                    fmt::format("plugin '{}' of the world is not known here and does nothing",
+                                p->Get<std::string>("filename")),
+                    "known is libforage_game.so");
+        });
         each_model(e, world.models, read_light);
         return world;
     }

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "core/model/lookup.h"
+
 namespace forage::model {
 namespace {
 
@@ -171,6 +173,42 @@ std::string import_process(System& system, ProcessFile file) {
     system.processes.push_back(std::move(file.process));
     for (auto& c : file.connections) system.connections.push_back(std::move(c));
     return system.processes.back().id;
+}
+
+void join(System& system, System other) {
+    embed_links(other);
+    const auto taken = all_ids(system);
+    std::vector<std::string*> ids;
+    std::vector<std::string*> references;
+    for (auto& p : other.processes) {
+        ids.push_back(&p.id);
+        for (auto& g : p.groups) ids.push_back(&g.id);
+        if (p.module)
+            for (auto* side : {&p.module->inputs, &p.module->outputs})
+                for (auto& r : *side) references.push_back(&r.target);
+    }
+    for (auto& c : other.connections)
+        ids.push_back(&c.id), references.push_back(&c.source), references.push_back(&c.target);
+    std::string prefix;
+    const auto clashes = [&] {
+        return std::any_of(ids.begin(), ids.end(),
+                           [&](const auto* id) { return taken.contains(prefix + *id); });
+    };
+    for (int n = 2; clashes(); ++n) prefix = fmt::format("S{}_", n);
+    for (auto* id : ids) *id = prefix + *id;
+    for (auto* reference : references)
+        if (!reference->empty()) *reference = prefix + *reference;
+
+    const auto named = [&](const std::string& name) {
+        return std::any_of(system.processes.begin(), system.processes.end(),
+                           [&](const auto& p) { return trim(p.name) == trim(name); });
+    };
+    for (auto& p : other.processes) {
+        const std::string name(trim(p.name));
+        for (int n = 2; named(p.name); ++n) p.name = fmt::format("{} {}", name, n);
+        system.processes.push_back(std::move(p));
+    }
+    for (auto& c : other.connections) system.connections.push_back(std::move(c));
 }
 
 ProcessFile extract_process(const System& system, std::string_view id) {

@@ -48,6 +48,10 @@ void rename(System& system, std::string_view id, std::string name);
 /// std::invalid_argument when a connection leads out of the process.
 std::string import_process(System& system, ProcessFile file);
 
+/// Adds all processes and connections of `other`. Where ids clash all of the other's get a prefix that makes
+/// them new; a process of a name that is taken gets a number behind it ("Bug 2"), so that paths stay unique.
+void join(System& system, System other);
+
 /// A process with the connections among its groups, as a file of its own says it; its module's references to
 /// groups outside become unset. Throws std::invalid_argument when there is none of this id.
 ProcessFile extract_process(const System& system, std::string_view id);

@@ -49,7 +49,8 @@ struct RunOptions {
     std::vector<model::ManipulationWish> manipulations;
     int threads = 1;
     std::string directory = "forage-out";
-    bool paths = true;                                   ///< follow the robots
+    bool paths = true;  ///< follow the robots
+    std::string video;  ///< .gif or .png file to film the world to; none when empty
     std::optional<CheckpointInterval> checkpoint_every;  ///< none without
     OnNan on_nan = OnNan::warn;
     bool hash = false;  ///< give a digest of the state at the end
@@ -87,6 +88,12 @@ struct ExperimentOptions {
     bool quiet = false;
 };
 
+struct WorldCommand {
+    std::string file;     ///< .world
+    std::string picture;  ///< .png, .svg or .pdf; empty: the world's name with .png, here
+    bool game = false;
+};
+
 struct TutorialOptions {
     std::string exercise;   ///< its number; empty: list them
     std::string directory;  ///< empty: forage-out/tutorial/ and the number
@@ -108,6 +115,8 @@ int experiment(const ExperimentOptions& options);
 int tutorial(const TutorialOptions& options);
 int convert(const ConvertOptions& options);
 int check(const Input& input);
+/// Checks a world, lists what is in it and draws it from above.
+int world(const WorldCommand& options);
 /// Prints the tree of processes, groups and connections, with sizes and how each connection is computed.
 int describe(const Input& input);
 /// Writes a page that shows the pictures and tables of a directory of results: plain HTML, nothing from the

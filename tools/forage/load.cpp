@@ -7,6 +7,7 @@
 
 #include "bug_interface/module/gazebo_bug.h"
 #include "bug_interface/world/sdf_reader.h"
+#include "core/model/build.h"
 #include "core/model/edit.h"
 #include "core/model/validate.h"
 #include "core/plugin/search.h"
@@ -77,6 +78,17 @@ Sources read(const Input& input, Diagnostics& diagnostics) {
     diagnostics.lenient = input.lenient;
     Sources out;
     out.system = read_any(input.system, diagnostics);
+    for (const std::string& path : input.more) {
+        auto other = read_any(path, diagnostics);
+        if (!out.system || !other) continue;
+        if (other->cycles_per_second != out.system->cycles_per_second)
+            diagnostics.error(
+                other->at,
+                fmt::format("this system runs at {} cycles per second, '{}' at {}", other->cycles_per_second,
+                            input.system, out.system->cycles_per_second),
+                "systems that run together need the same cyclesPerSecond");
+        model::join(*out.system, std::move(*other));
+    }
     if (!input.world.empty()) out.world = bug::read_world(input.world, diagnostics);
     out.drive = read_table(input.drive, diagnostics);
     out.plugins = load_plugins(input.plugins, input.system, diagnostics);
@@ -92,6 +104,9 @@ std::optional<Loaded> assemble(const Sources& sources, const Input& input, Diagn
         options.cycles_per_second = cycles_per_second(out.system);
         options.real_time_factor = input.world_pace;
         options.noise = input.noise;
+        options.native_rates = input.sensor_rates;
+        options.late = input.latency;
+        options.game = input.game;
         out.world = bug::World::make(*sources.world, options, diagnostics);
     }
     out.drive = sources.drive;

@@ -19,6 +19,7 @@ namespace forage::tool {
 /// What all commands that read a system have in common.
 struct Input {
     std::string system, world;          ///< paths; no world when empty
+    std::vector<std::string> more;      ///< further systems, which run together with the first
     std::vector<model::Wish> settings;  ///< "Process/Group.parameter=value"
     std::string drive;                  ///< table for moduleReplay; none when empty
     std::vector<std::string> plugins;   ///< shared objects and folders of them, besides those that are found
@@ -27,6 +28,9 @@ struct Input {
     std::optional<double>
         world_pace;  ///< seconds of the world per second of the clock, instead of the world's own
     bool noise = true;
+    bool sensor_rates = false;  ///< scans and pictures at the rates of the world's files
+    int latency = 0;            ///< cycles by which what is sensed comes later
+    bool game = false;          ///< play the challenge's game
 };
 
 /// What the files say. It can be made to run any number of times.

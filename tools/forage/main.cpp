@@ -72,9 +72,17 @@ void add_plugins(CLI::App& command, std::vector<std::string>& plugins) {
 }
 
 void add_input(CLI::App& command, Input& input) {
-    command.add_option("SYSTEM", input.system, "System file (.iqr), or a process on its own (.iqrProcess)")
+    command
+        .add_option_function<std::vector<std::string>>(
+            "SYSTEM",
+            [&input](const std::vector<std::string>& files) {
+                input.system = files.front();
+                input.more.assign(files.begin() + 1, files.end());
+            },
+            "System file (.iqr), or a process on its own (.iqrProcess); several run together, in lock-step")
         ->required()
-        ->option_text("FILE");
+        ->expected(1, 1000)
+        ->option_text("FILE...");
     command.add_option("-w,--world", input.world, "World in which the robot lives (.world)")
         ->option_text("FILE");
     repeated(
@@ -267,6 +275,21 @@ void add_run(CLI::App& app, RunOptions& o) {
     run.add_flag_callback(
         "--no-noise", [&o] { o.input.noise = false; },
         "Motors and sensors without noise; start positions still vary");
+    run.add_flag("--sensor-rates", o.input.sensor_rates,
+                 "Scans and pictures as often as the world's sensors say, instead of in every cycle")
+        ->needs("--world");
+    run.add_option("--latency", o.input.latency, "What robots sense comes so many cycles later [0]")
+        ->check(CLI::Range(0, 1000))
+        ->option_text("CYCLES")
+        ->needs("--world");
+    run.add_flag("--game", o.input.game,
+                 "Play the robotics challenge: two teams collect resources for five minutes")
+        ->needs("--world");
+    run.add_option(
+           "--video", o.video,
+           "Film the world from above, with what the robots see: an animated .gif, or numbered .png files")
+        ->option_text("FILE")
+        ->needs("--world");
     run.add_option("--threads", o.threads, "For large systems; the numbers do not depend on it [1]")
         ->check(count())
         ->option_text("N");
@@ -439,6 +462,16 @@ int main(int argc, char** argv) {
     add_input(describe_command, describe_input);
     check_command.footer(
         "Example:\n  forage check systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world");
+    WorldCommand world_options;
+    auto& world_command =
+        *app.add_subcommand("world", "Check a world, list what is in it and draw it from above");
+    world_command.footer(
+        "Example:\n  forage world systems/worlds/basic_arena.world -o forage-out/basic_arena.png");
+    world_command.add_option("FILE", world_options.file, "World file (.world)")->required()->option_text(" ");
+    world_command
+        .add_option("-o,--output", world_options.picture, "Picture (.png, .svg or .pdf) [FILE's name .png]")
+        ->option_text("PICTURE");
+    world_command.add_flag("--game", world_options.game, "With the robotics challenge's resources");
     std::string directory = "forage-out";
     auto& view_command = *app.add_subcommand(
         "view", "Write a page, index.html, that shows the pictures and tables of results");
@@ -501,6 +534,7 @@ int main(int argc, char** argv) {
         if (app.got_subcommand("experiment")) return experiment(experiment_options);
         if (app.got_subcommand("plot")) return plot(plot_options);
         if (app.got_subcommand("check")) return check(check_input);
+        if (app.got_subcommand("world")) return world(world_options);
         if (app.got_subcommand("describe")) return describe(describe_input);
         if (app.got_subcommand("convert")) return convert(convert_options);
         if (app.got_subcommand("view")) return view(directory);

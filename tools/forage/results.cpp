@@ -11,6 +11,7 @@
 
 #include "bug_interface/versions.h"
 #include "tools/forage/files.h"
+#include "tools/forage/score.h"
 
 namespace forage::tool {
 namespace {
@@ -35,10 +36,14 @@ nlohmann::ordered_json settings_json(const RunOptions& o, const Loaded& loaded) 
     json["system"] = input_file(o.input.system);
     json["system"]["name"] = loaded.system.name;
     json["system"]["cycles_per_second"] = cycles_per_second(loaded.system);
+    for (const auto& path : o.input.more) json["more_systems"].push_back(input_file(path));
     if (loaded.world) {
         json["world"] = input_file(o.input.world);
         json["world"]["seconds_per_cycle"] = loaded.world->seconds_per_cycle();
         json["world"]["noise"] = o.input.noise;
+        if (o.input.sensor_rates) json["world"]["sensor_rates"] = true;
+        if (o.input.latency) json["world"]["latency"] = o.input.latency;
+        if (o.input.game) json["world"]["game"] = true;
     }
     json["seed"] = o.input.seed;
     if (o.trials) json["trials"] = *o.trials, json["longest_trial"] = o.longest_trial;
@@ -96,6 +101,14 @@ std::string run_json(const RunOptions& o, const Loaded& loaded, const Outcome& o
             if (!trials.finished.empty())
                 robot["recent_success"] = trials.recent_success(trials.finished.size());
         }
+    if (loaded.world && !loaded.world->game().empty())
+        for (int team = 0; team < 2; ++team) {
+            const auto& game = loaded.world->game();
+            result["score"].push_back({{"team", team_name(team)},
+                                       {"points", game.points(team)},
+                                       {"good", game.delivered(team, true)},
+                                       {"bad", game.delivered(team, false)}});
+        }
     result["files"] = outcome.files;
     for (const auto& r : outcome.recordings)
         result["recordings"].push_back({{"file", r.file}, {"source", r.source}, {"label", r.label}});
@@ -114,8 +127,10 @@ std::vector<std::string> files_of_last_run(const std::string& directory) {
 }
 
 std::string picture_title(const RunOptions& o, const Loaded& loaded) {
-    return fmt::format("{}{}, seed {}", base_name(o.input.system),
-                       loaded.world ? " in " + base_name(o.input.world) : "", o.input.seed);
+    std::string systems = base_name(o.input.system);
+    for (const auto& path : o.input.more) systems += " and " + base_name(path);
+    return fmt::format("{}{}, seed {}", systems, loaded.world ? " in " + base_name(o.input.world) : "",
+                       o.input.seed);
 }
 
 std::string summary(const RunOptions& o, const Loaded& loaded, const Outcome& outcome) {
@@ -139,6 +154,8 @@ std::string summary(const RunOptions& o, const Loaded& loaded, const Outcome& ou
             for (const auto& [what, text] : trials_summary(*loaded.world, outcome.trials[i]))
                 line(name + what, text);
         }
+    if (loaded.world && !loaded.world->game().empty()) out += score_table(loaded.world->game());
+    if (outcome.frames) line("film", fmt::format("{}: {} frames", o.video, outcome.frames));
     if (!outcome.diverged.empty()) line("diverged", outcome.diverged);
     if (!outcome.state.empty()) line("state", outcome.state);
     if (outcome.resumable) line("to go on", "forage resume " + o.directory);

@@ -23,6 +23,7 @@ struct Outcome {
     std::string stopped;     ///< why it ended before its time; empty when it did not
     std::string state;       ///< a digest of it at the end; empty when it is not wanted
     bool resumable = false;  ///< there is a checkpoint to go on from
+    std::size_t frames = 0;  ///< of the film
     std::vector<std::string> files;
     std::vector<Recordings::Entry> recordings;
     std::vector<Trials> trials;  ///< of each robot of the world

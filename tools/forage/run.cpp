@@ -122,6 +122,11 @@ int carry_on(const RunOptions& options, const Sources& sources, Running& running
         outcome.stopped = e.what();
         problems.emplace_back(e.what());
     }
+    if (running.film) try {
+            outcome.frames = running.film->finish();
+        } catch (const std::exception& e) {
+            problems.emplace_back(e.what());
+        }
     note(running, outcome);
     outcome.clock = std::max(progress.elapsed(), 1e-9);
     progress.clear();

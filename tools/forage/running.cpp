@@ -1,5 +1,7 @@
 #include "tools/forage/running.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "tools/forage/checkpoint.h"
@@ -7,6 +9,7 @@
 #include "tools/forage/length.h"
 #include "tools/forage/manipulations.h"
 #include "tools/forage/schedule.h"
+#include "tools/forage/score.h"
 #include "tools/forage/tables.h"
 
 namespace forage::tool {
@@ -45,6 +48,7 @@ void Running::cycle() {
     plots.follow(simulation);
     for (auto& m : measures) m.follow(simulation);
     for (auto& p : paths) p.follow();
+    if (film && simulation.cycle() % film_every == 0) film->add();
 }
 
 void Running::checkpoint(Archive& archive) {
@@ -65,6 +69,9 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
     auto loaded = assemble(sources, o.input, diagnostics);
     if (!loaded) return std::nullopt;
     check_length(o, loaded->world.get(), diagnostics);
+    if (!o.video.empty() && !plot::Film::is_name(o.video))
+        diagnostics.error({}, fmt::format("--video: '{}' is no name of a film", o.video),
+                          "it ends with .gif or .png");
     if (loaded->drive) check_drive(*loaded->drive, loaded->system, diagnostics);
     auto simulation = engine::Simulation::build(loaded->system, loaded->registry,
                                                 {.seed = o.input.seed, .threads = o.threads}, diagnostics);
@@ -98,7 +105,8 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
                     std::move(plots),
                     std::nullopt,
                     {},
-                    {}};
+                    {},
+                    nullptr};
         if (out.loaded.world)
             for (std::size_t i = 0; i < out.loaded.world->bugs(); ++i)
                 out.measures.emplace_back(*out.loaded.world, i, out.simulation);
@@ -109,6 +117,14 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
         if (o.paths && !o.directory.empty() && out.loaded.world)
             for (std::size_t i = 0; i < out.loaded.world->bugs(); ++i)
                 out.paths.emplace_back(*out.loaded.world, i);
+        if (!o.video.empty() && out.loaded.world) {
+            constexpr double frame = 0.1;  // s of the world, about
+            out.film_every =
+                std::max<std::uint64_t>(1, static_cast<std::uint64_t>(frame / seconds_per_cycle + 0.5));
+            out.film = std::make_unique<plot::Film>(*out.loaded.world, o.video,
+                                                    static_cast<double>(out.film_every) * seconds_per_cycle,
+                                                    picture_title(o, out.loaded));
+        }
         return out;
     } catch (const std::exception& e) {
         diagnostics.error({}, e.what());
@@ -128,6 +144,12 @@ std::vector<std::string> write_tables(const RunOptions& o, Running& r, Outcome& 
             const std::string name = "trials" + robot_suffix(*r.loaded.world, i) + ".csv";
             write_file(o.directory + "/" + name, trials_csv(outcome.trials[i]));
             outcome.files.push_back(name);
+        } catch (const std::exception& e) {
+            problems.emplace_back(e.what());
+        }
+    if (!r.loaded.world->game().empty()) try {
+            write_file(o.directory + "/score.csv", score_csv(r.loaded.world->game()));
+            outcome.files.emplace_back("score.csv");
         } catch (const std::exception& e) {
             problems.emplace_back(e.what());
         }

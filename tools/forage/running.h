@@ -1,6 +1,7 @@
 // One run of a system: what 'forage run' does once and an experiment many times.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "tools/forage/recordings.h"
 #include "tools/forage/results.h"
 #include "tools/forage/run_measures.h"
+#include "tools/plot/film.h"
 
 namespace forage::tool {
 
@@ -33,6 +35,8 @@ struct Running {
     std::optional<Recordings> recordings;  ///< none without a directory
     std::vector<PathLog> paths;            ///< one per robot, when they are wanted
     std::string diverged;  ///< where numbers began to be not finite; empty: they are, or nobody looks
+    std::unique_ptr<plot::Film> film;  ///< none when it is not wanted
+    std::uint64_t film_every = 1;      ///< cycles
 
     /// One cycle: changes that are due, the system, its world; then what was seen is written down. Throws
     /// what a cycle or a recording throws.

@@ -7,18 +7,13 @@
 #include <cairo.h>
 #include <fmt/format.h>
 
-#include "bug_interface/world/png.h"
 #include "tools/plot/axes.h"
+#include "tools/plot/world_map.h"
 
 namespace forage::plot {
 namespace {
 
 using Box = Eigen::AlignedBox2d;
-
-struct Free {
-    void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
-};
-using Surface = std::unique_ptr<cairo_surface_t, Free>;
 
 enum class End { reached, missed, unfinished };
 
@@ -36,28 +31,23 @@ Colour path_colour(End end, double part) {
 class Drawing {
   public:
     Drawing(const bug::World& world, const std::vector<Path>& paths)
-        : world_(world), paths_(paths), view_(view()) {
-        scale_ = 760 / std::max(view_.sizes().x(), view_.sizes().y());
-    }
+        : world_(world), paths_(paths), map_(world, points_of(paths), 760, left, top) {}
 
-    double width() const { return left + std::floor(view_.sizes().x() * scale_) + right; }
-    double height() const { return top + std::floor(view_.sizes().y() * scale_) + bottom; }
+    double width() const { return left + std::floor(map_.width()) + right; }
+    double height() const { return top + std::floor(map_.height()) + bottom; }
 
     void draw(Canvas& canvas, const std::string& title) {
         canvas_ = &canvas;
         cairo_save(c());
-        cairo_rectangle(c(), left, top, view_.sizes().x() * scale_, view_.sizes().y() * scale_);
+        cairo_rectangle(c(), left, top, map_.width(), map_.height());
         cairo_clip(c());
-        cairo_set_source_rgb(c(), 0.5, 0.5, 0.5);
-        cairo_paint(c());
-        for (const auto& floor : world_.floors()) draw_floor(floor);
-        for (const auto& d : world_.drawing()) draw_solid(d);
-        draw_bounds();
-        draw_starts();
+        map_.draw_ground(canvas);
+        map_.draw_loose(canvas);
+        map_.draw_marks(canvas);
         for (const bool reached : {true, false})  // the missed ones on top: they are fewer
             for (std::size_t i = 0; i < paths_.size(); ++i)
                 if (paths_[i].reached == reached) draw_path(i);
-        draw_targets();
+        map_.draw_targets(canvas);
         cairo_restore(c());
         draw_axes();
         draw_legend();
@@ -68,111 +58,13 @@ class Drawing {
     static constexpr int left = 62, right = 150, top = 34, bottom = 52;  // pixels
 
     cairo_t* c() const { return canvas_->cairo(); }
-    double px(double x) const { return left + (x - view_.min().x()) * scale_; }
-    double py(double y) const { return top + (view_.max().y() - y) * scale_; }
-
-    /// What is shown: the bounds, the walls, the targets and the paths, and a little more.
-    Box view() const {
+    double px(double x) const { return map_.px(x); }
+    double py(double y) const { return map_.py(y); }
+    static Box points_of(const std::vector<Path>& paths) {
         Box box;
-        if (const auto plan = world_.reset_plan()) {
-            box.extend(plan->bounds);
-            for (const auto& s : plan->starts) box.extend(Eigen::Vector2d(s.x, s.y));
-        } else {
-            for (const auto& d : world_.drawing()) {
-                const Eigen::Vector2d at = d.solid.pose.translation().head<2>();
-                const Eigen::Vector2d half = (d.solid.pose.linear().cwiseAbs() * d.solid.size / 2).head<2>();
-                box.extend(Eigen::Vector2d(at - half)).extend(Eigen::Vector2d(at + half));
-            }
-        }
-        for (const auto& t : world_.targets()) box.extend(t);
-        for (const auto& p : paths_)
+        for (const auto& p : paths)
             for (const auto& point : p.points) box.extend(point);
-        if (box.isEmpty()) box.extend(Eigen::Vector2d::Zero());
-        const double margin = std::max(0.04 * box.sizes().maxCoeff(), 0.5);
-        return {box.min().array() - margin, box.max().array() + margin};
-    }
-
-    void draw_floor(const bug::Floor& floor) {
-        bug::Image image;
-        try {
-            image = bug::read_png(floor.texture);
-        } catch (const std::exception&) {
-            return;  // the picture shows paths all the same; the camera reports a floor that cannot be read
-        }
-        Surface texture(cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height));
-        auto* data = cairo_image_surface_get_data(texture.get());
-        const int stride = cairo_image_surface_get_stride(texture.get());
-        for (int y = 0; y < image.height; ++y)
-            for (int x = 0; x < image.width; ++x) {
-                const auto* p = image.pixel(x, y);
-                reinterpret_cast<std::uint32_t*>(data + y * stride)[x] =
-                    std::uint32_t{p[0]} << 16 | std::uint32_t{p[1]} << 8 | p[2];
-            }
-        cairo_surface_mark_dirty(texture.get());
-        cairo_save(c());
-        cairo_translate(c(), px(floor.x - floor.size_x / 2), py(floor.y + floor.size_y / 2));
-        cairo_scale(c(), floor.size_x * scale_ / image.width, floor.size_y * scale_ / image.height);
-        cairo_set_source_surface(c(), texture.get(), 0, 0);
-        cairo_pattern_set_filter(cairo_get_source(c()), CAIRO_FILTER_GOOD);
-        cairo_paint(c());
-        cairo_restore(c());
-    }
-
-    void draw_solid(const bug::DrawnSolid& d) {
-        const Eigen::Vector3d at = d.solid.pose.translation();
-        cairo_save(c());
-        cairo_translate(c(), px(at.x()), py(at.y()));
-        cairo_rotate(c(), -bug::yaw_of(d.solid.pose));
-        const double w = d.solid.size.x() * scale_, h = d.solid.size.y() * scale_;
-        if (d.solid.kind == bug::ShapeKind::box)
-            cairo_rectangle(c(), -w / 2, -h / 2, w, h);
-        else
-            cairo_arc(c(), 0, 0, w / 2, 0, 2 * M_PI);
-        cairo_set_source_rgb(c(), d.colour[0], d.colour[1], d.colour[2]);
-        cairo_fill(c());
-        cairo_restore(c());
-    }
-
-    void draw_bounds() {
-        const auto plan = world_.reset_plan();
-        if (!plan) return;
-        const double dash[] = {6, 5};
-        cairo_set_dash(c(), dash, 2, 0);
-        cairo_set_line_width(c(), 1);
-        cairo_set_source_rgb(c(), 0.65, 0.65, 0.65);
-        cairo_rectangle(c(), px(plan->bounds.min().x()), py(plan->bounds.max().y()),
-                        plan->bounds.sizes().x() * scale_, plan->bounds.sizes().y() * scale_);
-        cairo_stroke(c());
-        cairo_set_dash(c(), nullptr, 0, 0);
-    }
-
-    void draw_starts() {
-        const auto plan = world_.reset_plan();
-        if (!plan) return;
-        for (const auto& s : plan->starts) {  // an arrow in the robot's direction
-            cairo_set_source_rgb(c(), 0.1, 0.1, 0.1);
-            cairo_set_line_width(c(), 2);
-            const double x = px(s.x), y = py(s.y), l = 0.17 * scale_;
-            cairo_move_to(c(), x - l * std::cos(s.yaw), y + l * std::sin(s.yaw));
-            cairo_line_to(c(), x + l * std::cos(s.yaw), y - l * std::sin(s.yaw));
-            for (const double turn : {2.5, -2.5}) {
-                cairo_move_to(c(), x + l * std::cos(s.yaw), y - l * std::sin(s.yaw));
-                cairo_rel_line_to(c(), 0.7 * l * std::cos(s.yaw + turn), -0.7 * l * std::sin(s.yaw + turn));
-            }
-            cairo_stroke(c());
-        }
-    }
-
-    void draw_targets() {
-        for (const auto& t : world_.targets()) {  // the ring that counts as reached
-            cairo_set_source_rgb(c(), 1, 1, 1);
-            cairo_set_line_width(c(), 1.5);
-            const double dash[] = {3, 3};
-            cairo_set_dash(c(), dash, 2, 0);
-            cairo_arc(c(), px(t.x()), py(t.y()), bug::Trial::reach * scale_, 0, 2 * M_PI);
-            cairo_stroke(c());
-            cairo_set_dash(c(), nullptr, 0, 0);
-        }
+        return box;
     }
 
     void draw_path(std::size_t i) {
@@ -212,14 +104,15 @@ class Drawing {
     }
 
     void draw_axes() {
-        const Axes axes{{left, top, view_.sizes().x() * scale_, view_.sizes().y() * scale_},
-                        {view_.min().x(), view_.max().x()},
-                        {view_.min().y(), view_.max().y()}};
+        const Box& view = map_.view();
+        const Axes axes{{left, top, map_.width(), map_.height()},
+                        {view.min().x(), view.max().x()},
+                        {view.min().y(), view.max().y()}};
         plot::draw_axes(*canvas_, axes, {"x (m)"}, {"y (m)"});
     }
 
     void draw_legend() {
-        const double x = px(view_.max().x()) + 16;
+        const double x = px(map_.view().max().x()) + 16;
         double y = top + 14;
         const auto entry = [&](const std::string& what, auto draw) {
             draw();
@@ -264,8 +157,7 @@ class Drawing {
 
     const bug::World& world_;
     const std::vector<Path>& paths_;
-    Box view_;
-    double scale_ = 1;          ///< pixels per metre
+    WorldMap map_;
     Canvas* canvas_ = nullptr;  ///< while it is drawn on
 };
 

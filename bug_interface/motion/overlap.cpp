@@ -1,0 +1,75 @@
+#include "bug_interface/motion/overlap.h"
+
+#include <array>
+#include <cmath>
+
+namespace forage::bug {
+namespace {
+
+using Eigen::Vector2d;
+
+Vector2d middle(const Outline& o) { return {o.x, o.y}; }
+
+Overlap circles(const Outline& a, const Outline& b) {
+    const Vector2d between = middle(b) - middle(a);
+    const double distance = between.norm();
+    return {a.radius + b.radius - distance, distance > 0 ? Vector2d(between / distance) : Vector2d(1, 0)};
+}
+
+Overlap box_circle(const Outline& box, const Outline& circle) {
+    const Vector2d between = middle(circle) - middle(box);
+    const Vector2d along(box.cos_yaw, box.sin_yaw), across(-box.sin_yaw, box.cos_yaw);
+    const double u = between.dot(along), v = between.dot(across);
+    const double out_u = std::abs(u) - box.half_x, out_v = std::abs(v) - box.half_y;
+    const Vector2d to_u = std::copysign(1.0, u) * along, to_v = std::copysign(1.0, v) * across;
+    if (out_u <= 0 && out_v <= 0)  // its middle is inside: out through the nearest side
+        return out_u > out_v ? Overlap{circle.radius - out_u, to_u} : Overlap{circle.radius - out_v, to_v};
+    if (out_u <= 0) return {circle.radius - out_v, to_v};
+    if (out_v <= 0) return {circle.radius - out_u, to_u};
+    const double distance = std::hypot(out_u, out_v);
+    return {circle.radius - distance, (out_u * to_u + out_v * to_v) / distance};
+}
+
+/// Separating axes: those of both boxes.
+Overlap boxes(const Outline& a, const Outline& b) {
+    const Vector2d between = middle(b) - middle(a);
+    const std::array<Vector2d, 2> axes_a = {Vector2d(a.cos_yaw, a.sin_yaw), Vector2d(-a.sin_yaw, a.cos_yaw)};
+    const std::array<Vector2d, 2> axes_b = {Vector2d(b.cos_yaw, b.sin_yaw), Vector2d(-b.sin_yaw, b.cos_yaw)};
+    const auto extent = [](const Outline& o, const std::array<Vector2d, 2>& axes, const Vector2d& n) {
+        return o.half_x * std::abs(axes[0].dot(n)) + o.half_y * std::abs(axes[1].dot(n));
+    };
+    Overlap least;
+    bool first = true;
+    for (const auto& axis : {axes_a[0], axes_a[1], axes_b[0], axes_b[1]}) {
+        const double along = between.dot(axis);
+        const double depth = extent(a, axes_a, axis) + extent(b, axes_b, axis) - std::abs(along);
+        if (first || depth < least.depth) least = {depth, std::copysign(1.0, along) * axis};
+        first = false;
+    }
+    return least;
+}
+
+}  // namespace
+
+Overlap overlap(const Outline& a, const Outline& b) {
+    if (a.round && b.round) return circles(a, b);
+    if (b.round) return box_circle(a, b);
+    if (!a.round) return boxes(a, b);
+    Overlap turned = box_circle(b, a);
+    turned.normal = -turned.normal;
+    return turned;
+}
+
+double reach(const Outline& o) { return o.round ? o.radius : std::hypot(o.half_x, o.half_y); }
+
+Outline moved(const Outline& outline, const Pose2& frame) {
+    const double c = std::cos(frame.yaw), s = std::sin(frame.yaw);
+    Outline out = outline;
+    out.x = frame.x + c * outline.x - s * outline.y;
+    out.y = frame.y + s * outline.x + c * outline.y;
+    out.cos_yaw = c * outline.cos_yaw - s * outline.sin_yaw;
+    out.sin_yaw = s * outline.cos_yaw + c * outline.sin_yaw;
+    return out;
+}
+
+}  // namespace forage::bug

@@ -1,0 +1,150 @@
+// Parts of a body that move within it: the fingers of a gripper.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bug_interface/motion/contacts.h"
+#include "bug_interface/motion/overlap.h"
+#include "bug_interface/motion/physics.h"
+
+namespace forage::bug {
+namespace {
+
+constexpr double tolerance = 1e-6;      ///< m, that shapes may overlap
+constexpr std::size_t most_pushed = 8;  ///< loose things at a time
+constexpr std::size_t most_parts = 16;  ///< of a body
+
+bool may_touch(const Outline& a, double x, double y, double reach_there) {
+    const double near = reach(a) + reach_there, dx = x - a.x, dy = y - a.y;
+    return dx * dx + dy * dy < near * near;
+}
+
+/// Whether `then` is deeper in something than it was and may be.
+bool worse(const Outline& thing, const Outline& now, const Outline& then) {
+    if (!may_touch(thing, then.x, then.y, reach(then))) return false;
+    const double depth = overlap(thing, then).depth;
+    return depth > tolerance && depth > overlap(thing, now).depth;
+}
+
+}  // namespace
+
+template <class F>
+void Physics::each_shape(std::size_t body, const Pose2& pose, F&& visit) const {
+    if (bodies_[body].radius > 0) {
+        Outline middle;
+        middle.round = true, middle.x = pose.x, middle.y = pose.y, middle.radius = bodies_[body].radius;
+        visit(middle, bodies_[body].layer);
+    }
+    for (const Part& part : bodies_[body].parts) visit(moved(part.outline, pose), part.layer);
+}
+
+bool Physics::fixed_in_the_way(std::size_t body, const Part& now, const Outline& then, int layer) const {
+    const Pose2& pose = states_[body].pose;
+    const Outline was = moved(now.outline, pose), is = moved(then, pose);
+    for (const Obstacle& o : obstacles_)
+        if (o.layers >> layer & 1u && worse(o.outline, was, is)) return true;
+    for (std::size_t other = 0; other < states_.size(); ++other) {
+        const State& s = states_[other];
+        if (other == body || !s.present || !bodies_[other].driven ||
+            !may_touch(is, s.pose.x, s.pose.y, s.reach))
+            continue;
+        bool blocked = false;
+        each_shape(other, s.pose, [&](const Outline& o, int there) {
+            blocked |= meet(LayerMask{1} << layer, there) && worse(o, was, is);
+        });
+        if (blocked) return true;
+    }
+    return false;
+}
+
+/// Whether a loose thing may be moved: nothing that is there would be in it, or deeper than it was.
+bool Physics::is_free(std::size_t thing, const Pose2& from, const Pose2& to) const {
+    bool free = true;
+    std::array<std::pair<Outline, int>, most_parts> before;
+    std::size_t shapes = 0;
+    each_shape(thing, from, [&](const Outline& o, int layer) {
+        if (shapes < before.size()) before[shapes++] = {o, layer};
+    });
+    std::size_t number = 0;
+    each_shape(thing, to, [&](const Outline& is, int layer) {
+        if (number >= shapes) return;
+        const Outline& was = before[number++].first;
+        for (const Obstacle& o : obstacles_)
+            if (o.layers >> layer & 1u) free &= !worse(o.outline, was, is);
+        for (std::size_t other = 0; other < states_.size(); ++other) {
+            const State& s = states_[other];
+            if (other == thing || !s.present || !may_touch(is, s.pose.x, s.pose.y, s.reach)) continue;
+            each_shape(other, s.pose, [&](const Outline& o, int there) {
+                if (meet(LayerMask{1} << layer, there)) free &= !worse(o, was, is);
+            });
+        }
+    });
+    return free;
+}
+
+bool Physics::has_room(std::size_t body, const Pose2& pose) const {
+    const double far = 1e6;  // nothing was in the way there
+    return is_free(body, {pose.x + far, pose.y, pose.yaw}, pose);
+}
+
+bool Physics::swing(std::size_t body, std::span<const std::pair<std::size_t, Outline>> parts) {
+    if (parts.size() > most_parts) return false;
+    State& state = states_[body];
+    Body& shape = bodies_[body];
+    if (state.present)
+        for (const auto& [number, outline] : parts)
+            if (fixed_in_the_way(body, shape.parts[number], outline, shape.parts[number].layer)) return false;
+
+    // The parts go where they are to be; what then overlaps them is pushed out, or all is undone.
+    std::array<Outline, most_parts> before;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        before[i] = shape.parts[parts[i].first].outline;
+        shape.parts[parts[i].first].outline = parts[i].second;
+    }
+    std::array<std::pair<std::size_t, Pose2>, most_pushed> pushed;
+    std::size_t count = 0;
+    bool possible = true;
+    for (std::size_t thing = 0; state.present && possible && thing < states_.size(); ++thing) {
+        State& other = states_[thing];
+        if (bodies_[thing].driven || !other.present) continue;
+        const double near = state.reach + other.reach + 0.01;
+        if (std::hypot(other.pose.x - state.pose.x, other.pose.y - state.pose.y) > near) continue;
+        const Pose2 from = other.pose;
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            const Outline is = moved(parts[i].second, state.pose), was = moved(before[i], state.pose);
+            const int layer = shape.parts[parts[i].first].layer;
+            each_shape(thing, other.pose, [&](const Outline& o, int there) {
+                if (!meet(LayerMask{1} << layer, there)) return;
+                const Overlap in = overlap(is, o);
+                if (in.depth <= tolerance || in.depth <= overlap(was, o).depth) return;
+                other.pose.x += in.depth * in.normal.x(), other.pose.y += in.depth * in.normal.y();
+            });
+        }
+        if (other.pose.x == from.x && other.pose.y == from.y) continue;
+        possible = count < most_pushed && is_free(thing, from, other.pose);
+        if (possible)
+            pushed[count++] = {thing, from};
+        else
+            other.pose = from;
+    }
+    if (!possible) {
+        for (std::size_t i = 0; i < count; ++i) states_[pushed[i].first].pose = pushed[i].second;
+        for (std::size_t i = 0; i < parts.size(); ++i) shape.parts[parts[i].first].outline = before[i];
+        return false;
+    }
+    const double reach_before = state.reach;
+    grow(body);
+    if (state.reach > reach_before || count > 0)
+        for (State& s : states_) s.clearance = 0;
+    if (engine_) engine_->reshape(body, shape.parts);
+    return true;
+}
+
+/// Where the parts are; the rest of them is constant.
+void Physics::checkpoint_parts(std::size_t body, Archive& archive) {
+    auto& parts = bodies_[body].parts;
+    for (Part& p : parts) archive(p.outline.x, p.outline.y, p.outline.cos_yaw, p.outline.sin_yaw);
+    if (archive.loading() && engine_ && !parts.empty()) engine_->reshape(body, parts);
+}
+
+}  // namespace forage::bug

@@ -1,0 +1,127 @@
+#include "bug_interface/simulation/game.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace forage::bug {
+namespace {
+
+constexpr int steps_per_look = 101;  ///< the original skips 100
+constexpr int held_contacts = 100;
+constexpr double spread = 0.5;  ///< m, round a site
+
+enum Draw : std::uint32_t { shuffle, chance, place };
+constexpr std::uint64_t before_all = ~std::uint64_t{0};
+
+}  // namespace
+
+std::vector<GameSite> challenge_sites(const RandomStream& random) {
+    constexpr std::array<std::pair<double, double>, 6> table = {
+        {{-3, 3}, {0, 7.5}, {-6, 6}, {7.5, 4}, {10.5, 10.5}, {12, 4.5}}};
+    const auto pick = [&](std::uint32_t draw, std::size_t first, std::size_t count) {
+        return table[first + static_cast<std::size_t>(random.uniform(before_all, 0, draw) *
+                                                      static_cast<double>(count))];
+    };
+    const auto [ax, ay] = pick(0, 0, 4);
+    const auto [bx, by] = pick(1, 3, 3);
+    const bool a_is_rich = random.uniform(before_all, 0, 2) < 0.5;
+    const double a = a_is_rich ? 0.15 : 0.1, b = a_is_rich ? 0.1 : 0.15;
+    return {{ax, ay, a}, {-ax, -ay, a}, {bx, by, b}, {-bx, -by, b}};
+}
+
+Game::Game(std::optional<GameRules> rules, std::array<Pose2, 2> homes, std::vector<Resource> resources,
+           std::uint64_t seed)
+    : rules_(std::move(rules)), homes_(homes), resources_(std::move(resources)), random_(seed, "game") {
+    if (rules_ && rules_->sites.empty()) rules_->sites = challenge_sites(random_);
+}
+
+void Game::begin(Physics& physics) {
+    if (rules_)
+        for (Resource& r : resources_) take_away(physics, r);
+}
+
+void Game::take_away(Physics& physics, Resource& r) {
+    physics.lift(r.thing);
+    r.away = true, r.held = false, r.age = 0, r.contacts = 0;
+}
+
+void Game::substep(Physics& physics, double time, double step) {
+    if (over()) return;
+    for (Resource& r : resources_) r.contacts += physics.touches(r.thing);
+    if (++since_look_ >= steps_per_look) {
+        since_look_ = 0;
+        look(physics, time);
+    }
+    if (!rules_) return;
+    seconds_ += step;
+    to_next_second_ -= step;
+    if (to_next_second_ > step / 2) return;
+    to_next_second_ += 1;
+    second(physics);
+}
+
+void Game::look(Physics& physics, double time) {
+    for (Resource& r : resources_) {
+        r.held = std::exchange(r.contacts, 0) > held_contacts;
+        if (r.away) continue;
+        const Pose2& at = physics.pose(r.thing);
+        for (int team = 0; team < 2; ++team) {
+            const Pose2& home = homes_[static_cast<std::size_t>(team)];
+            if (std::hypot(at.x - home.x, at.y - home.y) >= home_radius) continue;
+            const int points = !rules_ ? 1 : r.good ? rules_->points : rules_->penalty;
+            deliveries_.push_back({time, team, r.good, points});
+            if (rules_)
+                take_away(physics, r);
+            else
+                physics.place(r.thing, r.start);
+            break;
+        }
+    }
+}
+
+void Game::second(Physics& physics) {
+    ++count_;
+    for (Resource& r : resources_) {
+        if (r.away || r.held) continue;
+        ++r.age;
+        if (r.age >= rules_->stale_after) r.good = false;
+        if (r.age >= rules_->dissolves_after) take_away(physics, r);
+    }
+    std::vector<GameSite> sites = rules_->sites;
+    for (std::size_t i = sites.size(); i > 1; --i)
+        std::swap(
+            sites[i - 1],
+            sites[static_cast<std::size_t>(random_.uniform(count_, static_cast<std::uint32_t>(i), shuffle) *
+                                           static_cast<double>(i))]);
+    for (std::uint32_t i = 0; i < sites.size(); ++i)
+        if (random_.uniform(count_, i, chance) < sites[i].chance) appear(physics, sites[i], i);
+}
+
+/// Where somebody stands nothing appears.
+void Game::appear(Physics& physics, const GameSite& site, std::uint32_t draw) {
+    const auto free =
+        std::find_if(resources_.begin(), resources_.end(), [](const Resource& r) { return r.away; });
+    if (free == resources_.end()) return;
+    const double angle = 2 * std::numbers::pi * random_.uniform(count_, 2 * draw, place),
+                 radius = spread * random_.uniform(count_, 2 * draw + 1, place);
+    const Pose2 at{site.x + radius * std::cos(angle), site.y + radius * std::sin(angle), 0};
+    if (!physics.has_room(free->thing, at)) return;
+    physics.place(free->thing, at);
+    free->away = false, free->good = true, free->held = false, free->age = 0, free->contacts = 0;
+}
+
+int Game::points(int team) const {
+    int sum = 0;
+    for (const Delivery& d : deliveries_) sum += d.team == team ? d.points : 0;
+    return sum;
+}
+
+int Game::delivered(int team, bool good) const {
+    return static_cast<int>(std::count_if(deliveries_.begin(), deliveries_.end(), [&](const Delivery& d) {
+        return d.team == team && d.good == good;
+    }));
+}
+
+}  // namespace forage::bug

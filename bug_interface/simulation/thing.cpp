@@ -1,0 +1,68 @@
+#include "bug_interface/simulation/thing.h"
+
+#include <algorithm>
+
+#include "bug_interface/simulation/surroundings.h"
+
+namespace forage::bug {
+namespace {
+
+constexpr double gravity = 9.8;  ///< m/s^2
+
+}  // namespace
+
+bool is_loose(const Model& model) {
+    return !model.is_static && !robot_link(model) && !solids_of(model).empty();
+}
+
+Pose frame_of(const Model& model) {
+    return model.links.empty() ? Pose::Identity() : in_space(in_plane(model.links.front().pose));
+}
+
+Thing thing_of(const Model& model) {
+    Thing thing;
+    thing.name = model.name;
+    Model at_origin = model;
+    at_origin.pose = frame_of(model).inverse();
+    thing.start = in_plane(model.pose * frame_of(model));
+    thing.solids = solids_of(at_origin);
+    thing.resource = has_plugin(model, "libtarget_plugin.so");
+    each_link(at_origin, Pose::Identity(), [&](const Link& link, const Pose& pose) {
+        for (const Visual& v : link.visuals)
+            if (v.shape.kind != ShapeKind::plane)
+                thing.sights.push_back({0,
+                                        -1,
+                                        pose * v.pose,
+                                        {{v.shape.kind, Pose::Identity(), v.shape.size}, v.material},
+                                        false});
+    });
+    return thing;
+}
+
+Body body_of(const Model& model, const Thing& thing, Heights& heights) {
+    Body body;
+    body.driven = false, body.radius = 0, body.mass = 0, body.inertia = 0;
+    double friction = 1;
+    each_link(model, Pose::Identity(), [&](const Link& link, const Pose&) {
+        body.mass += link.mass, body.inertia += link.inertia_z;
+        for (const Collision& c : link.collisions) friction = std::min(friction, c.friction);
+    });
+    double reach_mean = 0;
+    for (const Solid& solid : thing.solids) {
+        const double middle = solid.pose.translation().z(), half = solid.size.z() / 2;
+        const int layer = heights.layer(std::max(0.0, middle - half), middle + half);
+        const auto outline = cut(solid, middle);
+        if (!outline || layer < 0) continue;
+        reach_mean = std::max(reach_mean, reach(*outline));
+        if (thing.solids.size() == 1 && outline->round && std::hypot(outline->x, outline->y) < 1e-9) {
+            body.radius = outline->radius, body.layer = layer, body.friction = friction;
+            continue;
+        }
+        body.parts.push_back({*outline, layer, friction});
+    }
+    body.slowing = friction * gravity;
+    body.slowing_turn = friction * gravity * body.mass * reach_mean / 2 / body.inertia;
+    return body;
+}
+
+}  // namespace forage::bug

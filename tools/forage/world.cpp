@@ -1,0 +1,42 @@
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "bug_interface/world/sdf_reader.h"
+#include "tools/forage/commands.h"
+#include "tools/forage/files.h"
+#include "tools/plot/world_map.h"
+
+namespace forage::tool {
+
+int world(const WorldCommand& o) {
+    Diagnostics diagnostics;
+    const std::string picture =
+        o.picture.empty() ? std::filesystem::path(o.file).stem().string() + ".png" : o.picture;
+    const auto format_of_picture = plot::format_of(picture);
+    if (!format_of_picture)
+        diagnostics.error({}, fmt::format("-o: '{}' is no name of a picture", picture),
+                          "it ends with .png, .svg or .pdf");
+    const auto description = bug::read_world(o.file, diagnostics);
+    bug::WorldOptions options;
+    options.game = o.game;
+    std::unique_ptr<bug::World> made;
+    if (description) made = bug::World::make(*description, options, diagnostics);
+    if (made) try {
+            made->scene();  // floors whose pictures cannot be read
+            for (std::size_t i = 0; i < made->bugs(); ++i) made->image(i);
+        } catch (const std::exception& e) {
+            diagnostics.error({}, e.what());
+        }
+    fmt::print(stderr, "{}", format(diagnostics));
+    if (diagnostics.failed() || !made) return bad_input;
+    fmt::print("{}", bug::describe(*made));
+    write_file(picture,
+               plot::render(plot::world_plot(*made, std::filesystem::path(o.file).filename().string()),
+                            *format_of_picture));
+    fmt::print("  {:<11} {}\n", "picture", picture);
+    return fine;
+}
+
+}  // namespace forage::tool

@@ -1,0 +1,134 @@
+#include "tools/plot/gif.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <gif_lib.h>
+
+namespace forage::plot {
+namespace {
+
+constexpr int cube = 6, greys = 256 - cube * cube * cube;
+
+int level(int i) { return (i * 255 + (cube - 1) / 2) / (cube - 1); }
+int grey(int i) { return ((i + 1) * 255 + (greys + 1) / 2) / (greys + 1); }
+
+std::array<GifColorType, 256> make_table() {
+    std::array<GifColorType, 256> table{};
+    const auto byte = [](int v) { return static_cast<GifByteType>(v); };
+    for (int r = 0; r < cube; ++r)
+        for (int g = 0; g < cube; ++g)
+            for (int b = 0; b < cube; ++b)
+                table[static_cast<std::size_t>((r * cube + g) * cube + b)] = {byte(level(r)), byte(level(g)),
+                                                                              byte(level(b))};
+    for (int i = 0; i < greys; ++i)
+        table[static_cast<std::size_t>(cube * cube * cube + i)] = {byte(grey(i)), byte(grey(i)),
+                                                                   byte(grey(i))};
+    return table;
+}
+
+/// The number of the nearest colour of the table.
+std::uint8_t nearest_colour(std::uint32_t rgb) {
+    const int r = static_cast<int>(rgb >> 16 & 255), g = static_cast<int>(rgb >> 8 & 255),
+              b = static_cast<int>(rgb & 255);
+    const auto step = [](int v) { return (v * (cube - 1) + 127) / 255; };
+    const int in_cube = (step(r) * cube + step(g)) * cube + step(b);
+    const int mean = (r + g + b) / 3,
+              in_greys = std::clamp((mean * (greys + 1) + 127) / 255 - 1, 0, greys - 1);
+    const auto away = [&](int x, int y, int z) {
+        return (r - x) * (r - x) + (g - y) * (g - y) + (b - z) * (b - z);
+    };
+    const int grey_away = away(grey(in_greys), grey(in_greys), grey(in_greys));
+    return static_cast<std::uint8_t>(grey_away < away(level(step(r)), level(step(g)), level(step(b)))
+                                         ? cube * cube * cube + in_greys
+                                         : in_cube);
+}
+
+}  // namespace
+
+GifFile::GifFile(std::string name, double seconds_per_frame)
+    : name_(std::move(name)),
+      hundredths_(std::max(2, static_cast<int>(std::lround(100 * seconds_per_frame)))) {}
+
+GifFile::~GifFile() {
+    if (!file_) return;
+    EGifCloseFile(file_, nullptr);
+    std::remove((name_ + ".part").c_str());
+}
+
+void GifFile::check(bool good) const {
+    if (!good) throw std::runtime_error(fmt::format("cannot write '{}'", name_));
+}
+
+void GifFile::begin(const Pixels& frame) {
+    int error = 0;
+    file_ = EGifOpenFileName((name_ + ".part").c_str(), false, &error);
+    check(file_ != nullptr);
+    width_ = frame.width, height_ = frame.height;
+    EGifSetGifVersion(file_, true);
+    auto table = make_table();
+    const std::unique_ptr<ColorMapObject, void (*)(ColorMapObject*)> colours(
+        GifMakeMapObject(256, table.data()), GifFreeMapObject);
+    check(colours && EGifPutScreenDesc(file_, width_, height_, 8, 0, colours.get()) == GIF_OK);
+    const std::array<GifByteType, 3> for_ever = {1, 0, 0};
+    check(EGifPutExtensionLeader(file_, APPLICATION_EXT_FUNC_CODE) == GIF_OK &&
+          EGifPutExtensionBlock(file_, 11, "NETSCAPE2.0") == GIF_OK &&
+          EGifPutExtensionBlock(file_, 3, for_ever.data()) == GIF_OK &&
+          EGifPutExtensionTrailer(file_) == GIF_OK);
+}
+
+void GifFile::add(const Pixels& frame) {
+    if (!file_) begin(frame);
+    if (frame.width != width_ || frame.height != height_)
+        throw std::runtime_error("the frames of a film differ in size");
+    now_.resize(frame.rgb.size());
+    std::uint32_t last = ~0u;
+    std::uint8_t number = 0;
+    for (std::size_t i = 0; i < now_.size(); ++i) {
+        if (frame.rgb[i] != last) number = nearest_colour(last = frame.rgb[i]);
+        now_[i] = number;
+    }
+    int left = 0, top = 0, right = width_ - 1, bottom = height_ - 1;
+    if (frames_ > 0) {
+        left = width_, top = height_, right = bottom = 0;
+        for (int y = 0; y < height_; ++y)
+            for (int x = 0; x < width_; ++x) {
+                const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                               static_cast<std::size_t>(x);
+                if (now_[i] == before_[i]) continue;
+                left = std::min(left, x), right = std::max(right, x);
+                top = std::min(top, y), bottom = std::max(bottom, y);
+            }
+        if (left > right) left = right = top = bottom = 0;  // a frame has a pixel at least
+    }
+    GraphicsControlBlock control{};
+    control.DisposalMode = DISPOSE_DO_NOT, control.DelayTime = hundredths_,
+    control.TransparentColor = NO_TRANSPARENT_COLOR;
+    std::array<GifByteType, 4> bytes{};
+    EGifGCBToExtension(&control, bytes.data());
+    check(EGifPutExtension(file_, GRAPHICS_EXT_FUNC_CODE, 4, bytes.data()) == GIF_OK &&
+          EGifPutImageDesc(file_, left, top, right - left + 1, bottom - top + 1, false, nullptr) == GIF_OK);
+    for (int y = top; y <= bottom; ++y)
+        check(EGifPutLine(file_,
+                          &now_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                                static_cast<std::size_t>(left)],
+                          right - left + 1) == GIF_OK);
+    before_.swap(now_);
+    ++frames_;
+}
+
+void GifFile::finish() {
+    if (!file_) return;
+    int error = 0;
+    GifFileType* file = file_;
+    file_ = nullptr;
+    check(EGifCloseFile(file, &error) == GIF_OK &&
+          std::rename((name_ + ".part").c_str(), name_.c_str()) == 0);
+}
+
+}  // namespace forage::plot
