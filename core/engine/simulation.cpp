@@ -180,7 +180,7 @@ Column Simulation::output(int group) {
 Column Simulation::writable_state(int group, int state) {
     auto& g = at(plan_->groups, group);
     touch(g, cycle_);
-    return {current_row(g, state, shown_), g.cells};
+    return {state_row(g, static_cast<std::size_t>(state), shown_), g.cells};
 }
 
 int Simulation::modules() const { return static_cast<int>(plan_->modules.size()); }

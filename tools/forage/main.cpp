@@ -297,7 +297,8 @@ void add_run(CLI::App& app, RunOptions& o) {
            "--checkpoint-every", [&o](const std::string& text) { o.checkpoint_every = parse_interval(text); },
            "Write a checkpoint every N cycles, or every 'N s' of the world: after a stop, be it a power cut, "
            "'forage resume' goes on from there")
-        ->option_text("N");
+        ->option_text("N")
+        ->excludes("--video");  // a film cannot go on
     run.add_option(
            "--on-nan", o.on_nan,
            "When a number becomes NaN or infinite: 'warn' once and go on, 'stop', or 'ignore' it [warn]")
