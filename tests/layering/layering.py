@@ -22,7 +22,7 @@ ALLOWED = {
     'neurons': {'core/types'},
     'synapses': {'core/types'},
     'modules': {'core/types'},
-    'bug_interface': {'core/types', 'core/model'},
+    'bug_interface': {'core/types', 'core/model', 'core/xml'},
 }
 ALLOWED['tools'] = set(ALLOWED)
 ROOMS = set(ALLOWED)

@@ -8,6 +8,7 @@
 #include "bug_interface/world/sdf_reader.h"
 #include "core/model/edit.h"
 #include "core/model/validate.h"
+#include "core/types/text_file.h"
 #include "core/xml/reader.h"
 #include "modules/modules.h"
 #include "modules/replay/replay.h"
@@ -21,8 +22,8 @@ std::shared_ptr<const replay::DriveTable> read_table(const std::string& path, Di
     if (path.empty()) return nullptr;
     try {
         return std::make_shared<replay::DriveTable>(replay::DriveTable::read(path));
-    } catch (const std::exception& e) {
-        diagnostics.error({}, fmt::format("--drive: {}", e.what()));
+    } catch (const FileError& e) {
+        report(e, diagnostics);
         return nullptr;
     }
 }

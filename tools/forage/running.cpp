@@ -1,5 +1,6 @@
 #include "tools/forage/running.h"
 
+#include "core/model/lookup.h"
 #include "tools/forage/files.h"
 #include "tools/forage/length.h"
 #include "tools/forage/manipulations.h"
@@ -44,6 +45,9 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
     auto clamped = clamp(o.clamp, *simulation, diagnostics);
     auto manipulated = manipulations(o.manipulations, *loaded, *simulation, diagnostics);
     auto files = recorded_files(o, *simulation, diagnostics);
+    for (const auto& wish : o.plots)
+        if (!loaded->world && model::trim(wish.text) == "trajectory")
+            diagnostics.error(wish.at, "a trajectory needs a world", "add --world FILE.world");
     auto plots = LivePlots::make(o.plots, loaded->system, *simulation, diagnostics);
     RunMeasures run_measures(o.measures, *loaded, *simulation, diagnostics);
     if (diagnostics.failed()) return std::nullopt;
