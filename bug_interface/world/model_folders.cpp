@@ -4,13 +4,13 @@
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/model/diagnostic.h"
+#include "core/types/text_file.h"
 
 namespace forage::bug {
 namespace {
@@ -92,11 +92,11 @@ std::string ModelFolders::hint(std::string_view uri, const std::vector<std::stri
 std::optional<std::string> read_text(const std::string& path) {
     std::error_code ignored;
     if (!fs::is_regular_file(path, ignored)) return {};
-    std::ifstream in(path, std::ios::binary);
-    if (!in) return {};
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
+    try {
+        return read_file(path, std::size_t{32} << 20);
+    } catch (const FileError&) {
+        return {};
+    }
 }
 
 }  // namespace forage::bug

@@ -6,6 +6,10 @@
 
 namespace forage::bug {
 
+namespace {
+constexpr png_uint_32 most_pixels = 16384;
+}
+
 Image read_png(const std::string& path) {
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
@@ -18,6 +22,17 @@ Image read_png(const std::string& path) {
     if (!png_image_finish_read(&png, &black, image.rgb.data(), 0, nullptr))
         throw std::runtime_error(path + ": " + png.message);
     return image;
+}
+
+std::string png_problem(const std::string& path) {
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    if (!png_image_begin_read_from_file(&png, path.c_str())) return png.message;
+    const auto width = png.width, height = png.height;
+    png_image_free(&png);
+    if (width > most_pixels || height > most_pixels)
+        return "it has more than " + std::to_string(most_pixels) + " pixels in a row or column";
+    return {};
 }
 
 void write_png(const std::string& path, int width, int height, std::span<const std::uint8_t> rgb) {

@@ -16,9 +16,14 @@
 #include <fmt/format.h>
 
 #include "bug_interface/world/model_folders.h"
+#include "bug_interface/world/sdf_text.h"
+#include "core/xml/well_formed.h"
 
 namespace forage::bug {
 namespace {
+
+/// Elements and attributes of a file: the library takes about 10 kB for each.
+constexpr std::size_t most_nodes = 10'000;
 
 /// Collects what is written to std::cerr: the library gives its reasons only there, and we print them
 /// ourselves.
@@ -125,7 +130,40 @@ SdfParser::SdfParser(Diagnostics& diagnostics) : diagnostics_(diagnostics) {
     sdf::init(document_);
 }
 
+/// Whether the library may see a file: it recurses as deep as elements are nested, and takes for URDF what is
+/// not SDF.
+bool SdfParser::safe(const std::string& path) {
+    const auto file = at(path, 0).file;
+    if (const auto fault = xml::first_fault(file->text, "<sdf version=\"1.4\">", most_nodes)) {
+        diagnostics_.error(fault->of_the_whole ? Location{file, 0, 0} : location_of(file, fault->offset),
+                           fault->message, fault->hint);
+        return false;
+    }
+    const std::string root = root_name(file->text);
+    if (root == "sdf" || root == "gazebo") return known_version(file, root);
+    diagnostics_.error(location_of(file, file->text.find("<" + root)),
+                       fmt::format("the root element is <{}>; that of a world or a model is <sdf>", root));
+    return false;
+}
+
+/// The library reads versions that do not exist as its own.
+bool SdfParser::known_version(const std::shared_ptr<const SourceFile>& file, const std::string& root) {
+    const auto begin = file->text.find("<" + root), end = file->text.find('>', begin);
+    const auto attribute = file->text.substr(0, end).find("version", begin);
+    if (attribute == std::string::npos) return true;  // that it is missing is said elsewhere
+    const auto value = file->text.find_first_of("\"'", attribute) + 1;
+    const std::string version = file->text.substr(value, file->text.find_first_of("\"'", value) - value);
+    double number = 0;
+    const auto [last, error] = std::from_chars(version.data(), version.data() + version.size(), number);
+    if (error == std::errc{} && last == version.data() + version.size() && number >= 1 && number < 2)
+        return true;
+    diagnostics_.error(location_of(file, value), fmt::format("there is no version '{}' of SDF", version),
+                       "<sdf version=\"1.4\">");
+    return false;
+}
+
 std::vector<sdf::ElementPtr> SdfParser::parse(const std::string& path) {
+    if (!safe(path)) return {};
     sdf::ParserConfig config;
     config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
     // The library leaves an include as it is when it finds a file that is no SDF, and there is another parser
@@ -137,11 +175,14 @@ std::vector<sdf::ElementPtr> SdfParser::parse(const std::string& path) {
     try {
         CapturedErrors captured;
         sdf::Errors errors;
-        const bool good = sdf::readFile(path, config, document_, errors);
+        const int errors_before = diagnostics_.errors();
+        const bool good =
+            sdf::readString(with_marked_uris(at(path, 0).file->text), config, document_, errors);
         report(path, errors, captured.text(), good);
         const auto root = document_->Root();
         for (auto e = root->GetFirstElement(); e; e = e->GetNextElement()) out.push_back(e);
-        for (const auto& e : out) root->RemoveChild(e);
+        for (const auto& e : out) root->RemoveChild(e), settle(e, path);
+        if (diagnostics_.errors() == errors_before) check_numbers(path, out);
     } catch (const std::exception& e) {  // of an empty <uri>
         const std::string text = read_text(path).value_or("");
         auto empty = std::string::npos;
@@ -156,6 +197,34 @@ std::vector<sdf::ElementPtr> SdfParser::parse(const std::string& path) {
         sdf::init(document_ = std::make_shared<sdf::SDF>());
     }
     return out;
+}
+
+/// What was read from a string knows no file, and its uris are marked.
+void SdfParser::settle(const sdf::ElementPtr& element, const std::string& path) {
+    element->SetFilePath(path);
+    if (element->GetName() == "uri" && element->GetValue())
+        element->Set(without_mark(element->Get<std::string>()));
+    for (auto e = element->GetFirstElement(); e; e = e->GetNextElement()) settle(e, path);
+}
+
+void SdfParser::check_numbers(const std::string& path, const std::vector<sdf::ElementPtr>& elements) {
+    std::set<std::string, std::less<>> numbers, others;
+    std::deque<sdf::ElementPtr> open(elements.begin(), elements.end());
+    for (; !open.empty(); open.pop_front()) {
+        if (const auto value = open.front()->GetValue()) {
+            const std::string& type = value->GetTypeName();
+            (type == "string" || type == "bool" || type == "char" ? others : numbers)
+                .insert(open.front()->GetName());
+        }
+        for (auto e = open.front()->GetFirstElement(); e; e = e->GetNextElement()) open.push_back(e);
+    }
+    const auto file = at(path, 0).file;
+    find_bad_numbers(
+        file->text, [&](std::string_view name) { return numbers.contains(name) && !others.contains(name); },
+        [&](std::size_t offset, std::string_view value) {
+            diagnostics_.error(location_of(file, offset), fmt::format("'{}' is not a number", value),
+                               "a number is expected here, with a point and without a unit");
+        });
 }
 
 std::string SdfParser::model_file(const std::string& folder) {
@@ -175,7 +244,7 @@ void SdfParser::report(const std::string& path, const sdf::Errors& errors, const
             "every element needs its closing tag, every attribute its quotes");
     bool inside_chain = false;  // "Error reading element" is repeated for every parent
     for (const auto& e : errors) {
-        const Location where = at(e.FilePath().value_or(path), e.LineNumber().value_or(0));
+        const Location where = at(path, e.LineNumber().value_or(0));
         const std::string& message = e.Message();
         const bool chain = message.starts_with("Error reading element");
         if (chain && inside_chain) continue;

@@ -33,6 +33,10 @@ class SdfParser {
     Location at(const sdf::ElementPtr& element);
 
   private:
+    bool safe(const std::string& path);
+    bool known_version(const std::shared_ptr<const SourceFile>& file, const std::string& root);
+    void settle(const sdf::ElementPtr& element, const std::string& path);
+    void check_numbers(const std::string& path, const std::vector<sdf::ElementPtr>& elements);
     void report(const std::string& path, const sdf::Errors& errors, const std::string& console, bool good);
     void report_unknown(const Location& where, const std::string& message);
     void report_reason(const Location& where, const std::string& element, std::string_view reason);

@@ -15,27 +15,14 @@
 
 #include "bug_interface/world/material.h"
 #include "bug_interface/world/model_folders.h"
+#include "bug_interface/world/png.h"
 #include "bug_interface/world/sdf_parser.h"
+#include "bug_interface/world/sdf_text.h"
 
 namespace forage::bug {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The name of the first element of an XML text; empty when there is none.
-std::string root_name(std::string_view text) {
-    for (;;) {
-        const auto open = text.find('<');
-        if (open == std::string_view::npos) return {};
-        text.remove_prefix(open + 1);
-        if (!text.starts_with('!') && !text.starts_with('?'))
-            return std::string(text.substr(0, text.find_first_of(" \t\r\n/>")));
-        const std::string_view end = text.starts_with("!--") ? "-->" : ">";
-        const auto close = text.find(end);
-        if (close == std::string_view::npos) return {};
-        text.remove_prefix(close + end.size());
-    }
-}
 
 class Reader {
   public:
@@ -252,6 +239,8 @@ class Reader {
                                "the shapes are <plane>, <box>, <cylinder> and <sphere>");
         }
         if (kind && (shape.size.array() < 0).any()) diagnostics_.error(at(kind), "a size is negative");
+        if (shape.kind != ShapeKind::plane && (shape.size.array() == 0).any())
+            diagnostics_.error(at(kind ? kind : parent), "a size is 0");
         return shape;
     }
 
@@ -307,8 +296,14 @@ class Reader {
                                fmt::format("no script in '{}' gives material '{}' a texture", folder, name));
             return {};
         }
-        for (const auto& place : places)
-            if (fs::exists(place / image)) return (place / image).string();
+        for (const auto& place : places) {
+            const std::string file = (place / image).string();
+            if (!fs::exists(file)) continue;
+            if (const std::string problem = png_problem(file); !problem.empty())
+                diagnostics_.error(at(script),
+                                   fmt::format("the texture '{}' is no PNG picture: {}", file, problem));
+            return file;
+        }
         diagnostics_.error(at(script), fmt::format("the texture '{}' of material '{}' is missing in '{}'",
                                                    image, name, folder));
         return {};
@@ -349,9 +344,12 @@ class Reader {
             s.first_angle = value(scan, "min_angle", 0.0), s.last_angle = value(scan, "max_angle", 0.0);
             s.min_range = value(range, "min", 0.0), s.max_range = value(range, "max", 1.0);
             s.noise = noise_of(ray), s.rate = rate_of(e);
-            if (s.rays < 1 || !(s.max_range > s.min_range))
-                diagnostics_.error(
-                    s.where, fmt::format("ray sensor '{}' needs at least one sample and min < max", s.name));
+            if (!(std::isfinite(s.first_angle) && std::isfinite(s.last_angle)))
+                diagnostics_.error(s.where,
+                                   fmt::format("ray sensor '{}' has an angle that is not finite", s.name));
+            if (s.rays < 1 || s.rays > most_rays || !(s.max_range > s.min_range))
+                diagnostics_.error(s.where, fmt::format("ray sensor '{}' needs 1 to {} samples and min < max",
+                                                        s.name, most_rays));
             link.range_sensors.push_back(std::move(s));
         } else if (type == "camera") {
             CameraSensor s;
@@ -496,6 +494,9 @@ class Reader {
             world.update_rate = value(physics, "real_time_update_rate", 1000.0);
             if (!(world.step > 0 && world.update_rate > 0))
                 diagnostics_.error(at(physics), "max_step_size and real_time_update_rate must be positive");
+            else if (!(world.step >= 1e-6 && world.step <= 1 && world.update_rate <= 1e6))
+                diagnostics_.error(
+                    at(physics), "max_step_size lies between 1e-6 and 1 s, real_time_update_rate below 1e6");
         }
         if (const auto ambient = child(e, {"scene", "ambient"}))
             world.ambient = ambient->Get<ignition::math::Color>().R();
@@ -508,6 +509,8 @@ class Reader {
                                      "there are several directional lights; the first one is used");
             } else {
                 const auto d = value(light, "direction", ignition::math::Vector3d(0, 0, -1));
+                if (!(d.Length() > 0))
+                    diagnostics_.error(at(light), "a light needs a <direction> that is not 0");
                 world.sun = -Eigen::Vector3d(d.X(), d.Y(), d.Z()).normalized();
             }
         };
@@ -525,6 +528,8 @@ class Reader {
         each_model(e, world.models, read_light);
         return world;
     }
+
+    static constexpr int most_rays = 10'000;
 
     std::string path_;
     Diagnostics& diagnostics_;

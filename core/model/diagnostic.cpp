@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/model/utf8.h"
+#include "core/types/text_file.h"
 
 namespace forage {
 namespace {
@@ -94,13 +95,20 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+void Diagnostics::add(Severity severity, Location where, std::string message, std::string hint) {
+    constexpr std::size_t most = 1000;  // a file of a million mistakes must not cost a gigabyte
+    ++(severity == Severity::error ? errors_ : warnings_);
+    // An error is never lost behind warnings.
+    if (all_.size() < most || (severity == Severity::error && errors_ == 1))
+        all_.push_back({severity, std::move(where), std::move(message), std::move(hint)});
+}
+
 void Diagnostics::error(Location where, std::string message, std::string hint) {
-    all_.push_back({Severity::error, std::move(where), std::move(message), std::move(hint)});
-    ++errors_;
+    add(Severity::error, std::move(where), std::move(message), std::move(hint));
 }
 
 void Diagnostics::warning(Location where, std::string message, std::string hint) {
-    all_.push_back({Severity::warning, std::move(where), std::move(message), std::move(hint)});
+    add(Severity::warning, std::move(where), std::move(message), std::move(hint));
 }
 
 void Diagnostics::unknown(Location where, std::string message, std::string hint) {
@@ -110,10 +118,22 @@ void Diagnostics::unknown(Location where, std::string message, std::string hint)
         error(std::move(where), std::move(message), std::move(hint));
 }
 
+Location location_of(std::shared_ptr<const SourceFile> file, std::size_t offset) {
+    const std::string_view before = std::string_view(file->text).substr(0, offset);
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const auto column = before.size() - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0
+    return {std::move(file), static_cast<int>(line), static_cast<int>(column)};
+}
+
+void report(const FileError& error, Diagnostics& diagnostics) {
+    const auto file = std::make_shared<SourceFile>(SourceFile{error.path(), error.text()});
+    for (const auto& f : error.faults()) diagnostics.error({file, f.line, f.column}, f.message, f.hint);
+}
+
 std::string format(const Diagnostic& d) {
     std::string out;
     if (d.where.file) {
-        out = d.where.file->path;
+        out = d.where.file->path.empty() ? "''" : plain(d.where.file->path, 400);
         if (d.where.line > 0) out += fmt::format(":{}", d.where.line);
         if (d.where.column > 0) out += fmt::format(":{}", d.where.column);
         out += ": ";
@@ -136,7 +156,9 @@ std::string format(const Diagnostics& diagnostics) {
     constexpr std::size_t shown = 50;
     std::string out;
     for (std::size_t i = 0; i < order.size() && i < shown; ++i) out += format(*order[i]);
-    if (order.size() > shown) out += fmt::format("... and {} more\n", order.size() - shown);
+    const auto all = static_cast<std::size_t>(diagnostics.errors() + diagnostics.warnings());
+    if (const std::size_t printed = std::min(order.size(), shown); all > printed)
+        out += fmt::format("... and {} more\n", all - printed);
     return out;
 }
 

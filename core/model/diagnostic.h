@@ -9,6 +9,8 @@
 
 namespace forage {
 
+class FileError;
+
 /// A file that a person edits, as it was read.
 struct SourceFile {
     std::string path;  ///< as given by the person
@@ -35,7 +37,7 @@ struct Diagnostic {
     std::string hint;  ///< what to do about it; may be empty
 };
 
-/// Collects diagnostics; nothing is thrown.
+/// Collects diagnostics; nothing is thrown. Of very many it keeps the first thousand and counts the rest.
 class Diagnostics {
   public:
     void error(Location where, std::string message, std::string hint = {});
@@ -45,15 +47,23 @@ class Diagnostics {
 
     bool failed() const { return errors_ > 0; }
     int errors() const { return errors_; }
-    int warnings() const { return static_cast<int>(all_.size()) - errors_; }
+    int warnings() const { return warnings_; }
     const std::vector<Diagnostic>& all() const { return all_; }
 
     bool lenient = false;
 
   private:
+    void add(Severity severity, Location where, std::string message, std::string hint);
+
     std::vector<Diagnostic> all_;
-    int errors_ = 0;
+    int errors_ = 0, warnings_ = 0;
 };
+
+/// Where the byte `offset` of a file stands.
+Location location_of(std::shared_ptr<const SourceFile> file, std::size_t offset);
+
+/// Says all that is wrong with a file.
+void report(const FileError& error, Diagnostics& diagnostics);
 
 /// `file:line:column: error: message`, the line with a caret under the column, `hint: ...`.
 std::string format(const Diagnostic& diagnostic);

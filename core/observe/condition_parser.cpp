@@ -21,7 +21,9 @@ class ConditionParser {
         : simulation_(simulation),
           trials_(trials),
           rest_(text),
-          what_(fmt::format("{} '{}'", what, text)),
+          what_(fmt::format(
+              "{} '{}'", what,
+              text.size() > readable ? std::string(text.substr(0, readable)) + "..." : std::string(text))),
           diagnostics_(diagnostics),
           at_(std::move(at)) {}
 
@@ -48,6 +50,8 @@ class ConditionParser {
     bool whole(Read read) {
         const int errors_before = diagnostics_.errors();
         try {
+            if (rest_.size() > longest)
+                throw Mistake{fmt::format("it is longer than {} characters", longest), ""};
             read();
             if (!peek().empty()) throw Mistake{fmt::format("'{}' is left over", rest_), form()};
         } catch (const Mistake& m) {
@@ -81,6 +85,8 @@ class ConditionParser {
         return model::trim(out);
     }
     std::size_t add(Node node) {
+        if (out_.nodes_.size() >= most_parts)
+            throw Mistake{fmt::format("it has more than {} parts", most_parts), ""};
         out_.nodes_.push_back(std::move(node));
         return out_.nodes_.size() - 1;
     }
@@ -112,7 +118,9 @@ class ConditionParser {
     }
     std::size_t comparison() {
         if (take("(")) {
+            if (++depth_ > deepest) throw Mistake{fmt::format("more than {} '(' are open", deepest), form()};
             const std::size_t out = either();
+            --depth_;
             if (!take(")")) throw Mistake{"a ')' is missing", form()};
             return out;
         }
@@ -212,6 +220,8 @@ class ConditionParser {
         return out.value_or(ColumnRef{});
     }
 
+    // Conditions are read and evaluated by recursion.
+    static constexpr std::size_t deepest = 100, most_parts = 1000, longest = 65536, readable = 100;
     static constexpr std::string_view stops = "<>=!&|()";
     static constexpr std::array<std::pair<std::string_view, Quantity::Kind>, 3> words = {
         {{"cycle", Quantity::cycle}, {"trial", Quantity::trial}, {"seconds", Quantity::seconds}}};
@@ -225,6 +235,7 @@ class ConditionParser {
     Diagnostics& diagnostics_;
     Location at_;
     Condition out_;
+    std::size_t depth_ = 0;   ///< of parentheses that are open
     bool shorthand_ = false;  ///< the operand that was just read is followed by the number it is to reach
     bool found_ = false;      ///< the column that was just named is there
 };

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "core/observe/hdf5_handle.h"
+#include "core/types/text_file.h"
 
 namespace forage::observe {
 namespace {
@@ -55,6 +58,10 @@ class Hdf5Recording final : public Recording {
           set_(H5Dopen2(*file_, place.c_str(), H5P_DEFAULT), H5Dclose, "find " + place),
           shape_(shape_of(set_)),
           cycles_(shape_of(cycle_)) {
+        if (cycles_.size() != 1 || (shape_.size() != 1 && shape_.size() != 3) ||
+            (shape_.size() == 3 && (shape_[1] < 1 || shape_[2] < 1 || shape_[1] > most_cells ||
+                                    shape_[2] > most_cells || shape_[1] * shape_[2] > most_cells)))
+            throw std::runtime_error("'" + place + "' is not cells over cycles");
         what_.name = text_attribute(set_, "name");
         what_.label = text_attribute(set_, "label");
         what_.group_id = text_attribute(set_, "group_id");
@@ -89,6 +96,8 @@ class Hdf5Recording final : public Recording {
     }
 
   private:
+    static constexpr hsize_t most_cells = 1 << 24;
+
     std::shared_ptr<Hdf5Handle> file_;
     Hdf5Handle cycle_, set_;
     std::vector<hsize_t> shape_, cycles_;
@@ -105,16 +114,18 @@ herr_t note_set(hid_t, const char* name, const H5O_info_t* info, void* out) {
 
 }  // namespace
 
-std::vector<std::unique_ptr<Recording>> open_hdf5_recording(const std::string& path) {
+std::vector<std::unique_ptr<Recording>> open_hdf5_recording(const std::string& path) try {
     quiet_hdf5();
     hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     if (id < 0) id = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT);  // left behind
-    const auto file = std::make_shared<Hdf5Handle>(id, H5Fclose, "read '" + path + "'");
+    const auto file = std::make_shared<Hdf5Handle>(id, H5Fclose, "read it as HDF5");
     std::vector<std::string> places;
     H5Ovisit2(*file, H5_INDEX_NAME, H5_ITER_NATIVE, note_set, &places, H5O_INFO_BASIC);
     std::vector<std::unique_ptr<Recording>> out;
     for (const auto& p : places) out.push_back(std::make_unique<Hdf5Recording>(file, p));
     return out;
+} catch (const std::exception& e) {
+    throw FileError(path, {}, {{0, 0, fmt::format("this is no recording: {}", e.what())}});
 }
 
 }  // namespace forage::observe

@@ -1,13 +1,9 @@
 #include "core/observe/pattern_file.h"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
-
 #include <fmt/format.h>
 
 #include "core/types/parameter.h"
+#include "core/types/text_file.h"
 
 namespace forage::observe {
 namespace {
@@ -19,38 +15,40 @@ class PatternReader {
           sparse_(shape.cells != shape.width * shape.height),
           width_(sparse_ ? shape.cells : shape.width),
           height_(sparse_ ? 1 : shape.height),
-          out_(out) {}
+          out_(out),
+          errors_before_(out.errors()) {}
 
     std::vector<std::vector<double>> run() {
-        const int errors_before = out_.errors();
         std::string_view rest = file_->text;
-        for (int number = 1; !rest.empty(); ++number) {
+        for (int number = 1; !rest.empty() && out_.errors() < errors_before_ + most_faults; ++number) {
             const auto end = std::min(rest.find('\n'), rest.size());
             line(rest.substr(0, end), number);
             rest.remove_prefix(std::min(end + 1, rest.size()));
             last_ = number;
         }
         finish(last_);
-        if (patterns_.empty() && out_.errors() == errors_before)
+        if (patterns_.empty() && out_.errors() == errors_before_)
             out_.error({file_, 0, 0}, "there are no patterns in it", "");
-        if (out_.errors() > errors_before) return {};
+        if (out_.errors() > errors_before_) return {};
         return std::move(patterns_);
     }
 
   private:
+    static constexpr int most_faults = 100;
+
     void line(std::string_view text, int number) {
         constexpr std::string_view between = " \t\r,;";
         std::size_t at = text.find_first_not_of(between);
         if (at == std::string_view::npos) return finish(number);
         if (text[at] == '#') return;
         int count = 0;
-        while (at != std::string_view::npos) {
+        while (at != std::string_view::npos && out_.errors() < errors_before_ + most_faults) {
             const auto end = std::min(text.find_first_of(between, at), text.size());
             const auto word = text.substr(at, end - at);
             const auto value = parse_parameter(ParameterKind::real, word);
             if (!value)
                 out_.error({file_, number, static_cast<int>(at) + 1},
-                           fmt::format("'{}' is not a number", word));
+                           fmt::format("'{}' is not a number", shown(word)));
             pattern_.push_back(value ? std::get<double>(*value) : 0);
             ++count;
             at = text.find_first_not_of(between, end);
@@ -78,22 +76,31 @@ class PatternReader {
     bool sparse_;
     int width_, height_, rows_ = 0, last_ = 0;
     Diagnostics& out_;
+    const int errors_before_;
     std::vector<double> pattern_;
     std::vector<std::vector<double>> patterns_;
 };
 
 }  // namespace
 
+std::vector<std::vector<double>> parse_patterns(const std::string& text, const std::string& path,
+                                                const GroupShape& shape, Diagnostics& diagnostics) {
+    auto file = std::make_shared<SourceFile>(SourceFile{path, text});
+    if (const auto what = what_begins_with(text); !what.empty()) {
+        diagnostics.error({std::move(file), 0, 0}, fmt::format("these are no patterns, but {}", what));
+        return {};
+    }
+    return PatternReader(std::move(file), shape, diagnostics).run();
+}
+
 std::vector<std::vector<double>> read_patterns(const std::string& path, const GroupShape& shape,
                                                Diagnostics& diagnostics) {
-    std::ifstream in(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(in), {}};
-    const bool read = in.is_open() && !in.bad();
-    const std::string reason = read ? "" : std::strerror(errno);
-    auto file = std::make_shared<SourceFile>(SourceFile{path, std::move(text)});
-    if (read) return PatternReader(std::move(file), shape, diagnostics).run();
-    diagnostics.error({std::move(file), 0, 0}, fmt::format("cannot read the patterns: {}", reason));
-    return {};
+    try {
+        return parse_patterns(read_file(path), path, shape, diagnostics);
+    } catch (const FileError& e) {
+        report(e, diagnostics);
+        return {};
+    }
 }
 
 }  // namespace forage::observe

@@ -14,5 +14,8 @@ namespace forage::observe {
 /// Lines that begin with '#' are skipped. Reports what is wrong, with its place; empty then.
 std::vector<std::vector<double>> read_patterns(const std::string& path, const GroupShape& shape,
                                                Diagnostics& diagnostics);
+/// The same of a text that a person knows as `path`.
+std::vector<std::vector<double>> parse_patterns(const std::string& text, const std::string& path,
+                                                const GroupShape& shape, Diagnostics& diagnostics);
 
 }  // namespace forage::observe

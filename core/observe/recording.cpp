@@ -1,14 +1,17 @@
 #include "core/observe/recording.h"
 
+#include <cctype>
+#include <cerrno>
 #include <charconv>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
-#include "core/model/lookup.h"
 #include "core/observe/hdf5_recording.h"
+#include "core/types/text_file.h"
 
 namespace forage::observe {
 namespace {
@@ -19,7 +22,16 @@ std::filesystem::path final_name(const std::string& path) {
 }
 
 [[noreturn]] void no_recording(const std::string& path, const std::string& why) {
-    throw std::runtime_error(fmt::format("'{}' is no recording: {}", path, why));
+    throw FileError(path, {}, {{0, 0, "this is no recording: " + why}});
+}
+
+/// A group of more cells does not fit into memory anyway; a damaged file may say anything.
+constexpr std::int64_t most_cells = 1 << 24;
+
+void open(std::ifstream& in, const std::string& path) {
+    in.open(path, std::ios::binary);
+    if (!in)
+        throw FileError(path, {}, {{0, 0, fmt::format("cannot read the file: {}", std::strerror(errno))}});
 }
 
 std::vector<std::string_view> fields(std::string_view line, char separator) {
@@ -45,8 +57,8 @@ bool parse_place(std::string_view text, int& x, int& y) {
 
 class CsvRecording final : public Recording {
   public:
-    explicit CsvRecording(const std::string& path) : path_(path), in_(path, std::ios::binary) {
-        if (!in_) throw std::runtime_error(fmt::format("cannot read '{}'", path));
+    explicit CsvRecording(const std::string& path) : path_(path) {
+        open(in_, path);
         what_.name = final_name(path).stem().string();
         if (!line()) no_recording(path, "its first line is not complete");
         const auto names = fields(line_, ',');
@@ -64,9 +76,11 @@ class CsvRecording final : public Recording {
         int right = 0, below = 0;
         if (!parse_place(names.back(), right, below))
             no_recording(path, "its columns are not those of a group");
-        what_.cells = {x, y, right - x + 1, below - y + 1, {}};
-        if (right < x || below < y || what_.size() != columns_)
+        const auto width = std::int64_t{right} - x + 1, height = std::int64_t{below} - y + 1;
+        if (x < 1 || y < 1 || width < 1 || height < 1 || width > most_cells || height > most_cells ||
+            width * height != static_cast<std::int64_t>(columns_))
             no_recording(path, "its columns are not those of a group");
+        what_.cells = {x, y, static_cast<int>(width), static_cast<int>(height), {}};
     }
 
     void rewind() override {
@@ -78,11 +92,12 @@ class CsvRecording final : public Recording {
     bool next(std::uint64_t& cycle, std::vector<double>& numbers) override {
         if (!line()) return false;
         const auto texts = fields(line_, ',');
-        if (texts.size() != columns_ + 1) bad("has not as many numbers as columns");
+        if (texts.size() != columns_ + 1)
+            bad(1, fmt::format("{} numbers in a row, not {}", texts.size(), columns_ + 1));
         const auto number = [&](std::string_view text, auto& out) {
             const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
             if (error != std::errc() || end != text.data() + text.size())
-                bad(fmt::format("'{}' is not a number", text));
+                bad(text.data() - line_.data() + 1, fmt::format("'{}' is not a number", shown(text)));
         };
         number(texts[0], cycle);
         numbers.resize(columns_);
@@ -94,13 +109,29 @@ class CsvRecording final : public Recording {
     /// The next complete line: what a killed program left of a row does not count.
     bool line() {
         ++number_;
-        if (!std::getline(in_, line_) || in_.eof()) return false;
+        line_.clear();
+        // In blocks: what is no recording may be one line without an end.
+        for (;;) {
+            in_.getline(block_.data(), static_cast<std::streamsize>(block_.size()));
+            const auto count = static_cast<std::size_t>(in_.gcount());
+            if (in_.eof() || in_.bad()) return false;
+            if (!in_.fail()) {
+                line_.append(block_.data(), count - 1);  // '\n' is counted, and not stored
+                break;
+            }
+            line_.append(block_.data(), count);
+            if (line_.size() > longest_line) bad(1, "the line is too long");
+            in_.clear();
+        }
         if (line_.ends_with('\r')) line_.pop_back();
         return true;
     }
-    [[noreturn]] void bad(const std::string& why) {
-        throw std::runtime_error(fmt::format("{}:{}: {}", path_, number_, why));
+    [[noreturn]] void bad(std::ptrdiff_t column, const std::string& why) {
+        throw FileError(path_, {}, {{static_cast<int>(number_), static_cast<int>(column), why}});
     }
+
+    static constexpr std::size_t longest_line = 64 << 20;
+    std::vector<char> block_ = std::vector<char>(1 << 16);
 
     std::string path_, line_;
     std::ifstream in_;
@@ -110,8 +141,8 @@ class CsvRecording final : public Recording {
 
 class NpyRecording final : public Recording {
   public:
-    explicit NpyRecording(const std::string& path) : in_(path, std::ios::binary) {
-        if (!in_) throw std::runtime_error(fmt::format("cannot read '{}'", path));
+    explicit NpyRecording(const std::string& path) {
+        open(in_, path);
         what_.name = final_name(path).stem().string();
         char start[10] = {};
         in_.read(start, sizeof start);
@@ -131,10 +162,14 @@ class NpyRecording final : public Recording {
         const auto shape = head.find("'shape': (");
         if ((fields_read != 1 && fields_read != 3) || shape == std::string::npos || width < 1 || height < 1)
             no_recording(path, "its records are not a cycle and numbers");
+        if (std::int64_t{width} * height > most_cells) no_recording(path, "it has too many cells");
         what_.state = state;
         what_.mean = fields_read == 1;
         what_.cells = {1, 1, width, height, {}};
+        if (!std::isdigit(static_cast<unsigned char>(head[shape + 10])))
+            no_recording(path, "it does not say how many rows it has");
         rows_ = std::strtoull(head.c_str() + shape + 10, nullptr, 10);
+        path_ = path;
         body_ = in_.tellg();
     }
 
@@ -151,10 +186,12 @@ class NpyRecording final : public Recording {
         in_.read(reinterpret_cast<char*>(&cycle), sizeof cycle);
         in_.read(reinterpret_cast<char*>(numbers.data()),
                  static_cast<std::streamsize>(numbers.size() * sizeof(double)));
-        return static_cast<bool>(in_);
+        if (!in_) throw FileError(path_, {}, {{0, 0, fmt::format("it ends in row {} of {}", row_, rows_)}});
+        return true;
     }
 
   private:
+    std::string path_;
     std::ifstream in_;
     std::streampos body_;
     std::uint64_t rows_ = 0, row_ = 0;

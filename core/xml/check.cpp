@@ -40,6 +40,10 @@ class Checker {
             if (const auto* text = node->ToText(); text && !rule.has_text) inside += stray(*text, rule);
             const auto* child = node->ToElement();
             if (!child) continue;
+            if (out_.errors() >= most_errors) {
+                sound_ = false;
+                return inside;
+            }
             const std::string_view name = child->Name();
             const auto allowed = std::find_if(rule.children.begin(), rule.children.end(),
                                               [&](const auto& c) { return c.name == name; });
@@ -194,6 +198,8 @@ class Checker {
         return fmt::format(", from {:.0f} to {:.0f}", rule.low, rule.high);
     }
 
+    static constexpr int most_errors = 100'000;  // nobody reads more
+
     const Document& document_;
     const Format& format_;
     Diagnostics& out_;
@@ -222,7 +228,8 @@ bool check(const Document& document, std::string_view root, Diagnostics& diagnos
     if (name != root) {
         const std::string_view kind = root == "System" ? "system" : root == "iqrEntity" ? "process" : root;
         diagnostics.error(document.at(document.root()),
-                          fmt::format("the file begins with <{}>, a {} file with <{}>", name, kind, root),
+                          fmt::format("the file begins with <{}>, {} {} file with <{}>", name,
+                                      kind == "experiment" ? "an" : "a", kind, root),
                           what_begins_with(name, kind));
         return false;
     }

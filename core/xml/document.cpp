@@ -1,21 +1,19 @@
 #include "core/xml/document.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <vector>
 
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
+#include "core/types/text_file.h"
 #include "core/xml/well_formed.h"
 
 namespace forage::xml {
 namespace {
 
-constexpr std::size_t largest_file = std::size_t{256} << 20;
+constexpr std::size_t largest_file = std::size_t{32} << 20;
 
 /// Where tinyxml2's copy of the text begins. It parses in place and hands out pointers into that copy, so the
 /// offset of anything it names is a difference of pointers. The first thing in a document begins at the first
@@ -43,7 +41,8 @@ Document::Document(Document&&) noexcept = default;
 Document& Document::operator=(Document&&) noexcept = default;
 Document::~Document() = default;
 
-std::optional<Document> Document::read(const std::string& path, Diagnostics& diagnostics) {
+std::optional<Document> Document::read(const std::string& path, std::string_view root,
+                                       Diagnostics& diagnostics) {
     const auto fail = [&](const std::string& message,
                           const std::string& hint = {}) -> std::optional<Document> {
         auto file = std::make_shared<SourceFile>(SourceFile{path, {}});
@@ -63,21 +62,17 @@ std::optional<Document> Document::read(const std::string& path, Diagnostics& dia
         return fail("there is no such file",
                     near.empty() ? "" : fmt::format("did you mean '{}'?", (folder / near).string()));
     }
-    if (std::filesystem::is_directory(status)) return fail("this is a directory, not a file");
-    std::ifstream in(path, std::ios::binary);
-    if (!in) return fail(fmt::format("cannot read the file: {}", std::strerror(errno)));
     std::string text;
-    std::vector<char> block(std::size_t{1} << 16);
-    while (in.read(block.data(), static_cast<std::streamsize>(block.size())), in.gcount() > 0) {
-        text.append(block.data(), static_cast<std::size_t>(in.gcount()));
-        if (text.size() > largest_file)
-            return fail(fmt::format("the file is larger than {} MiB", largest_file >> 20));  // or never ends
+    try {
+        text = read_file(path, largest_file);
+    } catch (const FileError& e) {
+        return fail(e.faults().front().message);
     }
-    if (in.bad()) return fail("cannot read the file to its end");
-    return parse(path, std::move(text), diagnostics);
+    return parse(path, std::move(text), root, diagnostics);
 }
 
-std::optional<Document> Document::parse(std::string path, std::string text, Diagnostics& diagnostics) {
+std::optional<Document> Document::parse(std::string path, std::string text, std::string_view root,
+                                        Diagnostics& diagnostics) {
     Document document;
     document.source_ = std::make_shared<SourceFile>(SourceFile{std::move(path), std::move(text)});
     const std::string& t = document.source_->text;
@@ -85,7 +80,8 @@ std::optional<Document> Document::parse(std::string path, std::string text, Diag
     for (std::size_t i = 0; i < t.size(); ++i)
         if (t[i] == '\n') document.line_starts_.push_back(i + 1);
 
-    if (const auto fault = first_fault(t)) {
+    const std::string_view attributes = root == "experiment" ? "" : " ...";
+    if (const auto fault = first_fault(t, fmt::format("<{}{}>", root, attributes))) {
         const Location where =
             fault->of_the_whole ? Location{document.source_, 0, 0} : document.place(fault->offset);
         diagnostics.error(where, fault->message, fault->hint);

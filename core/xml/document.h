@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/model/diagnostic.h"
@@ -19,10 +20,13 @@ namespace forage::xml {
 
 class Document {
   public:
-    /// Reads `path`; on failure reports what and where, and returns nothing.
-    static std::optional<Document> read(const std::string& path, Diagnostics& diagnostics);
+    /// Reads `path`, whose outermost element should be a `root`; on failure reports what and where, and
+    /// returns nothing.
+    static std::optional<Document> read(const std::string& path, std::string_view root,
+                                        Diagnostics& diagnostics);
     /// Parses `text`, which a person knows as `path`.
-    static std::optional<Document> parse(std::string path, std::string text, Diagnostics& diagnostics);
+    static std::optional<Document> parse(std::string path, std::string text, std::string_view root,
+                                         Diagnostics& diagnostics);
 
     Document(Document&&) noexcept;
     Document& operator=(Document&&) noexcept;

@@ -50,6 +50,10 @@ class ExperimentReader {
         each(root, "plot", [&](const XMLElement& e) { experiment_.plots.push_back(wish(e, "what")); });
         each(root, "measure", [&](const XMLElement& e) { measure(e); });
         each(root, "sweep", [&](const XMLElement& e) { sweep(e); });
+        if (count_runs() > most_runs)
+            out_.error(document_.at(root),
+                       fmt::format("these sweeps and seeds make more than {} runs", most_runs),
+                       "every value is combined with every value of the other sweeps, and with every seed");
         return std::move(experiment_);
     }
 
@@ -115,10 +119,14 @@ class ExperimentReader {
         if (listed && (e.FindAttribute("first") || e.FindAttribute("count")))
             out_.error(at(e, "list"), "<seeds> has both a list and a count", "keep one of them");
         experiment_.seeds.clear();
+        const std::uint64_t count = whole(e, "count").value_or(1);
         if (!listed)
-            for (std::uint64_t i = 0, n = whole(e, "count").value_or(1); i < n; ++i)
+            for (std::uint64_t i = 0; i < std::min(count, most_runs + 1); ++i)
                 experiment_.seeds.push_back(whole(e, "first").value_or(1) + i);
-        for (const auto& word : words(wish(e, "list"))) {
+        const auto list = words(wish(e, "list"));
+        if (listed && list.empty())
+            out_.error(at(e, "list"), "there are no seeds in the list", "for example list=\"1 2 3\"");
+        for (const auto& word : list) {
             const auto seed = parse_parameter(ParameterKind::integer, word.text);
             if (!seed || std::get<int>(*seed) < 0)
                 out_.error(word.at, fmt::format("'{}' is not a seed", word.text),
@@ -126,8 +134,6 @@ class ExperimentReader {
             else
                 experiment_.seeds.push_back(static_cast<std::uint64_t>(std::get<int>(*seed)));
         }
-        if (experiment_.seeds.size() > 100'000)
-            out_.error(document_.at(e), "there are more than 100000 seeds", "");
     }
 
     /// <clamp>, <add> and <multiply>.
@@ -207,6 +213,15 @@ class ExperimentReader {
         return out;
     }
 
+    /// Of what is too many, no more than that it is.
+    std::uint64_t count_runs() const {
+        std::uint64_t out = experiment_.seeds.size();
+        for (const auto& s : experiment_.sweeps) out = std::min(out * s.values.size(), most_runs + 1);
+        return out;
+    }
+
+    static constexpr std::uint64_t most_runs = 100'000;
+
     const Document& document_;
     Diagnostics& out_;
     model::Experiment experiment_;
@@ -214,13 +229,23 @@ class ExperimentReader {
 
 }  // namespace
 
-std::optional<model::Experiment> read_experiment(const std::string& path, Diagnostics& diagnostics) {
+namespace {
+std::optional<model::Experiment> build(const std::optional<Document>& document, Diagnostics& diagnostics) {
     const int errors_before = diagnostics.errors();
-    const auto document = Document::read(path, diagnostics);
     if (!document || !check(*document, "experiment", diagnostics)) return std::nullopt;
     auto out = ExperimentReader(*document, diagnostics).run();
     if (diagnostics.errors() > errors_before) return std::nullopt;
     return out;
+}
+}  // namespace
+
+std::optional<model::Experiment> read_experiment(const std::string& path, Diagnostics& diagnostics) {
+    return build(Document::read(path, "experiment", diagnostics), diagnostics);
+}
+
+std::optional<model::Experiment> parse_experiment(std::string path, std::string text,
+                                                  Diagnostics& diagnostics) {
+    return build(Document::parse(std::move(path), std::move(text), "experiment", diagnostics), diagnostics);
 }
 
 }  // namespace forage::xml

@@ -24,7 +24,8 @@ bool continues_name(char c) {
 
 class Scanner {
   public:
-    explicit Scanner(std::string_view text) : text_(text) {}
+    Scanner(std::string_view text, std::string_view beginning, std::size_t most_nodes)
+        : text_(text), beginning_(beginning), most_nodes_(most_nodes) {}
 
     std::optional<Fault> run() {
         if (characters() && content()) return std::nullopt;
@@ -51,6 +52,7 @@ class Scanner {
         fault_->of_the_whole = true;
         return false;
     }
+    std::string begins() const { return fmt::format("a file of this kind begins with {}", beginning_); }
     bool looks_like_xml() const {
         return text_.find_first_not_of(" \t\r\n\xef\xbb\xbf") == text_.find('<') &&
                text_.find('<') < text_.size();
@@ -91,7 +93,7 @@ class Scanner {
     bool content() {
         if (at("\xef\xbb\xbf")) pos_ = 3;  // byte order mark
         if (text_.find_first_not_of(blanks, pos_) == std::string_view::npos)
-            return fail_whole("the file is empty", "a system file begins with <System ...>");
+            return fail_whole("the file is empty", begins());
         while (pos_ < text_.size()) {
             const std::size_t open = std::min(text_.find('<', pos_), text_.size());
             if (!plain_text(pos_, open)) return false;
@@ -102,9 +104,7 @@ class Scanner {
             return fail(open_.back().at,
                         fmt::format("<{}> is not closed before the file ends", open_.back().name),
                         fmt::format("is the file complete? A </{}> is missing", open_.back().name));
-        return root_.empty()
-                   ? fail_whole("the file holds no element", "a system file begins with <System ...>")
-                   : true;
+        return root_.empty() ? fail_whole("the file holds no element", begins()) : true;
     }
 
     bool plain_text(std::size_t from, std::size_t to) {
@@ -123,9 +123,10 @@ class Scanner {
 
     /// Every '&' begins one of the five entities that XML has, or a character by its number.
     bool references(std::size_t from, std::size_t to) {
-        for (std::size_t i = text_.find('&', from); i < to; i = text_.find('&', i + 1)) {
-            const std::size_t end = text_.find(';', i);
-            const std::string_view what = end < to ? text_.substr(i + 1, end - i - 1) : std::string_view{};
+        const std::string_view text = text_.substr(0, to);  // to search no farther
+        for (std::size_t i = text.find('&', from); i < to; i = text.find('&', i + 1)) {
+            const std::size_t end = text.find(';', i);
+            const std::string_view what = end < to ? text.substr(i + 1, end - i - 1) : std::string_view{};
             if (what == "lt" || what == "gt" || what == "amp" || what == "quot" || what == "apos" ||
                 character(what))
                 continue;
@@ -157,7 +158,8 @@ class Scanner {
             return skip("<![CDATA[", "]]>", "the CDATA section that begins here is not closed");
         if (at("<?")) return skip("<?", "?>", "the declaration that begins here is not closed");
         if (at("<!")) {
-            const std::size_t bracket = text_.find('[', pos_), end = text_.find('>', pos_);
+            const std::size_t end = std::min(text_.find('>', pos_), text_.size());
+            const std::size_t bracket = text_.substr(0, end).find('[', pos_);
             if (bracket < end)
                 return fail(bracket, "a document type with declarations of its own is not read",
                             "remove all from '[' to ']'");
@@ -172,6 +174,7 @@ class Scanner {
         const std::size_t close = text_.find(end, pos_ + begin.size());
         if (close == std::string_view::npos)
             return fail(pos_, std::move(message), fmt::format("it ends with {}", end));
+        if (!counted(pos_)) return false;
         pos_ = close + end.size();
         return true;
     }
@@ -209,6 +212,7 @@ class Scanner {
                         "a file holds one outermost element");
         if (open_.size() >= deepest)
             return fail(start, fmt::format("<{}> is nested more than {} elements deep", element, deepest));
+        if (!counted(start)) return false;
         if (root_.empty()) root_ = element;
         std::vector<std::string_view> seen;
         last_value_ = {};
@@ -250,6 +254,7 @@ class Scanner {
                         "remove one of them");
         if (seen.size() >= 1000)
             return fail(start, fmt::format("<{}> has more than {} attributes", element, seen.size()));
+        if (!counted(start)) return false;
         seen.push_back(attribute);
         skip_blanks();
         if (!at("="))
@@ -262,7 +267,7 @@ class Scanner {
                         fmt::format("it is written {}=\"value\"", attribute));
         const char quote = text_[pos_];
         const std::size_t value = ++pos_, end = text_.find(quote, value);
-        const std::size_t bracket = text_.find('<', value);
+        const std::size_t bracket = text_.substr(0, end).find('<', value);
         if (end == std::string_view::npos || bracket < end)
             return fail(value - 1, fmt::format("the value of '{}' has no closing quote", attribute),
                         bracket < end ? "or a '<' in it, which is written &lt;" : "is the file complete?");
@@ -271,8 +276,15 @@ class Scanner {
         return references(value, end);
     }
 
-    std::string_view text_;
-    std::size_t pos_ = 0;
+    bool counted(std::size_t where) {
+        return ++nodes_ <= most_nodes_ ||
+               fail(where,
+                    fmt::format("the file has more than {} elements, attributes and remarks", most_nodes_));
+    }
+
+    std::string_view text_, beginning_;
+    std::size_t most_nodes_;
+    std::size_t pos_ = 0, nodes_ = 0;
     std::string_view root_;
     std::string_view last_value_;  ///< of the attribute before this one
     std::vector<Open> open_;
@@ -281,6 +293,8 @@ class Scanner {
 
 }  // namespace
 
-std::optional<Fault> first_fault(std::string_view text) { return Scanner(text).run(); }
+std::optional<Fault> first_fault(std::string_view text, std::string_view beginning, std::size_t most_nodes) {
+    return Scanner(text, beginning, most_nodes).run();
+}
 
 }  // namespace forage::xml

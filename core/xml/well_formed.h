@@ -17,8 +17,10 @@ struct Fault {
     bool of_the_whole = false;  ///< nothing in particular to point at
 };
 
-/// The first thing in `text` that keeps it from being a well-formed XML 1.0 document in UTF-8 without
-/// entities of its own and not nested deeper than any system file is.
-std::optional<Fault> first_fault(std::string_view text);
+/// The first thing in `text` that keeps it from being a well-formed XML 1.0 document in UTF-8, without
+/// entities of its own, not nested deeper than any file of ours, and of at most `most_nodes` elements and
+/// attributes. `beginning`: how the first element of such a file begins, for hints ("<System ...>").
+std::optional<Fault> first_fault(std::string_view text, std::string_view beginning,
+                                 std::size_t most_nodes = std::size_t{1} << 20);
 
 }  // namespace forage::xml

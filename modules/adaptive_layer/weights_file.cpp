@@ -9,8 +9,11 @@
 #include <iterator>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
+
+#include "core/types/text_file.h"
 
 namespace forage::adaptive {
 namespace {
@@ -34,53 +37,46 @@ bool parse(std::string_view text, double& value) {
     return std::isfinite(value);
 }
 
-/// A piece of the file, shortened and harmless on a terminal.
-std::string shown(std::string_view text) {
-    std::string out(text.substr(0, 20));
-    std::replace_if(
-        out.begin(), out.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-    return out;
-}
-
-std::string read_text(const std::string& path) {
-    std::error_code ignored;
-    std::ifstream in(path, std::ios::binary);
-    if (!in || std::filesystem::is_directory(path, ignored))
-        throw std::runtime_error(fmt::format("cannot read the weights '{}'", path));
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-[[noreturn]] void wrong(const std::string& path, const std::string& text, std::size_t at,
-                        const std::string& what) {
-    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-    throw std::runtime_error(fmt::format("{}:{}: error: {}", path, line, what));
-}
+constexpr std::size_t most_faults = 100;
 
 }  // namespace
 
-Eigen::MatrixXd read_weights(const std::string& path, Index stimuli, Index responses) {
-    const std::string text = read_text(path);
+Eigen::MatrixXd parse_weights(const std::string& text, const std::string& path, Index stimuli,
+                              Index responses) {
+    std::vector<FileError::Fault> faults;
+    int line = 1;
+    std::size_t counted = 0, line_start = 0;  // lines are counted up to here
+    const auto fault = [&](std::size_t at, std::string message) {
+        for (; counted < at; ++counted)
+            if (text[counted] == '\n') ++line, line_start = counted + 1;
+        faults.push_back({line, static_cast<int>(at - line_start) + 1, std::move(message)});
+    };
+    if (const auto what = what_begins_with(text); !what.empty())
+        throw FileError(path, text, {{0, 0, fmt::format("these are no weights, but {}", what)}});
     Eigen::MatrixXd weights(stimuli, responses);
     Index count = 0;
-    for (std::size_t at = 0; at < text.size(); ++at) {
+    for (std::size_t at = 0; at < text.size() && faults.size() < most_faults; ++at) {
         at = std::min(text.find_first_not_of(blanks, at), text.size());
         const auto comma = std::min(text.find(',', at), text.size());
         const auto token = trimmed(std::string_view(text).substr(at, comma - at));
         if (token.empty() && comma == text.size()) break;  // what follows the last comma
         double value = 0;
         if (!parse(token, value))
-            wrong(path, text, at,
-                  fmt::format("'{}' is not a number; weights are numbers with commas between them",
-                              shown(token)));
+            fault(at, fmt::format("'{}' is not a number; weights are numbers with commas between them",
+                                  shown(token)));
         if (count < weights.size()) weights(count % stimuli, count / stimuli) = value;
         ++count;
         at = comma;
     }
-    if (count != weights.size())
-        wrong(path, text, text.size(),
-              fmt::format("{} weights, but {} stimulus cells and {} response cells need {}", count, stimuli,
-                          responses, weights.size()));
+    if (faults.empty() && count != weights.size())
+        fault(text.size(), fmt::format("{} weights, but {} stimulus cells and {} response cells need {}",
+                                       count, stimuli, responses, weights.size()));
+    if (!faults.empty()) throw FileError(path, text, std::move(faults));
     return weights;
+}
+
+Eigen::MatrixXd read_weights(const std::string& path, Index stimuli, Index responses) {
+    return parse_weights(read_file(path), path, stimuli, responses);
 }
 
 void write_weights(const std::string& path, const Eigen::MatrixXd& weights) {

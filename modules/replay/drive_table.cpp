@@ -2,13 +2,18 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <stdexcept>
+#include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "core/types/text_file.h"
+
 namespace forage::replay {
 namespace {
+
+constexpr const char* form = "a row is cycle,process,target,v0,v1,...";
+constexpr std::size_t most_faults = 100;
 
 std::string_view trimmed(std::string_view text) {
     const auto first = text.find_first_not_of(" \t\r");
@@ -27,53 +32,78 @@ std::vector<std::string_view> fields_of(std::string_view line) {
 }
 
 template <class N>
-N number(std::string_view text, const std::string& name, int line) {
+std::optional<N> number(std::string_view text) {
     N value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size())
-        throw std::runtime_error(fmt::format("{}:{}: '{}' is not a {}", name, line, text,
-                                             std::is_integral_v<N> ? "whole number" : "number"));
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    if constexpr (std::is_floating_point_v<N>)
+        if (!std::isfinite(value)) return std::nullopt;
     return value;
 }
 
-}  // namespace
+class Parser {
+  public:
+    std::vector<DriveTable::Row> rows;
+    std::vector<FileError::Fault> faults;
 
-DriveTable DriveTable::parse(std::istream& in, const std::string& name) {
-    DriveTable table;
-    table.name_ = name;
-    std::string text;
-    for (int line = 1; std::getline(in, text); ++line) {
+    void line(std::string_view text, int line) {
+        line_ = text, number_ = line;
         std::string_view content = trimmed(text);
         if (line == 1 && content.starts_with("\xEF\xBB\xBF")) content.remove_prefix(3);  // byte order mark
-        if (content.empty() || content.starts_with('#') || content.starts_with("cycle")) continue;
+        if (content.empty() || content.starts_with('#') || content.starts_with("cycle")) return;
         const auto fields = fields_of(content);
         if (fields.size() < 4 || fields[1].empty() || fields[2].empty())
-            throw std::runtime_error(
-                fmt::format("{}:{}: a row is cycle,process,target,v0,v1,...", name, line));
-        Row row{number<std::int64_t>(fields[0], name, line),
-                std::string(fields[1]),
-                std::string(fields[2]),
-                {},
-                line};
-        if (row.cycle < -1)
-            throw std::runtime_error(
-                fmt::format("{}:{}: there is no cycle {}; -1 means from the start", name, line, row.cycle));
-        for (std::size_t i = 3; i < fields.size(); ++i)
-            row.values.push_back(number<double>(fields[i], name, line));
-        table.rows_.push_back(std::move(row));
+            return fault(content, fmt::format("'{}' is no row of a table", shown(content)), form);
+        DriveTable::Row row{0, std::string(fields[1]), std::string(fields[2]), {}, line, column(fields[1])};
+        if (const auto cycle = number<std::int64_t>(fields[0]); !cycle)
+            fault(fields[0], fmt::format("'{}' is not a whole number", shown(fields[0])), form);
+        else if ((row.cycle = *cycle) < -1)
+            fault(fields[0], fmt::format("there is no cycle {}", row.cycle), "-1 means from the start");
+        for (std::size_t i = 3; i < fields.size() && faults.size() < most_faults; ++i) {
+            const auto value = number<double>(fields[i]);
+            if (!value)
+                fault(fields[i], fmt::format("'{}' is not a number", shown(fields[i])),
+                      "a value is a finite number with a decimal point; commas stand between values");
+            row.values.push_back(value.value_or(0));
+        }
+        rows.push_back(std::move(row));
     }
-    if (table.rows_.empty())
-        throw std::runtime_error(
-            fmt::format("'{}' holds no rows: a row is cycle,process,target,v0,v1,...", name));
-    std::stable_sort(table.rows_.begin(), table.rows_.end(),
+
+  private:
+    int column(std::string_view piece) const { return static_cast<int>(piece.data() - line_.data()) + 1; }
+    void fault(std::string_view piece, std::string message, std::string hint) {
+        faults.push_back({number_, column(piece), std::move(message), std::move(hint)});
+    }
+
+    std::string_view line_;
+    int number_ = 0;
+};
+
+}  // namespace
+
+DriveTable DriveTable::parse(std::string_view text, const std::string& name) {
+    const auto wrong = [&](std::vector<FileError::Fault> faults) {
+        return FileError(name, std::string(text), std::move(faults));
+    };
+    if (const auto what = what_begins_with(text); !what.empty())
+        throw wrong({{0, 0, fmt::format("this is no table, but {}", what), form}});
+    Parser parser;
+    std::string_view rest = text;
+    for (int line = 1; !rest.empty() && parser.faults.size() < most_faults; ++line) {
+        const auto end = std::min(rest.find('\n'), rest.size());
+        parser.line(rest.substr(0, end), line);
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    if (!parser.faults.empty()) throw wrong(std::move(parser.faults));
+    if (parser.rows.empty()) throw wrong({{0, 0, "there are no rows in it", form}});
+    std::stable_sort(parser.rows.begin(), parser.rows.end(),
                      [](const Row& a, const Row& b) { return a.cycle < b.cycle; });
+    DriveTable table;
+    table.name_ = name;
+    table.rows_ = std::move(parser.rows);
     return table;
 }
 
-DriveTable DriveTable::read(const std::string& path) {
-    std::ifstream in(path);
-    if (!in) throw std::runtime_error(fmt::format("cannot read '{}'", path));
-    return parse(in, path);
-}
+DriveTable DriveTable::read(const std::string& path) { return parse(read_file(path), path); }
 
 }  // namespace forage::replay

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <istream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,13 +17,12 @@ class DriveTable {
         std::int64_t cycle = 0;
         std::string process, target;
         std::vector<double> values;
-        int line = 0;  ///< in the file, from 1
+        int line = 0, column = 0;  ///< of the process' name in the file, from 1
     };
 
     DriveTable() = default;
-    /// Rows in order of cycle; rows of one cycle stay in file order. Throws std::runtime_error that names
-    /// `name`, the line and what is wrong with it.
-    static DriveTable parse(std::istream& in, const std::string& name);
+    /// Rows in order of cycle; rows of one cycle stay in file order. Throws FileError with all that is wrong.
+    static DriveTable parse(std::string_view text, const std::string& name);
     static DriveTable read(const std::string& path);
 
     const std::string& name() const { return name_; }  ///< of the file

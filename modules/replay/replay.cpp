@@ -4,17 +4,21 @@
 
 #include <fmt/format.h>
 
+#include "core/types/text_file.h"
+
 namespace forage::replay {
 namespace {
 
 void require_sizes(const DriveTable& table, const ModulePorts& ports) {
+    std::vector<FileError::Fault> faults;
     for (const auto& row : table.rows())
         for (const auto& output : ports.outputs)
             if (plays(row, ports.process, output) &&
                 row.values.size() != static_cast<std::size_t>(output.shape.cells))
-                throw std::runtime_error(fmt::format("{}:{}: {} values for '{}', which has {} cells",
-                                                     table.name(), row.line, row.values.size(), output.path,
-                                                     output.shape.cells));
+                faults.push_back({row.line, row.column,
+                                  fmt::format("{} values for '{}', which has {} cells", row.values.size(),
+                                              output.path, output.shape.cells)});
+    if (!faults.empty()) throw FileError(table.name(), {}, std::move(faults));
 }
 
 }  // namespace

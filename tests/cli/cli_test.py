@@ -340,7 +340,7 @@ class Mistakes(Cli):
             (["--set", "Bug/Light.thresold=1"], "did you mean 'threshold'"),
             (["--set", "Bug/Light.threshold=high"], "is not a number"),
             (["--set", "nonsense"], "not an assignment"),
-            (["--drive", "absent.csv"], "cannot read 'absent.csv'"),
+            (["--drive", "absent.csv"], "absent.csv: error: cannot read the file: No such file"),
             (["--record", "Light"], "did you mean 'Bug/Light'"),
             (["--set", "US.threshold=1"], "did you mean 'Reactive Layer/US'"),
             (["--set", "Approach.threshold=1"], "did you mean 'Reactive Layer/Approach' or 'Selection/Approach'"),
@@ -353,7 +353,7 @@ class Mistakes(Cli):
             (["--multiply", "Bug/Motor(1,1)=1; evry 2"], "'evry 2' is none of every N, step N"),
             (["--multiply", "Bug/Motor(1,1)=1; every 0"], "'every' needs a whole number, at least 1"),
             (["--add", "Bug/Motor(1,1)=1; from trail 2"], "there is no group 'trail 2'"),
-            (["--add", "Bug/Motor=absent.txt"], "absent.txt: error: cannot read the patterns: No such file"),
+            (["--add", "Bug/Motor=absent.txt"], "absent.txt: error: cannot read the file: No such file"),
             (["--at", "trial 5"], "'trial 5' is not a condition, a colon, a blank and a change, such as 'trial >= 200:"),
             (["--at", "trial 5: Bug/Light.thresold=1"], "did you mean 'threshold'"),
             (["--at", "trail 5: Bug/Light.threshold=1"], "there is no group 'trail 5'"),
@@ -372,11 +372,11 @@ class Mistakes(Cli):
     def test_rows_that_nothing_plays_and_wrong_tables(self):
         (self.here / "small.iqr").write_text(SMALL_SYSTEM)
         for rows, message in (
-            ("0,P,outt,1,2", "t.csv:1: no moduleReplay plays 'P,outt'"),
-            ("0,P,out,1,2,3", "t.csv:1: 3 values for 'P/A', which has 2 cells"),
-            ("0,P,out,1,x", "t.csv:1: 'x' is not a number"),
-            ("0,P,out,1,2,", "t.csv:1: '' is not a number"),
-            ("", "holds no rows"),
+            ("0,P,outt,1,2", "t.csv:1:3: error: no moduleReplay plays 'P,outt'"),
+            ("0,P,out,1,2,3", "t.csv:1:3: 3 values for 'P/A', which has 2 cells"),
+            ("0,P,out,1,x", "t.csv:1:11: error: 'x' is not a number"),
+            ("0,P,out,1,2,", "t.csv:1:13: error: '' is not a number"),
+            ("", "there are no rows in it"),
         ):
             (self.here / "t.csv").write_text(rows + "\n")
             self.assertIn(message, self.forage("run", "small.iqr", "--cycles", 1, "--drive", "t.csv", status=2).stderr)

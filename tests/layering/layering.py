@@ -22,7 +22,7 @@ ALLOWED = {
     'neurons': {'core/types'},
     'synapses': {'core/types'},
     'modules': {'core/types'},
-    'bug_interface': {'core/types', 'core/model'},
+    'bug_interface': {'core/types', 'core/model', 'core/xml'},
     # What other projects see.
     'tools/api': {'core/engine', 'core/xml', 'core/plugin', 'core/connectivity', 'core/model', 'core/types', 'neurons',
                   'synapses', 'modules'},

@@ -80,8 +80,11 @@ std::string converted(const ConvertOptions& o, Diagnostics& diagnostics) {
     const auto plugins = load_plugins(o.plugins, o.input, diagnostics);  // their parameters may name files
     if (!system) return {};
     for (const auto& path : o.imports)
-        if (auto file = xml::read_process(path, diagnostics); file && !diagnostics.failed())
-            model::import_process(*system, std::move(*file));
+        if (auto file = xml::read_process(path, diagnostics); file && !diagnostics.failed()) try {
+                model::import_process(*system, std::move(*file));
+            } catch (const std::invalid_argument& e) {
+                diagnostics.error({std::make_shared<SourceFile>(SourceFile{path, {}})}, e.what());
+            }
     if (o.embed) model::embed_links(*system);
     if (!to_process && !o.extract.empty()) {
         diagnostics.error({},
@@ -111,6 +114,10 @@ std::string converted(const ConvertOptions& o, Diagnostics& diagnostics) {
 int convert(const ConvertOptions& options) {
     Diagnostics diagnostics;
     diagnostics.lenient = options.lenient;
+    const fs::path directory = fs::path(options.output).parent_path();
+    if (std::error_code none; !directory.empty() && !fs::is_directory(directory, none))
+        diagnostics.error(
+            {}, fmt::format("there is no directory '{}' for '{}'", directory.string(), options.output));
     const std::string text = converted(options, diagnostics);
     fmt::print(stderr, "{}", format(diagnostics));
     if (diagnostics.failed()) return bad_input;

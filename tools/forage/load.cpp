@@ -11,6 +11,7 @@
 #include "core/model/edit.h"
 #include "core/model/validate.h"
 #include "core/plugin/search.h"
+#include "core/types/text_file.h"
 #include "core/xml/reader.h"
 #include "modules/modules.h"
 #include "modules/replay/replay.h"
@@ -24,8 +25,8 @@ std::shared_ptr<const replay::DriveTable> read_table(const std::string& path, Di
     if (path.empty()) return nullptr;
     try {
         return std::make_shared<replay::DriveTable>(replay::DriveTable::read(path));
-    } catch (const std::exception& e) {
-        diagnostics.error({}, fmt::format("--drive: {}", e.what()));
+    } catch (const FileError& e) {
+        report(e, diagnostics);
         return nullptr;
     }
 }

@@ -1,7 +1,9 @@
 // forage: run and check iqr systems from the command line.
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 #include <string_view>
@@ -33,7 +35,7 @@ CLI::Validator number_that(bool (*fits)(double), const char* description) {
         "");
 }
 CLI::Validator positive() {
-    return number_that([](double v) { return v > 0; }, "a number above 0");
+    return number_that([](double v) { return v > 0 && v <= 1e9; }, "a number above 0, at most 1e9");
 }
 CLI::Validator count() {
     return number_that([](double v) { return v >= 1 && v <= 1e15 && v == std::floor(v); },
@@ -430,7 +432,9 @@ std::string suggestion(const CLI::App& app, int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+namespace {
+
+int program(int argc, char** argv) {
     CLI::App app("Runs iqr brain models headless, in a closed loop with a simulated robot.", "forage");
     app.set_version_flag("--version", "forage " FORAGE_VERSION);
     app.require_subcommand(1);
@@ -549,4 +553,18 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "error: {}\n", e.what());
         return run_failed;
     }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    int status = run_failed;
+    try {
+        status = program(argc, argv);
+    } catch (const std::exception& e) {  // of the last words themselves
+        std::fprintf(stderr, "error: %s\n", e.what());
+    }
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return status;
+    std::fprintf(stderr, "error: cannot write to the standard output: %s\n", std::strerror(errno));
+    return status == fine ? run_failed : status;
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/observe/recording.h"
+#include "core/types/text_file.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/files.h"
 #include "tools/forage/plots.h"
@@ -181,7 +182,9 @@ void draw_rows(const Source& source, const PlotWish& wish, const std::string& di
         part->take(row, taken);
         drawn.add(cycle, taken);
     }
-    write_file(directory + "/" + wish.file(format), drawn.draw(format, source.context));
+    const std::string picture = drawn.draw(format, source.context);
+    make_directory(directory);
+    write_file(directory + "/" + wish.file(format), picture);
     written.push_back(wish.file(format));
 }
 
@@ -221,7 +224,7 @@ std::vector<std::string> usual_wishes(const Source& source) {
 int plot(const PlotOptions& o) {
     Diagnostics diagnostics;
     std::vector<std::string> written;
-    const auto report = [&] {
+    const auto say = [&] {
         for (const auto& w : written) fmt::print("{}\n", w);
         fmt::print(stderr, "{}", format(diagnostics));
         return diagnostics.failed() ? bad_input : fine;
@@ -230,10 +233,13 @@ int plot(const PlotOptions& o) {
     try {
         if (!fs::exists(o.source)) throw std::runtime_error(fmt::format("there is no '{}'", o.source));
         source = open(o.source);
+    } catch (const FileError& e) {
+        report(e, diagnostics);
+        return say();
     } catch (const std::exception& e) {
         diagnostics.error({}, e.what(),
                           "name a directory of results, a recording (.csv, .npy, .h5) or a system (.iqr)");
-        return report();
+        return say();
     }
     std::vector<PlotWish> wishes;
     bool structure = false, trajectory = false;
@@ -256,7 +262,7 @@ int plot(const PlotOptions& o) {
         if (loaded && trajectory && (!loaded->world || !fs::exists(source.directory + "/trajectory.csv")))
             diagnostics.error({}, "a trajectory needs the results of a run in a world");
     }
-    if (diagnostics.failed()) return report();
+    if (diagnostics.failed()) return say();
 
     const plot::Format format = *plot::format_of("x." + o.picture_format);
     const std::string beside = fs::path(o.source).parent_path().string();
@@ -264,10 +270,13 @@ int plot(const PlotOptions& o) {
                                   : !source.directory.empty()                   ? source.directory
                                   : source.recordings.empty() || beside.empty() ? "."
                                                                                 : beside;
-    make_directory(directory);
     for (const auto& w : wishes) {
         if (w.of_cells()) {
-            draw_rows(source, w, directory, format, written, diagnostics);
+            try {
+                draw_rows(source, w, directory, format, written, diagnostics);
+            } catch (const FileError& e) {
+                report(e, diagnostics);
+            }
             continue;
         }
         const plot::Picture picture =
@@ -276,11 +285,12 @@ int plot(const PlotOptions& o) {
                 : structure_plot(w, loaded->system, loaded->registry, nullptr, source.input.seed,
                                  source.context.run);
         written.push_back(w.file(format));
+        make_directory(directory);
         write_file(directory + "/" + written.back(), plot::render(picture, format));
     }
     for (auto& w : written)
         if (directory != ".") w = directory + "/" + w;
-    return report();
+    return say();
 }
 
 }  // namespace forage::tool

@@ -21,6 +21,8 @@ constexpr std::array<std::pair<std::string_view, Kind>, 6> kinds = {{{"time", Ki
                                                                      {"diagram", Kind::diagram},
                                                                      {"trajectory", Kind::trajectory}}};
 
+constexpr int most_blocks = 1000;  // lines closer than a pixel
+
 template <class Number>
 bool read(std::string_view text, Number& out) {
     text = model::trim(text);
@@ -89,7 +91,8 @@ std::optional<PlotWish> parse_plot(std::string_view text, std::string_view optio
         const auto x = blocks.find('x');
         if (!blocks.starts_with("blocks=") || x == std::string_view::npos ||
             !read(blocks.substr(7, x - 7), out.blocks_across) ||
-            !read(blocks.substr(x + 1), out.blocks_down) || out.blocks_across < 1 || out.blocks_down < 1)
+            !read(blocks.substr(x + 1), out.blocks_down) || out.blocks_across < 1 || out.blocks_down < 1 ||
+            out.blocks_across > most_blocks || out.blocks_down > most_blocks)
             return bad(fmt::format("'{}' is no option of a plot", blocks), "such as ';blocks=9x1'");
         rest = rest.substr(0, semicolon);
     }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/model/lookup.h"
 #include "tools/forage/checkpoint.h"
 #include "tools/forage/files.h"
 #include "tools/forage/length.h"
@@ -84,6 +85,9 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
     auto clamped = clamp(o.clamp, *simulation, diagnostics);
     auto manipulated = manipulations(o.manipulations, *loaded, *simulation, diagnostics);
     auto files = recorded_files(o, *simulation, diagnostics);
+    for (const auto& wish : o.plots)
+        if (!loaded->world && model::trim(wish.text) == "trajectory")
+            diagnostics.error(wish.at, "a trajectory needs a world", "add --world FILE.world");
     auto plots = LivePlots::make(o.plots, loaded->system, *simulation, diagnostics);
     check_checkpoints(o, *loaded, *simulation, diagnostics);
     RunMeasures run_measures(o.measures, *loaded, *simulation, diagnostics);

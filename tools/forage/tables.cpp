@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/model/lookup.h"
+#include "core/types/text_file.h"
 #include "modules/replay/replay.h"
 #include "tools/forage/manipulations.h"
 
@@ -13,33 +14,33 @@ namespace forage::tool {
 namespace {
 
 /// The groups that a row names.
-std::vector<int> groups_of(const replay::DriveTable::Row& row, const engine::Simulation& s,
-                           Diagnostics& diagnostics) {
+std::vector<int> groups_of(const replay::DriveTable::Row& row, const Location& at,
+                           const engine::Simulation& s, Diagnostics& diagnostics) {
     if (row.process != "*") {
-        const int group = manipulated_group({row.process + "/" + row.target}, "--clamp", s, diagnostics);
+        const int group = manipulated_group({row.process + "/" + row.target, at}, "clamp", s, diagnostics);
         return group < 0 ? std::vector<int>() : std::vector{group};
     }
     std::vector<int> out;
     for (int g = 0; g < s.groups(); ++g)
         if (s.path(g).substr(s.path(g).find('/') + 1) == row.target) out.push_back(g);
-    if (out.empty())
-        diagnostics.error({},
-                          fmt::format("--clamp, line {}: no process has a group '{}'", row.line, row.target));
+    if (out.empty()) diagnostics.error(at, fmt::format("no process has a group '{}'", row.target));
     return out;
 }
 
 void add_table(const replay::DriveTable& table, const engine::Simulation& s, observe::Clamp& out,
                Diagnostics& diagnostics) {
-    for (const auto& row : table.rows())
-        for (const int group : groups_of(row, s, diagnostics)) {
+    const auto file = std::make_shared<SourceFile>(SourceFile{table.name(), {}});
+    for (const auto& row : table.rows()) {
+        const Location at{file, row.line, row.column};
+        for (const int group : groups_of(row, at, s, diagnostics)) {
             const int cells = s.shape(group).cells;
             if (row.values.size() == static_cast<std::size_t>(cells))
                 out.add(row.cycle, group, row.values);
             else
-                diagnostics.error(
-                    {}, fmt::format("{}:{}: {} values for '{}', which has {} cells", table.name(), row.line,
-                                    row.values.size(), s.path(group), cells));
+                diagnostics.error(at, fmt::format("{} values for '{}', which has {} cells", row.values.size(),
+                                                  s.path(group), cells));
         }
+    }
 }
 
 }  // namespace
@@ -50,10 +51,13 @@ observe::Clamp clamp(const std::vector<std::string>& wishes, const engine::Simul
     for (const auto& wish : wishes) {
         try {
             add_table(replay::DriveTable::read(wish), simulation, out, diagnostics);
-        } catch (const std::exception& e) {
-            diagnostics.error(
-                {}, fmt::format("--clamp: {}", e.what()),
-                "a clamp is a file of rows cycle,process,group,v0,v1,... or 'Process/Group(x,y)=value'");
+        } catch (const FileError& e) {
+            if (e.faults().front().line > 0)
+                report(e, diagnostics);
+            else  // perhaps no file was meant
+                diagnostics.error(
+                    {}, e.what(),
+                    "a clamp is a file of rows cycle,process,group,v0,v1,... or 'Process/Group(x,y)=value'");
         }
     }
     return out;
@@ -82,15 +86,15 @@ void check_drive(const replay::DriveTable& table, const model::System& system, D
             "--clamp overwrites the activity of any group");
         return;
     }
+    const auto file = std::make_shared<SourceFile>(SourceFile{table.name(), {}});
     std::set<std::string> reported;
     for (const auto& row : table.rows()) {
         const bool played = std::any_of(outputs.begin(), outputs.end(),
                                         [&](const auto& o) { return replay::plays(row, o.first, o.second); });
         const std::string target = row.process + "," + row.target;
         if (!played && reported.insert(target).second)
-            diagnostics.error(
-                {}, fmt::format("{}:{}: no moduleReplay plays '{}'", table.name(), row.line, target),
-                suggest(target, names));
+            diagnostics.error({file, row.line, row.column}, fmt::format("no moduleReplay plays '{}'", target),
+                              suggest(target, names));
     }
 }
 

@@ -181,5 +181,5 @@ TEST_CASE("What is no recording is refused by name") {
     }
     std::ofstream(directory / "g.csv") << "cycle,x1_y1\n0,1\n1,x\n";
     auto recording = open_recording(directory / "g.csv");
-    CHECK_THROWS_WITH(rows_of(*recording[0]), Catch::Matchers::EndsWith("g.csv:3: 'x' is not a number"));
+    CHECK_THROWS_WITH(rows_of(*recording[0]), Catch::Matchers::EndsWith("g.csv:3:3: 'x' is not a number"));
 }

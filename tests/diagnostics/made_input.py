@@ -1,0 +1,200 @@
+"""Cases that are too large or too odd to keep as files: each makes its own in the directory it is given.
+
+CASES: name -> function of the directory, which returns what to run there.
+"""
+
+import dataclasses
+import os
+import resource
+
+CASES = {}
+NOBODY = 65534
+
+
+@dataclasses.dataclass
+class Case:
+    arguments: list
+    status: int = 2
+    popen: dict = dataclasses.field(default_factory=dict)
+
+
+def case(make):
+    CASES[make.__name__] = make
+    return make
+
+
+def command(kind, file):
+    return {
+        "system": ["check", file],
+        "world": ["check", "system.iqr", "--world", file],
+        "experiment": ["experiment", file, "-q", "-o", "out"],
+        "clamp": ["run", "system.iqr", "-o", "", "--clamp", file],
+        "drive": ["run", "replay.iqr", "-o", "", "--drive", file],
+        "patterns": ["run", "system.iqr", "-o", "", "--clamp", f"P/A={file}"],
+        "weights": ["check", "learning.iqr", "--set", "Adaptive.read=true", "--set", f"Adaptive.File Name={file}"],
+        "recording": ["plot", file, "-o", "out"],
+    }[kind]
+
+
+SYSTEM = '<System id="s" name="S" author="" date="" cylesPerSecond="0">'
+SOUND = {"system": "system.iqr", "world": "world.world", "experiment": "experiment.xml", "clamp": "table.csv",
+         "drive": "table.csv", "patterns": "patterns.txt", "weights": "weights.weights"}
+ENDING = {"system": ".iqr", "world": ".world", "experiment": ".xml", "recording": ".csv"}
+
+
+def written(kind, *pieces):
+    """A case with a file of these pieces, each a text or (text, times). Written bit by bit: what this program takes at
+    most, the system counts as memory of the programs it starts."""
+
+    def make(here):
+        name = "input" + ENDING.get(kind, ".txt")
+        with open(here / name, "w") as file:
+            for piece in pieces:
+                text, times = piece if isinstance(piece, tuple) else (piece, 1)
+                while times > 0:
+                    some = min(times, max(1, (1 << 20) // len(text)))
+                    file.write(text * some)
+                    times -= some
+        return Case(command(kind, name))
+
+    return make
+
+
+def add_kinds():
+    for kind in [*SOUND, "recording"]:
+
+        def device(here, kind=kind):
+            name = "endless" + ENDING.get(kind, ".txt")
+            (here / name).symlink_to("/dev/zero")
+            return Case(command(kind, name))
+
+        def circle(here, kind=kind):
+            name = "circle" + ENDING.get(kind, ".txt")
+            (here / name).symlink_to(name)
+            return Case(command(kind, name))
+
+        def sparse(here, kind=kind):
+            name = "sparse" + ENDING.get(kind, ".txt")
+            with open(here / name, "wb") as file:
+                file.truncate(10**10)
+            return Case(command(kind, name))
+
+        def one_line(here, kind=kind):
+            name = "line" + ENDING.get(kind, ".txt")
+            with open(here / name, "wb") as file:
+                for _ in range(80):
+                    file.write(b"x" * (1 << 20))
+            return Case(command(kind, name))
+
+        CASES[f"{kind}_without_an_end"] = device
+        CASES[f"{kind}_linked_to_itself"] = circle
+        CASES[f"{kind}_of_ten_gigabytes_of_nothing"] = sparse
+        CASES[f"{kind}_of_one_line_of_eighty_megabytes"] = one_line
+    for kind in SOUND:
+
+        def unreadable(here, kind=kind):
+            os.chmod(here / SOUND[kind], 0)
+            return Case(command(kind, SOUND[kind]), popen=as_nobody(here))
+
+        CASES[f"{kind}_unreadable"] = unreadable
+
+
+def as_nobody(here):
+    """Root reads everything: another user is needed who does not."""
+    if os.geteuid() != 0:
+        return {}
+    for path in (here.parent, here):
+        os.chmod(path, 0o755)
+    return {"user": NOBODY, "group": NOBODY, "extra_groups": []}
+
+
+def no_space():
+    """As a full disk: no byte can be written to a file; what is said goes through a pipe. (restore_signals would bring
+    SIGXFSZ back, which kills.)"""
+    return {"restore_signals": False, "preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))}
+
+
+M = 1_000_000
+WORLD = '<sdf version="1.4"><world name="w">'
+EXPERIMENT = '<experiment><system file="system.iqr"/><length cycles="5"/>'
+for name, made in {
+    "system_nested_a_million_deep": ("system", SYSTEM, ("<Process>", M)),
+    "system_of_a_million_mistakes": ("system", SYSTEM, ("\n<Proces/>", M), "</System>"),
+    "system_of_two_million_elements": ("system", SYSTEM, ("<P/>", 2 * M), "</System>"),
+    "system_of_eight_million_declarations": ("system", ("<!a>", 8 * M - 50_000), SYSTEM, "</System>"),
+    "system_of_a_million_references": ("system", SYSTEM, "<Note>", ("&lt;", M), "&x;</Note></System>"),
+    "system_with_a_value_of_thirty_megabytes": ("system", '<System id="s" name="', ("x", 30 * M), '"><P/></System>'),
+    "system_with_a_name_of_thirty_megabytes": ("system", "<", ("x", 30 * M), "/>"),
+    "system_with_a_million_equal_attributes": ("system", "<System ", ('a="" ', M), "/>"),
+    "world_nested_a_million_deep": ("world", WORLD, ('<model name="m">', M)),
+    "world_of_a_million_elements": ("world", WORLD, ('<model name="m"/>', M), "</world></sdf>"),
+    "world_with_a_pose_of_a_megabyte": ("world", WORLD, '<model name="m"><pose>', ("0 ", M // 2), '</pose><link name="l"/></model></world></sdf>'),
+    "world_with_a_uri_of_a_megabyte": ("world", WORLD, "<include><uri>model://", ("x", M), "</uri></include></world></sdf>"),
+    "experiment_nested_a_million_deep": ("experiment", "<experiment>", ("<note>", M)),
+    "experiment_with_a_condition_nested_very_deeply": ("experiment", EXPERIMENT, '<at when="', ("(", M), 'cycle 1" parameter="P/A.threshold" value="1"/></experiment>'),
+    "experiment_with_a_condition_of_a_million_parts": ("experiment", EXPERIMENT, '<at when="', ("cycle 1 or ", M), 'cycle 1" parameter="P/A.threshold" value="1"/></experiment>'),
+    "experiment_with_a_million_seeds": ("experiment", EXPERIMENT, '<seeds list="', ("1 ", M), '"/></experiment>'),
+    "experiment_with_a_million_bad_seeds": ("experiment", EXPERIMENT, '<seeds list="', ("x ", M), '"/></experiment>'),
+    "experiment_with_ten_thousand_cells_outside": ("experiment", EXPERIMENT, '<clamp group="P/A" cells="', ("(9,9)=1 ", 10_000), '"/></experiment>'),
+    "clamp_of_a_million_bad_values": ("clamp", "0,P,A", (",x", M), "\n"),
+    "clamp_of_a_million_bad_rows": ("clamp", ("x\n", M)),
+    "clamp_of_ten_thousand_rows_for_nobody": ("clamp", ("0,P,Z,1\n", 10_000)),
+    "patterns_of_a_million_words": ("patterns", ("x ", M)),
+    "weights_of_a_million_words": ("weights", ("x,", M)),
+    "weights_of_a_million_numbers": ("weights", ("1,\n", M)),
+    "recording_of_a_million_columns": ("recording", "cycle", (",x1_y1", M), "\n"),
+}.items():
+    CASES[name] = written(*made)
+add_kinds()
+
+
+@case
+def at_parentheses_very_deep(here):
+    return Case(["run", "system.iqr", "-o", "", "--cycles", "5", "--at", "(" * 60_000 + "cycle 5: P/A.threshold=1"])
+
+
+@case
+def at_parts_very_many(here):
+    return Case(["run", "system.iqr", "-o", "", "--cycles", "5", "--at", " or ".join(["cycle 5"] * 10_000) + ": P/A.threshold=1"])
+
+
+@case
+def until_of_nots_and_signs(here):
+    return Case(["run", "system.iqr", "-o", "", "--cycles", "5", "--until", "!" * 100_000])
+
+
+@case
+def a_model_of_the_world_unreadable(here):
+    os.chmod(here / "models/robot/model.sdf", 0)
+    return Case(command("world", "world.world"), popen=as_nobody(here))
+
+
+@case
+def a_directory_that_may_not_be_written(here):
+    os.chmod(here, 0o555)
+    return Case(["run", "system.iqr", "--cycles", "5", "-o", "out"], popen={**as_nobody(here)})
+
+
+@case
+def a_full_disk_for_a_recording(here):
+    return Case(["run", "system.iqr", "--cycles", "5", "-q", "-o", "out", "--record", "P/A"], 1, no_space())
+
+
+@case
+def a_full_disk_for_a_file(here):
+    return Case(["convert", "system.iqr", "out.iqr"], 1, no_space())
+
+
+@case
+def a_full_disk_for_an_experiment(here):
+    return Case(["experiment", "experiment.xml", "-q", "-o", "out", "-j", "1"], 1, no_space())
+
+
+@case
+def a_full_disk_for_a_page(here):
+    return Case(["view", "models"], 1, no_space())
+
+
+@case
+def an_answer_that_cannot_be_printed(here):
+    return Case(["describe", "system.iqr"], 1, {"stdout": os.open("/dev/full", os.O_WRONLY)})

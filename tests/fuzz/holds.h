@@ -1,0 +1,33 @@
+// What holds of every input, said by a crash when it does not.
+#pragma once
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "core/model/diagnostic.h"
+
+namespace forage::test {
+
+inline void holds(bool condition, const char* what) {
+    if (condition) return;
+    std::fprintf(stderr, "does not hold: %s\n", what);
+    std::abort();
+}
+
+/// Every diagnostic says something, of a place that the text has, in words that a terminal can show.
+inline void sensible(const Diagnostics& diagnostics, const std::string& text) {
+    const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
+    for (const auto& d : diagnostics.all()) {
+        holds(!d.message.empty(), "a diagnostic says something");
+        holds(d.where.line >= 0 && d.where.line <= lines && d.where.column >= 0,
+              "a diagnostic lies in its file");
+    }
+    const std::string said = format(diagnostics);
+    holds(said.empty() == diagnostics.all().empty(), "what is wrong is said");
+    holds(std::none_of(said.begin(), said.end(), [](char c) { return c != '\n' && c >= 0 && c < ' '; }),
+          "no control characters reach the terminal");
+}
+
+}  // namespace forage::test

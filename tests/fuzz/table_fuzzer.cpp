@@ -1,0 +1,26 @@
+// Tables that drive and clamp groups, and lists of patterns: the same text as both.
+#include <cstdint>
+
+#include "core/observe/pattern_file.h"
+#include "core/types/text_file.h"
+#include "modules/replay/drive_table.h"
+#include "tests/fuzz/holds.h"
+
+using forage::test::holds;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string text(reinterpret_cast<const char*>(data), size);
+    forage::Diagnostics diagnostics;
+    try {
+        const auto table = forage::replay::DriveTable::parse(text, "input.csv");
+        holds(!table.rows().empty(), "a table has rows");
+    } catch (const forage::FileError& e) {
+        holds(!e.faults().empty(), "an error says what is wrong");
+        report(e, diagnostics);
+    }
+    const forage::GroupShape shape{3, 2, 6};
+    const auto patterns = forage::observe::parse_patterns(text, "input.txt", shape, diagnostics);
+    for (const auto& p : patterns) holds(p.size() == 6, "a pattern has a number per cell");
+    forage::test::sensible(diagnostics, text);
+    return 0;
+}
