@@ -85,9 +85,11 @@ TEST_CASE("A simulation stopped in any cycle and resumed is the one that ran thr
     add_synapses(registry);
     const auto build = [&](const model::System& system, int threads) {
         Diagnostics diagnostics;
-        auto s = engine::Simulation::build(
-            system, registry, {.seed = 7, .threads = threads, .worth_sharing = threads > 1 ? 0.0 : 1e9},
-            diagnostics);
+        auto s = engine::Simulation::build(system, registry,
+                                           {.seed = test::RandomModel::connection_seed,
+                                            .threads = threads,
+                                            .worth_sharing = threads > 1 ? 0.0 : 1e9},
+                                           diagnostics);
         REQUIRE(s);
         s->start();
         return std::move(*s);

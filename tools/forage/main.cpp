@@ -319,8 +319,6 @@ void add_resume(CLI::App& app, ResumeOptions& o) {
     resume.footer(
         "What the run leaves behind is then the same, byte for byte, as if it had never been stopped.\n"
         "Example:\n"
-        "  forage run systems/reactive_foraging.iqr -w systems/worlds/basic_arena.world --seconds 3600 \\\n"
-        "      --checkpoint-every 10000\n"
         "  forage resume forage-out");
     resume.add_option("FROM", o.path, "Directory of results, or one of the checkpoints in it")
         ->required()
