@@ -58,6 +58,7 @@ class Physics::Engine {
     std::vector<btCollisionObject*> bodies_;  ///< those of `objects_` that move
     std::vector<char> parked_;                ///< of each body, where nothing is
     std::vector<btCollisionObject*> solved_;  ///< those of `bodies_` that are involved
+    double heaviest_ = 0;                     ///< of the driven bodies, kg
     std::size_t obstacles_ = 0;               ///< the first of `objects_` are these
     btContactSolverInfo info_;
     btCollisionWorld world_;
