@@ -47,10 +47,11 @@ Physics::Engine::Engine(std::span<const Obstacle> obstacles, std::span<const Bod
     solver_.setConstraintRowSolverGeneric(solver_.getScalarConstraintRowSolverGeneric());
     solver_.setConstraintRowSolverLowerLimit(solver_.getScalarConstraintRowSolverLowerLimit());
     info_.m_solverMode = 0;  // no warm start: see above
-    info_.m_numIterations = 30;
-    info_.m_erp2 = 0;  // whatever overlaps may stay so: static things push nothing out in the original
+    info_.m_erp2 = 0;        // whatever overlaps may stay so: static things push nothing out in the original
     for (const Obstacle& o : obstacles) add(o);
     obstacles_ = objects_.size();
+    for (const Body& b : bodies)
+        if (b.driven) heaviest_ = std::max(heaviest_, b.mass);
     for (const Body& b : bodies) add(b);
     parked_.assign(bodies.size(), 0);
 }
@@ -83,9 +84,12 @@ void Physics::Engine::set(std::size_t body, const State& state, const Velocity& 
 
 void Physics::Engine::solve(double step, std::span<State> states, std::span<Velocity> velocities) {
     solved_.clear();
+    bool loose = false;
     for (std::size_t i = 0; i < states.size(); ++i) {
         set(i, states[i], velocities[i]);
-        if (states[i].involved) solved_.push_back(bodies_[i]);
+        if (!states[i].involved) continue;
+        solved_.push_back(bodies_[i]);
+        loose |= known_[obstacles_ + i].loose;
     }
     for (int m = 0; m < dispatcher_.getNumManifolds(); ++m)
         dispatcher_.getManifoldByIndexInternal(m)->clearManifold();
@@ -93,6 +97,7 @@ void Physics::Engine::solve(double step, std::span<State> states, std::span<Velo
     find_contacts(states);
     if (touching_.empty()) return;
     info_.m_timeStep = scalar(step);
+    info_.m_numIterations = loose ? 60 : 30;  // rows of things need more
     solver_.solveGroup(solved_.data(), static_cast<int>(solved_.size()), touching_.data(),
                        static_cast<int>(touching_.size()), nullptr, 0, info_, nullptr, &dispatcher_);
     for (std::size_t i = 0; i < states.size(); ++i) {
@@ -200,9 +205,13 @@ void Physics::Engine::add(const Body& b) {
         }
         shape = shapes_.emplace_back(std::move(compound)).get();
     }
-    const btScalar inertia = scalar(b.inertia);
-    auto body = std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(
-        scalar(b.mass), nullptr, shape, {inertia, inertia, inertia}));
+    // A solver of impulses lets something heavy push something light through a wall. A robot is given its
+    // velocity anew in every step, so that within one it makes little difference to it how heavy the things
+    // are that it pushes.
+    const double mass = b.driven ? b.mass : std::max(b.mass, heaviest_);
+    const btScalar inertia = scalar(b.inertia * (b.parts.empty() ? 1 : mass / b.mass));
+    auto body = std::make_unique<btRigidBody>(
+        btRigidBody::btRigidBodyConstructionInfo(scalar(mass), nullptr, shape, {inertia, inertia, inertia}));
     body->setLinearFactor({1, 1, 0});
     body->setAngularFactor({0, 0, 1});
     body->setFlags(0);  // no gyroscopic forces

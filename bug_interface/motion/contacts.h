@@ -59,6 +59,7 @@ class Physics::Engine {
     std::vector<char> parked_;                     ///< of each body, where nothing is
     std::vector<btCollisionObject*> solved_;       ///< those of `bodies_` that are involved
     std::vector<btPersistentManifold*> touching_;  ///< in this step
+    double heaviest_ = 0;                          ///< of the driven bodies, kg
     std::size_t obstacles_ = 0;                    ///< the first of `objects_` are these
     btContactSolverInfo info_;
     btCollisionWorld world_;

@@ -112,6 +112,11 @@ void Game::appear(Physics& physics, const GameSite& site, std::uint32_t draw) {
     free->away = false, free->good = true, free->held = false, free->age = 0, free->contacts = 0;
 }
 
+double Game::left() const {
+    constexpr double rounding = 1e-6;  // s, of many steps
+    return rules_ && seconds_ < rules_->duration - rounding ? rules_->duration - seconds_ : 0;
+}
+
 int Game::points(int team) const {
     int sum = 0;
     for (const Delivery& d : deliveries_) sum += d.team == team ? d.points : 0;

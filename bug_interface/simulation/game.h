@@ -52,8 +52,8 @@ class Game {
 
     bool empty() const { return resources_.empty(); }
     bool timed() const { return rules_.has_value(); }
-    bool over() const { return rules_ && seconds_ >= rules_->duration; }
-    double left() const { return rules_ ? std::max(0.0, rules_->duration - seconds_) : 0; }  ///< s
+    bool over() const { return rules_ && left() == 0; }
+    double left() const;  ///< s
     const std::vector<Resource>& resources() const { return resources_; }
     const std::vector<Delivery>& deliveries() const { return deliveries_; }
     const std::array<Pose2, 2>& homes() const { return homes_; }

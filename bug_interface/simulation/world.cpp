@@ -65,6 +65,7 @@ std::unique_ptr<World> World::make(const WorldDescription& description, const Wo
     world->build(diagnostics);
     if (diagnostics.errors() > errors_before) return nullptr;
     world->scan();
+    world->remember();
     return world;
 }
 
@@ -299,14 +300,17 @@ void World::render() {
     if (!options_.native_rates)
         for (Robot& robot : robots_)
             if (robot.wants_image) robot.render(options_.noise, cycle_, stage_, sights_);
-    if (options_.late > 0) remember();
+    remember();
 }
 
 void World::remember() {
+    if (options_.late <= 0) return;
     const auto size = static_cast<std::size_t>(options_.late) + 1;
     for (Robot& robot : robots_) {
-        robot.history.resize(size, robot.snapshot);
-        robot.history[cycle_ % size] = robot.snapshot;
+        if (cycle_ == 0)
+            robot.history.assign(size, robot.snapshot);
+        else
+            robot.history[cycle_ % size] = robot.snapshot;
     }
 }
 
@@ -357,11 +361,13 @@ std::span<const std::uint8_t> World::image(std::size_t bug) {
 void World::need_image(std::size_t bug, bool needed) {
     robots_[bug].wants_image = needed;
     if (needed) image(bug);
+    if (cycle_ == 0) remember();
 }
 
 void World::need_gripper_scan(std::size_t bug, bool needed) {
     robots_[bug].wants_gripper_scan = needed;
     if (needed && cycle_ == 0) robots_[bug].sense(options_.noise, 0, stage_);
+    if (cycle_ == 0) remember();
 }
 
 std::vector<DrawnSolid> World::drawing() const {

@@ -80,6 +80,36 @@ TEST_CASE("Every world of the original loads, with its robots, loose things and 
     CHECK(found.size() == expected.size());
 }
 
+TEST_CASE("The gripper's rays see its own palm and fingers as in the original") {
+    const auto file = shared_dir() / "original" / "SDIC_challenge" / "SDIC_one_robot_arena.world";
+    if (absent(file)) return;
+    Diagnostics diagnostics;
+    const auto description = read(file, diagnostics);
+    REQUIRE(description);
+    bug::WorldOptions options;
+    options.noise = false;
+    const auto world = bug::World::make(*description, options, diagnostics);
+    REQUIRE(world);
+    world->need_gripper_scan(0, true);
+    const auto sees = [&](const std::vector<double>& cells) {
+        const auto& seen = world->snapshot(0).gripper;
+        REQUIRE(seen.size() == 16);
+        for (std::size_t k = 0; k < 8; ++k) {
+            INFO(k);
+            CHECK(seen[k] == Approx(cells[k]).margin(0.002));
+            CHECK(seen[15 - k] == Approx(cells[k]).margin(0.002));
+        }
+    };
+    const auto wait = [&] {
+        for (int cycle = 0; cycle < 25; ++cycle) world->step();
+    };
+    sees({0.907, 0.213, 0.104, 0, 0, 0, 0, 0});
+    world->grip(0, false), wait();
+    sees({0.907, 0, 0, 0, 0, 0, 0, 0});
+    world->grip(0, true), wait();
+    sees({0.907, 0.760, 0.675, 0.479, 0.328, 0.292, 0.238, 0.159});
+}
+
 TEST_CASE("Robots driven at random in the original's worlds stay in them") {
     if (absent(shared_dir() / "original")) return;
     for (const Path& file : files(".world")) {

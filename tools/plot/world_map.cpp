@@ -36,6 +36,7 @@ WorldMap::WorldMap(const bug::World& world, const Box& extra, double pixels, dou
         for (const auto& s : plan->starts) box.extend(Eigen::Vector2d(s.x, s.y));
     } else {
         for (const auto& d : world.drawing()) {
+            if (d.solid.size.z() < 0.02) continue;  // paint may reach under the walls
             const Eigen::Vector2d at = d.solid.pose.translation().head<2>();
             const Eigen::Vector2d half = (d.solid.pose.linear().cwiseAbs() * d.solid.size / 2).head<2>();
             box.extend(Eigen::Vector2d(at - half)).extend(Eigen::Vector2d(at + half));

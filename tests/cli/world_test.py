@@ -1,0 +1,115 @@
+"""Worlds, films, several systems in one run, and the page that tells how to make a world.
+
+    world_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
+"""
+
+import csv
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+FORAGE = str(pathlib.Path(sys.argv[1]).resolve())
+PROJECT = pathlib.Path(sys.argv[2]).resolve()
+SYSTEMS = PROJECT / "systems"
+TEAMS = [SYSTEMS / "team_a.iqr", SYSTEMS / "team_b.iqr", "--world", SYSTEMS / "worlds" / "team_arena.world"]
+
+
+def gif_frames(data):
+    """Counts the pictures of a GIF and checks that it is whole."""
+    assert data[:6] == b"GIF89a" and data[-1:] == b";", data[:6]
+    at = 13 + (3 << ((data[10] & 7) + 1) if data[10] & 128 else 0)
+    frames = 0
+    while data[at] != 0x3B:
+        if data[at] == 0x21:
+            at += 2
+        else:
+            frames += 1
+            at += 10 + (3 << ((data[at + 9] & 7) + 1) if data[at + 9] & 128 else 0) + 1
+        while data[at]:
+            at += data[at] + 1
+        at += 1
+    return frames
+
+
+class World(unittest.TestCase):
+    def setUp(self):
+        directory = tempfile.TemporaryDirectory()
+        self.addCleanup(directory.cleanup)
+        self.here = pathlib.Path(directory.name)
+
+    def forage(self, *arguments, status=0):
+        done = subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done
+
+    def test_every_shipped_world_is_listed_and_drawn(self):
+        for world in sorted((SYSTEMS / "worlds").glob("*.world")):
+            out = self.forage("world", world, "-o", f"{world.stem}.png").stdout
+            self.assertRegex(out, r"robot +\w+ at \(")
+            self.assertEqual((self.here / f"{world.stem}.png").read_bytes()[:4], b"\x89PNG")
+
+    def test_what_is_wrong_with_a_world_has_file_line_and_column(self):
+        text = (SYSTEMS / "worlds" / "team_arena.world").read_text()
+        models = {"FORAGE_MODEL_PATH": str(SYSTEMS / "worlds" / "models")}
+        for old, new, said in [
+            ("-4.5 5.5 0 0 0 -0.8", "-4.5 nan 0 0 0 -0.8", r"bad.world:\d+:\d+: error: <pose> holds a number that is not finite"),
+            ("<name>A_2</name>", "<name>A_1</name>", r"bad.world:\d+:\d+: error: there are two robots named 'A_1'"),
+            ("model://home", "model://hom", r"bad.world:\d+:\d+: error: there is no model 'model://hom'"),
+            ("<most>12</most>", "<moost>12</moost>", r"bad.world:\d+:\d+: error: <moost> is no rule of a game"),
+            ("<site>-1 1 0.1</site>", "<site>-1 1</site>", r"bad.world:\d+:\d+: error: <site> cannot be '-1 1'"),
+        ]:
+            self.assertIn(old, text)
+            (self.here / "bad.world").write_text(text.replace(old, new, 1))
+            done = subprocess.run([FORAGE, "world", "bad.world"], cwd=self.here, capture_output=True, text=True, env=os.environ | models)
+            self.assertEqual(done.returncode, 2, done.stdout)
+            self.assertRegex(done.stderr, said)
+            self.assertFalse((self.here / "bad.png").exists())
+
+    def test_two_teams_play_the_same_game_on_any_number_of_threads(self):
+        for threads in (1, 4):
+            out = self.forage("run", *TEAMS, "--seconds", 100, "--threads", threads, "-o", f"game{threads}").stdout
+        self.assertRegex(out, r"score +team +points +good +bad\n +A +-?\d+ +\d+ +\d+\n +B +-?\d+")
+        for name in ("score.csv", "trajectory_A_1.csv", "trajectory_B_2.csv"):
+            self.assertEqual((self.here / "game1" / name).read_bytes(), (self.here / "game4" / name).read_bytes())
+        with (self.here / "game1/score.csv").open(newline="") as file:
+            deliveries = list(csv.DictReader(file))
+        self.assertGreater(len(deliveries), 2)  # they do bring balls home
+        points = {"A": 0, "B": 0}
+        for row in deliveries:
+            points[row["team"]] += int(row["points"])
+            self.assertEqual((points["A"], points["B"]), (int(row["score_a"]), int(row["score_b"])))
+
+    def test_two_modules_cannot_drive_one_robot(self):
+        done = self.forage("run", TEAMS[0], TEAMS[0], *TEAMS[2:], "--seconds", 1, status=2)
+        self.assertIn("two modules drive the robot 'A_1'", done.stderr)
+
+    def test_a_film_has_as_many_frames_as_it_says(self):
+        out = self.forage("run", *TEAMS, "--seconds", 3, "--video", "game.gif", "-o", "").stdout
+        frames = int(re.search(r"game.gif: (\d+) frames", out)[1])
+        self.assertGreater(frames, 20)
+        self.assertEqual(gif_frames((self.here / "game.gif").read_bytes()), frames)
+        self.forage("run", *TEAMS, "--seconds", 1, "--video", "game.png", "-o", "")
+        self.assertGreater(len(list(self.here.glob("game_*.png"))), 5)
+        self.assertIn("it ends with .gif or .png", self.forage("run", *TEAMS, "--video", "game.avi", status=2).stderr)
+
+    def test_the_page_on_making_a_world_works_as_it_is_written(self):
+        page = (PROJECT / "docs" / "how-to" / "make-a-world.md").read_text()
+        os.symlink(SYSTEMS, self.here / "systems")
+        (self.here / "build/release/bin").mkdir(parents=True)
+        os.symlink(FORAGE, self.here / "build/release/bin/forage")
+        blocks = re.findall(r"```sh\n(.*?)```", page, re.DOTALL)
+        self.assertGreater(len(blocks), 3)
+        for block in blocks:
+            with self.subTest(block):
+                done = subprocess.run(["sh", "-e"], input=block, cwd=self.here, capture_output=True, text=True, timeout=120)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        for name in ("my.png", "my.gif", "run/trajectory.png"):
+            self.assertTrue((self.here / "forage-out/my" / name).stat().st_size > 1000)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

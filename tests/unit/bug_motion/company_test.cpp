@@ -1,0 +1,143 @@
+// Several robots in a world: what they say, when they sense, and the game they play.
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "tests/unit/bug_motion/worlds.h"
+
+using namespace forage;
+using namespace forage::bug;
+using test::description;
+using test::make_world;
+
+namespace {
+
+/// The open arena without its robot, with one at each of these places: R0, R1, ...
+WorldDescription crowd(const std::vector<Pose2>& places) {
+    WorldDescription world = description("open_arena");
+    const Model robot = *test::find_model(world, "Bug");
+    std::erase_if(world.models, [](const Model& m) { return m.name == "Bug"; });
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        world.models.push_back(robot);
+        world.models.back().name = "R" + std::to_string(i);
+        world.models.back().pose = in_space(places[i]);
+    }
+    return world;
+}
+
+std::vector<double> sound(double level) {
+    std::vector<double> out(36, 0);
+    out[3] = level;
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("What a robot says is heard in the next cycle, quieter with distance, by those with its key") {
+    WorldOptions options;
+    options.noise = false;
+    const auto world = make_world(crowd({{0, 0, 0}, {2, 0, 0}, {-3, 1, 0}, {0, -3, 0}}), options);
+    const std::vector<double> nothing(36, 0);
+    world->say(0, "blue", sound(0.8));
+    world->say(1, "blue", nothing), world->say(2, "blue", nothing), world->say(3, "red", nothing);
+    CHECK(world->snapshot(1).heard[3] == 0);
+    world->step();
+    const double reach = 10 * std::sqrt(2.0);
+    CHECK(world->snapshot(0).heard[3] == 0);  // not itself
+    CHECK(world->snapshot(1).heard[3] == Approx(0.8 * (reach - 2) / reach));
+    CHECK(world->snapshot(2).heard[3] == Approx(0.8 * (reach - std::hypot(3, 1)) / reach));
+    CHECK(world->snapshot(3).heard[3] == 0);  // another key
+    world->say(0, "blue", nothing), world->say(1, "blue", sound(0.5)), world->say(2, "blue", sound(0.25));
+    world->step();
+    CHECK(world->snapshot(1).heard[3] ==
+          Approx(0.25 * (reach - std::hypot(5, 1)) / reach));  // silence is said once
+    CHECK(world->snapshot(0).heard[3] ==
+          Approx(0.5 * (reach - 2) / reach + 0.25 * (reach - std::hypot(3, 1)) / reach));
+    world->step();  // nobody says anything more, not even silence
+    CHECK(world->snapshot(0).heard[3] > 0.5);
+}
+
+TEST_CASE("Sensors at their own rates hold what they saw until their time has come") {
+    WorldOptions options;
+    options.native_rates = true, options.real_time_factor = 0.25;  // 10 ms of the world per cycle
+    const auto world = make_world(crowd({{0, 0, 0}}), options);
+    world->command(0, {1, 0});
+    int changes = 0;
+    double last = world->snapshot(0).pose.x;
+    for (int cycle = 0; cycle < 200; ++cycle) {
+        world->step();
+        changes += world->snapshot(0).pose.x != last;
+        last = world->snapshot(0).pose.x;
+    }
+    CHECK(changes == 50);  // 25 per second, in 2 s
+    CHECK(world->pose(0).x == Approx(2).margin(0.01));
+}
+
+TEST_CASE("What is sensed can come some cycles later") {
+    WorldOptions prompt, late;
+    late.late = 3;
+    const auto a = make_world(crowd({{0, 0, 0}}), prompt), b = make_world(crowd({{0, 0, 0}}), late);
+    a->command(0, {1, 0.3}), b->command(0, {1, 0.3});
+    a->need_image(0, true), b->need_image(0, true);
+    std::vector<BugSnapshot> seen{a->snapshot(0)};
+    for (int cycle = 1; cycle < 30; ++cycle) {
+        a->step(), b->step();
+        seen.push_back(a->snapshot(0));
+        const BugSnapshot& then = seen[static_cast<std::size_t>(std::max(0, cycle - 3))];
+        REQUIRE(b->snapshot(0).pose.x == then.pose.x);
+        REQUIRE(b->snapshot(0).proximity == then.proximity);
+        REQUIRE(b->snapshot(0).image == then.image);
+    }
+}
+
+TEST_CASE("A resource brought home counts, grows stale, turns yellow and dissolves") {
+    WorldDescription text = description("team_arena");
+    text.game->sites = {{-1, 1, 1}};  // one in every second
+    text.game->stale_after = 3, text.game->dissolves_after = 5, text.game->most = 4;
+    std::erase_if(text.models, [](const Model& m) { return m.name.starts_with("B_") || m.name == "A_2"; });
+    test::find_model(text, "A_1")->pose = in_space({3, -1, 3 * std::numbers::pi / 4});
+    const auto world = make_world(text);
+    const auto present = [&] {
+        std::size_t n = 0;
+        for (std::size_t i = 0; i < world->things(); ++i) n += world->thing_pose(i).has_value();
+        return n;
+    };
+    CHECK(present() == 0);
+    for (int cycle = 0; cycle < 27; ++cycle) world->step();
+    CHECK(present() == 1);
+    const auto first = world->thing_pose(0);
+    CHECK(std::hypot(first->x + 1, first->y - 1) <= 0.5);
+    const auto is_yellow = [&](std::size_t thing) {
+        for (const MovingSight& s : world->moving_sights())
+            if (s.body == world->bugs() + thing) return s.visual.material.diffuse[0] == 1;
+        return false;
+    };
+    CHECK_FALSE(is_yellow(0));
+    for (int cycle = 0; cycle < 75; ++cycle) world->step();
+    CHECK(is_yellow(0));
+    for (int cycle = 0; cycle < 60; ++cycle) world->step();
+    CHECK(world->game().resources()[0].age < 5);  // it has been away, or is
+    CHECK(present() >= 3);
+    CHECK(world->game().deliveries().empty());
+}
+
+TEST_CASE("A resource that a robot pushes into a home counts for that team, and is gone") {
+    WorldDescription text = description("team_arena");
+    text.game->sites = {{-1, 1, 0.2}};
+    std::erase_if(text.models, [](const Model& m) { return m.name.starts_with("B_") || m.name == "A_2"; });
+    test::find_model(text, "A_1")->pose = in_space({1, -1, 3 * std::numbers::pi / 4});
+    const auto world = make_world(text);
+    for (int cycle = 0; cycle < 300; ++cycle) world->step();
+    world->command(0, {1, 0});
+    for (int cycle = 0; cycle < 200; ++cycle) world->step();
+    const auto& deliveries = world->game().deliveries();
+    REQUIRE_FALSE(deliveries.empty());
+    int sum = 0;
+    for (const auto& d : deliveries) {
+        CHECK(d.team == 0);
+        CHECK(d.points == (d.good ? 2 : -1));
+        sum += d.points;
+    }
+    CHECK(world->game().points(0) == sum);
+    CHECK(world->game().points(1) == 0);
+}
