@@ -85,11 +85,17 @@ std::vector<std::string_view> reasons(std::string_view console) {
     return out;
 }
 
+/// Where a line begins; lines count from 1.
+std::size_t line_begin(std::string_view text, int line) {
+    std::size_t out = 0;
+    for (; line > 1 && out < text.size(); --line) out = std::min(text.find('\n', out), text.size() - 1) + 1;
+    return out;
+}
+
 /// Where `what` begins in a line of `text`, or else its first tag; counts from 1. 0: there is none. (The
 /// library counts lines only.)
 int column_of(std::string_view what, std::string_view text, int line) {
-    for (; line > 1 && !text.empty(); --line)
-        text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+    text.remove_prefix(line_begin(text, line));
     text = text.substr(0, text.find('\n'));
     auto column = text.find(what);
     if (column == std::string_view::npos) column = text.find('<');
@@ -342,6 +348,12 @@ Location SdfParser::at(const std::string& file, int line, const std::string& ele
 }
 
 Location SdfParser::at(const sdf::ElementPtr& e) {
+    if (!e->LineNumber() && e->GetParent()) {  // what is in a plugin: it has no line
+        const Location parent = at(e->GetParent());
+        const auto begin = line_begin(parent.file->text, parent.line);
+        const auto here = parent.file->text.find("<" + e->GetName(), begin);
+        return here == std::string::npos ? parent : location_of(parent.file, here);
+    }
     return at(e->FilePath(), e->LineNumber().value_or(0), e->GetName());
 }
 

@@ -239,7 +239,8 @@ class Reader {
                                "the shapes are <plane>, <box>, <cylinder> and <sphere>");
         }
         if (kind && (shape.size.array() < 0).any()) diagnostics_.error(at(kind), "a size is negative");
-        if (shape.kind != ShapeKind::plane && (shape.size.array() == 0).any())
+        const auto zeros = (shape.size.array() == 0).count();  // a box may be flat, and is then no obstacle
+        if (shape.kind != ShapeKind::plane && zeros > (shape.kind == ShapeKind::box ? 1 : 0))
             diagnostics_.error(at(kind ? kind : parent), "a size is 0");
         return shape;
     }
