@@ -42,7 +42,7 @@ class Stopped(Cli):
             out, err = process.communicate(timeout=after)
         except subprocess.TimeoutExpired:
             process.send_signal(how)
-            out, err = process.communicate(timeout=60)
+            out, err = process.communicate(timeout=300)
         if how == signal.SIGKILL and process.returncode == -signal.SIGKILL:
             return None
         # Before it runs, nothing is to be finished: then the signal ends it.
@@ -87,7 +87,7 @@ class Resume(Stopped):
             process = self.start(*self.arguments, "--checkpoint-every", 500, "-o", out)
             self.until_there_is(f"{out}/checkpoint.forage")
             process.send_signal(how)
-            _, err = process.communicate(timeout=20)
+            _, err = process.communicate(timeout=300)
             self.assertEqual(process.returncode, status, err)
             names = sorted(p.name for p in (self.here / out).iterdir())
             self.assertIn("checkpoint.forage", names)
@@ -164,7 +164,7 @@ class Resume(Stopped):
 class Faults(Stopped):
     def limited(self, size, *arguments):
         """A run whose files cannot grow above a size: to a program that is what a full disk is."""
-        return subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, capture_output=True, text=True, timeout=120,
+        return subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, capture_output=True, text=True, timeout=600,
                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
 
     def test_a_full_disk_stops_the_run_and_what_was_written_stays(self):
@@ -203,7 +203,7 @@ class Faults(Stopped):
             process = self.start("run", SYSTEM, "--world", WORLD, "--cycles", 10 ** 9, "-q", "-o", "out", *arguments)
             time.sleep(1)
             shutil.rmtree(self.here / "out")
-            _, err = process.communicate(timeout=20)
+            _, err = process.communicate(timeout=300)
             self.assertEqual((process.returncode, err), (1, "error: the directory 'out' is not there any more\n"))
             self.assertFalse((self.here / "out").exists())
 

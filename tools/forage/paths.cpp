@@ -29,6 +29,7 @@ void PathLog::follow() {
         add(cycle, trial.end, true);
         current_.reached = trial.target();
         current_.finished = true;
+        current_.points.shrink_to_fit();  // there may be many trials
         finished_.push_back(std::move(current_));
         current_ = {};
     }
