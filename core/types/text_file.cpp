@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +13,8 @@
 
 namespace forage {
 namespace {
+
+constexpr std::size_t excerpted = std::size_t{1} << 20;
 
 std::string summary(const std::string& path, const std::vector<FileError::Fault>& faults) {
     const FileError::Fault& first = faults.front();
@@ -31,7 +34,7 @@ std::string summary(const std::string& path, const std::vector<FileError::Fault>
 FileError::FileError(std::string path, std::string text, std::vector<Fault> faults)
     : std::runtime_error(summary(path, faults)),
       path_(std::move(path)),
-      text_(std::move(text)),
+      text_(text.size() > excerpted ? text.substr(0, excerpted) : std::move(text)),
       faults_(std::move(faults)) {}
 
 std::string read_file(const std::string& path, std::size_t most) {
@@ -40,6 +43,8 @@ std::string read_file(const std::string& path, std::size_t most) {
     if (!in) unreadable(path, fmt::format("cannot read the file: {}", std::strerror(errno)));
     if (std::filesystem::is_directory(path, ignored)) unreadable(path, "this is a directory, not a file");
     std::string text;
+    if (const auto size = std::filesystem::file_size(path, ignored); !ignored)
+        text.reserve(std::min<std::uintmax_t>(size, most) + 1);
     std::array<char, std::size_t{1} << 16> block;
     while (in.read(block.data(), block.size()), in.gcount() > 0) {
         const std::string_view read(block.data(), static_cast<std::size_t>(in.gcount()));

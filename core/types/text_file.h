@@ -22,7 +22,7 @@ class FileError : public std::runtime_error {
     FileError(std::string path, std::string text, std::vector<Fault> faults);
 
     const std::string& path() const { return path_; }
-    const std::string& text() const { return text_; }  ///< of the file, as far as it was read
+    const std::string& text() const { return text_; }  ///< its first mebibyte, for excerpts
     const std::vector<Fault>& faults() const { return faults_; }
 
   private:
@@ -33,7 +33,7 @@ class FileError : public std::runtime_error {
 /// The bytes of the file at `path`. Reading ends behind the first NUL byte, which no text holds: whoever
 /// parses the text finds it there, and neither a device nor a disk image fills the memory. Throws FileError,
 /// also when there are more than `most` bytes.
-std::string read_file(const std::string& path, std::size_t most = std::size_t{1} << 30);
+std::string read_file(const std::string& path, std::size_t most = std::size_t{128} << 20);
 
 /// A piece of a file for a message: shortened, and harmless on a terminal.
 std::string shown(std::string_view piece);

@@ -17,7 +17,7 @@ constexpr std::size_t most_faults = 100;
 
 std::string_view trimmed(std::string_view text) {
     const auto first = text.find_first_not_of(" \t\r");
-    if (first == std::string_view::npos) return {};
+    if (first == std::string_view::npos) return text.substr(0, 0);
     return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
@@ -83,7 +83,7 @@ class Parser {
 
 DriveTable DriveTable::parse(std::string_view text, const std::string& name) {
     const auto wrong = [&](std::vector<FileError::Fault> faults) {
-        return FileError(name, std::string(text), std::move(faults));
+        return FileError(name, std::string(text.substr(0, std::size_t{1} << 20)), std::move(faults));
     };
     if (const auto what = what_begins_with(text); !what.empty())
         throw wrong({{0, 0, fmt::format("this is no table, but {}", what), form}});

@@ -395,7 +395,7 @@ class Mistakes(Cli):
         (self.here / "sub/d.csv").write_text("0,P,out,1,2\n")
         self.forage("run", "sub/small.iqr", "--cycles", 3)
         (self.here / "sub/d.csv").write_text("0,P,out,1\n")
-        self.assertRegex(self.forage("check", "sub/small.iqr", status=2).stderr, r"small.iqr:\d+:\d+: error: sub/d.csv:1: 1 values")
+        self.assertRegex(self.forage("check", "sub/small.iqr", status=2).stderr, r"small.iqr:\d+:\d+: error: sub/d.csv:1:3: 1 values")
 
     def test_a_directory_that_cannot_be_written(self):
         if os.geteuid() == 0:
