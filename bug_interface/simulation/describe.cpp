@@ -33,6 +33,24 @@ std::string describe(const World& world) {
         with_resets += world.has_trials(i);
     }
     if (names.empty()) line("robot", "none");
+    std::size_t away = 0;
+    for (std::size_t i = 0; i < world.things(); ++i) {
+        if (const auto pose = world.thing_pose(i))
+            line(world.thing(i).resource ? "resource" : "loose",
+                 fmt::format("{} at {}", world.thing(i).name, at(*pose)));
+        else
+            ++away;
+    }
+    if (away) line("resource", fmt::format("{} that appear during the game", away));
+    const Game& game = world.game();
+    if (!game.empty()) {
+        for (int team = 0; team < 2; ++team) {
+            const Pose2& home = game.homes()[static_cast<std::size_t>(team)];
+            line("home", fmt::format("of team {} at ({}, {}), radius {}", team ? "B" : "A", number(home.x),
+                                     number(home.y), number(Game::home_radius)));
+        }
+        if (game.timed()) line("game", fmt::format("{} s", number(game.left())));
+    }
     const auto plan = world.reset_plan();
     if (plan)
         for (std::size_t i = 0; i < plan->starts.size(); ++i)
