@@ -1,13 +1,14 @@
 # What `cmake --install` and `cpack` put where.
 include(GNUInstallDirs)
+set(FORAGE_DOC_DIR ${CMAKE_INSTALL_DATAROOTDIR}/doc/forage)
 include(CMakePackageConfigHelpers)
 set(FORAGE_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/Forage)
 set(FORAGE_HEADER_DIR ${CMAKE_INSTALL_INCLUDEDIR}/forage)
 
 install(TARGETS forage EXPORT ForageSdk RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY systems DESTINATION ${CMAKE_INSTALL_DATADIR}/forage)
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${FORAGE_DOC_DIR} PATTERN Doxyfile.in EXCLUDE)
+install(FILES README.md LICENSE DESTINATION ${FORAGE_DOC_DIR})
 
 # Includes of headers are written from the project's root: <forage/plugin.h> for users, "core/..." in the headers.
 install(DIRECTORY tools/api/forage/ DESTINATION ${FORAGE_HEADER_DIR} FILES_MATCHING PATTERN "*.h")
