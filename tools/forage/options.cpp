@@ -1,0 +1,179 @@
+#include "tools/forage/options.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/types/parameter.h"
+
+namespace forage::tool {
+namespace {
+
+/// A number that `fits`, in words that a person reads.
+CLI::Validator number_that(bool (*fits)(double), const char* description) {
+    return CLI::Validator(
+        [=](std::string& text) {
+            const auto value = forage::parse_parameter(forage::ParameterKind::real, text);
+            return value && fits(std::get<double>(*value)) ? std::string()
+                                                           : fmt::format("'{}' is not {}", text, description);
+        },
+        "");
+}
+
+}  // namespace
+
+CLI::Validator positive() {
+    return number_that([](double v) { return v > 0 && v <= 1e9; }, "a number above 0, at most 1e9");
+}
+CLI::Validator count() {
+    return number_that([](double v) { return v >= 1 && v <= 1e15 && v == std::floor(v); },
+                       "a whole number, at least 1");
+}
+CLI::Validator seed() {
+    return number_that([](double v) { return v >= 0 && v < 1.8e19 && v == std::floor(v); },
+                       "a whole number, at least 0");
+}
+
+CLI::Option* repeated(CLI::Option* option) {
+    return option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+CLI::Option* add_picture_format(CLI::App& command, std::string& format) {
+    return command.add_option("--as", format, "Format of pictures: png, svg or pdf [png]")
+        ->check(CLI::IsMember({"png", "svg", "pdf"}))
+        ->option_text("FORMAT");
+}
+
+void add_plugins(CLI::App& command, std::vector<std::string>& plugins) {
+    repeated(command.add_option("--plugin", plugins,
+                                "Plugin with more types (.so), or a folder of plugins, besides those in "
+                                "FORAGE_PLUGIN_PATH and in the folder plugins beside the system; may be "
+                                "repeated"))
+        ->option_text("PATH");
+}
+
+void add_input(CLI::App& command, Input& input) {
+    command
+        .add_option_function<std::vector<std::string>>(
+            "SYSTEM",
+            [&input](const std::vector<std::string>& files) {
+                input.system = files.front();
+                input.more.assign(files.begin() + 1, files.end());
+            },
+            "System file (.iqr), or a process on its own (.iqrProcess); several run together, in lock-step")
+        ->required()
+        ->expected(1, 1000)
+        ->option_text("FILE...");
+    command.add_option("-w,--world", input.world, "World in which the robot lives (.world)")
+        ->option_text("FILE");
+    repeated(
+        command.add_option_function<std::vector<std::string>>(
+            "-s,--set",
+            [&input](const std::vector<std::string>& texts) {
+                for (const auto& text : texts) input.settings.push_back({text});
+            },
+            "Change a parameter: 'Process/Group.parameter=value', 'Process.parameter=value' for a module, "
+            "'Connection.parameter=value' for a synapse; may be repeated"))
+        ->option_text("WHERE=VALUE");
+    add_plugins(command, input.plugins);
+    command.add_flag("--lenient", input.lenient,
+                     "Unknown parameters and attributes are warnings, not errors");
+}
+
+void add_tutorial(CLI::App& app, TutorialOptions& o) {
+    auto& tutorial = *app.add_subcommand("tutorial", "List the exercises of the tutorial, or run one");
+    tutorial.footer(
+        "docs/tutorial has the text, the questions and their solutions.\n"
+        "Example:\n"
+        "  forage tutorial 3.1");
+    tutorial.add_option("EXERCISE", o.exercise, "Its number")->option_text(" ");
+    tutorial.add_option("-o,--output", o.directory, "Directory for results [forage-out/tutorial/EXERCISE]")
+        ->option_text("DIR");
+}
+
+void add_experiment(CLI::App& app, ExperimentOptions& o) {
+    auto& experiment = *app.add_subcommand(
+        "experiment", "Run a system many times, over seeds and parameters, on all cores, into one table");
+    experiment.footer(
+        "What was finished before an interruption is not repeated. docs/reference/experiment.md says what\n"
+        "stands in FILE.\n"
+        "Example:\n"
+        "  forage experiment systems/light_threshold.xml");
+    experiment.add_option("FILE", o.file, "Experiment file (.xml)")->required()->option_text(" ");
+    experiment.add_option("-o,--output", o.directory, "Directory for results [forage-out/ and FILE's name]")
+        ->option_text("DIR");
+    experiment.add_option("-j,--jobs", o.jobs, "Runs at a time [one per core]")
+        ->check(count())
+        ->option_text("N");
+    add_plugins(experiment, o.plugins);
+    experiment.add_flag("--fresh", o.fresh, "Repeat runs that are finished");
+    experiment.add_flag("-q,--quiet", o.quiet, "Print errors only");
+}
+
+void add_plot(CLI::App& app, PlotOptions& o) {
+    auto& plot = *app.add_subcommand("plot", "Draw pictures of results, of a recording or of a system");
+    plot.footer(
+        "Plots:\n"
+        "  time:SOURCE                     cells over time; 'time:mean:SOURCE' for their mean\n"
+        "  space:SOURCE@100,200            the group as a picture at these cycles; at the last one without "
+        "'@'\n"
+        "  space:SOURCE@0..1000/100        at every 100th cycle; ';blocks=9x1' at the end divides the group\n"
+        "  movie:SOURCE@0..500/5           the same as an animated PNG\n"
+        "  connection:NAME                 which cells reach which, with strength and delay\n"
+        "  diagram, diagram:PROCESS        the system as the file lays it out\n"
+        "  trajectory                      the robot's paths\n"
+        "A source is 'Process/Group:state(x1..x2,y1..y2)'; state and cells may be left out.\n"
+        "Example:\n"
+        "  forage plot systems/reactive_foraging.iqr diagram 'connection:US to Approach' --as svg");
+    plot.add_option("FROM", o.source, "Directory of results, recording (.csv, .npy, .h5) or system (.iqr)")
+        ->required()
+        ->option_text("DIR|FILE");
+    plot.add_option("PLOT", o.wishes, "What to draw; without any, what there is")->option_text("PLOT...");
+    plot.add_option("-o,--output", o.directory, "Directory for pictures [beside what they show]")
+        ->option_text("DIR");
+    add_picture_format(plot, o.picture_format);
+}
+
+void add_convert(CLI::App& app, ConvertOptions& o) {
+    auto& convert =
+        *app.add_subcommand("convert", "Read a system or process file and write it in the standard layout");
+    convert.footer(
+        "Example:\n"
+        "  forage convert systems/reactive_foraging.iqr bug.iqrProcess --extract Bug");
+    convert.add_option("IN", o.input, "File to read (.iqr or .iqrProcess)")->required()->option_text("FILE");
+    convert.add_option("OUT", o.output, "File to write (.iqr or .iqrProcess); may be the same")
+        ->required()
+        ->option_text("FILE");
+    repeated(convert.add_option("--import", o.imports,
+                                "Add a copy of a process from an .iqrProcess file; may be repeated"))
+        ->option_text("FILE");
+    convert
+        .add_option("--extract", o.extract, "Write this process alone, with the connections among its groups")
+        ->option_text("PROCESS");
+    add_plugins(convert, o.plugins);
+    convert.add_flag("--embed", o.embed, "Write the content of linked processes instead of the links");
+    convert.add_flag("--lenient", o.lenient, "Unknown elements and attributes are warnings, and left out");
+}
+
+void add_new(CLI::App& app, std::string& kind, std::string& name) {
+    auto& command = *app.add_subcommand("new", "Write a small project with a type of your own");
+    command.footer("Example:\n  forage new neuron adaptive");
+    command.add_option("KIND", kind, "neuron, synapse or module")
+        ->required()
+        ->check(CLI::IsMember({"neuron", "synapse", "module"}))
+        ->option_text(" ");
+    command.add_option("NAME", name, "Name of the folder, and of the type after its kind")
+        ->required()
+        ->option_text(" ");
+}
+
+void add_build_plugin(CLI::App& app, BuildPluginOptions& o) {
+    auto& command = *app.add_subcommand("build-plugin", "Compile a source file with types of your own");
+    command.footer(
+        "The compiler is the one that CXX names, or c++.\nExample:\n  forage build-plugin adaptive.cpp");
+    command.add_option("FILE", o.source, "Source file (.cpp)")->required()->option_text(" ");
+    command.add_option("-o,--output", o.output, "Plugin to write [plugins/NAME.so beside FILE]")
+        ->option_text("FILE");
+}
+
+}  // namespace forage::tool

@@ -1,0 +1,239 @@
+// The options of `forage run` and `forage resume`.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/model/lookup.h"
+#include "core/types/parameter.h"
+#include "tools/forage/manipulations.h"
+#include "tools/forage/options.h"
+#include "tools/forage/schedule.h"
+
+namespace forage::tool {
+namespace {
+
+/// "500" cycles or "10 s" of the world.
+CheckpointInterval parse_interval(const std::string& text) {
+    std::string_view number = model::trim(text);
+    CheckpointInterval out;
+    out.in_seconds = number.ends_with("s");
+    if (out.in_seconds) number = model::trim(number.substr(0, number.size() - 1));
+    const auto value = forage::parse_parameter(forage::ParameterKind::real, number);
+    if (value) out.amount = std::get<double>(*value);
+    if (!(out.amount > 0) || (!out.in_seconds && out.amount != std::floor(out.amount)))
+        throw CLI::ValidationError(
+            "--checkpoint-every",
+            fmt::format("'{}' is neither a number of cycles nor of seconds, such as '1000' or '60 s'", text));
+    return out;
+}
+
+void add_manipulations(CLI::App& run, RunOptions& o) {
+    using Mode = model::ManipulationWish::Mode;
+    const auto add = [&](const char* option, Mode mode, const char* description, const char* text) {
+        repeated(run.add_option_function<std::vector<std::string>>(
+                     option,
+                     [&o, option, mode](const std::vector<std::string>& texts) {
+                         for (const auto& each : texts) {
+                             const bool table =
+                                 each.find('=') == std::string::npos || std::filesystem::exists(each);
+                             if (mode == Mode::clamp && table) {
+                                 o.clamp.push_back(each);
+                                 continue;
+                             }
+                             try {
+                                 o.manipulations.push_back(parse_manipulation(mode, each));
+                             } catch (const std::invalid_argument& e) {
+                                 throw CLI::ValidationError(option, e.what());
+                             }
+                         }
+                     },
+                     description))
+            ->option_text(text);
+    };
+    add("--clamp", Mode::clamp,
+        "Overwrite the activity of a group: 'Process/Group(x,y)=value' for one of its cells, with all others "
+        "0; 'Process/Group=FILE' with a list of patterns, one in each cycle, over and over; behind either, "
+        "'; every N' cycles, '; step N' patterns, '; times N' through the list, '; backwards', '; from "
+        "WHEN', '; until WHEN' (as for --at). Or a table of rows cycle,process,group,v0,v1,... May be "
+        "repeated",
+        "PATTERN|FILE");
+    add("--add", Mode::add, "The same, added to the activity after any clamp; other cells stay", "PATTERN");
+    add("--multiply", Mode::multiply, "The same, multiplied with the activity at last; other cells stay",
+        "PATTERN");
+}
+
+void add_recording(CLI::App& run, RunOptions& o) {
+    auto* record =
+        repeated(run.add_option_function<std::vector<std::string>>(
+                     "-r,--record",
+                     [&o](const std::vector<std::string>& texts) {
+                         for (const auto& text : texts) o.recordings.push_back({{text}});
+                     },
+                     "Write 'Process/Group' (its activity) or 'Process/Group:state' to a file; "
+                     "'...(x1..x2,y1..y2)' for some of its cells, 'mean:...' for their mean, '...=NAME.h5' "
+                     "to name the file; may be repeated"))
+            ->option_text("SOURCE");
+    run.add_option(
+           "--format", o.record.format,
+           "Of recordings without a named file: csv, npy, npz (NumPy), h5 (HDF5) or dat (the original's "
+           "data sampler) [csv]")
+        ->check(CLI::IsMember({"csv", "npy", "npz", "h5", "dat"}))
+        ->option_text("FORMAT")
+        ->needs(record);
+    run.add_option_function<std::uint64_t>(
+           "--every",
+           [&o](const std::uint64_t& every) {
+               for (auto& r : o.recordings) r.every = every;
+           },
+           "Record every K-th cycle [1]")
+        ->check(count())
+        ->option_text("K")
+        ->needs(record);
+    run.add_flag("--record-mean", o.record.mean, "Record the mean of K cycles instead of every K-th")
+        ->needs("--every");
+    run.add_option("--record-from", o.record.from, "Record from this cycle on [0]")
+        ->check(seed())
+        ->option_text("CYCLE")
+        ->needs(record);
+    run.add_option("--record-until", o.record.until, "Record up to this cycle")
+        ->check(seed())
+        ->option_text("CYCLE")
+        ->needs(record);
+    repeated(run.add_option_function<std::vector<std::string>>(
+                 "-p,--plot",
+                 [&o](const std::vector<std::string>& texts) {
+                     for (const auto& text : texts) o.plots.push_back({text});
+                 },
+                 "Draw a picture: 'time:SOURCE', 'space:SOURCE@CYCLES', 'movie:SOURCE', 'connection:NAME' "
+                 "or 'diagram', see 'forage plot --help'; may be repeated"))
+        ->option_text("PLOT");
+    add_picture_format(run, o.picture_format);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, RunOptions& o) {
+    auto& run = *app.add_subcommand("run", "Run a system, in a world if one is given");
+    run.footer(
+        "Without --cycles, --seconds or --trials it runs for 60 seconds of the world.\n"
+        "Example:\n"
+        "  forage run systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world --trials 30\n"
+        "  ... --at 'trial 10: Motor In to Motor.weight=0.5' --at 'max(Bug/Light) > 0.9: "
+        "Bug/Light.threshold=1'");
+    add_input(run, o.input);
+    auto* cycles = run.add_option("-c,--cycles", o.cycles, "Stop after so many cycles")
+                       ->check(count())
+                       ->option_text("N");
+    auto* seconds = run.add_option("--seconds", o.seconds, "Stop after so many seconds of the world")
+                        ->check(positive())
+                        ->option_text("S");
+    auto* trials = run.add_option("-t,--trials", o.trials,
+                                  "Stop after so many trials; a trial ends when the robot is reset")
+                       ->check(count())
+                       ->option_text("N");
+    cycles->excludes(seconds)->excludes(trials);
+    seconds->excludes(trials);
+    run.add_option("--longest-trial", o.longest_trial,
+                   "Give up when a trial takes longer, in seconds of the world [300]")
+        ->check(positive())
+        ->option_text("S")
+        ->needs(trials);
+    run.add_option("--seed", o.input.seed, "Decides everything random [1]")->check(seed())->option_text("N");
+    add_recording(run, o);
+    run.add_option("--until", o.until.text, "Stop before its time when a condition holds, as for --at")
+        ->option_text("WHEN");
+    repeated(
+        run.add_option_function<std::vector<std::string>>(
+            "--at",
+            [&o](const std::vector<std::string>& texts) {
+                for (const auto& text : texts) {
+                    if (const auto wish = parse_timed(text)) {
+                        o.at.push_back(*wish);
+                        continue;
+                    }
+                    throw CLI::ValidationError(
+                        "--at", fmt::format("'{}' is not a condition, a colon, a blank and a change, such as "
+                                            "'trial >= 200: Selection/Adaptive.excGain=0'",
+                                            text));
+                }
+            },
+            "Change a parameter while it runs, when a condition first holds: 'cycle N', 'trial N', 'N s', or "
+            "comparisons of cycle, trial, seconds, cells 'Process/Group(x,y)' and mean(Process/Group), also "
+            "sum, min and max, joined by && and ||; may be repeated"))
+        ->option_text("'WHEN: WHERE=VALUE'");
+    run.add_option("--drive", o.input.drive,
+                   "Table that modules of type moduleReplay play: cycle,process,target,v0,v1,...")
+        ->option_text("FILE");
+    add_manipulations(run, o);
+    run.add_option("-o,--output", o.directory, "Directory for results [forage-out]; '' for none")
+        ->option_text("DIR");
+    run.add_option("--world-pace", o.input.world_pace,
+                   "Seconds of the world per second of the clock, instead of the world's own")
+        ->check(positive())
+        ->option_text("X")
+        ->needs("--world");
+    run.add_flag_callback(
+        "--no-noise", [&o] { o.input.noise = false; },
+        "Motors and sensors without noise; start positions still vary");
+    run.add_flag("--sensor-rates", o.input.sensor_rates,
+                 "Scans and pictures as often as the world's sensors say, instead of in every cycle")
+        ->needs("--world");
+    run.add_option("--latency", o.input.latency, "What robots sense comes so many cycles later [0]")
+        ->check(CLI::Range(0, 1000))
+        ->option_text("CYCLES")
+        ->needs("--world");
+    run.add_flag("--game", o.input.game,
+                 "Play the robotics challenge: two teams collect resources for five minutes")
+        ->needs("--world");
+    run.add_option(
+           "--video", o.video,
+           "Film the world from above, with what the robots see: an animated .gif, or numbered .png files")
+        ->option_text("FILE")
+        ->needs("--world");
+    run.add_option("--threads", o.threads, "For large systems; the numbers do not depend on it [1]")
+        ->check(count())
+        ->option_text("N");
+    run.add_option_function<std::string>(
+           "--checkpoint-every", [&o](const std::string& text) { o.checkpoint_every = parse_interval(text); },
+           "Write a checkpoint every N cycles, or every 'N s' of the world: after a stop, be it a power cut, "
+           "'forage resume' goes on from there")
+        ->option_text("N")
+        ->excludes("--video");  // a film cannot go on
+    run.add_option(
+           "--on-nan", o.on_nan,
+           "When a number becomes NaN or infinite: 'warn' once and go on, 'stop', or 'ignore' it [warn]")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, OnNan>{{"warn", OnNan::warn},
+                                                                         {"stop", OnNan::stop},
+                                                                         {"ignore", OnNan::ignore}})
+                        .description(""))
+        ->option_text("HOW");
+    run.add_flag("--hash", o.hash, "Give a digest of the state at the end: equal runs have the same one");
+    run.add_flag("--realtime", o.real_time, "No faster than the clock: one second of the world per second");
+    run.add_flag("-q,--quiet", o.quiet, "Print errors only");
+}
+
+void add_resume(CLI::App& app, ResumeOptions& o) {
+    auto& resume = *app.add_subcommand("resume", "Go on with a run that was stopped, from its checkpoint");
+    resume.footer(
+        "What the run leaves behind is then the same, byte for byte, as if it had never been stopped.\n"
+        "Example:\n"
+        "  forage resume forage-out");
+    resume.add_option("FROM", o.path, "Directory of results, or one of the checkpoints in it")
+        ->required()
+        ->option_text("DIR|FILE");
+    resume.add_flag("-q,--quiet", o.quiet, "Print errors only");
+}
+
+RunOptions parse_run(std::vector<std::string> arguments) {
+    CLI::App app;
+    RunOptions options;
+    add_run(app, options);
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+    app.parse(arguments);
+    return options;
+}
+
+}  // namespace forage::tool
