@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace forage::bug {
 namespace {
@@ -158,8 +159,10 @@ void Physics::Engine::find_contacts(std::span<State> states) {
         }
         if (contact->getNumContacts() > 0) touching_.push_back(contact);
     }
-    const auto place = [](const btPersistentManifold* c) {
-        return std::pair(c->getBody0()->getUserIndex(), c->getBody1()->getUserIndex());
+    const auto place = [](const btPersistentManifold* c) {  // bodies of several shapes meet in several
+        const btManifoldPoint& first = c->getContactPoint(0);
+        return std::tuple(c->getBody0()->getUserIndex(), c->getBody1()->getUserIndex(), first.m_index0,
+                          first.m_index1);
     };
     std::stable_sort(touching_.begin(), touching_.end(),
                      [&](const auto* a, const auto* b) { return place(a) < place(b); });

@@ -121,7 +121,10 @@ void Robot::checkpoint(Archive& archive) {
     archive.same(name, "a robot");
     archive(pose, command, hinges, voice);
     if (reset) archive(*reset);
-    archive(*trials, snapshot, history, scans, pictures, rendered);
+    archive(*trials, snapshot, history, scans);
+    if (!wants_image) return;  // no module looks: what a film sees decides nothing
+    archive(snapshot.image, pictures, rendered);
+    for (BugSnapshot& s : history) archive(s.image);
 }
 
 void Robot::sense(bool with_noise, std::uint64_t sample, const Stage& stage) {

@@ -33,7 +33,8 @@ struct BugSnapshot {
         image;  ///< rows from the top, red, green, blue; up to date only where asked for
     int image_width = 0, image_height = 0;  ///< pixels; 0: no camera
 
-    void checkpoint(Archive& archive) { archive(pose, proximity, target, gripper, heard, image); }
+    /// Without the image, which may be there for onlookers only.
+    void checkpoint(Archive& archive) { archive(pose, proximity, target, gripper, heard); }
 };
 
 /// A part of World, which alone makes, moves and asks robots; the members are public for it. They are used in

@@ -244,7 +244,7 @@ void World::colour_resources() {
 void World::sense_when_due() {
     const double now = static_cast<double>(substep_ + 1) * description_.step;
     bool staged = false;
-    const auto due = [&](double period, std::uint64_t done) {
+    const auto due = [&](double period, std::uint64_t done) {  // period 0: in every substep
         if (now < static_cast<double>(done) * period - 1e-9) return false;
         if (!staged) set_stage();
         return staged = true;
@@ -253,7 +253,8 @@ void World::sense_when_due() {
         if (due(robot.proximity ? robot.proximity->period : description_.step, robot.scans))
             robot.sense(options_.noise, robot.scans++, stage_);
         if (robot.wants_image &&
-            due(1 / std::max(1e-9, robot.camera_sensor ? robot.camera_sensor->rate : 0), robot.pictures))
+            due(robot.camera_sensor && robot.camera_sensor->rate > 0 ? 1 / robot.camera_sensor->rate : 0,
+                robot.pictures))
             robot.render(options_.noise, robot.pictures++, stage_, sights_);
     }
 }

@@ -223,6 +223,7 @@ class Reader {
             diagnostics_.error(at(parent),
                                fmt::format("<{}> has no shape that is known here", parent->GetName()),
                                "the shapes are <plane>, <box>, <cylinder> and <sphere>");
+            return shape;
         } else if (kind->GetName() == "box") {
             const auto s = value(kind, "size", ignition::math::Vector3d(1, 1, 1));
             shape = {ShapeKind::box, {s.X(), s.Y(), s.Z()}};
@@ -237,11 +238,12 @@ class Reader {
         } else {
             diagnostics_.error(at(kind), fmt::format("shape <{}> is not supported", kind->GetName()),
                                "the shapes are <plane>, <box>, <cylinder> and <sphere>");
+            return shape;
         }
-        if (kind && (shape.size.array() < 0).any()) diagnostics_.error(at(kind), "a size is negative");
+        if ((shape.size.array() < 0).any()) diagnostics_.error(at(kind), "a size is negative");
         const auto zeros = (shape.size.array() == 0).count();  // a box may be flat, and is then no obstacle
         if (shape.kind != ShapeKind::plane && zeros > (shape.kind == ShapeKind::box ? 1 : 0))
-            diagnostics_.error(at(kind ? kind : parent), "a size is 0");
+            diagnostics_.error(at(kind), "a size is 0");
         return shape;
     }
 

@@ -3,6 +3,7 @@
 
 #include "core/engine/plan.h"
 #include "core/engine/simulation.h"
+#include "core/types/reason.h"
 
 namespace forage::engine {
 namespace {
@@ -33,7 +34,14 @@ void keep(Archive& archive, ModulePlan& m) {
     archive.same(m.type.name, m.process);
     keep(archive, m.type.parameters, m.module->parameters());
     archive(m.written, m.changed, m.last);
-    m.module->checkpoint(archive);
+    try {
+        m.module->checkpoint(archive);
+    } catch (const ArchiveError&) {
+        throw;
+    } catch (...) {
+        throw RunError(fmt::format("{} of process '{}' failed to take part in a checkpoint: {}", m.type.name,
+                                   m.process, reason()));
+    }
 }
 
 void keep(Archive& archive, ConnectionPlan& c) {

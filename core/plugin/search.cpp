@@ -24,6 +24,15 @@ class Found {
         std::sort(files.begin(), files.end());
         for (const auto& file : files) add_file(file);
     }
+    /// The shared objects of a folder, but for those that were added from elsewhere under the same name.
+    void add_others(const fs::path& folder) {
+        std::set<fs::path> names;
+        for (const auto& file : files_) names.insert(fs::path(file).filename());
+        Found all;
+        all.add(folder);
+        for (const auto& file : all.files_)
+            if (!names.contains(fs::path(file).filename())) add_file(file);
+    }
     std::vector<std::string> files() && { return std::move(files_); }
 
   private:
@@ -52,7 +61,7 @@ std::vector<std::string> find(const std::vector<std::string>& named, const std::
     }
     if (!beside.empty())
         if (const auto folder = fs::path(beside).parent_path() / "plugins"; fs::is_directory(folder, ignored))
-            found.add(folder);
+            found.add_others(folder);
     return std::move(found).files();
 }
 

@@ -32,8 +32,9 @@ std::optional<Sdk> find_sdk() {
     // Not installed: the program is where it was built.
     const fs::path source = FORAGE_SOURCE_DIR;
     if (fs::exists(source / "tools/api/forage/plugin.h"))
-        return Sdk{
-            source, prefix / "core/types/libforage_random.a", {(source / "tools/api").string(), source.string()}};
+        return Sdk{source,
+                   prefix / "core/types/libforage_random.a",
+                   {(source / "tools/api").string(), source.string()}};
     return std::nullopt;
 }
 
@@ -99,7 +100,7 @@ int build_plugin(const BuildPluginOptions& o) {
         return bad_input;
     }
     Diagnostics diagnostics;
-    load_plugins({partial(output)}, "", diagnostics);
+    plugin::load({partial(output)}, shipped_types(nullptr, nullptr), diagnostics);  // whatever else there is
     if (diagnostics.failed()) {
         fmt::print(stderr, "{}", format(diagnostics));
         fs::remove(partial(output));

@@ -130,7 +130,11 @@ int carry_on(const RunOptions& options, const Sources& sources, Running& running
     note(running, outcome);
     outcome.clock = std::max(progress.elapsed(), 1e-9);
     progress.clear();
-    if (options.hash) outcome.state = state_digest(running);
+    if (options.hash) try {
+            outcome.state = state_digest(running);
+        } catch (const std::exception& e) {
+            problems.emplace_back(e.what());
+        }
 
     if (watch.gone())
         problems = {watch.reason()};
