@@ -3,6 +3,7 @@
     plugins_test.py FORAGE_PROGRAM DIRECTORY_OF_BUILT_PLUGINS
 """
 
+import json
 import os
 import pathlib
 import re
@@ -10,6 +11,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 FORAGE = str(pathlib.Path(sys.argv[1]).resolve())
@@ -170,6 +172,24 @@ class Twins(Plugins):
         for name, content in shipped.items():
             self.assertGreater(len(set(content.split(b"\n"))), 5, name)  # something happens
             self.assertEqual(twin[name], content, name)
+
+
+    def test_a_run_with_plugins_that_is_stopped_goes_on_with_the_same_bytes(self):
+        (self.here / "system.iqr").write_text(TWINS.format(twin="Twin"))
+        command = ["run", "system.iqr", "--plugin", BROKEN.parent / "twins.so", "-c", 60, "--hash", "--record", "P/B", "--record", "P/D"]
+        self.forage(*command, "-o", "whole")
+        stopped = subprocess.Popen([FORAGE, *map(str, command), "--realtime", "--checkpoint-every", "5", "-o", "out"],
+                                   cwd=self.here, stdout=subprocess.DEVNULL)
+        while not (self.here / "out/checkpoint.forage").exists():
+            self.assertIsNone(stopped.poll())
+            time.sleep(0.02)
+        stopped.kill()
+        stopped.wait()
+        self.forage("resume", "out")
+        for name in ("P_B_act.csv", "P_D_act.csv"):
+            self.assertEqual((self.here / "out" / name).read_bytes(), (self.here / "whole" / name).read_bytes(), name)
+        states = [json.loads((self.here / d / "run.json").read_text())["result"]["state"] for d in ("out", "whole")]
+        self.assertEqual(states[0], states[1])
 
 
 class Found(Plugins):
