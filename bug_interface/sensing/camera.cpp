@@ -98,33 +98,33 @@ void Camera::make_floor_points() {
 }
 
 Camera::Extent Camera::extent(const Tile& tile, int first_pixel, int pixels) const {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    Extent out{infinity, -infinity, infinity, -infinity};
+    Eigen::AlignedBox2f box;
     for (int s = 0; s < samples_; ++s)
         for (int p = first_pixel; p < first_pixel + pixels; ++p) {
             const std::size_t k = tile.first + static_cast<std::size_t>(s * tile.pixels + p);
-            const float x = floor_points_.front().x[k], y = floor_points_.front().y[k];
-            out.x_first = std::min(out.x_first, x), out.x_last = std::max(out.x_last, x);
-            out.y_first = std::min(out.y_first, y), out.y_last = std::max(out.y_last, y);
+            box.extend(Eigen::Vector2f(floor_points_.front().x[k], floor_points_.front().y[k]));
         }
-    return out;
+    return extent(box);
+}
+
+Camera::Extent Camera::extent(const Eigen::AlignedBox2f& box) {
+    const Eigen::Vector2f middle = box.center(), half = box.sizes() / 2;
+    return {middle.x(), middle.y(), half.x(), half.y()};
 }
 
 void Camera::make_extents() {
+    Eigen::AlignedBox2f all;
     for (Tile& tile : tiles_) {
         tile.extent = extent(tile, 0, tile.pixels);
         for (int first = 0; first < tile.pixels; first += segment_width)
             tile.segments[static_cast<std::size_t>(first / segment_width)] =
                 extent(tile, first, std::min(segment_width, tile.pixels - first));
-    }
-    whole_.extent = tiles_.front().extent;
-    for (const Tile& tile : tiles_) {
-        const Extent& e = tile.extent;
-        whole_.extent = {std::min(whole_.extent.x_first, e.x_first), std::max(whole_.extent.x_last, e.x_last),
-                         std::min(whole_.extent.y_first, e.y_first),
-                         std::max(whole_.extent.y_last, e.y_last)};
         whole_.reaches_floor &= tile.reaches_floor;
+        const Extent& e = tile.extent;
+        all.extend(Eigen::Vector2f(e.x - e.half_x, e.y - e.half_y));
+        all.extend(Eigen::Vector2f(e.x + e.half_x, e.y + e.half_y));
     }
+    whole_.extent = extent(all);
 }
 
 /// Holds what `count` samples can see between the heights `lowest` and `highest`.

@@ -55,9 +55,10 @@ class Camera {
         Eigen::Vector3d centre = Eigen::Vector3d::Zero();
         double radius = 0;
     };
-    /// What some rays meet of the only floor lies in this rectangle, robot's frame, m.
+    /// What some rays meet of the only floor lies in the rectangle with this middle and these half sides,
+    /// robot's frame, m.
     struct Extent {
-        float x_first = 0, x_last = 0, y_first = 0, y_last = 0;
+        float x = 0, y = 0, half_x = 0, half_y = 0;
     };
     struct Tile {
         int row = 0, column = 0, pixels = 0;
@@ -83,6 +84,7 @@ class Camera {
     static bool sees(const View& view, const Tile& tile, const VisualSolid& visual);
     void make_extents();
     Extent extent(const Tile& tile, int first_pixel, int pixels) const;
+    static Extent extent(const Eigen::AlignedBox2f& box);
     const float* even_colour(const View& view, const Extent& extent, float* colour) const;
     bool draw_bare_floor(const View& view, const Tile& tile, float* rgb) const;
     void draw_textured(const View& view, const Tile& tile, int first_pixel, int pixels, float* rgb) const;

@@ -36,6 +36,7 @@ constexpr std::size_t tile_samples = 32 * 16;
 struct Samples {
     std::array<Eigen::Array4f, tile_samples> rgb;  ///< the fourth number is not used
     std::array<float, tile_samples> depth;         ///< of what is seen so far, along the camera's axis
+    std::array<double, tile_samples> entry, face;  ///< of one solid: see Entries
 };
 
 }  // namespace
@@ -98,13 +99,9 @@ const float* Camera::even_colour(const View& view, const Extent& e, float* colou
     if (!view.floor) return nullptr;
     constexpr float margin = 0.01f;  // texels; well above the errors of single precision
     const ToTexels& to = *view.to;
-    const auto range = [&](float by_x, float by_y, float at) {
-        const auto [x_low, x_high] = std::minmax({by_x * e.x_first, by_x * e.x_last});
-        const auto [y_low, y_high] = std::minmax({by_y * e.y_first, by_y * e.y_last});
-        return std::pair(x_low + y_low + at - margin, x_high + y_high + at + margin);
-    };
-    const auto [u_first, u_last] = range(to.ux, to.uy, to.u0);
-    const auto [v_first, v_last] = range(to.vx, to.vy, to.v0);
+    const float u = to.u(e.x, e.y), half_u = std::abs(to.ux) * e.half_x + std::abs(to.uy) * e.half_y + margin;
+    const float v = to.v(e.x, e.y), half_v = std::abs(to.vx) * e.half_x + std::abs(to.vy) * e.half_y + margin;
+    const float u_first = u - half_u, u_last = u + half_u, v_first = v - half_v, v_last = v + half_v;
     const FloorTexture& texture = view.floor->texture;
     if (!(u_first >= 0 && u_last <= static_cast<float>(texture.width()) && v_first >= 0 &&
           v_last <= static_cast<float>(texture.height()) && texture.even(u_first, u_last, v_first, v_last)))
@@ -175,7 +172,14 @@ void Camera::draw_all(const View& view, const Tile& tile, std::span<const Moving
     std::fill_n(samples.rgb.begin(), count, Eigen::Array4f::Constant(Scene::background));
     std::fill_n(samples.depth.begin(), count, static_cast<float>(far_));
 
-    for (std::size_t f = 0; f < floor_points_.size(); ++f) {  // a higher floor hides a lower one
+    std::array<float, 3> floor_colour;
+    const bool even = tile.reaches_floor && even_colour(view, tile.extent, floor_colour.data());
+    if (even) {
+        std::copy_n(&floor_points_.front().depth[tile.first], count, samples.depth.begin());
+        std::fill_n(samples.rgb.begin(), count,
+                    Eigen::Array4f(floor_colour[0], floor_colour[1], floor_colour[2], 0));
+    }
+    for (std::size_t f = 0; f < floor_points_.size() && !even; ++f) {  // a higher floor hides a lower one
         const FloorSurface& floor = scene_->floors()[f];
         const ToTexels to(floor, view.body.x, view.body.y, view.body.yaw);
         const auto width = static_cast<float>(floor.texture.width()),
@@ -203,16 +207,22 @@ void Camera::draw_all(const View& view, const Tile& tile, std::span<const Moving
         for (int face = 0; face < 6; ++face)
             faces[static_cast<std::size_t>(face)] =
                 lighting.shade(visual.material, solid.pose.linear() * face_normal(face));
+        enter(solid.kind, half, eye, turn,
+              {&ray_x_[tile.first], &ray_y_[tile.first], &ray_z_[tile.first], count},
+              {samples.entry.data(), samples.face.data()});
         for (std::size_t k = 0; k < count; ++k) {
+            if (!(samples.entry[k] < samples.depth[k])) continue;
             const std::size_t i = tile.first + k;
-            const auto entry =
-                enter(solid.kind, half, eye, turn * Eigen::Vector3d(ray_x_[i], ray_y_[i], ray_z_[i]));
-            if (!entry || entry->depth >= samples.depth[k]) continue;
-            samples.depth[k] = static_cast<float>(entry->depth);
-            const Colour colour = entry->face == Entry::curved
-                                      ? lighting.shade(visual.material, solid.pose.linear() * entry->normal)
-                                      : faces[static_cast<std::size_t>(entry->face)];
-            samples.rgb[k].head<3>() = colour;
+            samples.depth[k] = static_cast<float>(samples.entry[k]);
+            samples.rgb[k].head<3>() =
+                samples.face[k] == Entries::curved
+                    ? lighting.shade(
+                          visual.material,
+                          solid.pose.linear() *
+                              curved_normal(solid.kind, eye,
+                                            turn * Eigen::Vector3d(ray_x_[i], ray_y_[i], ray_z_[i]),
+                                            samples.entry[k]))
+                    : faces[static_cast<std::size_t>(samples.face[k])];
         }
     };
     for (const VisualSolid& visual : scene_->solids()) draw_solid(visual);

@@ -1,5 +1,7 @@
 #include "bug_interface/sensing/floor_texture.h"
 
+#include <algorithm>
+
 #include <opencv2/imgproc.hpp>
 
 namespace forage::bug {
@@ -8,6 +10,19 @@ namespace {
 Image one_pixel() { return {1, 1, {255, 255, 255}}; }
 
 }  // namespace
+
+template <class Uneven>
+void FloorTexture::Sums::fill(std::size_t columns, std::size_t rows, Uneven uneven) {
+    wide = columns + 1;
+    counts.assign((rows + 1) * wide, 0);
+    for (std::size_t row = 0; row < rows; ++row) {
+        std::uint32_t in_row = 0;
+        for (std::size_t column = 0; column < columns; ++column) {
+            in_row += uneven(column, row) ? 1 : 0;
+            counts[(row + 1) * wide + column + 1] = counts[row * wide + column + 1] + in_row;
+        }
+    }
+}
 
 FloorTexture::FloorTexture(const Colour& colour) : FloorTexture(one_pixel(), colour) {}
 
@@ -29,13 +44,15 @@ FloorTexture::FloorTexture(const Image& image, const Colour& gain)
                                       colour(i) == colour(i + stride + 1));
         texels_[i] = colour(i) | (is_flat ? flag : 0);
     }
-    const auto rows = static_cast<std::size_t>(height_ + 2), wide = stride + 1;
-    uneven_.assign((rows + 1) * wide, 0);
-    for (std::size_t row = 0; row < rows; ++row)
-        for (std::size_t column = 0; column < stride; ++column)
-            uneven_[(row + 1) * wide + column + 1] =
-                uneven_[(row + 1) * wide + column] + uneven_[row * wide + column + 1] -
-                uneven_[row * wide + column] + !flat(texels_[row * stride + column]);
+    const auto rows = static_cast<std::size_t>(height_ + 2);
+    uneven_.fill(stride, rows,
+                 [&](std::size_t column, std::size_t row) { return !flat(texels_[row * stride + column]); });
+    uneven_blocks_.fill((stride + block - 1) / block, (rows + block - 1) / block,
+                        [&](std::size_t column, std::size_t row) {
+                            const std::size_t left = column * block, top = row * block;
+                            return !uneven_.none(left, std::min(left + block, stride) - 1, top,
+                                                 std::min(top + block, rows) - 1);
+                        });
     for (std::size_t channel = 0; channel < 3; ++channel)
         for (std::size_t value = 0; value < 256; ++value)
             seen_[channel][value] =

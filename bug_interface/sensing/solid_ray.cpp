@@ -1,81 +1,129 @@
 #include "bug_interface/sensing/solid_ray.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "core/types/simd.h"
 
 namespace forage::bug {
 namespace {
 
-/// The part of a ray inside what has been intersected so far; empty when leave < enter.
-struct Inside {
-    double enter = -std::numeric_limits<double>::infinity();
-    double leave = std::numeric_limits<double>::infinity();
-    int face = Entry::curved;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    void nothing() { leave = -std::numeric_limits<double>::infinity(); }
+/// The part of a ray inside what has been intersected so far; empty when leave < enter. Without branches: a
+/// loop over rays becomes one over several at a time.
+struct Inside {
+    double enter = -infinity, leave = infinity, face = Entries::curved;
 
     /// Intersects with the slab |x_axis| <= half.
-    void slab(int axis, double origin, double direction, double half) {
-        if (std::abs(direction) < 1e-12) {
-            if (std::abs(origin) > half) nothing();
-            return;
-        }
-        const double middle = -origin / direction, reach = half / std::abs(direction);
-        if (middle - reach > enter) enter = middle - reach, face = 2 * axis + (direction > 0);
-        leave = std::min(leave, middle + reach);
+    [[gnu::always_inline]] void slab(int axis, double origin, double direction, double half) {
+        const bool along = std::abs(direction) < 1e-12;
+        const double inverse = 1 / (along ? 1.0 : direction);
+        const double middle = -origin * inverse, reach = half * std::abs(inverse);
+        const double nearer = along ? -infinity : middle - reach;
+        const double farther = along ? (std::abs(origin) > half ? -infinity : infinity) : middle + reach;
+        const double side = direction > 0 ? 2.0 * axis + 1 : 2.0 * axis;
+        face = nearer > enter ? side : face;
+        enter = nearer > enter ? nearer : enter;
+        leave = farther < leave ? farther : leave;
     }
 
     /// Intersects with a ball or an endless cylinder: direction^2 t^2 + 2 mixed t + rest <= 0.
-    void round(double direction_squared, double mixed, double rest) {
-        if (direction_squared < 1e-24) {
-            if (rest > 0) nothing();
-            return;
-        }
-        const double discriminant = mixed * mixed - direction_squared * rest;
-        if (discriminant < 0) return nothing();
-        const double root = std::sqrt(discriminant);
-        const double first = (-mixed - root) / direction_squared;
-        if (first > enter) enter = first, face = Entry::curved;
-        leave = std::min(leave, (-mixed + root) / direction_squared);
+    [[gnu::always_inline]] void round(double direction_squared, double mixed, double rest) {
+        const bool along = direction_squared < 1e-24;
+        const double inverse = 1 / (along ? 1.0 : direction_squared);
+        const double discriminant = along ? -rest : mixed * mixed - direction_squared * rest;
+        const double root = std::sqrt(discriminant > 0 ? discriminant : 0.0);
+        const double nearer = along ? -infinity : (-mixed - root) * inverse;
+        const double farther = discriminant < 0 ? -infinity : (along ? infinity : (-mixed + root) * inverse);
+        face = nearer > enter ? Entries::curved : face;
+        enter = nearer > enter ? nearer : enter;
+        leave = farther < leave ? farther : leave;
+    }
+
+    [[gnu::always_inline]] void note(double* depth, double* through) const {
+        *depth = enter > 0 && enter <= leave ? enter : infinity;
+        *through = face;
     }
 };
 
+/// Numbers of one solid that all rays need.
+struct Frame {
+    double turn[9];  ///< row by row
+    double origin[3], half[3];
+};
+
+FORAGE_SIMD void enter_box(const Frame f, const float* x, const float* y, const float* z, std::size_t count,
+                           double* depth, double* face) {
+    const double* t = f.turn;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double a = x[i], b = y[i], c = z[i];
+        Inside inside;
+        inside.slab(0, f.origin[0], t[0] * a + t[1] * b + t[2] * c, f.half[0]);
+        inside.slab(1, f.origin[1], t[3] * a + t[4] * b + t[5] * c, f.half[1]);
+        inside.slab(2, f.origin[2], t[6] * a + t[7] * b + t[8] * c, f.half[2]);
+        inside.note(&depth[i], &face[i]);
+    }
+}
+
+FORAGE_SIMD void enter_cylinder(const Frame f, const float* x, const float* y, const float* z,
+                                std::size_t count, double* depth, double* face) {
+    const double* t = f.turn;
+    const double rest = f.origin[0] * f.origin[0] + f.origin[1] * f.origin[1] - f.half[0] * f.half[0];
+    for (std::size_t i = 0; i < count; ++i) {
+        const double a = x[i], b = y[i], c = z[i];
+        const double dx = t[0] * a + t[1] * b + t[2] * c, dy = t[3] * a + t[4] * b + t[5] * c,
+                     dz = t[6] * a + t[7] * b + t[8] * c;
+        Inside inside;
+        inside.round(dx * dx + dy * dy, f.origin[0] * dx + f.origin[1] * dy, rest);
+        inside.slab(2, f.origin[2], dz, f.half[2]);
+        inside.note(&depth[i], &face[i]);
+    }
+}
+
+FORAGE_SIMD void enter_sphere(const Frame f, const float* x, const float* y, const float* z,
+                              std::size_t count, double* depth, double* face) {
+    const double* t = f.turn;
+    const double rest = f.origin[0] * f.origin[0] + f.origin[1] * f.origin[1] + f.origin[2] * f.origin[2] -
+                        f.half[0] * f.half[0];
+    for (std::size_t i = 0; i < count; ++i) {
+        const double a = x[i], b = y[i], c = z[i];
+        const double dx = t[0] * a + t[1] * b + t[2] * c, dy = t[3] * a + t[4] * b + t[5] * c,
+                     dz = t[6] * a + t[7] * b + t[8] * c;
+        Inside inside;
+        inside.round(dx * dx + dy * dy + dz * dz, f.origin[0] * dx + f.origin[1] * dy + f.origin[2] * dz,
+                     rest);
+        inside.note(&depth[i], &face[i]);
+    }
+}
+
 }  // namespace
 
-std::optional<Entry> enter(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& origin,
-                           const Eigen::Vector3d& direction) {
-    const double radius = half.x();
-    if (kind == ShapeKind::cylinder && origin.z() > half.z() &&
-        direction.z() < 0) {  // from above: often through the lid
-        const double depth = (half.z() - origin.z()) / direction.z();
-        const Eigen::Vector2d lid = origin.head<2>() + depth * direction.head<2>();
-        if (lid.squaredNorm() <= radius * radius) return Entry{depth, 4, Eigen::Vector3d::Zero()};
+void enter(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& origin,
+           const Eigen::Matrix3d& turn, const Rays& rays, const Entries& out) {
+    Frame f;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) f.turn[3 * row + column] = turn(row, column);
+        f.origin[row] = origin[row], f.half[row] = half[row];
     }
-    Inside inside;
     switch (kind) {
         case ShapeKind::box:
-            for (int axis = 0; axis < 3; ++axis) inside.slab(axis, origin[axis], direction[axis], half[axis]);
-            break;
+            return enter_box(f, rays.x, rays.y, rays.z, rays.count, out.depth, out.face);
         case ShapeKind::cylinder:
-            inside.round(direction.head<2>().squaredNorm(), origin.head<2>().dot(direction.head<2>()),
-                         origin.head<2>().squaredNorm() - radius * radius);
-            inside.slab(2, origin.z(), direction.z(), half.z());
-            break;
+            return enter_cylinder(f, rays.x, rays.y, rays.z, rays.count, out.depth, out.face);
         case ShapeKind::sphere:
-            inside.round(direction.squaredNorm(), origin.dot(direction),
-                         origin.squaredNorm() - radius * radius);
-            break;
+            return enter_sphere(f, rays.x, rays.y, rays.z, rays.count, out.depth, out.face);
         case ShapeKind::plane:
-            return {};
+            std::fill_n(out.depth, rays.count, infinity);
     }
-    if (!(inside.enter > 0 && inside.enter <= inside.leave)) return {};
-    Entry entry{inside.enter, inside.face, Eigen::Vector3d::Zero()};
-    if (entry.face == Entry::curved) {
-        entry.normal = origin + entry.depth * direction;
-        if (kind == ShapeKind::cylinder) entry.normal.z() = 0;
-        entry.normal.normalize();
-    }
-    return entry;
+}
+
+Eigen::Vector3d curved_normal(ShapeKind kind, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                              double depth) {
+    Eigen::Vector3d normal = origin + depth * direction;
+    if (kind == ShapeKind::cylinder) normal.z() = 0;
+    return normal.normalized();
 }
 
 }  // namespace forage::bug

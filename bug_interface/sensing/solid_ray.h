@@ -1,20 +1,12 @@
-// Where a ray enters a solid.
+// Where rays enter a solid.
 #pragma once
 
-#include <optional>
+#include <span>
 
 #include "bug_interface/sensing/outline.h"
 #include "bug_interface/world/description.h"
 
 namespace forage::bug {
-
-/// A point where a ray enters a solid from outside.
-struct Entry {
-    static constexpr int curved = 6;
-    double depth = 0;        ///< in units of the ray's direction
-    int face = curved;       ///< 2 * axis, + 1 on the negative side; or curved
-    Eigen::Vector3d normal;  ///< of a curved face: outwards, unit length, in the solid's frame
-};
 
 /// How far `solid` reaches above and below its middle (a bound for tilted round ones), m.
 inline double half_height(const Solid& solid) {
@@ -29,12 +21,29 @@ inline double radius_squared(const Solid& solid) {
     return solid.size.squaredNorm() / 4;
 }
 
-/// Outward normal of flat face `face`.
+/// Outward normal of flat face `face`: 2 * axis, + 1 on the negative side.
 inline Eigen::Vector3d face_normal(int face) { return Eigen::Vector3d::Unit(face / 2) * (face % 2 ? -1 : 1); }
 
-/// Where the ray origin + depth * direction (depth > 0, in the frame of the solid) enters a box, cylinder or
-/// sphere with half extents `half`. Empty when it misses, or starts inside.
-std::optional<Entry> enter(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& origin,
-                           const Eigen::Vector3d& direction);
+/// Rays from one point, in a frame of their own: ray i has the direction (x[i], y[i], z[i]).
+struct Rays {
+    const float *x, *y, *z;
+    std::size_t count;
+};
+
+/// Where rays enter a solid from outside.
+struct Entries {
+    static constexpr double curved = 6;
+    double* depth;  ///< in units of the ray's direction, > 0; infinity where it misses, or starts inside
+    double* face;   ///< a number as for face_normal(), or curved
+};
+
+/// Meets a box, cylinder or sphere with half extents `half` in a frame of its own, where the rays begin at
+/// `origin` and have the directions `turn` * ray. All rays miss a plane.
+void enter(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& origin,
+           const Eigen::Matrix3d& turn, const Rays& rays, const Entries& out);
+
+/// Outward normal, of unit length, where a ray enters a cylinder or sphere through its curved face.
+Eigen::Vector3d curved_normal(ShapeKind kind, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                              double depth);
 
 }  // namespace forage::bug

@@ -1,5 +1,8 @@
 // What the camera sees of things on the floor.
+#include <array>
 #include <cmath>
+#include <optional>
+#include <random>
 
 #include "bug_interface/sensing/solid_ray.h"
 #include "tests/unit/bug_sensing/arena.h"
@@ -174,18 +177,81 @@ TEST_CASE("A higher floor hides a lower one") {
     CHECK(pixel(rgb, 0, 0)[1] == 0.4f);
 }
 
+namespace {
+
+struct Entry {
+    double depth, face;
+};
+
+/// Of a ray; 13 of them, for there are more ways to do many than one.
+std::optional<Entry> entry(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& origin,
+                           const Eigen::Vector3d& ray) {
+    constexpr std::size_t count = 13;
+    std::array<float, count> x, y, z;
+    std::array<double, count> depth, face;
+    x.fill(static_cast<float>(ray.x())), y.fill(static_cast<float>(ray.y()));
+    z.fill(static_cast<float>(ray.z()));
+    forage::bug::enter(kind, half, origin, Eigen::Matrix3d::Identity(), {x.data(), y.data(), z.data(), count},
+                       {depth.data(), face.data()});
+    for (std::size_t i = 1; i < count; ++i) {
+        CHECK(depth[i] == depth[0]);
+        CHECK(face[i] == face[0]);
+    }
+    if (std::isinf(depth[0])) return {};
+    return Entry{depth[0], face[0]};
+}
+
+}  // namespace
+
 TEST_CASE("A ray enters solids from outside only") {
     const Eigen::Vector3d half(1, 2, 3), ahead(1, 0, 0);
     for (const ShapeKind kind : {ShapeKind::box, ShapeKind::cylinder, ShapeKind::sphere}) {
-        const auto entry = enter(kind, half, {-5, 0, 0}, ahead);
-        REQUIRE(entry);
-        CHECK(entry->depth == Approx(4));
-        CHECK_FALSE(enter(kind, half, {0, 0, 0}, ahead));
-        CHECK_FALSE(enter(kind, half, {5, 0, 0}, ahead));
-        CHECK_FALSE(enter(kind, half, {-5, 2.5, 0}, ahead));
-        CHECK_FALSE(enter(kind, half, {-5, 0, 3.5}, ahead));
+        const auto met = entry(kind, half, {-5, 0, 0}, ahead);
+        REQUIRE(met);
+        CHECK(met->depth == Approx(4));
+        CHECK_FALSE(entry(kind, half, {0, 0, 0}, ahead));
+        CHECK_FALSE(entry(kind, half, {5, 0, 0}, ahead));
+        CHECK_FALSE(entry(kind, half, {-5, 2.5, 0}, ahead));
+        CHECK_FALSE(entry(kind, half, {-5, 0, 3.5}, ahead));
     }
-    CHECK(enter(ShapeKind::box, half, {-5, 0, 0}, ahead)->face == 1);
-    CHECK(enter(ShapeKind::cylinder, half, {0, 0, 9}, -Eigen::Vector3d::UnitZ())->face == 4);
-    CHECK(enter(ShapeKind::cylinder, half, {-5, 0, 0}, ahead)->normal.x() == Approx(-1));
+    CHECK_FALSE(entry(ShapeKind::plane, half, {-5, 0, 0}, ahead));
+    CHECK(entry(ShapeKind::box, half, {-5, 0, 0}, ahead)->face == 1);
+    CHECK(entry(ShapeKind::cylinder, half, {0, 0, 9}, -Eigen::Vector3d::UnitZ())->face == 4);
+    CHECK(entry(ShapeKind::cylinder, half, {0.5, 0, 9}, {0, 0.125, -1})->depth == Approx(6));
+    CHECK(entry(ShapeKind::cylinder, half, {-5, 0, 0}, ahead)->face == forage::bug::Entries::curved);
+    CHECK(forage::bug::curved_normal(ShapeKind::cylinder, {-5, 0, 0}, ahead, 4).x() == Approx(-1));
+    CHECK(forage::bug::curved_normal(ShapeKind::cylinder, {-5, 0, 2}, ahead, 4).z() == 0);
+}
+
+TEST_CASE("Rays enter solids where a walk along them does") {
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> any(-2, 2);
+    for (int i = 0; i < 300; ++i) {
+        const auto kind = std::array{ShapeKind::box, ShapeKind::cylinder,
+                                     ShapeKind::sphere}[static_cast<std::size_t>(i % 3)];
+        const Eigen::Vector3d half(0.7, kind == ShapeKind::box ? 0.4 : 0.7,
+                                   kind == ShapeKind::sphere ? 0.7 : 0.9);
+        const Eigen::Vector3f direction =
+            Eigen::Vector3d(any(random), any(random), any(random)).cast<float>();
+        const Eigen::Vector3d from(any(random), any(random), any(random)), ray = direction.cast<double>();
+        const auto inside = [&](double depth) {
+            const Eigen::Vector3d at = from + depth * ray;
+            if (kind == ShapeKind::sphere) return at.norm() < half.x();
+            if (kind == ShapeKind::cylinder)
+                return at.head<2>().norm() < half.x() && std::abs(at.z()) < half.z();
+            return (at.cwiseAbs() - half).maxCoeff() < 0;
+        };
+        std::optional<double> walked;
+        constexpr double step = 1e-3;
+        for (double depth = 0; depth < 8 && !walked && !inside(0); depth += step)
+            if (inside(depth)) walked = depth;
+        const auto met = entry(kind, half, from, ray);
+        INFO("solid " << i);
+        if (walked) {
+            REQUIRE(met);
+            CHECK(met->depth == Approx(*walked).margin(1.01 * step));
+        } else if (met) {  // a corner that the walk steps over, or far away
+            CHECK((met->depth > 8 - step || !inside(met->depth + step)));
+        }
+    }
 }
