@@ -112,14 +112,19 @@ void Arbor::points(Place c, const PointVisitor& visit) {
             [&](const model::RandomArbor& a) {
                 // Partial Fisher-Yates shuffle: `count` distinct cells, each set of them equally likely, in
                 // whatever order the places begin. So there is no need to put them back in order for the next
-                // centre.
-                for (std::size_t i = 0; i < places_.size() && i < static_cast<std::size_t>(a.count); ++i) {
+                // centre. In grid order a target reads its sources from the first to the last, which is kind
+                // to the cache; the original's order is that of its unseeded draws.
+                const std::size_t count =
+                    std::min(places_.size(), static_cast<std::size_t>(std::max(a.count, 0)));
+                for (std::size_t i = 0; i < count; ++i) {
                     const double u = random_.uniform(draws_++, 1);
                     std::swap(places_[i],
                               places_[i + static_cast<std::size_t>(u * double(places_.size() - i))]);
+                }
+                std::sort(places_.begin(), places_.begin() + static_cast<std::ptrdiff_t>(count));
+                for (std::size_t i = 0; i < count; ++i)
                     visit(grid_.left() + places_[i] % grid_.width(),
                           grid_.top() + places_[i] / grid_.width());
-                }
             },
         },
         arborization_.shape);

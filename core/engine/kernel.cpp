@@ -7,6 +7,7 @@
 #include "core/engine/by_target.h"
 #include "core/engine/sliced_kernel.h"
 #include "core/engine/window_kernel.h"
+#include "core/types/simd.h"
 
 namespace forage::engine {
 namespace {
@@ -42,6 +43,10 @@ bool all_equal(const std::vector<T>& values) {
     return std::all_of(values.begin(), values.end(), [&](const T& v) { return v == values.front(); });
 }
 
+FORAGE_SIMD void add_scaled(const double* pre, double gain, double factor, Index n, double* target) {
+    for (Index i = 0; i < n; ++i) target[i] += (pre[i] * gain) * factor;
+}
+
 /// Each target cell has one synapse, from the source cell of the same index, and all are alike.
 class OneToOne final : public Kernel {
   public:
@@ -60,8 +65,7 @@ class OneToOne final : public Kernel {
         return all_equal(s.delay) && all_equal(s.factor);
     }
     void deliver(const History& source, double* target) override {
-        const ConstColumn pre(source.ago(delay_), cells_);
-        Column(target, cells_) += (pre * synapse_.gain()) * factor_;
+        add_scaled(source.ago(delay_), synapse_.gain(), factor_, cells_, target);
     }
     std::string_view form() const override { return "one to one"; }
     double cost() const override { return 0.4 * static_cast<double>(cells_); }

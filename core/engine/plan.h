@@ -15,37 +15,40 @@
 
 namespace forage::engine {
 
+// What a cycle reads of every group and connection stands first: it then lies together in few lines of the
+// cache.
+
 struct GroupPlan {
+    // What changes in a run; group_cycle.h says what it is for.
+    bool rests = false;                   ///< with this input an update changes nothing
+    bool delivered = false;               ///< the other row of `inputs` holds what the next update reads
+    bool same_input = false;              ///< ... which is what the last update read
+    bool silent = false;                  ///< the activity is 0; noticed for large groups only
+    bool finite = true;                   ///< no update that was watched gave a state NaN or an infinity
+    bool divided = false;                 ///< an incoming connection is so large that all threads share it
+    std::array<bool, input_kinds> fed{};  ///< the type reads this kind, and somebody delivers it
+    int output = 0;                       ///< the state that is the activity
+    std::size_t row = 0;         ///< the row of `inputs` that the last update read; the other one receives
+    std::uint64_t same_for = 0;  ///< updates in a row with the same input
+    std::int64_t changed = 0;    ///< the last cycle whose activity differed from that of the cycle before
+
+    Index cells = 0, stride = 0;
+    std::unique_ptr<NeuronInstance> neuron;
+    std::vector<NeuronColumns::State> states;        ///< a state's ring: row t % depth is that of cycle t
+    std::vector<int> incoming;                       ///< connections that end here, in order
+    std::vector<std::pair<int, int>> module_inputs;  ///< modules and ports that write to this group, in order
+    std::array<std::array<double*, 2>, input_kinds> inputs{};  ///< of this and of the next cycle, in turns
+    double delivery_cost = 0;                                  ///< of all incoming connections, ns
+    int history = 0;  ///< longest delay of outgoing connections; 0: no ring of past activity is kept
+    double* history_ring = nullptr;  ///< row t % (history + 1) is the activity of cycle t
+    RandomStream random;
+
     std::string path, id;  ///< path: "Process/Group"
     GroupShape shape;
-    Index cells = 0, stride = 0;
     NeuronType type;
-    std::unique_ptr<NeuronInstance> neuron;
-    RandomStream random;
     std::vector<Arena::Offset> state_offsets;
-    std::vector<NeuronColumns::State> states;  ///< a state's ring: row t % depth is that of cycle t
     std::array<std::array<Arena::Offset, 2>, input_kinds> input_offsets{};
-    std::array<std::array<double*, 2>, input_kinds> inputs{};  ///< of this and of the next cycle, in turns
-    std::vector<int> incoming;                                 ///< connections that end here, in order
-    int history = 0;  ///< longest delay of outgoing connections; 0: no ring of past activity is kept
     Arena::Offset history_offset = 0;
-    double* history_ring = nullptr;                  ///< row t % (history + 1) is the activity of cycle t
-    int output = 0;                                  ///< the state that is the activity
-    std::vector<std::pair<int, int>> module_inputs;  ///< modules and ports that write to this group, in order
-    std::array<bool, input_kinds> fed{};             ///< the type reads this kind, and somebody delivers it
-
-    double delivery_cost = 0;  ///< of all incoming connections, ns
-    bool divided = false;      ///< one of them is so large that all threads share it
-
-    // What changes in a run; group_cycle.h says what it is for.
-    std::size_t row = 0;         ///< the row of `inputs` that the last update read; the other one receives
-    bool delivered = false;      ///< the other one holds what the next update reads
-    bool same_input = false;     ///< ... which is what the last update read
-    std::uint64_t same_for = 0;  ///< updates in a row with the same input
-    bool rests = false;          ///< with this input an update changes nothing
-    std::int64_t changed = 0;    ///< the last cycle whose activity differed from that of the cycle before
-    bool silent = false;         ///< the activity is 0; noticed for large groups only
-    bool finite = true;          ///< no update that was watched gave a state NaN or an infinity
 };
 
 struct ModulePlan {
@@ -65,18 +68,19 @@ struct ModulePlan {
 };
 
 struct ConnectionPlan {
-    std::string id, name;
-    int source = 0, target = 0;
-    InputKind kind = InputKind::excitatory;
-    std::unique_ptr<SynapseInstance> synapse;
-    SynapseType type;
     std::unique_ptr<Kernel> kernel;
     PlasticKernel* plastic = nullptr;  ///< the kernel, when its synapses have states of their own
-    std::vector<int> feedback;         ///< for a plastic one: states of the target, -1 for an unset one
-    bool effective = true;             ///< the target's type reads this kind of input
-    std::size_t synapses = 0;
+    int source = 0, target = 0;
     int longest_delay = 0;
-    bool changed = false;  ///< from outside, since it delivered
+    InputKind kind = InputKind::excitatory;
+    bool effective = true;  ///< the target's type reads this kind of input
+    bool changed = false;   ///< from outside, since it delivered
+
+    std::string id, name;
+    std::unique_ptr<SynapseInstance> synapse;
+    SynapseType type;
+    std::vector<int> feedback;  ///< for a plastic one: states of the target, -1 for an unset one
+    std::size_t synapses = 0;
 };
 
 /// Groups, modules and connections in the order in which a cycle updates them: byte order of their ids (of

@@ -88,9 +88,10 @@ void Simulation::step() {
     update_connections();
 }
 
+/// Where there are threads, for one long loop, they are at hand for shorter ones too.
 template <class Run>
 void Simulation::try_sharing(double cost, SharingTrial& trial, Run run) {
-    if (pool_->threads() == 1 || cost < worth_sharing_) return run(false);
+    if (pool_->threads() == 1 || cost < worth_sharing_ / 4) return run(false);
     if (worth_sharing_ == 0) return run(true);
     run(trial.begin());
     trial.end();

@@ -42,8 +42,12 @@ std::vector<int> delays_of(const ByTarget& s) {
 template <class Cell>
 [[gnu::always_inline]] inline void sum_slice(const Cell* pre, const double* weight, const double* scaled,
                                              std::size_t length, double* sums) {
+    constexpr std::size_t ahead =
+        512;  // numbers; beyond the page, where the processor does not look by itself
     double total[lanes] = {};
     for (std::size_t k = 0; k < length; ++k, pre += lanes) {
+        if (weight) __builtin_prefetch(weight + ahead);
+        if (k % (64 / (lanes * sizeof(Cell))) == 0) __builtin_prefetch(pre + ahead);
         for (std::size_t l = 0; l < lanes; ++l)
             total[l] += weight ? scaled[pre[l]] * weight[l] : scaled[pre[l]];
         if (weight) weight += lanes;

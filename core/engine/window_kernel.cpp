@@ -11,41 +11,57 @@ namespace {
 constexpr Index lanes = 8;
 typedef double Lanes __attribute__((vector_size(lanes * sizeof(double))));  // NOLINT: no `using` for this
 
-/// sums[v][i] = sum over the taps, from 0 and in order, for `blocks` * 8 neighbouring cells from `at` on.
-template <int blocks>
-[[gnu::always_inline]] inline void sum_taps(const WindowKernel::Tap* taps, std::size_t count, Index at,
-                                            double* out) {
-    Lanes sums[blocks] = {};
+/// to[y * width + x] += the sum over the taps, from 0 and in order, for `rows` rows and `blocks` * 8 columns
+/// from source cell `at` on, of which the first `columns` exist. Additions wait for each other, so several
+/// sums are made side by side.
+template <int blocks, int rows>
+[[gnu::always_inline]] inline void add_taps(const WindowKernel::Tap* taps, std::size_t count, Index at,
+                                            Index stride, Index columns, Index width, double* to) {
+    Lanes sums[rows][blocks];
+    for (auto& row : sums)  // one by one, so that they stay in registers
+        for (Lanes& sum : row) sum = Lanes{};
     for (std::size_t k = 0; k < count; ++k) {
         const double* from = taps[k].source + at;
         const double factor = taps[k].factor;
-        for (int b = 0; b < blocks; ++b) {
-            Lanes values;
-            std::memcpy(&values, from + b * lanes, sizeof values);
-            sums[b] += values * factor;
-        }
+        for (int y = 0; y < rows; ++y)
+            for (int b = 0; b < blocks; ++b) {
+                Lanes values;
+                std::memcpy(&values, from + y * stride + b * lanes, sizeof values);
+                sums[y][b] += values * factor;
+            }
     }
-    for (int b = 0; b < blocks; ++b) std::memcpy(out + b * lanes, &sums[b], sizeof sums[b]);
+    for (int y = 0; y < rows; ++y) {
+        double row[blocks * lanes];
+        std::memcpy(row, sums[y], sizeof row);
+        for (Index i = 0; i < std::min(columns, blocks * lanes); ++i) to[y * width + i] += row[i];
+    }
+}
+
+/// All columns of `rows` rows.
+template <int rows>
+[[gnu::always_inline]] inline void add_rows(const WindowKernel::Tap* taps, std::size_t count, Index at,
+                                            Index stride, Index width, double* to) {
+    for (Index x = 0; x < width;) {
+        const Index left = width - x;
+        if (rows == 1 && left > 3 * lanes)
+            add_taps<4, rows>(taps, count, at + x, stride, left, width, to + x), x += 4 * lanes;
+        else if (left > lanes)
+            add_taps<2, rows>(taps, count, at + x, stride, left, width, to + x), x += 2 * lanes;
+        else
+            add_taps<1, rows>(taps, count, at + x, stride, left, width, to + x), x += lanes;
+    }
 }
 
 FORAGE_SIMD void add_windows(const WindowKernel::Tap* taps, std::size_t count, Index width, Index first_row,
                              Index last_row, Index stride, double* target) {
-    double sums[4 * lanes];
-    for (Index y = first_row; y < last_row; ++y)
-        for (Index x = 0; x < width;) {
-            const Index at = y * stride + x, left = width - x;
-            Index done = lanes;
-            if (left > 3 * lanes)
-                sum_taps<4>(taps, count, at, sums), done = 4 * lanes;
-            else if (left > lanes)
-                sum_taps<2>(taps, count, at, sums), done = 2 * lanes;
-            else
-                sum_taps<1>(taps, count, at, sums);
-            done = std::min(done, left);
-            double* to = target + y * width + x;
-            for (Index i = 0; i < done; ++i) to[i] += sums[i];
-            x += done;
-        }
+    Index y = first_row;
+    if (width <= 2 * lanes) {
+        for (; y + 4 <= last_row; y += 4)
+            add_rows<4>(taps, count, y * stride, stride, width, target + y * width);
+        for (; y + 2 <= last_row; y += 2)
+            add_rows<2>(taps, count, y * stride, stride, width, target + y * width);
+    }
+    for (; y < last_row; ++y) add_rows<1>(taps, count, y * stride, stride, width, target + y * width);
 }
 
 FORAGE_SIMD void scale(const double* from, double gain, Index n, double* to) {

@@ -2,12 +2,13 @@
 //
 //     bench_closed_loop [SYSTEM.iqr WORLD.world [SETTING...]]
 //
-// Without arguments: the reactive system in the basic arena, where it drives and sees but touches nothing,
-// and in the open one, where it ends up at a wall. Last result: see README.md.
+// Without arguments: the systems that ship, also in the open arena, where the robot ends up at a wall, and
+// the tutorial's own where $FORAGE_SHARED is. Last result: docs/design/performance.md.
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <vector>
 
 #include <fmt/format.h>
@@ -21,6 +22,8 @@
 #include "modules/modules.h"
 #include "neurons/neurons.h"
 #include "synapses/synapses.h"
+#include "tests/bench/report.h"
+#include "tests/support/golden.h"
 
 namespace {
 
@@ -31,13 +34,8 @@ constexpr std::array<const char*, 6> parts = {"groups",  "modules", "connections
                                               "physics", "rays",    "camera"};
 constexpr int blocks = 20, cycles_per_block = 2000;
 
-double median(std::vector<double> v) {
-    std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
-    return v[v.size() / 2];
-}
-
 /// Prints what it measured; returns whether it could.
-bool measure(const std::string& system_file, const std::string& world_file,
+bool measure(const std::string& subject, const std::string& system_file, const std::string& world_file,
              const std::vector<std::string>& settings = {}) {
     Diagnostics diagnostics;
     diagnostics.lenient = true;
@@ -67,12 +65,12 @@ bool measure(const std::string& system_file, const std::string& world_file,
     std::vector<double> whole;
     std::array<std::vector<double>, parts.size()> by_part;
     for (int b = 0; b < blocks; ++b) {
-        const auto begin = Clock::now();
+        const double begin = bench::thread_seconds();
         for (int i = 0; i < cycles_per_block; ++i) {
             simulation->step();
             world->step();
         }
-        whole.push_back(std::chrono::duration<double>(Clock::now() - begin).count() / cycles_per_block);
+        whole.push_back((bench::thread_seconds() - begin) / cycles_per_block);
 
         std::array<double, parts.size()> sums{};
         for (int i = 0; i < cycles_per_block; ++i) {
@@ -91,24 +89,46 @@ bool measure(const std::string& system_file, const std::string& world_file,
         }
         for (std::size_t p = 0; p < parts.size(); ++p) by_part[p].push_back(sums[p] / cycles_per_block);
     }
-    const double cycle = median(whole);
-    fmt::print("{} in {}\n", system_file, world_file);
+    const double cycle = bench::median(whole);
+    fmt::print("{}\n", subject);
+    bench::result("closed loop/" + subject, "rate", 1 / cycle, "cycles/s");
+    bench::result("closed loop/" + subject, "x real time", world->seconds_per_cycle() / cycle, "");
     fmt::print(
         "  {:.0f} cycles/s, {:.0f} x real time ({:g} ms of the world per cycle), {:.1f} us per cycle; median "
         "of {} blocks of {} cycles\n",
         1 / cycle, world->seconds_per_cycle() / cycle, 1000 * world->seconds_per_cycle(), 1e6 * cycle, blocks,
         cycles_per_block);
-    for (std::size_t p = 0; p < parts.size(); ++p)
-        fmt::print("  {:<12} {:6.2f} us\n", parts[p], 1e6 * median(by_part[p]));
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        fmt::print("  {:<12} {:6.2f} us\n", parts[p], 1e6 * bench::median(by_part[p]));
+        bench::result("closed loop/" + subject, parts[p], 1e6 * bench::median(by_part[p]), "us/cycle");
+    }
     return true;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc > 2) return measure(argv[1], argv[2], {argv + 3, argv + argc}) ? 0 : 2;
-    const std::string systems = std::string(FORAGE_SOURCE_DIR) + "/systems/";
-    for (const char* world : {"basic_arena", "open_arena"})
-        if (!measure(systems + "reactive_foraging.iqr", systems + "worlds/" + world + ".world")) return 2;
-    return 0;
+    if (argc > 2)
+        return measure(fmt::format("{} in {}", argv[1], argv[2]), argv[1], argv[2], {argv + 3, argv + argc})
+                   ? 0
+                   : 2;
+    const std::string own = std::string(FORAGE_SOURCE_DIR) + "/systems/", worlds = own + "worlds/";
+    const std::string original = (test::shared_dir() / "original" / "DAC_files").string() + "/";
+    const std::vector<std::string> contextual = {"Contextual.enableModule=true"};
+    bool good =
+        measure("reactive_foraging in basic_arena", own + "reactive_foraging.iqr",
+                worlds + "basic_arena.world") &&
+        measure("reactive_foraging in open_arena", own + "reactive_foraging.iqr",
+                worlds + "open_arena.world") &&
+        measure("dac_foraging in basic_arena", own + "dac_foraging.iqr", worlds + "basic_arena.world");
+    if (!std::filesystem::exists(original)) {
+        fmt::print("skipped: the tutorial's own systems, there is no {}\n", original);
+        return good ? 0 : 2;
+    }
+    const std::string arena = original + "DAC_basic_arena.world";
+    good = good && measure("DACReactiveBug", original + "DACReactiveBug.iqr", arena) &&
+           measure("DACBugBasicArena", original + "DACBugBasicArena.iqr", arena) &&
+           measure("DACBugBasicArena with its contextual layer", original + "DACBugBasicArena.iqr", arena,
+                   contextual);
+    return good ? 0 : 2;
 }

@@ -4,7 +4,6 @@
 //
 // They wander, meet walls and each other, open and close their grippers. Last result: see
 // docs/design/performance.md.
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -13,11 +12,11 @@
 #include "bug_interface/simulation/world.h"
 #include "bug_interface/world/sdf_reader.h"
 #include "core/types/random.h"
+#include "tests/bench/report.h"
 
 namespace {
 
 using namespace forage;
-using Clock = std::chrono::steady_clock;
 
 /// The team arena, with this many robots in a ring.
 std::unique_ptr<bug::World> arena(const bug::WorldDescription& read, int robots, Diagnostics& diagnostics) {
@@ -43,7 +42,7 @@ double measure(bug::World& world, double& contacts) {
     for (std::size_t i = 0; i < world.bugs(); ++i)
         world.need_image(i, true), world.need_gripper_scan(i, true);
     constexpr std::uint64_t cycles = 5000;
-    const auto begin = Clock::now();
+    const double begin = bench::thread_seconds();
     for (std::uint64_t cycle = 0; cycle < cycles; ++cycle) {
         for (std::size_t i = 0; i < world.bugs(); ++i) {
             const auto n = static_cast<std::uint32_t>(3 * i);
@@ -53,7 +52,7 @@ double measure(bug::World& world, double& contacts) {
         }
         world.step();
     }
-    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    const double seconds = bench::thread_seconds() - begin;
     contacts = static_cast<double>(world.physics().contact_steps()) / static_cast<double>(world.substeps());
     return 1e6 * seconds / cycles;
 }
@@ -78,4 +77,5 @@ int main() {
     fmt::print("8 robots  {:7.1f} us per cycle of 40 ms, contacts looked for in {:.0f} % of the steps\n",
                times[1], 100 * contacts[1]);
     fmt::print("8 robots run at {:.3f} of the rate of one\n", times[0] / times[1]);
+    bench::result("crowd", "rate of 8 robots / of one", times[0] / times[1], "");
 }

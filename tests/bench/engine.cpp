@@ -7,7 +7,6 @@
 // to load and build, and the peak of memory. The two systems of the tutorial get their recorded input again
 // and again, so that their senses never stand still. Last result: docs/design/performance.md.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -15,7 +14,6 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "core/engine/simulation.h"
@@ -24,17 +22,13 @@
 #include "modules/replay/replay.h"
 #include "neurons/neurons.h"
 #include "synapses/synapses.h"
+#include "tests/bench/report.h"
 #include "tests/support/golden.h"
 
 namespace {
 
 using namespace forage;
-using Clock = std::chrono::steady_clock;
 using Path = std::filesystem::path;
-
-double seconds_since(Clock::time_point begin) {
-    return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 /// Plays a recording from the beginning again when it is over.
 struct Loop {
@@ -68,32 +62,14 @@ std::vector<Original> originals() {
     return out;
 }
 
-/// Seconds that this thread has computed: what else the machine does counts less than on a clock on the wall.
-double thread_seconds() {
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double wall_seconds() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
-
-/// Cycles per second: the median of blocks of about a twentieth of a second.
-double speed(engine::Simulation& simulation, double (*clock)()) {
-    std::vector<double> speeds;
-    int cycles = 1;
-    for (int block = 0; block < 11;) {
-        const double begin = clock();
-        for (int i = 0; i < cycles; ++i) simulation.step();
-        const double seconds = clock() - begin;
-        if (seconds < 0.05 && cycles < 1'000'000) {
-            cycles *= 2;
-            continue;
-        }
-        speeds.push_back(cycles / seconds);
-        ++block;
+/// In turns, so that what else the machine does meets both.
+double faster_with_two(engine::Simulation& one, engine::Simulation& two) {
+    std::vector<double> ratios;
+    for (int i = 0; i < 5; ++i) {
+        const double alone = bench::rate(bench::wall_seconds, [&] { one.step(); });
+        ratios.push_back(bench::rate(bench::wall_seconds, [&] { two.step(); }) / alone);
     }
-    std::nth_element(speeds.begin(), speeds.begin() + 5, speeds.end());
-    return speeds[5];
+    return bench::median(ratios);
 }
 
 int measure(const Original& original) {
@@ -116,27 +92,36 @@ int measure(const Original& original) {
             module_type(Loop{std::make_shared<replay::DriveTable>(replay::DriveTable::read(drive)), {}}));
     Diagnostics diagnostics;
     diagnostics.lenient = true;  // the player has none of the robot's parameters
-    const auto begin = Clock::now();
+    const double begin = bench::wall_seconds();
     const auto system = xml::read_system(file, diagnostics);
     auto simulation = system ? engine::Simulation::build(*system, registry, {}, diagnostics) : std::nullopt;
-    const double build = seconds_since(begin);
+    const double build = bench::wall_seconds() - begin;
     if (!simulation) {
         fmt::print(stderr, "{}", format(diagnostics));
         return 1;
     }
     simulation->start();
-    const double one = speed(*simulation, thread_seconds), one_by_wall = speed(*simulation, wall_seconds);
+    const auto step = [&] { simulation->step(); };
+    const double one = bench::rate(bench::thread_seconds, step);
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     const double megabytes = static_cast<double>(usage.ru_maxrss) / 1024;
 
+    auto alone = std::move(simulation);
     simulation = engine::Simulation::build(*system, registry, {.threads = 2}, diagnostics);
     simulation->start();
     const bool shared_work = simulation->threads() > 1;
-    const double two = shared_work ? speed(*simulation, wall_seconds) / one_by_wall : 1;
+    const double two = shared_work ? faster_with_two(*alone, *simulation) : 1;
+    const double ratio = one / original.cycles_per_second, memory = megabytes / original.megabytes;
     fmt::print("{:<42} {:>10.0f} {:>8.1f} x {:>8.3f} {:>8.0f} {:>8.2f} {:>8.2f}{}\n", original.name, one,
-               one / original.cycles_per_second, build, megabytes, megabytes / original.megabytes, two,
-               shared_work ? "" : " (one thread)");
+               ratio, build, megabytes, memory, two, shared_work ? "" : " (one thread)");
+    const std::string subject = "engine/" + original.name;
+    bench::result(subject, "rate", one, "cycles/s");
+    bench::result(subject, "rate / original's", ratio, "");
+    bench::result(subject, "load and build", build, "s");
+    bench::result(subject, "memory", megabytes, "MB");
+    bench::result(subject, "memory / original's", memory, "");
+    bench::result(subject, "rate with two threads / with one", two, "");
     return 0;
 }
 

@@ -1,12 +1,11 @@
 // How many microseconds does an update of the adaptive and of the contextual layer take, at the tutorial's
 // sizes?
-#include <chrono>
-
 #include <fmt/format.h>
 
 #include "modules/adaptive_layer/module.h"
 #include "modules/colour/module.h"
 #include "modules/contextual_layer/module.h"
+#include "tests/bench/report.h"
 #include "tests/support/module_bench.h"
 
 using namespace forage;
@@ -14,13 +13,14 @@ using namespace forage::test;
 
 namespace {
 
-/// Microseconds per call.
+/// Prints and notes the microseconds per call.
 template <class F>
-double time_of(int calls, F&& call) {
-    const auto begin = std::chrono::steady_clock::now();
+void time_of(const std::string& what, int calls, F&& call) {
+    const double begin = bench::thread_seconds();
     for (int i = 0; i < calls; ++i) call(i);
-    return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count() /
-           calls;
+    const double each = 1e6 * (bench::thread_seconds() - begin) / calls;
+    fmt::print("{:<30} {:8.2f} us\n", what, each);
+    bench::result(fmt::format("module/{}", what), "update", each, "us");
 }
 
 void measure_adaptive_layer() {
@@ -33,10 +33,10 @@ void measure_adaptive_layer() {
         .set("init", "0.01")
         .set("discTime", "0.01")
         .start();
-    fmt::print("moduleAL, no stimulus          {:8.2f} us\n", time_of(100000, [&](int) { bench.update(); }));
+    time_of("moduleAL, no stimulus", 100000, [&](int) { bench.update(); });
     bench.inputs[0].segment(8, 4).setConstant(0.8);
     bench.inputs[1][2] = 0.5;
-    fmt::print("moduleAL, learning             {:8.2f} us\n", time_of(100000, [&](int) { bench.update(); }));
+    time_of("moduleAL, learning", 100000, [&](int) { bench.update(); });
 }
 
 void measure_contextual_layer() {
@@ -56,9 +56,9 @@ void measure_contextual_layer() {
         .set("Trigger Decay", "0.005")
         .set("Discrepancy Threshold", "0.1")
         .start();
-    fmt::print("moduleCL, closed               {:8.2f} us\n", time_of(10000, [&](int) { bench.update(); }));
+    time_of("moduleCL, closed", 10000, [&](int) { bench.update(); });
     bench.inputs[3][0] = 0.05;
-    fmt::print("moduleCL, open, nothing stored {:8.2f} us\n", time_of(10000, [&](int) { bench.update(); }));
+    time_of("moduleCL, open, nothing stored", 10000, [&](int) { bench.update(); });
     const auto step = [&](int i) {
         bench.inputs[1] = (Eigen::ArrayXd::LinSpaced(48, 0, 47) * 0.7 + i * 0.05).sin().max(0);
         bench.inputs[0][i % 9] = 0.5;
@@ -71,21 +71,21 @@ void measure_contextual_layer() {
             step(i);
         }
         bench.inputs[2][0] = 0;
-        fmt::print("moduleCL, 50 sequences of {:2}   {:8.2f} us\n", length, time_of(2000, step));
+        time_of(fmt::format("moduleCL, 50 sequences of {}", length), 2000, step);
     }
     bench.inputs[1].setZero();
-    fmt::print("moduleCL, full, no prototype   {:8.2f} us\n", time_of(2000, [&](int) { bench.update(); }));
+    time_of("moduleCL, full, no prototype", 2000, [&](int) { bench.update(); });
 }
 
 void measure_colour() {
     ModuleBench bench(module_type<colour::ColourModule>());
     bench.in("_hue", 28, 28).in("_value", 28, 28).out("_color", 28, 336).start();
     bench.inputs[1].setConstant(0.5);
-    fmt::print("moduleColor, same picture      {:8.2f} us\n", time_of(10000, [&](int) { bench.update(); }));
-    fmt::print("moduleColor, new picture       {:8.2f} us\n", time_of(10000, [&](int i) {
-                   bench.inputs[0] = Eigen::ArrayXd::LinSpaced(784, 0.001 * (i % 100), 0.9);
-                   bench.update();
-               }));
+    time_of("moduleColor, same picture", 10000, [&](int) { bench.update(); });
+    time_of("moduleColor, new picture", 10000, [&](int i) {
+        bench.inputs[0] = Eigen::ArrayXd::LinSpaced(784, 0.001 * (i % 100), 0.9);
+        bench.update();
+    });
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "core/plugin/plugin.h"
 #include "neurons/neurons.h"
 #include "synapses/synapses.h"
+#include "tests/bench/report.h"
 
 using namespace forage;
 
@@ -34,11 +35,6 @@ double nanoseconds(engine::Simulation& simulation, int cycles) {
     for (int i = 0; i < cycles; ++i) simulation.update_groups();
     return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count() /
            cycles;
-}
-
-double median(std::vector<double> v) {
-    std::nth_element(v.begin(), v.begin() + static_cast<long>(v.size() / 2), v.end());
-    return v[v.size() / 2];
 }
 
 }  // namespace
@@ -65,9 +61,11 @@ int main() {
                 simulations[which].step();
                 times[which].push_back(nanoseconds(simulations[which], cycles));
             }
-        const double shipped = median(times[0]), twin = median(times[1]);
+        const double shipped = bench::median(times[0]), twin = bench::median(times[1]);
         fmt::print("{:7} cells  shipped {:10.1f} ns  plugin {:10.1f} ns  ratio {:.3f}\n", cells, shipped,
                    twin, twin / shipped);
+        bench::result(fmt::format("plugin/{} cells", cells), "time / of the type that ships", twin / shipped,
+                      "");
     }
     return 0;
 }

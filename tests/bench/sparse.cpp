@@ -1,0 +1,79 @@
+// Does a large list of synapses run at the speed of memory? And how much faster are connections that need no
+// list?
+//
+//     bench_sparse
+//
+// A triad, a[i] = b[i] + s c[i], shows what one core moves (24 bytes per step, as STREAM counts). The list
+// moves a weight (8 bytes) and a cell number (2 or 4) per synapse. Last result: docs/design/performance.md.
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/engine/simulation.h"
+#include "neurons/neurons.h"
+#include "synapses/synapses.h"
+#include "tests/bench/random_lists.h"
+#include "tests/bench/report.h"
+
+using namespace forage;
+
+namespace {
+
+/// The two sides in turns, so that what else the machine does meets both.
+constexpr int rounds = 5;
+
+struct Triad {
+    std::vector<double> a, b, c;
+    explicit Triad(std::size_t n) : a(n), b(n, 1.0), c(n, 2.0) {}
+    void operator()() {
+        for (std::size_t i = 0; i < a.size(); ++i) a[i] = b[i] + 3 * c[i];
+        asm volatile("" : : "g"(a.data()) : "memory");
+    }
+    double bytes() const { return 24.0 * static_cast<double>(a.size()); }
+};
+
+}  // namespace
+
+int main() {
+    Registry registry;
+    add_neurons(registry);
+    add_synapses(registry);
+    Diagnostics diagnostics;
+    Triad triad(8'000'000);
+    for (const auto& [cells, each] : {std::pair{20'000, 1000}, std::pair{100'000, 200}}) {
+        auto simulation =
+            engine::Simulation::build(bench::random_lists(cells, each), registry, {}, diagnostics);
+        if (!simulation) return fmt::print(stderr, "{}", format(diagnostics)), 1;
+        simulation->start();
+        simulation->step();
+        const double synapses = static_cast<double>(simulation->synapses(0));
+        const double bytes = synapses * (8 + (cells < 65'535 ? 2 : 4));
+        std::vector<double> shares, speeds;
+        for (int i = 0; i < rounds; ++i) {
+            const double peak = triad.bytes() * bench::rate(bench::thread_seconds, std::ref(triad));
+            speeds.push_back(bytes * bench::rate(bench::thread_seconds, [&] {
+                                 simulation->update_groups();
+                                 simulation->update_connections();
+                             }));
+            shares.push_back(speeds.back() / peak);
+        }
+        const double share = bench::median(shares), speed = bench::median(speeds);
+        auto shared = engine::Simulation::build(bench::random_lists(cells, each), registry, {.threads = 2},
+                                                diagnostics);
+        shared->start();
+        std::vector<double> gains;
+        for (int i = 0; i < rounds; ++i) {
+            const double alone = bench::rate(bench::wall_seconds, [&] { simulation->step(); });
+            gains.push_back(bench::rate(bench::wall_seconds, [&] { shared->step(); }) / alone);
+        }
+        fmt::print(
+            "{} x {} synapses ({}): {:.1f} GB/s, {:.0f} % of a triad's; {:.2f} times as fast with two "
+            "threads\n",
+            cells, each, simulation->connection_form(0), 1e-9 * speed, 100 * share, bench::median(gains));
+        const std::string subject = fmt::format("sparse/{} cells x {} synapses", cells, each);
+        bench::result(subject, "bandwidth", 1e-9 * speed, "GB/s");
+        bench::result(subject, "bandwidth / triad's", share, "");
+        bench::result(subject, "rate with two threads / with one", bench::median(gains), "");
+    }
+    return 0;
+}
