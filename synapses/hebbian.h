@@ -23,17 +23,14 @@ struct Hebbian {
             .doc("Without effect: the original ignores it.");
         s.state("weight", "Weight").output("synpot", "Synaptic potential");
         s.feedback("postact", "Postsynaptic activity");
+        s.rests_when_silent();
     }
     void check(Problems& problems) const {
         if (decay != 0 && decay != Hebbian{}.decay)
             problems.all.push_back(
                 {"decay has no effect: weights do not decay, as in the original", {}, "decay", {}});
     }
-    void update(SynapseColumns& c) const {
-        Column weight = c.state(0), synpot = c.state(1);
-        weight += c.feedback(0) * c.pre() * rate;
-        synpot = weight * c.pre();
-    }
+    void update(SynapseColumns& c) const;
 };
 
 }  // namespace forage

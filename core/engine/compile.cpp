@@ -243,8 +243,8 @@ class Compiler {
         plan.feedback = feedback_states(c, plan.type, target, plan.longest_delay);
         add_synapse_states(c, plan, plan.longest_delay);
         if (budget_.exceeded()) return false;
-        auto kernel = std::make_unique<PlasticKernel>(std::move(synapses), target.shape.cells, plan.type,
-                                                      *plan.synapse, plan_->arena);
+        auto kernel = make_plastic(std::move(synapses), source.shape.cells, target.shape.cells, plan.type,
+                                   *plan.synapse, plan_->arena, forms_);
         plan.plastic = kernel.get();
         plan.kernel = std::move(kernel);
         return true;

@@ -89,8 +89,8 @@ struct Plan {
     std::vector<GroupPlan> groups;
     std::vector<ModulePlan> modules;
     std::vector<ConnectionPlan> connections;
-    std::vector<std::vector<double>> scratch;  ///< one row of the widest group per thread
-    std::vector<std::vector<double>> before;   ///< per thread: states to compare with
+    std::vector<std::unique_ptr<double[]>> scratch;  ///< per thread, for NeuronColumns of the widest group
+    std::vector<std::vector<double>> before;         ///< per thread: states to compare with
     Arena arena;
     bool watched = false;  ///< updates are looked at for numbers that are not finite
 };

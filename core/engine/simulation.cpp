@@ -59,7 +59,10 @@ Simulation::Simulation(std::unique_ptr<Plan> plan, const Options& options)
     const bool worth = std::max(update_cost(*plan_), delivery_cost(*plan_)) >= worth_sharing_;
     pool_ = std::make_unique<ThreadPool>(worth ? options.threads : 1);
     const auto threads = static_cast<std::size_t>(pool_->threads());
-    plan_->scratch.assign(threads, std::vector<double>(widest));
+    for (std::size_t t = 0; t < threads;
+         ++t)  // not touched, and so not in memory, until a type draws numbers
+        plan_->scratch.push_back(
+            std::make_unique_for_overwrite<double[]>(widest * std::size_t{NeuronColumns::scratch_columns}));
     plan_->before.assign(threads, std::vector<double>(most_compared));
 }
 Simulation::Simulation(Simulation&&) noexcept = default;
@@ -101,7 +104,7 @@ void Simulation::update_groups() {
     if (!started_) throw RunError("the simulation is not started");
     shown_ = cycle_;
     auto work = [this](int group, int thread) {
-        update(at(plan_->groups, group), cycle_, at(plan_->scratch, thread).data(),
+        update(at(plan_->groups, group), cycle_, at(plan_->scratch, thread).get(),
                at(plan_->before, thread).data(), plan_->watched);
     };
     try_sharing(update_cost(*plan_), updates_, [&](bool shared) { pool_->run(groups(), work, shared); });

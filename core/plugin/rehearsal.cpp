@@ -55,6 +55,39 @@ std::string watch(const std::deque<Fenced>& stage, Update update) {
     return all_whole(stage) ? "" : "it writes beside its columns: it takes them for longer than they are";
 }
 
+/// Whether synapses of silent sources rest, as the type promises, whatever their states and their target.
+std::string watch_rest(const SynapseType& type) try {
+    const RandomStream random(1, "rest");
+    std::vector<Eigen::ArrayXd> numbers(type.states.size() + type.feedback.size(), Eigen::ArrayXd(cells));
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        random.uniform(i, {numbers[i].data(), static_cast<std::size_t>(cells)});
+        numbers[i] = 2 * numbers[i] - 1;
+    }
+    const auto before = numbers;
+    const Eigen::ArrayXd silence = Eigen::ArrayXd::Zero(cells);
+    std::vector<Column> states;
+    std::vector<ConstColumn> feedback;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (i < type.states.size())
+            states.emplace_back(numbers[i].data(), cells);
+        else
+            feedback.emplace_back(numbers[i].data(), cells);
+    const auto synapse = type.make();
+    SynapseColumns columns(ConstColumn(silence.data(), cells), states, feedback);
+    synapse->update(columns);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const bool output = static_cast<int>(i) == type.output();
+        if (!(states[i] == (output ? silence : before[i])).all())
+            return output
+                       ? "it promises rests_when_silent(), and puts out something while its source is silent"
+                       : "it promises rests_when_silent(), and changes state '" + type.states[i].name +
+                             "' while its source is silent";
+    }
+    return {};
+} catch (...) {
+    return {};  // a run will say so
+}
+
 }  // namespace
 
 std::string rehearse(const NeuronType& type) {
@@ -67,7 +100,7 @@ std::string rehearse(const NeuronType& type) {
     }
     std::array<double*, input_kinds> inputs{};
     for (auto& input : inputs) input = stage.emplace_back(cells).data();
-    double* scratch = stage.emplace_back(cells).data();
+    double* scratch = stage.emplace_back(cells * NeuronColumns::scratch_columns).data();
     const RandomStream random(1, "rehearsal");
     return watch(stage, [&] {
         const auto neuron = type.make();
@@ -87,11 +120,12 @@ std::string rehearse(const SynapseType& type) {
     for (std::size_t i = 0; i < type.feedback.size(); ++i)
         feedback.emplace_back(stage.emplace_back(cells).data(), cells);
     const ConstColumn pre(stage.emplace_back(cells).data(), cells);
-    return watch(stage, [&] {
+    const std::string fault = watch(stage, [&] {
         const auto synapse = type.make();
         SynapseColumns columns(pre, states, feedback);
         for (int i = 0; i < updates; ++i) synapse->update(columns);
     });
+    return fault.empty() && type.rests_when_silent ? watch_rest(type) : fault;
 }
 
 }  // namespace forage::plugin

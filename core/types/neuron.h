@@ -46,6 +46,11 @@ class NeuronColumns {
         std::int64_t depth;  ///< rows in the ring
     };
 
+    /// How many draws of numbers, and how many of events, have a column of their own.
+    static constexpr std::uint32_t draws_kept = 4;
+    /// Columns of `stride` cells that `scratch` must hold.
+    static constexpr Index scratch_columns = 2 * draws_kept;
+
     NeuronColumns(Index size, Index stride, std::uint64_t cycle, std::array<double*, input_kinds> inputs,
                   std::span<const State> states, const RandomStream* random, double* scratch,
                   std::array<bool, input_kinds> silent = {})
@@ -86,11 +91,13 @@ class NeuronColumns {
     }
 
     /// One number per cell, uniform in [0, 1), new in each cycle. Another `draw` of the same cycle gives
-    /// other, independent numbers, the same one the same numbers. Valid until the next call.
+    /// other, independent numbers, the same one the same numbers. The columns of draws 0 to 3 stay as they
+    /// are during the update; draw 4 takes that of draw 0, and so on.
     Column uniform(std::uint32_t draw = 0) const {
         timeless_ = false;
-        random_->uniform(cycle_, {scratch_, static_cast<std::size_t>(size_)}, draw);
-        return {scratch_, size_};
+        double* out = scratch_ + draw % draws_kept * stride_;
+        random_->uniform(cycle_, {out, static_cast<std::size_t>(size_)}, draw);
+        return {out, size_};
     }
     /// out[i] = `value` with this probability, independent in each cell and cycle, else 0. Many times faster
     /// than to compare uniform().
@@ -98,9 +105,9 @@ class NeuronColumns {
         timeless_ = false;
         random_->events(cycle_, probability, {out.data(), static_cast<std::size_t>(out.size())}, value, draw);
     }
-    /// The same in a column that is valid until the next call.
+    /// The same in a column of the draw's own, as for uniform().
     Column events(double probability, std::uint32_t draw = 0) const {
-        const Column out(scratch_, size_);
+        const Column out(scratch_ + (draws_kept + draw % draws_kept) * stride_, size_);
         return events(probability, out, 1, draw), out;
     }
 

@@ -30,6 +30,7 @@ CORPUS = {
     "other_size": (r"'neuronOtherSize' that does not work: it computes with columns of different sizes", ""),
     "other_version": (r"was built with version 2 of the SDK, this program has version 1", "build the plugin again"),
     "shipped_name": (r"has a neuron type 'neuronLinearThreshold', and so has Forage itself", "another name"),
+    "restless": (r"'synapseRestless' that does not work: it promises rests_when_silent\(\), and changes state 'weight'", ""),
     "synapse_feedback": (r"'synapseBlind' that does not work: it uses feedback 0, but declares 0", ""),
     "three_states": (r"'neuronThreeStates' that does not work: it uses 3 states, but declares 2", ""),
     "throws_in_constructor": (r"its type ThrowingConstructor throws in its constructor or describe\(\): no device", "update()"),

@@ -65,7 +65,7 @@ TEST_CASE("NaN passes a graded neuron and does not make a spiking one spike") {
 TEST_CASE(
     "A group gets the same random numbers for the same draw of a cycle, others for another draw or cycle") {
     const RandomStream random(1, "group");
-    Eigen::ArrayXd scratch(3);
+    Eigen::ArrayXd scratch(3 * NeuronColumns::scratch_columns);
     const auto draws = [&](std::uint64_t cycle, std::uint32_t draw) -> Eigen::ArrayXd {
         return NeuronColumns(3, 3, cycle, {}, {}, &random, scratch.data()).uniform(draw);
     };
@@ -73,6 +73,22 @@ TEST_CASE(
     CHECK((draws(5, 1) == draws(5, 1)).all());
     CHECK((draws(5, 0) != draws(5, 1)).all());
     CHECK((draws(5, 1) != draws(6, 1)).all());
+}
+
+TEST_CASE("Several draws of one update stand side by side") {
+    const RandomStream random(1, "group");
+    constexpr int cells = 1000;
+    Eigen::ArrayXd scratch(cells * NeuronColumns::scratch_columns);
+    const NeuronColumns c(cells, cells, 0, {}, {}, &random, scratch.data());
+    const Eigen::ArrayXd first = c.uniform(0), events = c.events(0.5, 0);
+    const Eigen::ArrayXd both = c.uniform(0) + c.uniform(1) + c.uniform(2) + c.uniform(3);
+    CHECK(both.mean() == Approx(2).margin(0.1));
+    CHECK((both - both.mean()).square().mean() ==
+          Approx(4.0 / 12).margin(0.05));  // four that are independent
+    const Column draw = c.uniform(0), event = c.events(0.5, 0);
+    c.events(0.5, 1), c.uniform(3);
+    CHECK((draw == first).all());
+    CHECK((event == events).all());
 }
 
 TEST_CASE("Parameters that say something else than they seem to are warned of") {

@@ -1,4 +1,8 @@
 // Synapses with states of their own, with numbers computed by hand.
+#include <array>
+#include <cmath>
+
+#include "core/engine/plastic_by_source.h"
 #include "tests/unit/engine/simulations.h"
 
 using namespace forage;
@@ -24,6 +28,22 @@ struct Pair {
     }
     model::Connection& learn() { return *model::find_connection(system, "learn"); }
 };
+
+/// A (30 x 20, spikes) teaches B of the same size one to one, and is heard through a Hebbian window.
+model::System window(const char* probability) {
+    model::System system;
+    const auto p = model::add_process(system, "P");
+    const auto a = model::add_group(system, p, "A", 30, 20, "neuronRandomSpike"),
+               b = model::add_group(system, p, "B", 30, 20, "neuronLinearThreshold");
+    model::set_parameter(model::find_group(system, a)->neuron, "probability", probability);
+    connect(system, a, b, InputKind::excitatory, "synapseFixedWeight", "teach");
+    auto& learn = connect(system, a, b, InputKind::excitatory, "synapseHebbian", "learn");  // connection 0
+    model::set_parameter(*learn.synapse, "lrate", "0.001");
+    learn.synapse->feedback.push_back({"postact", "act", {}});
+    learn.arborization.shape = model::RectArbor{5, 7};
+    learn.attenuation = {model::GaussianFunction{0, 1, 2}, {}};
+    return system;
+}
 
 constexpr int weight = 0, synpot = 1;  // states of a Hebbian synapse
 
@@ -126,4 +146,47 @@ TEST_CASE("An apical synapse passes pre * 1 / (1 - mod) of its target, attenuate
         CHECK(activity(s, "P/B")[0] == act[t]);
         CHECK(state(s, "P/B", "backprop")[0] == backprop[t]);
     }
+}
+
+TEST_CASE("Synapses of silent sources are passed over, and all is as if they were not") {
+    const Registry types = registry();
+    auto system = window("0.2");
+    const bool projective = GENERATE(false, true);
+    if (projective)
+        model::find_connection(system, "learn")->arborization.direction = model::Direction::projective;
+    if (GENERATE(false, true))  // unheard: a kind that the target does not read
+        model::find_connection(system, "learn")->kind = InputKind::modulatory;
+    auto fast = run(system, types), plain = run(system, types, {.general_forms = true});
+    REQUIRE(fast.connection_form(0) == "plastic by source");
+    REQUIRE(plain.connection_form(0) == "plastic");
+    for (int t = 0; t < 50; ++t) {
+        for (auto* s : {&fast, &plain}) {
+            s->update_groups();
+            // What diverges spoils the weights of silent sources too: 0 times infinity.
+            if (t == 30) s->output(group(*s, "P/B"))[333] = INFINITY;
+            s->update_modules();
+            s->update_connections();
+        }
+        INFO("cycle " << t);
+        const auto same = [](const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) {
+            return ((a == b) || (a.isNaN() && b.isNaN())).all();
+        };
+        for (const int state : {weight, synpot})
+            REQUIRE(same(fast.synapse_state(0, state), plain.synapse_state(0, state)));
+        REQUIRE(same(activity(fast, "P/B"), activity(plain, "P/B")));
+        CHECK(plain.synapse_state(0, weight).isNaN().any() == (t >= 30));
+    }
+}
+
+TEST_CASE("Sources that targets hear in orders that contradict each other are not sorted") {
+    connectivity::Synapses s;
+    for (int target = 0; target < 8; ++target)
+        for (const int source : target % 2 ? std::array{0, 1} : std::array{1, 0})
+            s.pre.push_back(source), s.post.push_back(target), s.delay.push_back(0),
+                s.attenuation.push_back(0);
+    CHECK(engine::order_of_sources(s, 2, 8).empty());
+    for (std::size_t i = 0; i < s.pre.size(); ++i) s.pre[i] = 1 - static_cast<int>(i % 2);
+    CHECK(engine::order_of_sources(s, 2, 8) == std::vector{1, 0});
+    s.delay.back() = 1;
+    CHECK(engine::order_of_sources(s, 2, 8).empty());
 }

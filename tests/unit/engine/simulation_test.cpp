@@ -171,7 +171,8 @@ TEST_CASE("Every form of a connection gives the same bits as the list of synapse
         for (int c = 0; c < fastest.connections(); ++c) ++forms[std::string(fastest.connection_form(c))];
         REQUIRE(trace(std::move(fastest), 40) == trace(system, {.general_forms = true}, 40));
     }
-    for (const char* form : {"one to one", "broadcast", "window", "sliced", "list", "plastic"}) {
+    for (const char* form :
+         {"one to one", "broadcast", "window", "sliced", "list", "plastic", "plastic by source"}) {
         INFO(form << ": " << forms[form]);
         REQUIRE(forms[form] >= 20);
     }
