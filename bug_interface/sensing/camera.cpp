@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -19,13 +20,37 @@ double bottom(const VisualSolid& visual) {
     return visual.solid.pose.translation().z() - half_height(visual.solid);
 }
 
-/// Without branches, which this noise would make hard to predict.
-FORAGE_SIMD void to_bytes(const float* values, const float* noise, std::size_t count, std::uint8_t* out) {
-    for (std::size_t i = 0; i < count; ++i) {
-        float level = 255 * values[i] + noise[i];
-        level = level > 0 ? level : 0;
-        level = level < 255 ? level : 255;
-        out[i] = static_cast<std::uint8_t>(static_cast<int>(level + 0.5f));
+constexpr std::size_t lanes = 8;
+typedef float Levels __attribute__((vector_size(lanes * sizeof(float))));  // NOLINT: no `using` for these
+typedef std::int32_t Numbers __attribute__((vector_size(lanes * sizeof(int))));  // NOLINT
+typedef std::uint8_t Bytes __attribute__((vector_size(lanes)));                  // NOLINT
+
+#if defined(__clang__)
+#define FORAGE_LANES(v, ...) __builtin_shufflevector(v, v, __VA_ARGS__)
+#else
+#define FORAGE_LANES(v, ...) __builtin_shuffle(v, Numbers{__VA_ARGS__})
+#endif
+
+/// Eight of the 24 values of eight pixels, with the noise of the pixels that they belong to.
+[[gnu::always_inline]] inline void to_bytes(const float* values, Levels noise, std::uint8_t* out) {
+    Levels level;
+    std::memcpy(&level, values, sizeof level);
+    level = 255 * level + noise;
+    level = level > 0 ? level : Levels{};
+    level = level < 255 ? level : Levels{} + 255;
+    const Bytes bytes = __builtin_convertvector(__builtin_convertvector(level + 0.5f, Numbers), Bytes);
+    std::memcpy(out, &bytes, sizeof bytes);
+}
+
+/// Of a multiple of eight pixels. Without branches, which this noise would make hard to predict.
+FORAGE_SIMD void to_bytes(const float* rgb, const std::uint16_t* places, const float* quantiles, float scale,
+                          std::size_t pixels, std::uint8_t* out) {
+    for (std::size_t i = 0; i < pixels; i += lanes) {
+        Levels z;
+        for (std::size_t k = 0; k < lanes; ++k) z[k] = scale * quantiles[places[i + k]];
+        to_bytes(rgb + 3 * i, FORAGE_LANES(z, 0, 0, 0, 1, 1, 1, 2, 2), out + 3 * i);
+        to_bytes(rgb + 3 * i + 8, FORAGE_LANES(z, 2, 3, 3, 3, 4, 4, 4, 5), out + 3 * i + 8);
+        to_bytes(rgb + 3 * i + 16, FORAGE_LANES(z, 5, 5, 6, 6, 6, 7, 7, 7), out + 3 * i + 16);
     }
 }
 
@@ -167,24 +192,25 @@ std::optional<Eigen::Vector2d> Camera::floor_point(int column, int row) const {
 void Camera::quantise(std::span<const float> rgb, std::span<std::uint8_t> out, const RandomStream& random,
                       std::uint64_t sample) const {
     constexpr std::size_t part_pixels = 1024;
-    const auto quantiles = normal_quantiles();
     const float scale = static_cast<float>(255 * noise_);
     const std::size_t pixels = rgb.size() / 3, parts = (pixels + part_pixels - 1) / part_pixels;
-    std::array<std::uint64_t, part_pixels / 4> words;
-    std::array<float, 3 * part_pixels> noise;
+    std::array<std::uint64_t, part_pixels / 4> words{};
     for (std::size_t part = 0; part < parts; ++part) {
         const std::size_t first = part * part_pixels, count = std::min(part_pixels, pixels - first);
-        if (noise_ > 0) {
-            // A word of 64 random bits gives four pixels their places in the table of normal numbers.
-            random.bits(sample * parts + part, std::span(words).first((count + 3) / 4));
-            for (std::size_t i = 0; i < count; ++i) {
-                const float z = scale * quantiles[words[i / 4] >> (16 * (i % 4)) & 0xffffu];
-                noise[3 * i] = noise[3 * i + 1] = noise[3 * i + 2] = z;
-            }
-        } else {
-            noise.fill(0);
-        }
-        to_bytes(&rgb[3 * first], noise.data(), 3 * count, &out[3 * first]);
+        // A word of 64 random bits gives four pixels their places in the table of normal numbers.
+        if (noise_ > 0) random.bits(sample * parts + part, std::span(words).first((count + 3) / 4));
+        std::array<std::uint16_t, part_pixels> places;
+        std::memcpy(places.data(), words.data(), sizeof places);
+        const std::size_t whole = count / lanes * lanes, rest = count - whole;
+        const float* from = &rgb[3 * first];
+        std::uint8_t* to = &out[3 * first];
+        to_bytes(from, places.data(), normal_quantiles().data(), scale, whole, to);
+        if (rest == 0) continue;
+        std::array<float, 3 * lanes> last{};
+        std::array<std::uint8_t, 3 * lanes> bytes;
+        std::copy_n(from + 3 * whole, 3 * rest, last.begin());
+        to_bytes(last.data(), &places[whole], normal_quantiles().data(), scale, lanes, bytes.data());
+        std::copy_n(bytes.begin(), 3 * rest, to + 3 * whole);
     }
 }
 
