@@ -15,6 +15,11 @@ bool is_loose(const Model& model) {
     return !model.is_static && !robot_link(model) && !solids_of(model).empty();
 }
 
+WorldDescription without_movers(WorldDescription world) {
+    std::erase_if(world.models, [](const Model& m) { return robot_link(m) || is_loose(m); });
+    return world;
+}
+
 Pose frame_of(const Model& model) {
     return model.links.empty() ? Pose::Identity() : in_space(in_plane(model.links.front().pose));
 }
