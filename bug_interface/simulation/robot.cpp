@@ -39,14 +39,13 @@ Robot::Robot(const Model& model, std::size_t number_, std::uint64_t seed_, Heigh
         diagnostics.error(
             shape->where,
             fmt::format("the body of robot '{}' does not stand upright on its model's origin", name));
-    const auto layer_of = [&](const Solid& solid) {
+    const auto layer_of = [&](const Solid& solid, const Location& where) {
         const double middle = solid.pose.translation().z(), half = solid.size.z() / 2;
-        return heights.layer(middle - half, middle + half);
+        return heights.layer(middle - half, middle + half, where, diagnostics);
     };
     const Solid body_solid{ShapeKind::cylinder, body_pose, shape->shape.size};
     body.radius = shape->shape.size.x() / 2, body.mass = link.mass, body.inertia = link.inertia_z;
-    body.friction = shape->friction, body.layer = layer_of(body_solid);
-    bool layers = body.layer >= 0;
+    body.friction = shape->friction, body.layer = layer_of(body_solid, shape->where);
 
     for (const bug::Limb& limb : limbs_of(model, hinges)) {
         for (const Collision& c : limb.link->collisions) {
@@ -56,8 +55,7 @@ Robot::Robot(const Model& model, std::size_t number_, std::uint64_t seed_, Heigh
             solids.push_back({number, limb.hinge, solid, of_body});
             if (of_body) continue;
             const auto outline = cut(solid, solid.pose.translation().z());
-            const int layer = layer_of(solid);
-            layers &= layer >= 0;
+            const int layer = layer_of(solid, c.where);
             if (!outline) continue;
             limbs.push_back({*outline, limb.hinge});
             body.parts.push_back({*outline, layer, c.friction});
@@ -70,10 +68,6 @@ Robot::Robot(const Model& model, std::size_t number_, std::uint64_t seed_, Heigh
                                   {{v.shape.kind, Pose::Identity(), v.shape.size}, v.material},
                                   limb.link == &link});
     }
-    if (!layers)
-        diagnostics.error(model.where,
-                          fmt::format("more than {} different heights of things that move", most_layers),
-                          "give robots and loose things the same heights");
 }
 
 void Robot::surround(std::span<const Solid> still, std::span<const MovingSolid> moving, double step) {
@@ -184,11 +178,9 @@ std::span<const std::uint8_t> Robot::view(bool with_noise, std::uint64_t sample,
 void Robot::take_picture(bool with_noise, std::uint64_t sample, const Stage& stage,
                          std::span<const MovingSight> all, std::vector<std::uint8_t>& out) {
     moving_.clear();
-    for (const MovingSight& sight : all) {
-        if ((sight.body == number && sight.of_body) || !stage.present[sight.body]) continue;
-        moving_.push_back(sight.visual);
-        moving_.back().solid.pose = sight.at(stage);
-    }
+    for (const MovingSight& sight : all)
+        if (!(sight.body == number && sight.of_body) && stage.present[sight.body])
+            moving_.push_back(&sight.visual);
     camera->render(pose, moving_, picture_);
     if (with_noise) {
         camera->quantise(picture_, out, image_random, sample);

@@ -92,7 +92,8 @@ class Robot {
     void sense_due(double now, bool with_noise, const Stage& stage, std::span<const MovingSight> sights);
     /// Has no effect without a camera sensor, or when it is made already.
     void make_camera(std::shared_ptr<const Scene> scene);
-    /// Writes the picture of `sample` into the snapshot, unless it is there already. `sights`: what moves.
+    /// Writes the picture of `sample` into the snapshot, unless it is there already. `sights`: what moves,
+    /// with visuals placed in the world.
     /// Has no effect before make_camera().
     void render(bool with_noise, std::uint64_t sample, const Stage& stage,
                 std::span<const MovingSight> sights);
@@ -143,7 +144,7 @@ class Robot {
 
     std::vector<float> picture_;
     std::vector<std::uint8_t> view_;
-    std::vector<VisualSolid> moving_;
+    std::vector<const VisualSolid*> moving_;
     std::vector<std::pair<std::size_t, Outline>> swung_;
 };
 

@@ -88,6 +88,7 @@ void World::set_stage() {
         stage_.bodies[i] = physics_->pose(i);
         stage_.present[i] = physics_->present(i);
     }
+    sights_placed_ = false;
     if (description_.game) colour_resources();
 }
 
@@ -117,6 +118,7 @@ void World::checkpoint(Archive& archive) {
     archive(cycle_, substep_);
     for (Robot& robot : robots_) robot.checkpoint(archive);
     archive(stage_, game_, *physics_);
+    sights_placed_ &= !archive.loading();
     if (archive.loading() && description_.game) colour_resources();
 }
 

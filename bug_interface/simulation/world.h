@@ -140,6 +140,7 @@ class World {
     void colour_resources();
     void hear();
     void remember();
+    std::span<const MovingSight> placed_sights();
     void make_camera(std::size_t bug);
     std::uint64_t substeps_before(std::uint64_t cycle) const;
 
@@ -158,6 +159,7 @@ class World {
     Game game_;
     Stage stage_;
     std::vector<MovingSight> sights_;   ///< of all that moves
+    bool sights_placed_ = false;        ///< whether their visuals are where they are on stage
     std::vector<MotorCommand> drives_;  ///< of this substep, with noise
     std::unique_ptr<Physics> physics_;
     std::shared_ptr<const Scene> scene_;  ///< made for the first image

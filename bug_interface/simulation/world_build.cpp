@@ -119,11 +119,11 @@ void World::add_things(Diagnostics& diagnostics) {
     }
     for (const Model& model : loose) {
         things_.push_back(thing_of(model));
-        bodies_.push_back(body_of(model, things_.back(), heights_));
+        bodies_.push_back(body_of(model, things_.back(), heights_, diagnostics));
         if (bodies_.back().radius > 0 || !bodies_.back().parts.empty()) continue;
         diagnostics.error(model.where,
                           fmt::format("'{}' has no shape that things could bump into", model.name),
-                          "give it one of at most 32 different heights, or make it <static>true</static>");
+                          "give it a <collision>, or make it <static>true</static>");
     }
 }
 

@@ -10,7 +10,7 @@ void World::sense_when_due() {
     const auto due = [&](const Robot& robot) { return robot.due(now); };
     if (std::none_of(robots_.begin(), robots_.end(), due)) return;
     set_stage();
-    for (Robot& robot : robots_) robot.sense_due(now, options_.noise, stage_, sights_);
+    for (Robot& robot : robots_) robot.sense_due(now, options_.noise, stage_, placed_sights());
 }
 
 void World::scan() {
@@ -31,7 +31,7 @@ void World::hear() {
 void World::render() {
     if (!options_.native_rates)
         for (Robot& robot : robots_)
-            if (robot.wants_image) robot.render(options_.noise, cycle_, stage_, sights_);
+            if (robot.wants_image) robot.render(options_.noise, cycle_, stage_, placed_sights());
     remember();
 }
 
@@ -56,6 +56,15 @@ std::shared_ptr<const Scene> World::scene() {
     return scene_;
 }
 
+/// What cameras see of all that moves, where it is on stage.
+std::span<const MovingSight> World::placed_sights() {
+    if (!sights_placed_)
+        for (MovingSight& sight : sights_)
+            if (stage_.present[sight.body]) sight.visual.solid.pose = sight.at(stage_);
+    sights_placed_ = true;
+    return sights_;
+}
+
 void World::make_camera(std::size_t bug) {
     if (robots_[bug].camera_sensor && !robots_[bug].camera) robots_[bug].make_camera(scene());
 }
@@ -64,14 +73,14 @@ std::span<const std::uint8_t> World::image(std::size_t bug) {
     make_camera(bug);
     Robot& robot = robots_[bug];
     if (robot.wants_image && !options_.native_rates) return robot.snapshot.image;  // step() renders it
-    return robot.view(options_.noise, cycle_, stage_, sights_);
+    return robot.view(options_.noise, cycle_, stage_, placed_sights());
 }
 
 void World::need_image(std::size_t bug, bool needed) {
     Robot& robot = robots_[bug];
     robot.wants_image = needed;
     make_camera(bug);
-    if (needed) robot.render(options_.noise, cycle_, stage_, sights_);
+    if (needed) robot.render(options_.noise, cycle_, stage_, placed_sights());
     if (cycle_ == 0) remember();
 }
 
