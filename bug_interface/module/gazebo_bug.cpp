@@ -271,14 +271,13 @@ void GazeboBug::copy_pose(ModuleFrame& frame) const {
 }
 
 void GazeboBug::copy_image(ModuleFrame& frame) {
-    const auto picture = world_->image(bug_);
     const BugSnapshot& seen = world_->snapshot(bug_);
     const auto channel = [&](std::size_t port) {
         Column out = frame.output(port);
         return out.size() > 0 ? cells_of(out) : std::span<double>(unused_);
     };
     const ColourSpace space = grayscale ? ColourSpace::grey : hsv ? ColourSpace::hsv : ColourSpace::rgb;
-    image_cells(picture, seen.image_width, seen.image_height, space, image_.width, image_.height,
+    image_cells(seen.image, seen.image_width, seen.image_height, space, image_.width, image_.height,
                 channel(image_first), channel(image_second), channel(image_third));
 }
 

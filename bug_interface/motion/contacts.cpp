@@ -85,12 +85,9 @@ void Physics::Engine::set(std::size_t body, const State& state, const Velocity& 
 
 void Physics::Engine::solve(double step, std::span<State> states, std::span<Velocity> velocities) {
     solved_.clear();
-    bool loose = false;
     for (std::size_t i = 0; i < states.size(); ++i) {
         set(i, states[i], velocities[i]);
-        if (!states[i].involved) continue;
-        solved_.push_back(bodies_[i]);
-        loose |= known_[obstacles_ + i].loose;
+        if (states[i].involved) solved_.push_back(bodies_[i]);
     }
     for (int m = 0; m < dispatcher_.getNumManifolds(); ++m)
         dispatcher_.getManifoldByIndexInternal(m)->clearManifold();
@@ -98,6 +95,12 @@ void Physics::Engine::solve(double step, std::span<State> states, std::span<Velo
     find_contacts(states);
     if (touching_.empty()) return;
     info_.m_timeStep = scalar(step);
+    const auto is_loose = [&](const btCollisionObject* o) {
+        return known_[static_cast<std::size_t>(o->getUserIndex())].loose;
+    };
+    const bool loose = std::any_of(touching_.begin(), touching_.end(), [&](const auto* contact) {
+        return is_loose(contact->getBody0()) || is_loose(contact->getBody1());
+    });
     info_.m_numIterations = loose ? 60 : 30;  // rows of things need more
     solver_.solveGroup(solved_.data(), static_cast<int>(solved_.size()), touching_.data(),
                        static_cast<int>(touching_.size()), nullptr, 0, info_, nullptr, &dispatcher_);

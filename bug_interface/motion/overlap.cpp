@@ -62,13 +62,12 @@ Overlap overlap(const Outline& a, const Outline& b) {
 
 double reach(const Outline& o) { return o.round ? o.radius : std::hypot(o.half_x, o.half_y); }
 
-Outline moved(const Outline& outline, const Pose2& frame) {
-    const double c = std::cos(frame.yaw), s = std::sin(frame.yaw);
+Outline Frame::moved(const Outline& outline) const {
     Outline out = outline;
-    out.x = frame.x + c * outline.x - s * outline.y;
-    out.y = frame.y + s * outline.x + c * outline.y;
-    out.cos_yaw = c * outline.cos_yaw - s * outline.sin_yaw;
-    out.sin_yaw = s * outline.cos_yaw + c * outline.sin_yaw;
+    out.x = x_ + cos_ * outline.x - sin_ * outline.y;
+    out.y = y_ + sin_ * outline.x + cos_ * outline.y;
+    out.cos_yaw = cos_ * outline.cos_yaw - sin_ * outline.sin_yaw;
+    out.sin_yaw = sin_ * outline.cos_yaw + cos_ * outline.sin_yaw;
     return out;
 }
 

@@ -1,6 +1,8 @@
 // How two outlines lie to each other.
 #pragma once
 
+#include <cmath>
+
 #include <Eigen/Core>
 
 #include "bug_interface/sensing/outline.h"
@@ -19,7 +21,16 @@ Overlap overlap(const Outline& a, const Outline& b);
 /// Radius of a circle round the middle of an outline, m.
 double reach(const Outline& outline);
 
-/// `outline`, given in a frame that stands at `frame`, in the frame of that.
-Outline moved(const Outline& outline, const Pose2& frame);
+/// A frame that stands somewhere in the plane.
+class Frame {
+  public:
+    explicit Frame(const Pose2& at) : x_(at.x), y_(at.y), cos_(std::cos(at.yaw)), sin_(std::sin(at.yaw)) {}
+    /// `outline`, given in this frame, in the frame in which this one stands.
+    Outline moved(const Outline& outline) const;
+
+  private:
+    double x_, y_, cos_, sin_;
+};
+inline Outline moved(const Outline& outline, const Pose2& frame) { return Frame(frame).moved(outline); }
 
 }  // namespace forage::bug

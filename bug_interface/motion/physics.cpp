@@ -11,17 +11,6 @@
 namespace forage::bug {
 namespace {
 
-constexpr double near_enough = 0.001;  ///< m; well above the errors of Bullet's single precision
-
-/// Distance from point (x, y) to an outline, 0 inside.
-double distance_to(const Outline& o, double x, double y) {
-    const double dx = x - o.x, dy = y - o.y;
-    if (o.round) return std::max(0.0, std::sqrt(dx * dx + dy * dy) - o.radius);
-    const double out_x = std::max(0.0, std::abs(o.cos_yaw * dx + o.sin_yaw * dy) - o.half_x);
-    const double out_y = std::max(0.0, std::abs(o.cos_yaw * dy - o.sin_yaw * dx) - o.half_y);
-    return std::sqrt(out_x * out_x + out_y * out_y);
-}
-
 double wrapped(double yaw) {
     if (yaw > -std::numbers::pi && yaw <= std::numbers::pi) return yaw;
     const double rest = std::remainder(yaw, 2 * std::numbers::pi);
@@ -43,12 +32,17 @@ Physics::Physics(std::span<const Obstacle> obstacles, std::span<const Body> bodi
       contacts_(contacts),
       meets_(std::move(meets)) {
     meets_.resize(most_layers, ~LayerMask{0});
+    std::size_t most_parts = 0;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         // Of which layers there are shapes that it can touch.
         if (bodies_[i].radius > 0) states_[i].layers |= LayerMask{1} << bodies_[i].layer;
         for (const Part& part : bodies_[i].parts) states_[i].layers |= LayerMask{1} << part.layer;
         grow(i);
+        most_parts = std::max(most_parts, bodies_[i].parts.size());
     }
+    // A step shall not allocate.
+    here_.reserve(most_parts + 1), there_.reserve(most_parts + 1);
+    unswung_.reserve(most_parts), pushed_.reserve(bodies_.size());
 }
 
 Physics::~Physics() = default;
@@ -64,7 +58,7 @@ void Physics::place(std::size_t body, const Pose2& pose) {
     states_[body].pose = {pose.x, pose.y, wrapped(pose.yaw)};
     states_[body].present = true;
     velocities_[body] = {};
-    for (State& s : states_) s.clearance = 0;  // the others may be near it now
+    for (State& s : states_) s.room = 0;  // the others may be near it now
 }
 
 void Physics::lift(std::size_t body) {
@@ -73,48 +67,6 @@ void Physics::lift(std::size_t body) {
 }
 
 double Physics::speed(std::size_t body) const { return std::hypot(velocities_[body].x, velocities_[body].y); }
-
-/// Of a gap between two bodies each may use one half.
-void Physics::measure_clearance(std::size_t body) {
-    State& state = states_[body];
-    double gap = std::numeric_limits<double>::infinity();
-    for (const Obstacle& o : obstacles_)
-        if (o.layers & state.layers)
-            gap = std::min(gap, distance_to(o.outline, state.pose.x, state.pose.y) - state.reach);
-    for (std::size_t other = 0; other < states_.size(); ++other) {
-        if (other == body || !states_[other].present) continue;
-        const Pose2& there = states_[other].pose;
-        const double apart =
-            std::hypot(there.x - state.pose.x, there.y - state.pose.y) - state.reach - states_[other].reach;
-        gap = std::min(gap, apart / 2);
-        states_[other].clearance = std::min(states_[other].clearance, apart / 2);
-    }
-    state.clearance = gap;
-}
-
-bool Physics::near_something(std::size_t body, double travel) {
-    if (states_[body].clearance < travel + near_enough) measure_clearance(body);
-    return states_[body].clearance < travel + near_enough;
-}
-
-/// Whoever is near one that is near something has to be looked at too: it may be pushed.
-void Physics::involve_neighbours() {
-    for (bool more = true; more;) {
-        more = false;
-        for (std::size_t i = 0; i < states_.size(); ++i) {
-            if (!states_[i].involved) continue;
-            const State& at = states_[i];
-            for (std::size_t j = 0; j < states_.size(); ++j) {
-                State& other = states_[j];
-                if (other.involved || !other.present) continue;
-                const double dx = other.pose.x - at.pose.x, dy = other.pose.y - at.pose.y;
-                const double near =
-                    at.reach + other.reach + 4 * near_enough + 2 * step_ * (speed(i) + speed(j));
-                if (dx * dx + dy * dy < near * near) other.involved = more = true;
-            }
-        }
-    }
-}
 
 void Physics::drive(std::size_t i, const MotorCommand& command) {
     const Pose2& pose = states_[i].pose;
@@ -139,7 +91,8 @@ void Physics::step(std::span<const MotorCommand> drives) {
         const MotorCommand command = bodies_[i].driven ? drives[i] : MotorCommand{};
         drive(i, command);
         const double travel = bodies_[i].driven ? std::abs(command.forward) * step_ : speed(i) * step_;
-        if (!(rests(velocities_[i]) && !bodies_[i].driven) && near_something(i, travel))
+        if (!(rests(velocities_[i]) && !bodies_[i].driven) &&
+            near_something(i, way(i, travel, std::abs(velocities_[i].turn) * step_)))
             s.involved = contacts = true;
     }
     if (contacts) {
@@ -157,8 +110,9 @@ void Physics::step(std::span<const MotorCommand> drives) {
         s.pose.y += v.y * step_;
         s.pose.yaw = wrapped(s.pose.yaw + v.turn * step_);
         // A body may be pushed faster than it is driven.
-        s.clearance -= contacts || !bodies_[i].driven ? std::hypot(v.x, v.y) * step_
-                                                      : std::abs(drives[i].forward) * step_;
+        const double speed =
+            s.involved || !bodies_[i].driven ? std::sqrt(v.x * v.x + v.y * v.y) : std::abs(drives[i].forward);
+        s.room -= way(i, speed * step_, std::abs(v.turn) * step_);
     }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bug_interface/motion/motor.h"
+#include "bug_interface/motion/overlap.h"
 #include "bug_interface/sensing/outline.h"
 #include "bug_interface/world/description.h"
 
@@ -50,9 +51,9 @@ struct Body {
 /// cos(yaw) dt, y += v sin(yaw) dt, yaw += w dt, with the yaw from the start of the step.
 ///
 /// Contacts are resolved by Bullet, and only in steps in which some body could touch something, among the
-/// bodies that could. Far from everything Bullet would change nothing and is not called: both ways give the
-/// same bits. There is no restitution, and nothing of a contact lasts longer than its step, except the
-/// velocity of loose things.
+/// bodies that could (nearness.cpp). Far from everything Bullet would change nothing and is not called: both
+/// ways give the same bits. There is no restitution, and nothing of a contact lasts longer than its step,
+/// except the velocity of loose things.
 class Physics {
   public:
     /// When Bullet is called. `always` is for tests and benchmarks.
@@ -94,7 +95,7 @@ class Physics {
 
     /// Where everything is. Bullet's own memory is no part of it: no step depends on it.
     void checkpoint(Archive& archive) {
-        for (State& s : states_) archive(s.pose, s.present, s.clearance, s.reach, s.layers, s.touches);
+        for (State& s : states_) archive(s.pose, s.present, s.room, s.reach, s.layers, s.touches);
         for (Velocity& v : velocities_) archive(v.x, v.y, v.turn);
         archive(contact_steps_);
         for (std::size_t i = 0; i < bodies_.size(); ++i) checkpoint_parts(i, archive);
@@ -105,7 +106,7 @@ class Physics {
         Pose2 pose;
         bool present = false;
         bool involved = false;  ///< in this step, with what Bullet has to look at
-        double clearance = 0;   ///< m that the body can move for sure before it touches anything
+        double room = 0;        ///< m that all its points can move for sure before one touches anything
         double reach = 0;       ///< radius of a circle round all that it ever was, m
         LayerMask layers = 0;   ///< of its middle and parts
         int touches = 0;
@@ -113,20 +114,43 @@ class Physics {
     struct Velocity {
         double x = 0, y = 0, turn = 0;  ///< m/s, m/s, rad/s
     };
+    /// A shape of a body where it is in the world.
+    struct Placed {
+        Outline outline;
+        int layer = 0;
+    };
     class Engine;  ///< Bullet's side
 
     void drive(std::size_t body, const MotorCommand& command);
-    bool near_something(std::size_t body, double travel);
+    // ---- who is near what ----
+    double apart(std::size_t a, std::size_t b) const;
+    double lever(std::size_t body) const;
+    double way(std::size_t body, double travel, double turn) const;
+    bool near_something(std::size_t body, double way);
+    bool has_room_for(std::size_t body, double way);
     void checkpoint_parts(std::size_t body, Archive& archive);
-    void measure_clearance(std::size_t body);
+    void measure_room(std::size_t body);
+    void shapes_of(std::size_t body, std::vector<Placed>& out) const;
+    double gap_between(const std::vector<Placed>& shapes, std::size_t body, std::size_t other);
     void involve_neighbours();
+    // ---- what swings ----
     void grow(std::size_t body);
     bool meet(LayerMask layers, int layer) const { return layers & meets_[static_cast<std::size_t>(layer)]; }
     bool fixed_in_the_way(std::size_t body, const Part& now, const Outline& then, int layer) const;
     bool is_free(std::size_t thing, const Pose2& from, const Pose2& to) const;
     /// Calls visit(outline in the world, layer) for the middle and the parts of a body at `pose`.
     template <class F>
-    void each_shape(std::size_t body, const Pose2& pose, F&& visit) const;
+    void each_shape(std::size_t body, const Pose2& pose, F&& visit) const {
+        const Body& b = bodies_[body];
+        if (b.radius > 0) {
+            Outline middle;
+            middle.round = true, middle.x = pose.x, middle.y = pose.y, middle.radius = b.radius;
+            visit(middle, b.layer);
+        }
+        if (b.parts.empty()) return;
+        const Frame frame(pose);
+        for (const Part& part : b.parts) visit(frame.moved(part.outline), part.layer);
+    }
 
     std::vector<Obstacle> obstacles_;
     std::vector<Body> bodies_;
@@ -136,6 +160,9 @@ class Physics {
     Contacts contacts_;
     std::vector<LayerMask> meets_;
     std::uint64_t contact_steps_ = 0;
+    std::vector<Placed> here_, there_;                   ///< while distances are measured
+    std::vector<Outline> unswung_;                       ///< parts that swing, as they were
+    std::vector<std::pair<std::size_t, Pose2>> pushed_;  ///< by them, and from where
     std::unique_ptr<Engine> engine_;
 };
 

@@ -1,6 +1,5 @@
 // Parts of a body that move within it: the fingers of a gripper.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "bug_interface/motion/contacts.h"
@@ -10,13 +9,17 @@
 namespace forage::bug {
 namespace {
 
-constexpr double tolerance = 1e-6;      ///< m, that shapes may overlap
-constexpr std::size_t most_pushed = 8;  ///< loose things at a time
-constexpr std::size_t most_parts = 16;  ///< of a body
+constexpr double tolerance = 1e-6;  ///< m, that shapes may overlap
 
 bool may_touch(const Outline& a, double x, double y, double reach_there) {
     const double near = reach(a) + reach_there, dx = x - a.x, dy = y - a.y;
     return dx * dx + dy * dy < near * near;
+}
+
+/// How far any point of a shape gets at most, m.
+double motion(const Outline& from, const Outline& to) {
+    return std::hypot(to.x - from.x, to.y - from.y) +
+           reach(to) * std::hypot(to.cos_yaw - from.cos_yaw, to.sin_yaw - from.sin_yaw);
 }
 
 /// Whether `then` is deeper in something than it was and may be.
@@ -27,16 +30,6 @@ bool worse(const Outline& thing, const Outline& now, const Outline& then) {
 }
 
 }  // namespace
-
-template <class F>
-void Physics::each_shape(std::size_t body, const Pose2& pose, F&& visit) const {
-    if (bodies_[body].radius > 0) {
-        Outline middle;
-        middle.round = true, middle.x = pose.x, middle.y = pose.y, middle.radius = bodies_[body].radius;
-        visit(middle, bodies_[body].layer);
-    }
-    for (const Part& part : bodies_[body].parts) visit(moved(part.outline, pose), part.layer);
-}
 
 bool Physics::fixed_in_the_way(std::size_t body, const Part& now, const Outline& then, int layer) const {
     const Pose2& pose = states_[body].pose;
@@ -59,16 +52,9 @@ bool Physics::fixed_in_the_way(std::size_t body, const Part& now, const Outline&
 
 /// Whether a loose thing may be moved: nothing that is there would be in it, or deeper than it was.
 bool Physics::is_free(std::size_t thing, const Pose2& from, const Pose2& to) const {
+    const Frame before(from);
     bool free = true;
-    std::array<std::pair<Outline, int>, most_parts> before;
-    std::size_t shapes = 0;
-    each_shape(thing, from, [&](const Outline& o, int layer) {
-        if (shapes < before.size()) before[shapes++] = {o, layer};
-    });
-    std::size_t number = 0;
-    each_shape(thing, to, [&](const Outline& is, int layer) {
-        if (number >= shapes) return;
-        const Outline& was = before[number++].first;
+    const auto look = [&](const Outline& was, const Outline& is, int layer) {
         for (const Obstacle& o : obstacles_)
             if (o.layers >> layer & 1u) free &= !worse(o.outline, was, is);
         for (std::size_t other = 0; other < states_.size(); ++other) {
@@ -78,6 +64,17 @@ bool Physics::is_free(std::size_t thing, const Pose2& from, const Pose2& to) con
                 if (meet(LayerMask{1} << layer, there)) free &= !worse(o, was, is);
             });
         }
+    };
+    const Body& body = bodies_[thing];
+    auto part = body.parts.begin();
+    bool middle = body.radius > 0;  // it comes first
+    each_shape(thing, to, [&](const Outline& is, int layer) {
+        Outline was = is;
+        if (middle)
+            was.x = from.x, was.y = from.y, middle = false;
+        else
+            was = before.moved((part++)->outline);
+        look(was, is, layer);
     });
     return free;
 }
@@ -88,30 +85,32 @@ bool Physics::has_room(std::size_t body, const Pose2& pose) const {
 }
 
 bool Physics::swing(std::size_t body, std::span<const std::pair<std::size_t, Outline>> parts) {
-    if (parts.size() > most_parts) return false;
     State& state = states_[body];
     Body& shape = bodies_[body];
-    if (state.present)
+    double way = 0;
+    for (const auto& [number, outline] : parts)
+        way = std::max(way, motion(shape.parts[number].outline, outline));
+    const bool free = !state.present || has_room_for(body, way);
+    if (!free)
         for (const auto& [number, outline] : parts)
             if (fixed_in_the_way(body, shape.parts[number], outline, shape.parts[number].layer)) return false;
 
     // The parts go where they are to be; what then overlaps them is pushed out, or all is undone.
-    std::array<Outline, most_parts> before;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        before[i] = shape.parts[parts[i].first].outline;
-        shape.parts[parts[i].first].outline = parts[i].second;
+    unswung_.clear(), pushed_.clear();
+    for (const auto& [number, outline] : parts) {
+        Outline& part = shape.parts[number].outline;
+        unswung_.push_back(part);
+        part = outline;
     }
-    std::array<std::pair<std::size_t, Pose2>, most_pushed> pushed;
-    std::size_t count = 0;
     bool possible = true;
-    for (std::size_t thing = 0; state.present && possible && thing < states_.size(); ++thing) {
+    for (std::size_t thing = 0; !free && possible && thing < states_.size(); ++thing) {
         State& other = states_[thing];
         if (bodies_[thing].driven || !other.present) continue;
         const double near = state.reach + other.reach + 0.01;
         if (std::hypot(other.pose.x - state.pose.x, other.pose.y - state.pose.y) > near) continue;
         const Pose2 from = other.pose;
         for (std::size_t i = 0; i < parts.size(); ++i) {
-            const Outline is = moved(parts[i].second, state.pose), was = moved(before[i], state.pose);
+            const Outline is = moved(parts[i].second, state.pose), was = moved(unswung_[i], state.pose);
             const int layer = shape.parts[parts[i].first].layer;
             each_shape(thing, other.pose, [&](const Outline& o, int there) {
                 if (!meet(LayerMask{1} << layer, there)) return;
@@ -121,21 +120,22 @@ bool Physics::swing(std::size_t body, std::span<const std::pair<std::size_t, Out
             });
         }
         if (other.pose.x == from.x && other.pose.y == from.y) continue;
-        possible = count < most_pushed && is_free(thing, from, other.pose);
+        possible = is_free(thing, from, other.pose);
         if (possible)
-            pushed[count++] = {thing, from};
+            pushed_.emplace_back(thing, from);
         else
             other.pose = from;
     }
     if (!possible) {
-        for (std::size_t i = 0; i < count; ++i) states_[pushed[i].first].pose = pushed[i].second;
-        for (std::size_t i = 0; i < parts.size(); ++i) shape.parts[parts[i].first].outline = before[i];
+        for (const auto& [thing, from] : pushed_) states_[thing].pose = from;
+        for (std::size_t i = 0; i < parts.size(); ++i) shape.parts[parts[i].first].outline = unswung_[i];
         return false;
     }
     const double reach_before = state.reach;
     grow(body);
-    if (state.reach > reach_before || count > 0)
-        for (State& s : states_) s.clearance = 0;
+    if (state.reach > reach_before || !pushed_.empty())
+        for (State& s : states_) s.room = 0;
+    state.room -= way;
     if (engine_) engine_->reshape(body, shape.parts);
     return true;
 }

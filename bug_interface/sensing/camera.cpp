@@ -76,6 +76,7 @@ Camera::Camera(const CameraSensor& sensor, const Pose& link_in_model, std::share
     for (const VisualSolid& solid : scene_->solids()) lowest = std::min(lowest, bottom(solid));
     make_bounds(lowest);
     if (floor_points_.size() == 1) make_extents();
+    windows_.reserve(scene_->solids().size() + 64);
 }
 
 Eigen::Vector3d Camera::ray(double column, double row) const {

@@ -30,8 +30,8 @@ class Camera {
     int height() const { return height_; }  ///< pixels
 
     /// Draws the scene and `moving` from the robot at `body`. rgb: height x width x 3 values in 0..1, row 0
-    /// is the top (far), column 0 the left; no noise. Allocates nothing.
-    void render(const Pose2& body, std::span<const MovingVisual> moving, std::span<float> rgb) const;
+    /// is the top (far), column 0 the left; no noise. Allocates nothing, once it has seen as many solids.
+    void render(const Pose2& body, std::span<const VisualSolid* const> moving, std::span<float> rgb);
 
     /// Rounds to 8 bits after adding noise: one normal number per pixel, the same in its three channels.
     /// `sample` counts this camera's pictures.
@@ -75,6 +75,11 @@ class Camera {
         std::vector<float> depth;  ///< along the camera's axis, m
     };
     struct View;  ///< one picture's pose of the robot
+    /// The pixels on which a solid may be seen; ends are one past the last.
+    struct Window {
+        const VisualSolid* visual = nullptr;
+        int first_column = 0, end_column = 0, first_row = 0, end_row = 0;
+    };
 
     Eigen::Vector3d ray(double column, double row) const;
     void make_samples(int samples_per_axis);
@@ -82,13 +87,15 @@ class Camera {
     void make_bounds(double lowest);
     Bounds bounds(std::size_t first, std::size_t count, double lowest, double highest) const;
     static bool sees(const View& view, const Tile& tile, const VisualSolid& visual);
+    static bool sees(const View& view, const Tile& tile, const Window& window);
+    Window window(const View& view, const VisualSolid& visual) const;
     void make_extents();
     Extent extent(const Tile& tile, int first_pixel, int pixels) const;
     static Extent extent(const Eigen::AlignedBox2f& box);
     const float* even_colour(const View& view, const Extent& extent, float* colour) const;
     bool draw_bare_floor(const View& view, const Tile& tile, float* rgb) const;
     void draw_textured(const View& view, const Tile& tile, int first_pixel, int pixels, float* rgb) const;
-    void draw_all(const View& view, const Tile& tile, std::span<const MovingVisual> moving, float* rgb) const;
+    void draw_all(const View& view, const Tile& tile, float* rgb) const;
 
     std::shared_ptr<const Scene> scene_;
     int width_, height_, samples_ = 1;  ///< samples per pixel
@@ -98,6 +105,7 @@ class Camera {
     Tile whole_;                                ///< bounds of all tiles
     std::vector<float> ray_x_, ray_y_, ray_z_;  ///< of every sample, robot's frame; 1 along the camera's axis
     std::vector<FloorPoints> floor_points_;     ///< one per floor of the scene
+    std::vector<Window> windows_;               ///< of what is in one picture
 };
 
 }  // namespace forage::bug

@@ -44,7 +44,6 @@ struct Samples {
 struct Camera::View {
     Pose2 body;
     Pose pose;                            ///< of the robot in the world
-    bool solids = false;                  ///< may any be in the picture?
     const FloorSurface* floor = nullptr;  ///< the only one, if it is low
     std::optional<ToTexels> to;           ///< of that floor
 
@@ -58,25 +57,61 @@ struct Camera::View {
     }
 };
 
-void Camera::render(const Pose2& body, std::span<const MovingVisual> moving, std::span<float> rgb) const {
-    View view(body, scene_->floors());
-    const auto in_view = [&](const VisualSolid& visual) { return sees(view, whole_, visual); };
-    view.solids = std::any_of(scene_->solids().begin(), scene_->solids().end(), in_view) ||
-                  std::any_of(moving.begin(), moving.end(), in_view);
+void Camera::render(const Pose2& body, std::span<const VisualSolid* const> moving, std::span<float> rgb) {
+    const View view(body, scene_->floors());
+    windows_.clear();
+    const auto look_for = [&](const VisualSolid& visual) {
+        if (!sees(view, whole_, visual)) return;
+        const Window w = window(view, visual);
+        if (w.first_column < w.end_column && w.first_row < w.end_row) windows_.push_back(w);
+    };
+    for (const VisualSolid& visual : scene_->solids()) look_for(visual);
+    for (const VisualSolid* visual : moving) look_for(*visual);
     std::array<float, 3> colour;
-    if (!view.solids && whole_.reaches_floor && even_colour(view, whole_.extent, colour.data())) {
+    if (windows_.empty() && whole_.reaches_floor && even_colour(view, whole_.extent, colour.data())) {
         for (std::size_t i = 0; i < rgb.size(); i += 3) std::copy_n(colour.begin(), 3, &rgb[i]);
         return;
     }
     for (const Tile& tile : tiles_) {
         float* out = &rgb[3 * (static_cast<std::size_t>(tile.row) * static_cast<std::size_t>(width_) +
                                static_cast<std::size_t>(tile.column))];
-        const auto in_tile = [&](const VisualSolid& visual) { return sees(view, tile, visual); };
-        const bool bare =
-            !view.solids || (std::none_of(scene_->solids().begin(), scene_->solids().end(), in_tile) &&
-                             std::none_of(moving.begin(), moving.end(), in_tile));
-        if (!bare || !draw_bare_floor(view, tile, out)) draw_all(view, tile, moving, out);
+        const bool bare = std::none_of(windows_.begin(), windows_.end(),
+                                       [&](const Window& w) { return sees(view, tile, w); });
+        if (!bare || !draw_bare_floor(view, tile, out)) draw_all(view, tile, out);
     }
+}
+
+/// Pixels round the corners of a solid's box; all when it reaches behind the camera.
+Camera::Window Camera::window(const View& view, const VisualSolid& visual) const {
+    const Solid& solid = visual.solid;
+    const Pose to_camera = (view.pose * mount_).inverse(Eigen::Isometry) * solid.pose;
+    const Eigen::Vector3d middle = to_camera.translation();
+    const Eigen::Matrix3d sides = to_camera.linear() * (solid.size / 2).asDiagonal();
+    Eigen::AlignedBox2d slopes;  // to the left and up, per metre ahead
+    for (int corner = 0; corner < 8; ++corner) {
+        const Eigen::Vector3d at = middle + (corner & 1 ? 1 : -1) * sides.col(0) +
+                                   (corner & 2 ? 1 : -1) * sides.col(1) +
+                                   (corner & 4 ? 1 : -1) * sides.col(2);
+        if (at.x() < 1e-3) return {&visual, 0, width_, 0, height_};
+        slopes.extend(Eigen::Vector2d(at.y() / at.x(), at.z() / at.x()));
+    }
+    constexpr double margin = 0.01;  // pixels; rays are in single precision
+    const auto pixel = [](double slope, double tan, int pixels) {
+        return std::clamp((1 - slope / tan) * pixels / 2, -2.0, pixels + 2.0);
+    };
+    const auto first = [&](double p) { return std::max(0, static_cast<int>(std::floor(p - margin))); };
+    const auto end = [&](double p, int pixels) {
+        return std::min(pixels, static_cast<int>(std::ceil(p + margin)));
+    };
+    return {&visual, first(pixel(slopes.max().x(), tan_x_, width_)),
+            end(pixel(slopes.min().x(), tan_x_, width_), width_),
+            first(pixel(slopes.max().y(), tan_y_, height_)),
+            end(pixel(slopes.min().y(), tan_y_, height_), height_)};
+}
+
+bool Camera::sees(const View& view, const Tile& tile, const Window& w) {
+    return tile.row >= w.first_row && tile.row < w.end_row && tile.column < w.end_column &&
+           tile.column + tile.pixels > w.first_column && sees(view, tile, *w.visual);
 }
 
 /// Whether a solid may be in a tile: its box meets the tile's sphere, and the tile's box meets its sphere.
@@ -165,10 +200,10 @@ void Camera::draw_textured(const View& view, const Tile& tile, int first_pixel, 
     }
 }
 
-void Camera::draw_all(const View& view, const Tile& tile, std::span<const MovingVisual> moving,
-                      float* rgb) const {
+void Camera::draw_all(const View& view, const Tile& tile, float* rgb) const {
     Samples samples;
-    const auto count = static_cast<std::size_t>(tile.pixels * samples_);
+    const auto pixels = static_cast<std::size_t>(tile.pixels);
+    const std::size_t count = pixels * static_cast<std::size_t>(samples_);
     std::fill_n(samples.rgb.begin(), count, Eigen::Array4f::Constant(Scene::background));
     std::fill_n(samples.depth.begin(), count, static_cast<float>(far_));
 
@@ -196,8 +231,9 @@ void Camera::draw_all(const View& view, const Tile& tile, std::span<const Moving
     }
 
     const Lighting& lighting = scene_->lighting();
-    const auto draw_solid = [&](const VisualSolid& visual) {
-        if (!view.solids || !sees(view, tile, visual)) return;
+    for (const Window& w : windows_) {
+        if (!sees(view, tile, w)) continue;
+        const VisualSolid& visual = *w.visual;
         const Solid& solid = visual.solid;
         const Eigen::Matrix3d turn = solid.pose.linear().transpose() * view.pose.linear();
         const Eigen::Vector3d half = solid.size / 2;
@@ -207,29 +243,35 @@ void Camera::draw_all(const View& view, const Tile& tile, std::span<const Moving
         for (int face = 0; face < 6; ++face)
             faces[static_cast<std::size_t>(face)] =
                 lighting.shade(visual.material, solid.pose.linear() * face_normal(face));
-        enter(solid.kind, half, eye, turn,
-              {&ray_x_[tile.first], &ray_y_[tile.first], &ray_z_[tile.first], count},
-              {samples.entry.data(), samples.face.data()});
-        for (std::size_t k = 0; k < count; ++k) {
-            if (!(samples.entry[k] < samples.depth[k])) continue;
-            const std::size_t i = tile.first + k;
-            samples.depth[k] = static_cast<float>(samples.entry[k]);
-            samples.rgb[k].head<3>() =
-                samples.face[k] == Entries::curved
-                    ? lighting.shade(
-                          visual.material,
-                          solid.pose.linear() *
-                              curved_normal(solid.kind, eye,
-                                            turn * Eigen::Vector3d(ray_x_[i], ray_y_[i], ray_z_[i]),
-                                            samples.entry[k]))
-                    : faces[static_cast<std::size_t>(samples.face[k])];
-        }
-    };
-    for (const VisualSolid& visual : scene_->solids()) draw_solid(visual);
-    for (const VisualSolid& visual : moving) draw_solid(visual);
+        const auto from = static_cast<std::size_t>(std::max(0, w.first_column - tile.column)),
+                   to = static_cast<std::size_t>(std::min(tile.pixels, w.end_column - tile.column));
+        const bool some = 2 * (to - from) < pixels;  // else rays that miss cost less than doing it in parts
+        const std::size_t parts = some ? static_cast<std::size_t>(samples_) : 1, first = some ? from : 0,
+                          last = some ? to : count;
+        const auto draw = [&](std::size_t begin, std::size_t end) {
+            enter(solid.kind, half, eye, turn,
+                  {&ray_x_[tile.first + begin], &ray_y_[tile.first + begin], &ray_z_[tile.first + begin],
+                   end - begin},
+                  {&samples.entry[begin], &samples.face[begin]});
+            for (std::size_t k = begin; k < end; ++k) {
+                if (!(samples.entry[k] < samples.depth[k])) continue;
+                const std::size_t i = tile.first + k;
+                samples.depth[k] = static_cast<float>(samples.entry[k]);
+                samples.rgb[k].head<3>() =
+                    samples.face[k] == Entries::curved
+                        ? lighting.shade(
+                              visual.material,
+                              solid.pose.linear() *
+                                  curved_normal(solid.kind, eye,
+                                                turn * Eigen::Vector3d(ray_x_[i], ray_y_[i], ray_z_[i]),
+                                                samples.entry[k]))
+                        : faces[static_cast<std::size_t>(samples.face[k])];
+            }
+        };
+        for (std::size_t part = 0; part < parts; ++part) draw(part * pixels + first, part * pixels + last);
+    }
 
     const float mean = 1.0f / static_cast<float>(samples_);
-    const auto pixels = static_cast<std::size_t>(tile.pixels);
     for (std::size_t p = 0; p < pixels; ++p, rgb += 3) {
         Eigen::Array4f sum = samples.rgb[p];
         for (std::size_t k = p + pixels; k < count; k += pixels) sum += samples.rgb[k];

@@ -18,7 +18,6 @@ struct VisualSolid {
     Solid solid;  ///< may be tilted here
     Material material;
 };
-using MovingVisual = VisualSolid;  ///< one whose pose is told anew for every picture
 
 /// A horizontal rectangle, seen from above only.
 struct FloorSurface {

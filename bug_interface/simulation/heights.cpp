@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace forage::bug {
 namespace {
 
@@ -11,11 +13,21 @@ constexpr double at_least = 0.001;  ///< m, that things must share to touch
 
 }  // namespace
 
-int Heights::layer(double low, double high) {
+int Heights::layer(double low, double high, const Location& where, Diagnostics& diagnostics) {
     for (std::size_t i = 0; i < ranges_.size(); ++i)
         if (std::abs(ranges_[i].first - low) < same && std::abs(ranges_[i].second - high) < same)
             return static_cast<int>(i);
-    if (ranges_.size() == most_layers) return -1;
+    if (ranges_.size() == most_layers) {
+        if (!too_many_)
+            diagnostics.error(
+                where,
+                fmt::format("robots and loose things have more than {} different heights of shapes: "
+                            "{:g} to {:g} m is one too many",
+                            most_layers, low, high),
+                "let shapes begin and end at the same heights");
+        too_many_ = true;
+        return 0;
+    }
     ranges_.emplace_back(low, high);
     return static_cast<int>(ranges_.size()) - 1;
 }

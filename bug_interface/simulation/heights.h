@@ -5,21 +5,23 @@
 #include <vector>
 
 #include "bug_interface/motion/physics.h"
+#include "core/model/diagnostic.h"
 
 namespace forage::bug {
 
 /// The layers of Physics: a layer is a range of heights that some shape reaches over.
 class Heights {
   public:
-    /// The layer of what reaches from `low` to `high`, m; a new one when there is none yet. -1: there are too
-    /// many.
-    int layer(double low, double high);
+    /// The layer of what reaches from `low` to `high`, m; a new one when there is none yet. When there are
+    /// too many, an error at `where`, once.
+    int layer(double low, double high, const Location& where, Diagnostics& diagnostics);
     /// For each layer those that share heights with it.
     std::vector<LayerMask> meets() const;
     const std::vector<std::pair<double, double>>& ranges() const { return ranges_; }  ///< of each layer
 
   private:
     std::vector<std::pair<double, double>> ranges_;
+    bool too_many_ = false;
 };
 
 }  // namespace forage::bug

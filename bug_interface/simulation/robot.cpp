@@ -39,14 +39,13 @@ Robot::Robot(const Model& model, std::size_t number_, std::uint64_t seed_, Heigh
         diagnostics.error(
             shape->where,
             fmt::format("the body of robot '{}' does not stand upright on its model's origin", name));
-    const auto layer_of = [&](const Solid& solid) {
+    const auto layer_of = [&](const Solid& solid, const Location& where) {
         const double middle = solid.pose.translation().z(), half = solid.size.z() / 2;
-        return heights.layer(middle - half, middle + half);
+        return heights.layer(middle - half, middle + half, where, diagnostics);
     };
     const Solid body_solid{ShapeKind::cylinder, body_pose, shape->shape.size};
     body.radius = shape->shape.size.x() / 2, body.mass = link.mass, body.inertia = link.inertia_z;
-    body.friction = shape->friction, body.layer = layer_of(body_solid);
-    bool layers = body.layer >= 0;
+    body.friction = shape->friction, body.layer = layer_of(body_solid, shape->where);
 
     for (const bug::Limb& limb : limbs_of(model, hinges)) {
         for (const Collision& c : limb.link->collisions) {
@@ -56,8 +55,7 @@ Robot::Robot(const Model& model, std::size_t number_, std::uint64_t seed_, Heigh
             solids.push_back({number, limb.hinge, solid, of_body});
             if (of_body) continue;
             const auto outline = cut(solid, solid.pose.translation().z());
-            const int layer = layer_of(solid);
-            layers &= layer >= 0;
+            const int layer = layer_of(solid, c.where);
             if (!outline) continue;
             limbs.push_back({*outline, limb.hinge});
             body.parts.push_back({*outline, layer, c.friction});
@@ -70,13 +68,9 @@ Robot::Robot(const Model& model, std::size_t number_, std::uint64_t seed_, Heigh
                                   {{v.shape.kind, Pose::Identity(), v.shape.size}, v.material},
                                   limb.link == &link});
     }
-    if (!layers)
-        diagnostics.error(model.where,
-                          fmt::format("more than {} different heights of things that move", most_layers),
-                          "give robots and loose things the same heights");
 }
 
-void Robot::surround(std::span<const Solid> still, std::span<const MovingSolid> moving) {
+void Robot::surround(std::span<const Solid> still, std::span<const MovingSolid> moving, double step) {
     const auto make = [&](std::string_view sensor, Stream use,
                           std::vector<double>& cells) -> std::optional<Scan> {
         const auto found = std::find_if(range_sensors.begin(), range_sensors.end(),
@@ -84,7 +78,7 @@ void Robot::surround(std::span<const Solid> still, std::span<const MovingSolid> 
         if (found == range_sensors.end()) return {};
         Scan scan{RangeScanner(*found, link_pose),
                   random(use),
-                  found->rate > 0 ? 1 / found->rate : 0,
+                  SensorClock(found->rate, step),
                   0,
                   {},
                   {},
@@ -103,8 +97,9 @@ void Robot::surround(std::span<const Solid> still, std::span<const MovingSolid> 
     proximity = make("laser", proximity_noise, snapshot.proximity);
     target = make("laser_target", target_noise, snapshot.target);
     gripper = make("laser_gripper", gripper_noise, snapshot.gripper);
-    if (camera_sensor)
-        snapshot.image_width = camera_sensor->width, snapshot.image_height = camera_sensor->height;
+    if (!camera_sensor) return;
+    camera_clock.emplace(camera_sensor->rate, step);
+    snapshot.image_width = camera_sensor->width, snapshot.image_height = camera_sensor->height;
 }
 
 void Robot::Scan::run(const Pose2& body, std::uint64_t sample, bool with_noise, const Stage& stage,
@@ -121,9 +116,12 @@ void Robot::checkpoint(Archive& archive) {
     archive.same(name, "a robot");
     archive(pose, command, hinges, voice);
     if (reset) archive(*reset);
-    archive(*trials, snapshot, history, scans);
+    archive(*trials, snapshot, history);
+    for (std::optional<Scan>* scan : {&proximity, &target, &gripper})
+        if (*scan) archive((*scan)->clock);
     if (!wants_image) return;  // no module looks: what a film sees decides nothing
-    archive(snapshot.image, pictures, rendered);
+    archive(snapshot.image, rendered);
+    if (camera_clock) archive(*camera_clock);
     for (BugSnapshot& s : history) archive(s.image);
 }
 
@@ -132,6 +130,25 @@ void Robot::sense(bool with_noise, std::uint64_t sample, const Stage& stage) {
     if (proximity) proximity->run(pose, sample, with_noise, stage, snapshot.proximity);
     if (target) target->run(pose, sample, with_noise, stage, snapshot.target);
     if (gripper && wants_gripper_scan) gripper->run(pose, sample, with_noise, stage, snapshot.gripper);
+}
+
+bool Robot::due(double now) const {
+    const auto is_due = [&](const std::optional<Scan>& scan) { return scan && scan->clock.due(now); };
+    return !proximity || is_due(proximity) || is_due(target) || (wants_gripper_scan && is_due(gripper)) ||
+           (wants_image && camera_clock && camera_clock->due(now));
+}
+
+void Robot::sense_due(double now, bool with_noise, const Stage& stage, std::span<const MovingSight> all) {
+    const auto look = [&](std::optional<Scan>& scan, std::vector<double>& cells) {
+        if (!scan || !scan->clock.due(now)) return false;
+        scan->run(pose, scan->clock.look(now), with_noise, stage, cells);
+        return true;
+    };
+    if (look(proximity, snapshot.proximity) || !proximity) snapshot.pose = pose;
+    look(target, snapshot.target);
+    if (wants_gripper_scan) look(gripper, snapshot.gripper);
+    if (wants_image && camera_clock && camera_clock->due(now))
+        render(with_noise, camera_clock->look(now), stage, all);
 }
 
 void Robot::make_camera(std::shared_ptr<const Scene> scene) {
@@ -146,20 +163,31 @@ void Robot::make_camera(std::shared_ptr<const Scene> scene) {
 void Robot::render(bool with_noise, std::uint64_t sample, const Stage& stage,
                    std::span<const MovingSight> all) {
     if (!camera || rendered == sample) return;
+    take_picture(with_noise, sample, stage, all, snapshot.image);
+    rendered = sample;
+}
+
+std::span<const std::uint8_t> Robot::view(bool with_noise, std::uint64_t sample, const Stage& stage,
+                                          std::span<const MovingSight> all) {
+    if (!camera) return {};
+    view_.resize(picture_.size());
+    take_picture(with_noise, sample, stage, all, view_);
+    return view_;
+}
+
+void Robot::take_picture(bool with_noise, std::uint64_t sample, const Stage& stage,
+                         std::span<const MovingSight> all, std::vector<std::uint8_t>& out) {
     moving_.clear();
-    for (const MovingSight& sight : all) {
-        if ((sight.body == number && sight.of_body) || !stage.present[sight.body]) continue;
-        moving_.push_back(sight.visual);
-        moving_.back().solid.pose = sight.at(stage);
-    }
+    for (const MovingSight& sight : all)
+        if (!(sight.body == number && sight.of_body) && stage.present[sight.body])
+            moving_.push_back(&sight.visual);
     camera->render(pose, moving_, picture_);
     if (with_noise) {
-        camera->quantise(picture_, snapshot.image, image_random, sample);
+        camera->quantise(picture_, out, image_random, sample);
     } else {
         for (std::size_t i = 0; i < picture_.size(); ++i)
-            snapshot.image[i] = static_cast<std::uint8_t>(std::clamp(picture_[i], 0.0f, 1.0f) * 255 + 0.5f);
+            out[i] = static_cast<std::uint8_t>(std::clamp(picture_[i], 0.0f, 1.0f) * 255 + 0.5f);
     }
-    rendered = sample;
 }
 
 void Robot::move_gripper(Physics& physics, double step) {

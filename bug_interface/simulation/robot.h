@@ -14,6 +14,7 @@
 #include "bug_interface/sensing/camera.h"
 #include "bug_interface/sensing/range_scan.h"
 #include "bug_interface/simulation/heights.h"
+#include "bug_interface/simulation/sensor_clock.h"
 #include "bug_interface/simulation/stage.h"
 #include "bug_interface/simulation/trials.h"
 #include "bug_interface/simulation/voice.h"
@@ -46,7 +47,7 @@ class Robot {
     struct Scan {
         RangeScanner scanner;
         RandomStream noise;
-        double period = 0;            ///< s of the world; 0: as often as asked
+        SensorClock clock;            ///< at the rate that the file gives
         std::size_t still = 0;        ///< the first of `around` stand still
         std::vector<Outline> around;  ///< then what moves, where it is now
         std::vector<MovingOutline> moving;
@@ -80,16 +81,26 @@ class Robot {
     RandomStream random(Stream use) const { return {seed, "bug " + name, use}; }
 
     /// Makes the scanners. `still`: what stands still, `moving`: what moves, both solids cut at all heights
-    /// by whoever asks; a robot does not see its own body, but its gripper.
-    void surround(std::span<const Solid> still, std::span<const MovingSolid> moving);
+    /// by whoever asks; a robot does not see its own body, but its gripper. `step`: of the physics, s.
+    void surround(std::span<const Solid> still, std::span<const MovingSolid> moving, double step);
     /// Writes pose and scans of `sample` into the snapshot.
     void sense(bool with_noise, std::uint64_t sample, const Stage& stage);
+    /// Whether a sensor looks now that has a rate of its own. `now`: s of the world.
+    bool due(double now) const;
+    /// What is due now looks and writes into the snapshot. The pose comes with the proximity sensor, as in
+    /// the original.
+    void sense_due(double now, bool with_noise, const Stage& stage, std::span<const MovingSight> sights);
     /// Has no effect without a camera sensor, or when it is made already.
     void make_camera(std::shared_ptr<const Scene> scene);
-    /// Writes the picture of `sample` into the snapshot, unless it is there already. `sights`: what moves.
+    /// Writes the picture of `sample` into the snapshot, unless it is there already. `sights`: what moves,
+    /// with visuals placed in the world.
     /// Has no effect before make_camera().
     void render(bool with_noise, std::uint64_t sample, const Stage& stage,
                 std::span<const MovingSight> sights);
+    /// What the camera sees in `stage`, for onlookers: the snapshot stays as it is. Valid until the next
+    /// call; empty before make_camera().
+    std::span<const std::uint8_t> view(bool with_noise, std::uint64_t sample, const Stage& stage,
+                                       std::span<const MovingSight> sights);
     /// Turns the hinges for a substep of `step` s, as far as nothing is in the way.
     void move_gripper(Physics& physics, double step);
 
@@ -120,16 +131,20 @@ class Robot {
     std::optional<Camera> camera;  ///< made when a picture is first asked for
     Voice voice;
     BugSnapshot snapshot;
-    std::vector<BugSnapshot> history;       ///< the last ones, where modules get them late
-    bool wants_image = false;               ///< whether World::step() renders
-    bool wants_gripper_scan = false;        ///< whether the gripper's rays are scanned
-    std::uint64_t scans = 0, pictures = 0;  ///< how many there were, at the sensors' own rates
+    std::vector<BugSnapshot> history;  ///< the last ones, where modules get them late
+    bool wants_image = false;          ///< whether World::step() renders
+    bool wants_gripper_scan = false;   ///< whether the gripper's rays are scanned
+    std::optional<SensorClock> camera_clock;
     std::optional<std::uint64_t> rendered;  ///< the sample that the snapshot's image is of
     std::weak_ptr<void> claim;              ///< held by the module that drives it
 
   private:
+    void take_picture(bool with_noise, std::uint64_t sample, const Stage& stage,
+                      std::span<const MovingSight> sights, std::vector<std::uint8_t>& out);
+
     std::vector<float> picture_;
-    std::vector<VisualSolid> moving_;
+    std::vector<std::uint8_t> view_;
+    std::vector<const VisualSolid*> moving_;
     std::vector<std::pair<std::size_t, Outline>> swung_;
 };
 

@@ -15,6 +15,11 @@ bool is_loose(const Model& model) {
     return !model.is_static && !robot_link(model) && !solids_of(model).empty();
 }
 
+WorldDescription without_movers(WorldDescription world) {
+    std::erase_if(world.models, [](const Model& m) { return robot_link(m) || is_loose(m); });
+    return world;
+}
+
 Pose frame_of(const Model& model) {
     return model.links.empty() ? Pose::Identity() : in_space(in_plane(model.links.front().pose));
 }
@@ -39,20 +44,25 @@ Thing thing_of(const Model& model) {
     return thing;
 }
 
-Body body_of(const Model& model, const Thing& thing, Heights& heights) {
+Body body_of(const Model& model, const Thing& thing, Heights& heights, Diagnostics& diagnostics) {
     Body body;
     body.driven = false, body.radius = 0, body.mass = 0, body.inertia = 0;
     double friction = 1;
+    std::vector<Location> places;  // of the solids
     each_link(model, Pose::Identity(), [&](const Link& link, const Pose&) {
         body.mass += link.mass, body.inertia += link.inertia_z;
-        for (const Collision& c : link.collisions) friction = std::min(friction, c.friction);
+        for (const Collision& c : link.collisions) {
+            friction = std::min(friction, c.friction);
+            if (c.shape.kind != ShapeKind::plane) places.push_back(c.where);
+        }
     });
     double reach_mean = 0;
-    for (const Solid& solid : thing.solids) {
+    for (std::size_t i = 0; i < thing.solids.size(); ++i) {
+        const Solid& solid = thing.solids[i];
         const double middle = solid.pose.translation().z(), half = solid.size.z() / 2;
-        const int layer = heights.layer(std::max(0.0, middle - half), middle + half);
+        const int layer = heights.layer(std::max(0.0, middle - half), middle + half, places[i], diagnostics);
         const auto outline = cut(solid, middle);
-        if (!outline || layer < 0) continue;
+        if (!outline) continue;
         reach_mean = std::max(reach_mean, reach(*outline));
         if (thing.solids.size() == 1 && outline->round && std::hypot(outline->x, outline->y) < 1e-9) {
             body.radius = outline->radius, body.layer = layer, body.friction = friction;

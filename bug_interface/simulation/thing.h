@@ -23,11 +23,13 @@ struct Thing {
 
 /// Whether a model is loose: not static, no robot, and solid.
 bool is_loose(const Model& model);
+/// A world without robots and loose things, for what stands still.
+WorldDescription without_movers(WorldDescription world);
 Thing thing_of(const Model& model);
 
 /// The body of a loose model. The floor slows it down by its friction; it does not roll. An error when its
 /// heights are too many.
-Body body_of(const Model& model, const Thing& thing, Heights& heights);
+Body body_of(const Model& model, const Thing& thing, Heights& heights, Diagnostics& diagnostics);
 
 /// Where a model's frame as a thing is, seen from the model.
 Pose frame_of(const Model& model);

@@ -66,10 +66,11 @@ class World {
     std::optional<std::size_t> find(std::string_view bug) const;
     /// What modules get: of the last cycle, or of an earlier one when the options have it late.
     const BugSnapshot& snapshot(std::size_t bug) const;
-    /// The picture of the last snapshot, rendered when first asked for; empty without a camera.
+    /// For onlookers: what its camera sees at the end of the last cycle, whether or not a module takes its
+    /// pictures, how often and how late. Empty without a camera; valid until the next call for this robot.
     /// Throws std::runtime_error when a floor's picture cannot be read.
     std::span<const std::uint8_t> image(std::size_t bug);
-    /// Whether step() renders this robot's image.
+    /// Whether this robot's snapshots have pictures.
     void need_image(std::size_t bug, bool needed);
 
     /// All that changes in it; between cycles. To be read into a world made of the same description, with the
@@ -139,6 +140,7 @@ class World {
     void colour_resources();
     void hear();
     void remember();
+    std::span<const MovingSight> placed_sights();
     void make_camera(std::size_t bug);
     std::uint64_t substeps_before(std::uint64_t cycle) const;
 
@@ -157,6 +159,7 @@ class World {
     Game game_;
     Stage stage_;
     std::vector<MovingSight> sights_;   ///< of all that moves
+    bool sights_placed_ = false;        ///< whether their visuals are where they are on stage
     std::vector<MotorCommand> drives_;  ///< of this substep, with noise
     std::unique_ptr<Physics> physics_;
     std::shared_ptr<const Scene> scene_;  ///< made for the first image

@@ -120,7 +120,8 @@ class Film::Screen {
 
     double draw_picture(std::size_t robot, double x, double y, double wide) {
         const auto picture = world_.image(robot);
-        const int columns = world_.snapshot(robot).image_width, rows = world_.snapshot(robot).image_height;
+        const bug::BugSnapshot& seen = world_.robot(robot).snapshot;
+        const int columns = seen.image_width, rows = seen.image_height;
         if (picture.empty() || columns == 0) {
             canvas_.fill(x, y, wide, wide * 0.3, pale);
             canvas_.text(x + wide / 2, y + wide * 0.18, "no camera", 11, 0.5, grey);
@@ -150,7 +151,7 @@ class Film::Screen {
 
     /// The cells of the ray sensors, from the left to the right of the robot.
     void draw_senses(std::size_t robot, double x, double y) {
-        const auto& seen = world_.snapshot(robot);
+        const auto& seen = world_.robot(robot).snapshot;  // not late, as those of modules may be
         const auto bars = [&](const char* name, const std::vector<double>& cells, const Colour& colour) {
             if (cells.empty()) return;
             canvas_.text(x, y, name, 11);

@@ -25,6 +25,20 @@ WorldDescription crowd(const std::vector<Pose2>& places) {
     return world;
 }
 
+/// The team arena with one robot that has a gripper, and no game.
+WorldDescription alone() {
+    WorldDescription world = description("team_arena");
+    world.game.reset();
+    std::erase_if(world.models, [](const Model& m) { return m.name.starts_with("B_") || m.name == "A_2"; });
+    test::find_model(world, "A_1")->pose = in_space({0, 0, 0});
+    return world;
+}
+
+Link& body_link(WorldDescription& world) {
+    auto& links = test::find_model(world, "A_1")->links;
+    return *std::find_if(links.begin(), links.end(), [](const Link& l) { return l.name == "bug"; });
+}
+
 std::vector<double> sound(double level) {
     std::vector<double> out(36, 0);
     out[3] = level;
@@ -71,6 +85,55 @@ TEST_CASE("Sensors at their own rates hold what they saw until their time has co
     }
     CHECK(changes == 50);  // 25 per second, in 2 s
     CHECK(world->pose(0).x == Approx(2).margin(0.01));
+}
+
+TEST_CASE("Each sensor has a rate of its own") {
+    WorldDescription text = alone();
+    Link& link = body_link(text);
+    for (RangeSensor& s : link.range_sensors)
+        s.rate = s.name == "laser" ? 20 : s.name == "laser_target" ? 50 : 10, s.noise = 0.01;
+    link.cameras.front().rate = 5;
+    WorldOptions options;
+    options.native_rates = true, options.real_time_factor = 0.25;  // 10 ms of the world per cycle
+    const auto world = make_world(text, options);
+    const auto robot = world->find("A_1").value();
+    world->need_gripper_scan(robot, true), world->need_image(robot, true);
+    world->command(robot, {0.5, 1});
+    int poses = 0, proximity = 0, target = 0, gripper = 0, pictures = 0;
+    BugSnapshot last = world->snapshot(robot);
+    for (int cycle = 0; cycle < 200; ++cycle) {  // 2 s
+        world->step();
+        const BugSnapshot& now = world->snapshot(robot);
+        poses += now.pose.x != last.pose.x;
+        proximity += now.proximity != last.proximity, target += now.target != last.target;
+        gripper += now.gripper != last.gripper, pictures += now.image != last.image;
+        CHECK((now.pose.x != last.pose.x) == (now.proximity != last.proximity));  // GPS comes with it
+        last = now;
+    }
+    CHECK(poses == 40);
+    CHECK(proximity == 40);
+    CHECK(target == 100);
+    CHECK(gripper == 20);
+    CHECK(pictures == 10);
+}
+
+TEST_CASE("Onlookers see what a camera sees now: without a module, at a slow rate, and late") {
+    WorldDescription text = alone();
+    body_link(text).cameras.front().rate = 0.1;
+    WorldOptions options, slow;
+    slow.native_rates = true, slow.late = 5;
+    for (const bool read_by_module : {false, true}) {
+        const auto a = make_world(text, options), b = make_world(text, slow);
+        const auto robot = a->find("A_1").value();
+        if (read_by_module) b->need_image(robot, true);
+        for (int cycle = 0; cycle < 20; ++cycle) {
+            for (World* w : {a.get(), b.get()}) w->command(robot, {0.5, 1}), w->step();
+            const auto prompt = a->image(robot), seen = b->image(robot);
+            REQUIRE(!prompt.empty());
+            REQUIRE(std::equal(prompt.begin(), prompt.end(), seen.begin(), seen.end()));
+        }
+        if (read_by_module) CHECK(b->snapshot(robot).image != a->snapshot(robot).image);
+    }
 }
 
 TEST_CASE("What is sensed can come some cycles later") {

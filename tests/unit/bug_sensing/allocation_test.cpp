@@ -10,14 +10,15 @@ using forage::bug::test::up;
 
 TEST_CASE("Sensing allocates nothing") {
     const Arena& arena = Arena::get();
-    const Camera camera = arena.camera();
+    Camera camera = arena.camera();
     const RangeScanner scanner = arena.scanner("laser");
     const RandomStream random(1, "Bug");
     std::vector<Outline> outlines;
     for (const Solid& solid : arena.solids())
         if (const auto outline = cut(solid, scanner.height())) outlines.push_back(*outline);
-    const std::vector<MovingVisual> moving = {
-        {{ShapeKind::cylinder, forage::bug::test::at(0, 2.7, 0.1), {0.4, 0.4, 0.2}}, {}}};
+    const VisualSolid other = {{ShapeKind::cylinder, forage::bug::test::at(0, 2.7, 0.1), {0.4, 0.4, 0.2}},
+                               {}};
+    const std::vector<const VisualSolid*> moving = {&other};
     std::vector<double> ranges(32), cells(32), a(896), b(896), c(896);
     std::vector<float> rgb(3 * 896);
     std::vector<std::uint8_t> bytes(rgb.size());

@@ -83,10 +83,12 @@ inline std::vector<double> cells_of(const RangeScanner& scanner, const std::vect
     return cells;
 }
 
-inline std::vector<float> picture(const Camera& camera, const Pose2& body,
-                                  std::span<const MovingVisual> moving = {}) {
+inline std::vector<float> picture(Camera camera, const Pose2& body,
+                                  std::span<const VisualSolid> moving = {}) {
     std::vector<float> rgb(3 * static_cast<std::size_t>(camera.width() * camera.height()));
-    camera.render(body, moving, rgb);
+    std::vector<const VisualSolid*> solids;
+    for (const VisualSolid& solid : moving) solids.push_back(&solid);
+    camera.render(body, solids, rgb);
     return rgb;
 }
 

@@ -73,7 +73,7 @@ TEST_CASE("Faces have the shade of their direction to the sun") {
     CHECK(shade("Gazebo/Grey", -1, 0, 0) == Approx(0.120).margin(1e-3));
 
     // A red box seen from its +x side: front and top.
-    const std::vector<MovingVisual> box = {
+    const std::vector<VisualSolid> box = {
         solid(ShapeKind::box, at(-1, -1, 0.1), {0.2, 0.6, 0.2}, "Gazebo/Red")};
     const auto rgb = picture(arena.camera(), {-0.6, -1, std::numbers::pi}, box);  // its front is 0.3 ahead
     bool front = false, top = false;
@@ -92,7 +92,7 @@ TEST_CASE("Another robot hides the floor behind it, from every side") {
     for (const double yaw : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0}) {
         const Pose2 body{-0.3, -1.3, yaw};
         const double ahead = 0.46;  // its side begins at 0.26
-        const std::vector<MovingVisual> other = {solid(
+        const std::vector<VisualSolid> other = {solid(
             ShapeKind::cylinder, at(body.x + ahead * std::cos(yaw), body.y + ahead * std::sin(yaw), 0.1),
             {0.4, 0.4, 0.2}, "Gazebo/Green")};
         const auto rgb = picture(arena.camera(), body, other);
@@ -112,8 +112,8 @@ TEST_CASE("Nearer things hide farther ones, whatever their order") {
     const auto far = solid(ShapeKind::box, at(0, -0.4, 0.125), {0.6, 0.1, 0.25}, "Gazebo/Red");
     const auto scene = std::make_shared<Scene>(arena.world, arena.excluded);
     const Camera camera = far_camera(arena, scene);
-    const auto one = picture(camera, {0, -1.2, up}, std::vector<MovingVisual>{near, far});
-    const auto other = picture(camera, {0, -1.2, up}, std::vector<MovingVisual>{far, near});
+    const auto one = picture(camera, {0, -1.2, up}, std::vector<VisualSolid>{near, far});
+    const auto other = picture(camera, {0, -1.2, up}, std::vector<VisualSolid>{far, near});
     CHECK(one == other);
     int blue = 0, red = 0;
     for (std::size_t i = 0; i < one.size(); i += 3)
@@ -254,4 +254,68 @@ TEST_CASE("Rays enter solids where a walk along them does") {
             CHECK((met->depth > 8 - step || !inside(met->depth + step)));
         }
     }
+}
+
+namespace {
+
+bool meets(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& origin,
+           const Eigen::Vector3d& ray) {
+    const Eigen::Vector3f r = ray.cast<float>();
+    double depth, face;
+    forage::bug::enter(kind, half, origin, Eigen::Matrix3d::Identity(), {&r.x(), &r.y(), &r.z(), 1},
+                       {&depth, &face});
+    return depth < 20;  // m; the camera sees no farther
+}
+
+}  // namespace
+
+TEST_CASE("A solid is drawn in the pixels whose rays meet it, and in no other") {
+    const Arena& arena = Arena::get();
+    const WorldDescription nothing;
+    const Camera camera = far_camera(arena, std::make_shared<Scene>(nothing));
+    std::mt19937 chance(7);
+    const auto uniform = [&](double from, double to) {
+        return std::uniform_real_distribution<double>(from, to)(chance);
+    };
+    const double pitch = 0.57, wide = std::tan(1.0047 / 2), tall = wide * 28 / 32;
+    int drawn = 0, partly = 0, wrong = 0;
+    for (int i = 0; i < 400; ++i) {
+        const auto kind = std::array{ShapeKind::box, ShapeKind::cylinder, ShapeKind::sphere}[i % 3];
+        Eigen::Vector3d size = {uniform(0.02, 0.6), uniform(0.02, 0.6), uniform(0.02, 0.4)};
+        if (i % 5 == 0) size.x() = 6;  // a wall
+        if (kind != ShapeKind::box) size.y() = size.x();
+        if (kind == ShapeKind::sphere) size.z() = size.x();
+        const Pose2 body{uniform(-1, 1), uniform(-1, 1), uniform(-3, 3)};
+        const double ahead = uniform(0.2, 2.5), aside = uniform(-0.7, 0.7);
+        Pose pose = at(body.x + ahead * std::cos(body.yaw) - aside * std::sin(body.yaw),
+                       body.y + ahead * std::sin(body.yaw) + aside * std::cos(body.yaw), 0, uniform(-3, 3));
+        if (i % 2) pose.rotate(Eigen::AngleAxisd(uniform(-1, 1), Eigen::Vector3d::UnitX()));
+        pose.translation().z() =
+            half_height({kind, pose, size}) + uniform(0, 0.2);  // nothing is below the floor
+        const VisualSolid visual = solid(kind, pose, size, "Gazebo/Red");
+        const auto rgb = picture(camera, body, std::vector<VisualSolid>{visual});
+        const Pose robot = at(body.x, body.y, 0, body.yaw);
+        const Eigen::Vector3d eye = pose.inverse() * (robot * Eigen::Vector3d(0.125, 0, 0.35));
+        int met = 0;
+        for (int row = 0; row < 28; ++row)
+            for (int column = 0; column < 32; ++column) {
+                int rays = 0;  // of the pixel's four
+                for (const double dx : {0.25, 0.75})
+                    for (const double dy : {0.25, 0.75}) {
+                        const double a = (1 - 2 * (column + dx) / 32) * wide,
+                                     b = (1 - 2 * (row + dy) / 28) * tall;
+                        const Eigen::Vector3d ray(std::cos(pitch) + b * std::sin(pitch), a,
+                                                  -std::sin(pitch) + b * std::cos(pitch));
+                        rays += meets(kind, size / 2, eye, pose.linear().transpose() * robot.linear() * ray);
+                    }
+                const bool seen = pixel(rgb, column, row)[1] < 0.699f;  // red hides some of the grey
+                met += rays;
+                // A ray along an edge may fall on either side in single precision.
+                wrong += (rays == 4 && !seen) || (rays == 0 && seen);
+            }
+        drawn += met > 0, partly += met > 0 && met < 4 * 28 * 32;
+    }
+    CHECK(wrong == 0);
+    CHECK(drawn > 200);
+    CHECK(partly > 150);
 }

@@ -177,7 +177,7 @@ TEST_CASE("The quick way for bare floor and the general way draw the same pictur
     // A solid in front of the camera's back: its bounds meet every tile, no ray meets it.
     for (const Pose2& body : {Pose2{0, 0.5, up}, Pose2{-1.4, 0, 0.3}, Pose2{1.3, 1.4, 2.5}}) {
         const Eigen::Vector2d eye(body.x + 0.2 * std::cos(body.yaw), body.y + 0.2 * std::sin(body.yaw));
-        const std::vector<MovingVisual> above = {
+        const std::vector<VisualSolid> above = {
             {{ShapeKind::box, forage::bug::test::at(eye.x(), eye.y(), 0.36), {0.01, 0.01, 0.01}}, {}}};
         CHECK(picture(camera, body, above) == picture(camera, body));
     }

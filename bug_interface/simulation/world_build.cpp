@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "bug_interface/simulation/world.h"
+#include "bug_interface/world/material.h"
+
+namespace forage::bug {
+namespace {
+
+void warn_about_what_is_left_out(const WorldDescription& world, Diagnostics& diagnostics) {
+    for (const Model& model : world.models)
+        for (const Plugin& p : model.plugins)
+            if (p.filename != "libvel_plugin.so" && p.filename != "libreset_plugin.so" &&
+                p.filename != "libtarget_plugin.so")
+                diagnostics.warning(p.where,
+                                    fmt::format("plugin '{}' is not known here and does nothing", p.filename),
+                                    "known are libvel_plugin.so, libreset_plugin.so and libtarget_plugin.so");
+}
+
+/// The challenge's resource: a blue ball.
+Model resource(int number) {
+    Model model;
+    model.name = fmt::format("resource_{}", number);
+    model.plugins.push_back({{}, "target", "libtarget_plugin.so"});
+    Link link;
+    link.name = "body", link.mass = 0.01, link.inertia_z = 1;
+    link.pose.translation().z() = 0.06;
+    const Shape ball{ShapeKind::sphere, Eigen::Vector3d::Constant(0.16)};
+    link.collisions.push_back({{}, "collision", Pose::Identity(), ball, 0.1});
+    link.visuals.push_back({{}, "visual", Pose::Identity(), ball, *named_material("Gazebo/Blue")});
+    model.links.push_back(std::move(link));
+    return model;
+}
+
+}  // namespace
+
+World::World(const WorldDescription& description, const WorldOptions& options)
+    : description_(description), options_(options) {
+    const double factor = options.real_time_factor.value_or(description.step * description.update_rate);
+    substeps_per_cycle_ = factor / (options.cycles_per_second * description.step);
+}
+
+std::unique_ptr<World> World::make(const WorldDescription& description, const WorldOptions& options,
+                                   Diagnostics& diagnostics) {
+    const int errors_before = diagnostics.errors();
+    if (!(options.cycles_per_second > 0) || !(options.real_time_factor.value_or(1) > 0)) {
+        diagnostics.error(
+            {}, "a simulated world needs a number of cycles per second and a real time factor above 0",
+            "give the system's cyclesPerSecond, or choose one on the command line");
+        return nullptr;
+    }
+    std::unique_ptr<World> world(new World(description, options));
+    world->build(diagnostics);
+    if (diagnostics.errors() > errors_before) return nullptr;
+    world->scan();
+    world->remember();
+    return world;
+}
+
+bool World::build(Diagnostics& diagnostics) {
+    warn_about_what_is_left_out(description_, diagnostics);
+    const int errors_before = diagnostics.errors();
+    if (options_.game && !description_.game) description_.game.emplace();
+    plan_ = find_reset(description_, diagnostics);
+    targets_ = targets_of(description_);
+    for (const Model& model : description_.models)
+        if (robot_link(model)) add_robot(model, diagnostics);
+    add_things(diagnostics);
+    if (diagnostics.errors() > errors_before) return false;
+
+    for (const Robot& robot : robots_) bodies_.push_back(robot.body);
+    std::rotate(bodies_.begin(), bodies_.begin() + static_cast<std::ptrdiff_t>(things_.size()),
+                bodies_.end());
+    physics_ = std::make_unique<Physics>(obstacles_of(description_, heights_), bodies_, description_.step,
+                                         Physics::Contacts::when_near, heights_.meets());
+    drives_.resize(bodies_.size());
+    stage_.bodies.resize(bodies_.size()), stage_.present.assign(bodies_.size(), 1);
+    stage_.hinges.resize(bodies_.size());
+    for (std::size_t i = 0; i < robots_.size(); ++i) stage_.hinges[i].resize(robots_[i].hinges.size());
+    for (std::size_t i = 0; i < robots_.size(); ++i) physics_->place(i, robots_[i].pose);
+    for (std::size_t i = 0; i < things_.size(); ++i) physics_->place(robots_.size() + i, things_[i].start);
+    add_game();
+    surround();
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+        Robot& robot = robots_[i];
+        robot.pose = physics_->pose(i);
+        robot.trials->begin(robot.pose, 0);
+        robot.voice.heard.assign(robots_.size(), {});
+        voices_.push_back(&robot.voice);
+        by_name_.push_back(i);
+    }
+    std::sort(by_name_.begin(), by_name_.end(),
+              [&](std::size_t a, std::size_t b) { return robots_[a].name < robots_[b].name; });
+    set_stage();
+    return true;
+}
+
+void World::add_robot(const Model& model, Diagnostics& diagnostics) {
+    if (find(model.name))
+        diagnostics.error(model.where, fmt::format("there are two robots named '{}'", model.name),
+                          "give each <include> a <name> of its own");
+    Robot& robot = robots_.emplace_back(model, robots_.size(), options_.seed, heights_, diagnostics);
+    if (plan_ && has_plugin(model, "libreset_plugin.so"))
+        robot.reset.emplace(*plan_, robot.random(Robot::reset_draws));
+    robot.trials.emplace(targets_);
+}
+
+void World::add_things(Diagnostics& diagnostics) {
+    std::vector<Model> loose;
+    for (const Model& model : description_.models)
+        if (is_loose(model)) loose.push_back(model);
+    if (description_.game) {
+        const auto has = std::count_if(loose.begin(), loose.end(),
+                                       [](const Model& m) { return has_plugin(m, "libtarget_plugin.so"); });
+        for (int i = static_cast<int>(has); i < description_.game->most; ++i) loose.push_back(resource(i));
+    }
+    for (const Model& model : loose) {
+        things_.push_back(thing_of(model));
+        bodies_.push_back(body_of(model, things_.back(), heights_, diagnostics));
+        if (bodies_.back().radius > 0 || !bodies_.back().parts.empty()) continue;
+        diagnostics.error(model.where,
+                          fmt::format("'{}' has no shape that things could bump into", model.name),
+                          "give it a <collision>, or make it <static>true</static>");
+    }
+}
+
+/// The homes are those of models named so; without them, where the challenge's walls have them painted.
+void World::add_game() {
+    std::array<Pose2, 2> homes = {Pose2{-10, 10, 0}, Pose2{10, -10, 0}};
+    for (const Model& model : description_.models) {
+        if (model.name == "Home_A") homes[0] = in_plane(model.pose);
+        if (model.name == "Home_B") homes[1] = in_plane(model.pose);
+    }
+    std::vector<Game::Resource> resources;
+    for (std::size_t i = 0; i < things_.size(); ++i)
+        if (things_[i].resource) resources.push_back({robots_.size() + i, things_[i].start});
+    game_ = Game(description_.game, homes, std::move(resources), options_.seed);
+    game_.begin(*physics_);
+}
+
+/// Tells everybody what there is to see.
+void World::surround() {
+    std::vector<Solid> still;
+    for (const Model& model : without_movers(description_).models)
+        for (const Solid& solid : solids_of(model)) still.push_back(solid);
+    std::vector<MovingSolid> moving;
+    for (const Robot& robot : robots_) {
+        moving.insert(moving.end(), robot.solids.begin(), robot.solids.end());
+        sights_.insert(sights_.end(), robot.sights.begin(), robot.sights.end());
+    }
+    for (std::size_t i = 0; i < things_.size(); ++i) {
+        const std::size_t body = robots_.size() + i;
+        for (const Solid& solid : things_[i].solids) moving.push_back({body, -1, solid, false});
+        for (MovingSight sight : things_[i].sights) sight.body = body, sights_.push_back(sight);
+    }
+    for (Robot& robot : robots_) robot.surround(still, moving, description_.step);
+}
+
+}  // namespace forage::bug

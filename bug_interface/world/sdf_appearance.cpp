@@ -1,0 +1,115 @@
+// Shapes and materials.
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "bug_interface/world/material.h"
+#include "bug_interface/world/png.h"
+#include "bug_interface/world/sdf_elements.h"
+
+namespace forage::bug {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string texture_of(SdfSource& in, const sdf::ElementPtr& script, const std::string& uri,
+                       const std::string& name) {
+    const std::string folder = in.folders.find(uri);
+    if (folder.empty()) {
+        in.diagnostics.error(in.at(script), fmt::format("there is no folder '{}'", uri),
+                             "it holds the .material script and its texture");
+        return {};
+    }
+    std::vector<fs::path> places = {folder, fs::path(folder) / "scripts", fs::path(folder) / "textures",
+                                    fs::path(folder).parent_path() / "textures"};
+    std::string image;
+    for (const auto& place : places) {
+        std::error_code ignored;
+        for (fs::directory_iterator entry(place, ignored), end; !ignored && entry != end;
+             entry.increment(ignored))
+            if (entry->path().extension() == ".material" && image.empty())
+                image = texture_in_script(read_text(entry->path()).value_or(""), name);
+    }
+    if (image.empty()) {
+        in.diagnostics.error(in.at(script),
+                             fmt::format("no script in '{}' gives material '{}' a texture", folder, name));
+        return {};
+    }
+    for (const auto& place : places) {
+        const std::string file = (place / image).string();
+        if (!fs::exists(file)) continue;
+        if (const std::string problem = png_problem(file); !problem.empty())
+            in.diagnostics.error(in.at(script),
+                                 fmt::format("the texture '{}' is no PNG picture: {}", file, problem));
+        return file;
+    }
+    in.diagnostics.error(in.at(script), fmt::format("the texture '{}' of material '{}' is missing in '{}'",
+                                                    image, name, folder));
+    return {};
+}
+
+}  // namespace
+
+Shape read_shape(SdfSource& in, const sdf::ElementPtr& parent) {
+    Shape shape;
+    const auto geometry = child(parent, {"geometry"});
+    const auto kind = geometry ? geometry->GetFirstElement() : nullptr;
+    if (!kind || kind->GetName() == "empty") {
+        in.diagnostics.error(in.at(parent),
+                             fmt::format("<{}> has no shape that is known here", parent->GetName()),
+                             "the shapes are <plane>, <box>, <cylinder> and <sphere>");
+        return shape;
+    } else if (kind->GetName() == "box") {
+        const auto s = in.value(kind, "size", ignition::math::Vector3d(1, 1, 1));
+        shape = {ShapeKind::box, {s.X(), s.Y(), s.Z()}};
+    } else if (kind->GetName() == "cylinder") {
+        const double d = 2 * in.value(kind, "radius", 1.0);
+        shape = {ShapeKind::cylinder, {d, d, in.value(kind, "length", 1.0)}};
+    } else if (kind->GetName() == "sphere") {
+        shape = {ShapeKind::sphere, Eigen::Vector3d::Constant(2 * in.value(kind, "radius", 1.0))};
+    } else if (kind->GetName() == "plane") {
+        const auto s = in.value(kind, "size", ignition::math::Vector2d(1, 1));
+        shape = {ShapeKind::plane, {s.X(), s.Y(), 0}};
+    } else {
+        in.diagnostics.error(in.at(kind), fmt::format("shape <{}> is not supported", kind->GetName()),
+                             "the shapes are <plane>, <box>, <cylinder> and <sphere>");
+        return shape;
+    }
+    if ((shape.size.array() < 0).any()) in.diagnostics.error(in.at(kind), "a size is negative");
+    const auto zeros = (shape.size.array() == 0).count();  // a box may be flat, and is then no obstacle
+    if (shape.kind != ShapeKind::plane && zeros > (shape.kind == ShapeKind::box ? 1 : 0))
+        in.diagnostics.error(in.at(kind), "a size is 0");
+    return shape;
+}
+
+Material read_material(SdfSource& in, const sdf::ElementPtr& visual) {
+    Material material;
+    const auto e = child(visual, {"material"});
+    if (!e) return material;
+    if (const auto script = child(e, {"script"})) {
+        const std::string name = in.value(script, "name", std::string());
+        std::string uri;
+        each(script, "uri", [&](const sdf::ElementPtr& u) {
+            if (u->Get<std::string>().starts_with("model://")) uri = u->Get<std::string>();
+        });
+        if (!uri.empty()) {
+            material.ambient = material.diffuse = Colour::Ones();
+            material.texture = texture_of(in, script, uri, name);
+        } else if (const auto known = named_material(name)) {
+            material = *known;
+        } else {
+            in.diagnostics.error(in.at(script), fmt::format("there is no material '{}'", name),
+                                 suggest(name, material_names()));
+        }
+    }
+    const auto set = [&](const char* which, Colour& colour) {
+        if (!e->HasElement(which)) return;
+        const auto c = e->GetElement(which)->Get<ignition::math::Color>();
+        colour = {c.R(), c.G(), c.B()};
+    };
+    set("ambient", material.ambient);
+    set("diffuse", material.diffuse);
+    return material;
+}
+
+}  // namespace forage::bug
