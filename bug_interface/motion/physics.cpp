@@ -80,9 +80,24 @@ void Physics::drive(std::size_t i, const MotorCommand& command) {
     v = {v.x * left, v.y * left, slowed(v.turn, bodies_[i].slowing_turn * step_)};
 }
 
+bool Physics::can_drive_freely(std::size_t body, double travel, double turn) {
+    if (contacts_ == Contacts::always || !states_[body].present) return false;
+    for (std::size_t i = 0; i < states_.size(); ++i)
+        if (!bodies_[i].driven && states_[i].present && !rests(velocities_[i])) return false;
+    return !near_something(body, way(body, travel, turn));
+}
+
+void Physics::drive_freely(std::size_t body, const Pose2& pose, const MotorCommand& command, double travel,
+                           double turn) {
+    State& s = states_[body];
+    s.pose = {pose.x, pose.y, wrapped(pose.yaw)};
+    s.touches = 0;
+    s.room -= way(body, travel, turn);
+    drive(body, command);
+}
+
 void Physics::step(std::span<const MotorCommand> drives) {
     bool contacts = contacts_ == Contacts::always;
-    const auto rests = [](const Velocity& v) { return v.x == 0 && v.y == 0 && v.turn == 0; };
     for (std::size_t i = 0; i < states_.size(); ++i) {
         State& s = states_[i];
         s.involved = contacts_ == Contacts::always && s.present;

@@ -77,6 +77,14 @@ class Physics {
     /// One step; `drives[i]` is what body i is driven with. Loose things need none.
     void step(std::span<const MotorCommand> drives);
 
+    /// Whether a driven body is sure to touch nothing while it drives so far (m) and turns by so much (rad),
+    /// if all others do no more than that either: they have room of their own. Never while something loose
+    /// moves.
+    bool can_drive_freely(std::size_t body, double travel, double turn);
+    /// Several steps of a body that is free for them, at once: it is now at `pose`, driven with `drive`.
+    void drive_freely(std::size_t body, const Pose2& pose, const MotorCommand& drive, double travel,
+                      double turn);
+
     /// Moves parts of a body within its frame (numbers of its parts, and where they are to be), unless they
     /// would get into something that cannot give way. Loose things in the way are pushed. Returns whether it
     /// was done.
@@ -114,6 +122,7 @@ class Physics {
     struct Velocity {
         double x = 0, y = 0, turn = 0;  ///< m/s, m/s, rad/s
     };
+    static bool rests(const Velocity& v) { return v.x == 0 && v.y == 0 && v.turn == 0; }
     /// A shape of a body where it is in the world.
     struct Placed {
         Outline outline;

@@ -43,6 +43,15 @@ class TrialLog {
             smallest_squared_ = std::min(smallest_squared_, dx * dx + dy * dy);
         }
     }
+    /// In place of many substeps, of a way from one place to another that is nearly straight.
+    void follow(const Pose2& from, const Pose2& to) {
+        const Eigen::Vector2d start(from.x, from.y), way = Eigen::Vector2d(to.x, to.y) - start;
+        for (const Eigen::Vector2d& t : targets_) {
+            const double length = way.squaredNorm();
+            const double part = length > 0 ? std::clamp((t - start).dot(way) / length, 0.0, 1.0) : 0;
+            smallest_squared_ = std::min(smallest_squared_, (start + part * way - t).squaredNorm());
+        }
+    }
     /// `done`: how many cycles have begun since the start of the run.
     void finish(const Pose2& end, std::uint64_t done);
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "bug_interface/motion/free_drive.h"
 #include "bug_interface/world/material.h"
 
 namespace forage::bug {
@@ -27,6 +28,7 @@ void World::step() {
 /// targets.
 void World::advance_bodies() {
     const std::uint64_t last = substeps_before(cycle_ + 1);
+    if (drive_freely(last)) substep_ = last;
     for (; substep_ < last; ++substep_) {
         for (std::size_t i = 0; i < robots_.size(); ++i) {
             drive(i);
@@ -54,6 +56,45 @@ void World::drive(std::size_t bug) {
     robot.motor_random.uniform(substep_, u);
     drives_[bug].forward += (2 * u[0] - 1) * speed_noise;
     drives_[bug].turn += (2 * u[1] - 1) * speed_noise;
+}
+
+bool World::drive_freely(std::uint64_t last) {
+    if (options_.native_rates || !game_.empty()) return false;  // somebody looks in between
+    const std::uint64_t steps = last - substep_;
+    const double seconds = static_cast<double>(steps) * description_.step,
+                 noise = options_.noise ? speed_noise : 0;
+    for (std::size_t i = 0; i < robots_.size(); ++i)
+        if (!is_free(i, seconds)) return false;
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+        Robot& robot = robots_[i];
+        const MotorCommand& command = robot.command;
+        const Pose2 from = physics_->pose(i);
+        physics_->drive_freely(
+            i, free_drive(from, command, steps, description_.step, noise, robot.motor_random, substep_),
+            command, (std::abs(command.forward) + noise) * seconds,
+            (std::abs(command.turn) + noise) * seconds);
+        robot.trials->follow(from, physics_->pose(i));
+    }
+    return true;
+}
+
+/// Whether a robot will do nothing but drive for some seconds, too far from its target for the substeps to
+/// matter.
+bool World::is_free(std::size_t bug, double seconds) {
+    constexpr double near_target = 1;  ///< m
+    Robot& robot = robots_[bug];
+    const double travel = (std::abs(robot.command.forward) + speed_noise) * seconds,
+                 turn = (std::abs(robot.command.turn) + speed_noise) * seconds;
+    if (resetting(bug) || !robot.hinges.empty() || !(turn < longest_free_turn)) return false;
+    const Eigen::Vector2d at(physics_->pose(bug).x, physics_->pose(bug).y);
+    if (robot.reset) {
+        const Eigen::AlignedBox2d& bounds = robot.reset->plan().bounds;
+        if (!((at - bounds.min()).minCoeff() > travel && (bounds.max() - at).minCoeff() > travel))
+            return false;
+    }
+    for (const Eigen::Vector2d& target : targets_)
+        if ((target - at).squaredNorm() < (near_target + travel) * (near_target + travel)) return false;
+    return physics_->can_drive_freely(bug, travel, turn);
 }
 
 bool World::in_reset(std::size_t bug) {

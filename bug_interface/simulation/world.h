@@ -135,6 +135,8 @@ class World {
     void surround();
     bool in_reset(std::size_t bug);  ///< one substep of the reset rule: true when the robot is not driven
     void drive(std::size_t bug);
+    bool drive_freely(std::uint64_t last);  ///< all substeps before `last` at once, when that is the same
+    bool is_free(std::size_t bug, double seconds);
     void set_stage();
     void sense_when_due();
     void colour_resources();
