@@ -11,6 +11,9 @@ namespace {
 
 constexpr double speed_noise = 0.005;  ///< the velocity plugin adds up to this, m/s and rad/s
 
+/// Draws of whole control steps, apart from those of substeps.
+constexpr std::uint64_t first_free = std::uint64_t{1} << 62;
+
 }  // namespace
 
 std::uint64_t World::substeps_before(std::uint64_t cycle) const {
@@ -69,10 +72,11 @@ bool World::drive_freely(std::uint64_t last) {
         Robot& robot = robots_[i];
         const MotorCommand& command = robot.command;
         const Pose2 from = physics_->pose(i);
-        physics_->drive_freely(
-            i, free_drive(from, command, steps, description_.step, noise, robot.motor_random, substep_),
-            command, (std::abs(command.forward) + noise) * seconds,
-            (std::abs(command.turn) + noise) * seconds);
+        physics_->drive_freely(i,
+                               free_drive(from, command, steps, description_.step, noise, robot.motor_random,
+                                          first_free + cycle_),
+                               command, (std::abs(command.forward) + noise) * seconds,
+                               (std::abs(command.turn) + noise) * seconds);
         robot.trials->follow(from, physics_->pose(i));
     }
     return true;
