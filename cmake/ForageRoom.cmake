@@ -24,3 +24,9 @@ function(forage_room name)
   target_compile_features(forage_${name} PUBLIC cxx_std_20)
   set_target_properties(forage_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name})
 endfunction()
+
+# forage_apart(a.cpp...): files that name something as a neighbour does. The presets of the sanitizers compile the other files
+# of a target several at a time.
+function(forage_apart)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()

@@ -12,7 +12,8 @@ Span ellipse_rows(Place c, Span xs, int x, int width, int height) {
     const double a = width / 2.0, b = height / 2.0;
     const double offset = x - (xs.first + xs.last) / 2.0;
     const double squared = b * b - offset * offset * (b * b) / (a * a);
-    return squared < 0 ? Span{1, 0} : cover(c.y, 2 * std::sqrt(squared));
+    // Not a number where the ellipse has no width: it covers nothing.
+    return squared >= 0 ? cover(c.y, 2 * std::sqrt(squared)) : Span{1, 0};
 }
 
 Span overlap(Span a, Span b) { return {std::max(a.first, b.first), std::min(a.last, b.last)}; }

@@ -55,6 +55,7 @@ class Archive {
     template <class T>
     void numbers(T* first, std::size_t count) {
         static_assert(std::is_trivially_copyable_v<T>);
+        if (count == 0) return;  // there may be no memory to point to
         if (loading_)
             std::memcpy(static_cast<void*>(first), take(count, sizeof(T)), count * sizeof(T));
         else

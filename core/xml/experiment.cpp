@@ -66,9 +66,11 @@ class ExperimentReader {
         const auto parsed = parse_parameter(ParameterKind::real, text(e, name));
         return parsed ? std::optional(std::get<double>(*parsed)) : std::nullopt;
     }
+    /// Empty also where the check has refused the value.
     static std::optional<std::uint64_t> whole(const XMLElement& e, const char* name) {
         const auto v = number(e, name);
-        return v ? std::optional(static_cast<std::uint64_t>(*v)) : std::nullopt;
+        if (!v || !(*v >= 0 && *v <= 2e9)) return std::nullopt;
+        return static_cast<std::uint64_t>(*v);
     }
     template <class F>
     static void each(const XMLElement& e, const char* name, F visit) {

@@ -114,7 +114,7 @@ double seconds_of(const std::function<void()>& work) {
     return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef FORAGE_SANITIZED
 constexpr double patience = 10;  // instrumented programs are that much slower
 #else
 constexpr double patience = 1;
@@ -184,7 +184,7 @@ TEST_CASE("Lenient reading turns what the original ignores into warnings, and no
 }
 
 // Sanitizers keep freed memory back.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef FORAGE_SANITIZED
 TEST_CASE("No mistake costs much memory") {
     for (const auto& entry : fs::directory_iterator(corpus()))
         if (entry.path().extension() == ".iqr") answer(entry.path());

@@ -21,7 +21,7 @@ inline std::size_t allocations() { return allocation_count; }
 
 }  // namespace forage::test
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__GLIBC__) && !defined(FORAGE_SANITIZED)
 
 namespace forage::test {
 inline constexpr bool counts_allocations = true;

@@ -8,7 +8,7 @@
 
 namespace forage::test {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef FORAGE_SANITIZED
 inline constexpr bool can_limit_memory = false;  // sanitizers map the whole address space
 #else
 inline constexpr bool can_limit_memory = true;
