@@ -1,6 +1,7 @@
 #include "core/engine/sliced_kernel.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -39,20 +40,75 @@ std::vector<int> delays_of(const ByTarget& s) {
     return out;
 }
 
+typedef double Lanes __attribute__((vector_size(lanes * sizeof(double))));  // NOLINT: no `using` for this
+
+/// Where the k-th synapses of a slice's targets are.
 template <class Cell>
-[[gnu::always_inline]] inline void sum_slice(const Cell* pre, const double* weight, const double* scaled,
-                                             std::size_t length, double* sums) {
+struct Place {
+    const Cell* pre;
+    const double* weight;  ///< null when all are alike
+};
+
+/// sums[l] += what the k-th synapse of target l delivers.
+template <class Cell, bool weighted>
+[[gnu::always_inline]] inline void add_synapse(const Place<Cell>& place, std::size_t k, const double* scaled,
+                                               Lanes& sums) {
     constexpr std::size_t ahead =
         512;  // numbers; beyond the page, where the processor does not look by itself
-    double total[lanes] = {};
-    for (std::size_t k = 0; k < length; ++k, pre += lanes) {
-        if (weight) __builtin_prefetch(weight + ahead);
-        if (k % (64 / (lanes * sizeof(Cell))) == 0) __builtin_prefetch(pre + ahead);
-        for (std::size_t l = 0; l < lanes; ++l)
-            total[l] += weight ? scaled[pre[l]] * weight[l] : scaled[pre[l]];
-        if (weight) weight += lanes;
+    const Cell* pre = place.pre + k * lanes;
+    double values[lanes];
+    for (std::size_t l = 0; l < lanes; ++l) values[l] = scaled[pre[l]];
+    Lanes psp;
+    std::memcpy(&psp, values, sizeof psp);
+    if constexpr (weighted) {
+        Lanes weight;
+        std::memcpy(&weight, place.weight + k * lanes, sizeof weight);
+        __builtin_prefetch(place.weight + k * lanes + ahead);
+        psp *= weight;
     }
-    std::copy_n(total, lanes, sums);
+    if (k % (64 / (lanes * sizeof(Cell))) == 0) __builtin_prefetch(pre + ahead);
+    sums += psp;
+}
+
+constexpr std::size_t together = 4;  ///< slices
+
+/// The sums of some slices, the longest first, side by side: their targets read about the same sources at the
+/// same time, and more loads are under way.
+template <std::size_t count, bool weighted, class Cell>
+[[gnu::always_inline]] inline void sum_slices(const Place<Cell>* places, const std::size_t* lengths,
+                                              const double* scaled, double* out) {
+    Lanes sums[count];
+    for (std::size_t j = 0; j < count; ++j) sums[j] = Lanes{};
+    for (std::size_t k = 0; k < lengths[count - 1]; ++k)
+        for (std::size_t j = 0; j < count; ++j) add_synapse<Cell, weighted>(places[j], k, scaled, sums[j]);
+    for (std::size_t j = 0; j < count; ++j) {
+        for (std::size_t k = lengths[count - 1]; k < lengths[j]; ++k)
+            add_synapse<Cell, weighted>(places[j], k, scaled, sums[j]);
+        std::memcpy(out + j * lanes, &sums[j], sizeof sums[j]);
+    }
+}
+
+template <class Cell>
+[[gnu::always_inline]] inline void sum_any(const Place<Cell>* places, const std::size_t* lengths,
+                                           std::size_t count, const double* scaled, double* out) {
+    const bool weighted = places->weight;
+    if (count == together && weighted)
+        sum_slices<together, true>(places, lengths, scaled, out);
+    else if (count == together)
+        sum_slices<together, false>(places, lengths, scaled, out);
+    else if (weighted)
+        sum_slices<1, true>(places, lengths, scaled, out);
+    else
+        sum_slices<1, false>(places, lengths, scaled, out);
+}
+
+FORAGE_SIMD void sum(const Place<std::uint16_t>* places, const std::size_t* lengths, std::size_t count,
+                     const double* scaled, double* out) {
+    sum_any(places, lengths, count, scaled, out);
+}
+FORAGE_SIMD void sum(const Place<std::uint32_t>* places, const std::size_t* lengths, std::size_t count,
+                     const double* scaled, double* out) {
+    sum_any(places, lengths, count, scaled, out);
 }
 
 FORAGE_SIMD void scale(const double* from, double gain, double factor, std::size_t n, double* to) {
@@ -125,15 +181,20 @@ void SlicedKernel<Cell>::prepare(const History& source, int part, int parts) {
 template <class Cell>
 void SlicedKernel<Cell>::add(const History&, double* target, int part, int parts) {
     const Range range(slices_.size(), part, parts);
-    for (std::size_t s = range.first; s < range.last; ++s) {
-        double sums[lanes];
-        const auto [first, length] = slices_[s];
-        if (weight_.empty())
-            sum_slice<Cell>(&pre_[first], nullptr, scaled_.data(), length, sums);
-        else
-            sum_slice<Cell>(&pre_[first], &weight_[first], scaled_.data(), length, sums);
-        for (std::size_t lane = 0; lane < lanes; ++lane)
-            if (const int t = target_[s * lanes + lane]; t >= 0) target[t] += sums[lane];
+    for (std::size_t s = range.first; s < range.last;) {
+        const std::size_t count = range.last - s >= together ? together : 1;
+        Place<Cell> places[together];
+        std::size_t lengths[together];
+        double sums[together * lanes];
+        for (std::size_t j = 0; j < count; ++j) {
+            const auto [first, length] = slices_[s + j];
+            places[j] = {&pre_[first], weight_.empty() ? nullptr : &weight_[first]};
+            lengths[j] = length;
+        }
+        sum(places, lengths, count, scaled_.data(), sums);
+        for (std::size_t i = 0; i < count * lanes; ++i)
+            if (const int t = target_[s * lanes + i]; t >= 0) target[t] += sums[i];
+        s += count;
     }
 }
 
