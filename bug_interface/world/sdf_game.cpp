@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -6,6 +7,11 @@
 #include "bug_interface/world/sdf_elements.h"
 
 namespace forage::bug {
+namespace {
+
+constexpr int most_resources = 200;
+
+}  // namespace
 
 GameRules read_game(SdfSource& in, const sdf::ElementPtr& e) {
     GameRules rules;
@@ -43,12 +49,16 @@ GameRules read_game(SdfSource& in, const sdf::ElementPtr& e) {
             if (!(v[2] >= 0 && v[2] <= 1))
                 in.diagnostics.error(place, fmt::format("a chance of {} is not from 0 to 1", v[2]));
             rules.sites.push_back({v[0], v[1], v[2]});
+        } else if ((name == "points" || name == "penalty" || name == "most") &&
+                   !(v[0] == std::floor(v[0]) && std::abs(v[0]) <= most_resources)) {
+            in.diagnostics.error(place, fmt::format("<{}> cannot be '{}'", name, text),
+                                 fmt::format("a whole number up to {} is expected here", most_resources));
         } else if (name == "points" || name == "penalty") {
             (name == "points" ? rules.points : rules.penalty) = static_cast<int>(v[0]);
         } else if (!(v[0] > 0 && v[0] <= 1e6)) {
             in.diagnostics.error(place, fmt::format("<{}> must be above 0", name));
         } else if (name == "most") {
-            rules.most = static_cast<int>(std::min(v[0], 200.0));
+            rules.most = static_cast<int>(v[0]);
         } else {
             (name == "duration"      ? rules.duration
              : name == "stale_after" ? rules.stale_after

@@ -17,9 +17,9 @@ Link read_link(SdfSource& in, const sdf::ElementPtr& e) {
             in.diagnostics.error(in.at(inertial), "mass and inertia must be positive");
     }
     each(e, "collision", [&](const sdf::ElementPtr& c) {
-        const auto mu = child(c, {"surface", "friction", "ode", "mu"});
-        link.collisions.push_back(
-            {in.at(c), name_of(c), in.pose_of(c), read_shape(in, c), mu ? mu->Get<double>() : 1.0});
+        const auto friction = child(c, {"surface", "friction", "ode"});
+        link.collisions.push_back({in.at(c), name_of(c), in.pose_of(c), read_shape(in, c),
+                                   friction ? in.value(friction, "mu", 1.0) : 1.0});
     });
     each(e, "visual", [&](const sdf::ElementPtr& v) {
         link.visuals.push_back(

@@ -143,8 +143,25 @@ class Reader {
         each(e, "link", [&](const sdf::ElementPtr& l) { model.links.push_back(read_link(in_, l)); });
         each_model(e, model.models, [](const sdf::ElementPtr&) {});
         each(e, "joint", [&](const sdf::ElementPtr& j) { read_joint(in_, j, model); });
+        check_joints(model);
         read_plugins(e, model);
         return model;
+    }
+
+    void check_joints(const Model& model) {
+        std::vector<std::string> links;
+        const auto collect = [&](const Model& m, const auto& again) -> void {
+            for (const Link& link : m.links) links.push_back(link.name);
+            for (const Model& inner : m.models) again(inner, again);
+        };
+        collect(model, collect);
+        for (const Hinge& hinge : model.hinges)
+            for (const std::string& name : {hinge.parent, hinge.child})
+                if (std::find(links.begin(), links.end(), name.substr(name.rfind(':') + 1)) == links.end())
+                    diagnostics_.error(
+                        hinge.where,
+                        fmt::format("joint '{}' names no link of its model: '{}'", hinge.name, name),
+                        suggest(name, links));
     }
 
     void read_plugins(const sdf::ElementPtr& e, Model& model) {
@@ -197,7 +214,9 @@ class Reader {
         };
         each(e, "light", read_light);
         each(e, "plugin", [&](const sdf::ElementPtr& p) {
-            if (p->Get<std::string>("filename") == "libforage_game.so")
+            if (p->Get<std::string>("filename") == "libforage_game.so" && world.game)
+                diagnostics_.error(in_.at(p), "there are two games in this world", "take one away");
+            else if (p->Get<std::string>("filename") == "libforage_game.so")
                 world.game = read_game(in_, p);
             else
                 diagnostics_.warning(
