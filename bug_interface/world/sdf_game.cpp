@@ -13,27 +13,12 @@ constexpr int most_resources = 200;
 
 }  // namespace
 
-GameRules read_game(SdfSource& in, const sdf::ElementPtr& e) {
+GameRules read_game(SdfSource& in, const xml::Element& e) {
     GameRules rules;
-    rules.where = in.at(e);  // its children are not in the format: they come as text
-    // The library does not say where they stand.
-    const std::string& file = rules.where.file->text;
-    std::size_t cursor = 0;
-    for (int line = 1; line < rules.where.line; ++line) cursor = file.find('\n', cursor) + 1;
-    Location place = rules.where;
-    const auto next = [&](const std::string& name) {
-        const auto found = file.find("<" + name, cursor);
-        if (found == std::string::npos) return;
-        cursor = found + 1;
-        place.line =
-            1 + static_cast<int>(std::count(file.begin(), file.begin() + static_cast<long>(found), '\n'));
-        place.column = static_cast<int>(found - (file.rfind('\n', found) + 1)) + 1;
-    };
+    rules.where = e.where;
     const std::vector<std::string> known = {"duration", "stale_after", "dissolves_after", "points", "penalty",
                                             "most",     "site"};
-    for (auto c = e->GetFirstElement(); c; c = c->GetNextElement()) {
-        const std::string name = c->GetName(), text = c->Get<std::string>();
-        next(name);
+    for (const auto& [name, text, place, text_place, attributes, children] : e.children) {
         std::istringstream words(text);
         std::vector<double> v;
         for (double number; words >> number;) v.push_back(number);
