@@ -28,6 +28,30 @@ void dashed(cairo_t* c, double on, double off) {
     cairo_set_dash(c, dash, 2, 0);
 }
 
+/// Each n x n pixels become one, their mean; at the right and lower edge fewer do.
+bug::Image shrunk(bug::Image image, int n) {
+    if (n <= 1) return image;
+    bug::Image out{(image.width + n - 1) / n, (image.height + n - 1) / n, {}};
+    out.rgb.resize(std::size_t(3) * std::size_t(out.width) * std::size_t(out.height));
+    std::vector<std::uint32_t> sums(std::size_t(3) * std::size_t(out.width));
+    for (int y = 0; y < out.height; ++y) {
+        const int rows = std::min(n, image.height - y * n);
+        std::fill(sums.begin(), sums.end(), 0u);
+        for (int row = y * n; row < y * n + rows; ++row) {
+            const std::uint8_t* in = image.pixel(0, row);
+            for (int x = 0; x < out.width; ++x)
+                for (int columns = std::min(n, image.width - x * n); columns > 0; --columns, in += 3)
+                    for (std::size_t i = 0; i < 3; ++i) sums[3 * std::size_t(x) + i] += in[i];
+        }
+        for (int x = 0; x < out.width; ++x)
+            for (std::size_t i = 0; i < 3; ++i)
+                out.pixel(x, y)[i] = static_cast<std::uint8_t>(
+                    sums[3 * std::size_t(x) + i] /
+                    static_cast<std::uint32_t>(rows * std::min(n, image.width - x * n)));
+    }
+    return out;
+}
+
 }  // namespace
 
 WorldMap::WorldMap(const bug::World& world, const Box& extra, double pixels, double left, double top)
@@ -76,19 +100,29 @@ void WorldMap::draw_floor(Canvas& canvas, const bug::Floor& floor) const {
     } catch (const std::exception&) {
         return;  // the picture shows the rest all the same; the camera reports a floor that cannot be read
     }
+    double pixel = floor.size_x * scale_ / image.width;  // of the floor's picture on ours
+    const double aspect = floor.size_y / image.height / (floor.size_x / image.width);
+    // It has more than are seen, and cairo takes its time with each. On paper one may look closer.
+    if (cairo_surface_get_type(cairo_get_target(c)) == CAIRO_SURFACE_TYPE_IMAGE) {
+        const int n = static_cast<int>(std::lround(1 / std::clamp(pixel, 0.01, 1.0)));
+        image = shrunk(std::move(image), n);
+        pixel *= n;
+    }
     Surface texture(cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height));
     auto* data = cairo_image_surface_get_data(texture.get());
     const int stride = cairo_image_surface_get_stride(texture.get());
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) {
-            const auto* p = image.pixel(x, y);
-            reinterpret_cast<std::uint32_t*>(data + y * stride)[x] =
-                std::uint32_t{p[0]} << 16 | std::uint32_t{p[1]} << 8 | p[2];
-        }
+    for (int y = 0; y < image.height; ++y) {
+        auto* row = reinterpret_cast<std::uint32_t*>(data + y * stride);
+        const std::uint8_t* p = image.pixel(0, y);
+        for (int x = 0; x < image.width; ++x, p += 3)
+            row[x] = std::uint32_t{p[0]} << 16 | std::uint32_t{p[1]} << 8 | p[2];
+    }
     cairo_surface_mark_dirty(texture.get());
     cairo_save(c);
     cairo_translate(c, px(floor.x - floor.size_x / 2), py(floor.y + floor.size_y / 2));
-    cairo_scale(c, floor.size_x * scale_ / image.width, floor.size_y * scale_ / image.height);
+    cairo_rectangle(c, 0, 0, floor.size_x * scale_, floor.size_y * scale_);
+    cairo_clip(c);
+    cairo_scale(c, pixel, pixel * aspect);
     cairo_set_source_surface(c, texture.get(), 0, 0);
     cairo_pattern_set_filter(cairo_get_source(c), CAIRO_FILTER_GOOD);
     cairo_paint(c);
