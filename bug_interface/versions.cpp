@@ -3,7 +3,6 @@
 #include <LinearMath/btScalar.h>
 #include <opencv2/core/version.hpp>
 #include <png.h>
-#include <sdf/sdf_config.h>
 
 namespace forage::bug {
 
@@ -11,8 +10,7 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
     return {
         {"Bullet", std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100)},
         {"OpenCV", CV_VERSION},
-        {"libpng", PNG_LIBPNG_VER_STRING},
-        {"sdformat", SDF_VERSION_FULL}};
+        {"libpng", PNG_LIBPNG_VER_STRING}};
 }
 
 }  // namespace forage::bug

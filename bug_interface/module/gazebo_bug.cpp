@@ -61,7 +61,7 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
     s.param("gripper", &T::gripper)
         .label("Has gripper")
         .at_start()
-        .doc("Whether the robot has a gripper; its groups need their sizes only then.");
+        .doc("Whether the robot has a gripper; its groups need their sizes, and the robot one, only then.");
     s.param("grayscale", &T::grayscale)
         .label("Grayscale")
         .doc("The three image groups all get the grey value; wins over hsv.");
@@ -197,6 +197,13 @@ void GazeboBug::check(const ModulePorts& ports, Problems& problems) {
     };
     scanner(proximity, world_->snapshot(*bug).proximity.size(), "laser");
     scanner(target, world_->snapshot(*bug).target.size(), "laser_target");
+    const bool asked =
+        ports.inputs[gripper_command].shape.cells == 1 || ports.outputs[gripper_scan].shape.cells == 16;
+    if (gripper && asked && !world_->has_gripper(*bug))  // the original would wait for one for ever
+        problems.all.push_back({fmt::format("robot '{}' has no gripper", device_name),
+                                "set 'gripper' to false, or take a robot with a gripper",
+                                "gripper",
+                                {}});
     if (gripper && world_->has_gripper(*bug))
         scanner(gripper_scan, world_->snapshot(*bug).gripper.size(), "laser_gripper");
 }

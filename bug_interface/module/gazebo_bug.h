@@ -23,9 +23,10 @@ namespace forage::bug {
 ///   _proximityGripper     the rays between the fingers; the outer cells see the robot's own palm
 ///   _audio_in             what others with the same communication key say: _audio_out, quieter with distance
 ///
-/// One cell of _gripper closes the gripper above 0.5 and opens it below, without effect on a robot that has
-/// none. The robot moves in lock-step with the system, so that the parameter cps of the original, updates per
-/// second of the module's own clock, has no effect.
+/// One cell of _gripper closes the gripper above 0.5 and opens it below. These two groups are an error with a
+/// robot that has no gripper, unless the parameter gripper is false. The robot moves in lock-step with the
+/// system, so that the parameter cps of the original, updates per second of the module's own clock, has no
+/// effect.
 class GazeboBug {
   public:
     GazeboBug() = default;

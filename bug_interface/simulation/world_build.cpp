@@ -4,21 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "bug_interface/simulation/checks.h"
 #include "bug_interface/simulation/world.h"
 #include "bug_interface/world/material.h"
 
 namespace forage::bug {
 namespace {
-
-void warn_about_what_is_left_out(const WorldDescription& world, Diagnostics& diagnostics) {
-    for (const Model& model : world.models)
-        for (const Plugin& p : model.plugins)
-            if (p.filename != "libvel_plugin.so" && p.filename != "libreset_plugin.so" &&
-                p.filename != "libtarget_plugin.so")
-                diagnostics.warning(p.where,
-                                    fmt::format("plugin '{}' is not known here and does nothing", p.filename),
-                                    "known are libvel_plugin.so, libreset_plugin.so and libtarget_plugin.so");
-}
 
 /// The challenge's resource: a blue ball.
 Model resource(int number) {
@@ -61,8 +52,8 @@ std::unique_ptr<World> World::make(const WorldDescription& description, const Wo
 }
 
 bool World::build(Diagnostics& diagnostics) {
-    warn_about_what_is_left_out(description_, diagnostics);
     const int errors_before = diagnostics.errors();
+    check_models(description_, diagnostics);
     if (options_.game && !description_.game) description_.game.emplace();
     plan_ = find_reset(description_, diagnostics);
     targets_ = targets_of(description_);
@@ -82,6 +73,13 @@ bool World::build(Diagnostics& diagnostics) {
     for (std::size_t i = 0; i < robots_.size(); ++i) stage_.hinges[i].resize(robots_[i].hinges.size());
     for (std::size_t i = 0; i < robots_.size(); ++i) physics_->place(i, robots_[i].pose);
     for (std::size_t i = 0; i < things_.size(); ++i) physics_->place(robots_.size() + i, things_[i].start);
+    for (const Model& model : description_.models)
+        if (const auto robot = robot_link(model) ? find(model.name) : std::nullopt;
+            robot && !physics_->has_room(*robot, physics_->pose(*robot)))
+            diagnostics.warning(
+                model.where,
+                fmt::format("robot '{}' starts inside of something, and may be stuck there", model.name),
+                "give it another <pose>");
     add_game();
     surround();
     for (std::size_t i = 0; i < robots_.size(); ++i) {

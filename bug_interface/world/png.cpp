@@ -1,5 +1,6 @@
 #include "bug_interface/world/png.h"
 
+#include <array>
 #include <stdexcept>
 
 #include <png.h>
@@ -15,12 +16,23 @@ Image read_png(const std::string& path) {
     png.version = PNG_IMAGE_VERSION;
     if (!png_image_begin_read_from_file(&png, path.c_str()))
         throw std::runtime_error(path + ": " + png.message);
-    png.format = PNG_FORMAT_RGB;
+    // Floors are large and have few colours: libpng takes ten times as long to look them up.
+    const bool palette = png.format & PNG_FORMAT_FLAG_COLORMAP;
+    png.format = palette ? PNG_FORMAT_RGB_COLORMAP : PNG_FORMAT_RGB;
+    const std::size_t pixels = std::size_t{png.width} * png.height;
     Image image{static_cast<int>(png.width), static_cast<int>(png.height),
-                std::vector<std::uint8_t>(PNG_IMAGE_SIZE(png))};
+                std::vector<std::uint8_t>(3 * pixels)};
+    std::vector<std::uint8_t> indices(palette ? pixels : 0);
+    std::array<std::uint8_t, 3 * 256> colours{};
     const png_color black{0, 0, 0};  // behind transparent pixels
-    if (!png_image_finish_read(&png, &black, image.rgb.data(), 0, nullptr))
+    if (!png_image_finish_read(&png, &black, palette ? indices.data() : image.rgb.data(), 0, colours.data()))
         throw std::runtime_error(path + ": " + png.message);
+    std::uint8_t* out = image.rgb.data();
+    for (const std::uint8_t index : indices) {
+        const std::uint8_t* colour = &colours[3 * std::size_t{index}];
+        out[0] = colour[0], out[1] = colour[1], out[2] = colour[2];
+        out += 3;
+    }
     return image;
 }
 
@@ -45,6 +57,23 @@ void write_png(const std::string& path, int width, int height, std::span<const s
     png.format = PNG_FORMAT_RGB;
     if (!png_image_write_to_file(&png, path.c_str(), 0, rgb.data(), 0, nullptr))
         throw std::runtime_error(path + ": " + png.message);
+}
+
+std::string encode_png(int width, int height, std::span<const std::uint8_t> rgb) {
+    if (rgb.size() != std::size_t(3) * std::size_t(width) * std::size_t(height))
+        throw std::runtime_error("the number of pixels is not width x height");
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    png.width = static_cast<png_uint_32>(width);
+    png.height = static_cast<png_uint_32>(height);
+    png.format = PNG_FORMAT_RGB;
+    png.flags = PNG_IMAGE_FLAG_FAST;
+    std::string out(PNG_IMAGE_PNG_SIZE_MAX(png), '\0');
+    png_alloc_size_t size = out.size();
+    if (!png_image_write_to_memory(&png, out.data(), &size, 0, rgb.data(), 0, nullptr))
+        throw std::runtime_error(png.message);
+    out.resize(size);
+    return out;
 }
 
 }  // namespace forage::bug

@@ -31,4 +31,7 @@ std::string png_problem(const std::string& path);
 /// Throws std::runtime_error with the reason when the file cannot be written.
 void write_png(const std::string& path, int width, int height, std::span<const std::uint8_t> rgb);
 
+/// The bytes of a PNG file, made quickly rather than small.
+std::string encode_png(int width, int height, std::span<const std::uint8_t> rgb);
+
 }  // namespace forage::bug

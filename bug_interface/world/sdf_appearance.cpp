@@ -12,11 +12,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string texture_of(SdfSource& in, const sdf::ElementPtr& script, const std::string& uri,
+std::string texture_of(SdfSource& in, const xml::Element& script, const std::string& uri,
                        const std::string& name) {
     const std::string folder = in.folders.find(uri);
     if (folder.empty()) {
-        in.diagnostics.error(in.at(script), fmt::format("there is no folder '{}'", uri),
+        in.diagnostics.error(script.where, fmt::format("there is no folder '{}'", uri),
                              "it holds the .material script and its texture");
         return {};
     }
@@ -31,7 +31,7 @@ std::string texture_of(SdfSource& in, const sdf::ElementPtr& script, const std::
                 image = texture_in_script(read_text(entry->path()).value_or(""), name);
     }
     if (image.empty()) {
-        in.diagnostics.error(in.at(script),
+        in.diagnostics.error(script.where,
                              fmt::format("no script in '{}' gives material '{}' a texture", folder, name));
         return {};
     }
@@ -39,76 +39,70 @@ std::string texture_of(SdfSource& in, const sdf::ElementPtr& script, const std::
         const std::string file = (place / image).string();
         if (!fs::exists(file)) continue;
         if (const std::string problem = png_problem(file); !problem.empty())
-            in.diagnostics.error(in.at(script),
+            in.diagnostics.error(script.where,
                                  fmt::format("the texture '{}' is no PNG picture: {}", file, problem));
         return file;
     }
-    in.diagnostics.error(in.at(script), fmt::format("the texture '{}' of material '{}' is missing in '{}'",
-                                                    image, name, folder));
+    in.diagnostics.error(script.where, fmt::format("the texture '{}' of material '{}' is missing in '{}'",
+                                                   image, name, folder));
     return {};
 }
 
 }  // namespace
 
-Shape read_shape(SdfSource& in, const sdf::ElementPtr& parent) {
+Shape read_shape(SdfSource& in, const xml::Element& parent) {
     Shape shape;
-    const auto geometry = child(parent, {"geometry"});
-    const auto kind = geometry ? geometry->GetFirstElement() : nullptr;
-    if (!kind || kind->GetName() == "empty") {
-        in.diagnostics.error(in.at(parent),
-                             fmt::format("<{}> has no shape that is known here", parent->GetName()),
-                             "the shapes are <plane>, <box>, <cylinder> and <sphere>");
-        return shape;
-    } else if (kind->GetName() == "box") {
-        const auto s = in.value(kind, "size", ignition::math::Vector3d(1, 1, 1));
-        shape = {ShapeKind::box, {s.X(), s.Y(), s.Z()}};
-    } else if (kind->GetName() == "cylinder") {
-        const double d = 2 * in.value(kind, "radius", 1.0);
-        shape = {ShapeKind::cylinder, {d, d, in.value(kind, "length", 1.0)}};
-    } else if (kind->GetName() == "sphere") {
-        shape = {ShapeKind::sphere, Eigen::Vector3d::Constant(2 * in.value(kind, "radius", 1.0))};
-    } else if (kind->GetName() == "plane") {
-        const auto s = in.value(kind, "size", ignition::math::Vector2d(1, 1));
-        shape = {ShapeKind::plane, {s.X(), s.Y(), 0}};
-    } else {
-        in.diagnostics.error(in.at(kind), fmt::format("shape <{}> is not supported", kind->GetName()),
+    const auto* geometry = parent.child("geometry");
+    if (!geometry || geometry->children.empty() || geometry->children.front().name == "empty") {
+        in.diagnostics.error(parent.where, fmt::format("<{}> has no shape that is known here", parent.name),
                              "the shapes are <plane>, <box>, <cylinder> and <sphere>");
         return shape;
     }
-    if ((shape.size.array() < 0).any()) in.diagnostics.error(in.at(kind), "a size is negative");
+    const xml::Element& kind = geometry->children.front();
+    if (kind.name == "box") {
+        shape = {ShapeKind::box, in.value(kind, "size", Eigen::Vector3d(1, 1, 1))};
+    } else if (kind.name == "cylinder") {
+        const double d = 2 * in.value(kind, "radius", 1.0);
+        shape = {ShapeKind::cylinder, {d, d, in.value(kind, "length", 1.0)}};
+    } else if (kind.name == "sphere") {
+        shape = {ShapeKind::sphere, Eigen::Vector3d::Constant(2 * in.value(kind, "radius", 1.0))};
+    } else if (kind.name == "plane") {
+        const Eigen::Vector2d s = in.value(kind, "size", Eigen::Vector2d(1, 1));
+        shape = {ShapeKind::plane, {s.x(), s.y(), 0}};
+    } else {
+        in.diagnostics.error(kind.where, fmt::format("shape <{}> is not supported", kind.name),
+                             "the shapes are <plane>, <box>, <cylinder> and <sphere>");
+        return shape;
+    }
+    if ((shape.size.array() < 0).any()) in.diagnostics.error(kind.where, "a size is negative");
     const auto zeros = (shape.size.array() == 0).count();  // a box may be flat, and is then no obstacle
     if (shape.kind != ShapeKind::plane && zeros > (shape.kind == ShapeKind::box ? 1 : 0))
-        in.diagnostics.error(in.at(kind), "a size is 0");
+        in.diagnostics.error(kind.where, "a size is 0");
     return shape;
 }
 
-Material read_material(SdfSource& in, const sdf::ElementPtr& visual) {
+Material read_material(SdfSource& in, const xml::Element& visual) {
     Material material;
-    const auto e = child(visual, {"material"});
+    const auto* e = visual.child("material");
     if (!e) return material;
-    if (const auto script = child(e, {"script"})) {
-        const std::string name = in.value(script, "name", std::string());
+    if (const auto* script = e->child("script")) {
+        const std::string name = text_of(*script, "name");
         std::string uri;
-        each(script, "uri", [&](const sdf::ElementPtr& u) {
-            if (u->Get<std::string>().starts_with("model://")) uri = u->Get<std::string>();
+        each(*script, "uri", [&](const xml::Element& u) {
+            if (u.text.starts_with("model://")) uri = u.text;
         });
         if (!uri.empty()) {
             material.ambient = material.diffuse = Colour::Ones();
-            material.texture = texture_of(in, script, uri, name);
+            material.texture = texture_of(in, *script, uri, name);
         } else if (const auto known = named_material(name)) {
             material = *known;
         } else {
-            in.diagnostics.error(in.at(script), fmt::format("there is no material '{}'", name),
+            in.diagnostics.error(script->where, fmt::format("there is no material '{}'", name),
                                  suggest(name, material_names()));
         }
     }
-    const auto set = [&](const char* which, Colour& colour) {
-        if (!e->HasElement(which)) return;
-        const auto c = e->GetElement(which)->Get<ignition::math::Color>();
-        colour = {c.R(), c.G(), c.B()};
-    };
-    set("ambient", material.ambient);
-    set("diffuse", material.diffuse);
+    material.ambient = in.value(*e, "ambient", material.ambient);
+    material.diffuse = in.value(*e, "diffuse", material.diffuse);
     return material;
 }
 

@@ -1,4 +1,5 @@
 // Links and the joints between them.
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -7,49 +8,61 @@
 
 namespace forage::bug {
 
-Link read_link(SdfSource& in, const sdf::ElementPtr& e) {
+Link read_link(SdfSource& in, const xml::Element& e) {
     Link link;
-    link.where = in.at(e), link.name = name_of(e), link.pose = in.pose_of(e);
-    if (const auto inertial = child(e, {"inertial"})) {
-        link.mass = in.value(inertial, "mass", 1.0);
-        if (const auto izz = child(inertial, {"inertia", "izz"})) link.inertia_z = izz->Get<double>();
+    link.where = e.where, link.name = name_of(e), link.pose = in.pose_of(e);
+    if (const auto* inertial = e.child("inertial")) {
+        link.mass = in.value(*inertial, "mass", 1.0);
+        link.inertia_z = in.value(*inertial, "inertia/izz", 1.0);
         if (!(link.mass > 0 && link.inertia_z > 0))
-            in.diagnostics.error(in.at(inertial), "mass and inertia must be positive");
+            in.diagnostics.error(inertial->where, "mass and inertia must be positive");
     }
-    each(e, "collision", [&](const sdf::ElementPtr& c) {
-        const auto mu = child(c, {"surface", "friction", "ode", "mu"});
-        link.collisions.push_back(
-            {in.at(c), name_of(c), in.pose_of(c), read_shape(in, c), mu ? mu->Get<double>() : 1.0});
+    each(e, "collision", [&](const xml::Element& c) {
+        link.collisions.push_back({c.where, name_of(c), in.pose_of(c), read_shape(in, c),
+                                   in.value(c, "surface/friction/ode/mu", 1.0)});
     });
-    each(e, "visual", [&](const sdf::ElementPtr& v) {
-        link.visuals.push_back(
-            {in.at(v), name_of(v), in.pose_of(v), read_shape(in, v), read_material(in, v)});
+    each(e, "visual", [&](const xml::Element& v) {
+        link.visuals.push_back({v.where, name_of(v), in.pose_of(v), read_shape(in, v), read_material(in, v)});
     });
-    each(e, "sensor", [&](const sdf::ElementPtr& s) { read_sensor(in, s, link); });
+    each(e, "sensor", [&](const xml::Element& s) { read_sensor(in, s, link); });
     return link;
 }
 
-void read_joint(SdfSource& in, const sdf::ElementPtr& e, Model& model) {
-    const auto axis = child(e, {"axis"});
-    if (e->Get<std::string>("type") != "revolute" || !axis) return;
+void read_joint(SdfSource& in, const xml::Element& e, Model& model) {
+    const auto* axis = e.child("axis");
+    if (attribute_of(e, "type") != "revolute" || !axis) return;
     Hinge hinge;
-    hinge.where = in.at(e), hinge.name = name_of(e), hinge.pose = in.pose_of(e);
-    hinge.parent = in.value(e, "parent", std::string()), hinge.child = in.value(e, "child", std::string());
-    const auto xyz = in.value(axis, "xyz", ignition::math::Vector3d(0, 0, 1));
-    if (const auto limit = child(axis, {"limit"}))
-        hinge.lower = in.value(limit, "lower", -1e16), hinge.upper = in.value(limit, "upper", 1e16);
+    hinge.where = e.where, hinge.name = name_of(e), hinge.pose = in.pose_of(e);
+    hinge.parent = text_of(e, "parent"), hinge.child = text_of(e, "child");
+    const Eigen::Vector3d xyz = in.value(*axis, "xyz", Eigen::Vector3d(0, 0, 1));
+    hinge.lower = in.value(*axis, "limit/lower", -1e16), hinge.upper = in.value(*axis, "limit/upper", 1e16);
     if (hinge.lower == hinge.upper) return;
-    if (std::abs(xyz.X()) > 1e-6 || std::abs(xyz.Y()) > 1e-6 || xyz.Z() == 0) {
+    if (std::abs(xyz.x()) > 1e-6 || std::abs(xyz.y()) > 1e-6 || xyz.z() == 0) {
         in.diagnostics.warning(
-            in.at(axis),
+            axis->where,
             fmt::format("the axis of joint '{}' is not vertical: it does not turn here", hinge.name));
         return;
     }
-    hinge.sense = xyz.Z() > 0 ? 1 : -1;
+    hinge.sense = xyz.z() > 0 ? 1 : -1;
     if (!(hinge.lower < hinge.upper))
-        in.diagnostics.error(in.at(axis),
+        in.diagnostics.error(axis->where,
                              fmt::format("joint '{}' has its lower limit above the upper one", hinge.name));
     model.hinges.push_back(std::move(hinge));
+}
+
+void check_joints(SdfSource& in, const Model& model) {
+    std::vector<std::string> links;
+    const auto collect = [&](const Model& m, const auto& again) -> void {
+        for (const Link& link : m.links) links.push_back(link.name);
+        for (const Model& inner : m.models) again(inner, again);
+    };
+    collect(model, collect);
+    for (const Hinge& hinge : model.hinges)
+        for (const std::string& name : {hinge.parent, hinge.child})
+            if (std::find(links.begin(), links.end(), name.substr(name.rfind(':') + 1)) == links.end())
+                in.diagnostics.error(
+                    hinge.where, fmt::format("joint '{}' names no link of its model: '{}'", hinge.name, name),
+                    suggest(name, links));
 }
 
 }  // namespace forage::bug

@@ -1,13 +1,12 @@
 #include "bug_interface/world/sdf_reader.h"
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
 
 #include <fmt/format.h>
 
+#include "bug_interface/world/model_config.h"
 #include "bug_interface/world/sdf_elements.h"
 #include "bug_interface/world/world_file.h"
 
@@ -23,14 +22,15 @@ class Reader {
 
     std::optional<WorldDescription> read() {
         const int errors_before = diagnostics_.errors();
-        sdf::ElementPtr world_element;
-        for (const auto& e : in_.parser.parse(path_))
-            if (e->GetName() == "world" && !world_element) world_element = e;
-        if (!world_element && diagnostics_.errors() == errors_before)
-            diagnostics_.error(in_.at(path_, 1), "the file has no <world>",
+        const auto* root = in_.open(path_);
+        if (!root) return {};
+        const auto* world_element = root->child("world");
+        if (!world_element) {
+            diagnostics_.error(root->where, "the file has no <world>",
                                "a world file is <sdf><world name=\"..\">..</world></sdf>");
-        if (diagnostics_.errors() > errors_before) return {};
-        WorldDescription world = read_world_element(world_element);
+            return {};
+        }
+        WorldDescription world = read_world_element(*world_element);
         if (diagnostics_.errors() > errors_before) return {};
         return world;
     }
@@ -41,18 +41,18 @@ class Reader {
     /// What a model's file holds: a model or a light.
     struct Content {
         std::optional<Model> model;
-        sdf::ElementPtr light;
+        const xml::Element* light = nullptr;
     };
 
     /// What an <include> stands for. A file that is included many times is read once; what is wrong in it is
     /// said once.
-    Content included(const sdf::ElementPtr& include) {
+    Content included(const xml::Element& include) {
         const std::string file = model_file(include);
         if (file.empty()) return {};
         if (const auto known = contents_.find(file); known != contents_.end()) {
             if (open_.contains(file))
-                diagnostics_.error(in_.at(include), fmt::format("'{}' includes itself",
-                                                                in_.value(include, "uri", std::string())));
+                diagnostics_.error(include.where,
+                                   fmt::format("'{}' includes itself", text_of(include, "uri")));
             return known->second;
         }
         contents_[file];
@@ -62,32 +62,36 @@ class Reader {
         return contents_[file] = content;
     }
 
-    Content read_model_file(const std::string& file, const sdf::ElementPtr& include) {
-        const int errors_before = diagnostics_.errors();
-        const auto elements = in_.parser.parse(file);
-        if (diagnostics_.errors() > errors_before) return {};
-        const auto first = [&](const char* name) {
-            return std::find_if(elements.begin(), elements.end(),
-                                [&](const auto& e) { return e->GetName() == name; });
-        };
-        const auto model = first("model"), light = first("light");
-        if (elements.size() > 1)
-            diagnostics_.warning(in_.at(elements[1]),
+    Content read_model_file(const std::string& file, const xml::Element& include) {
+        const auto* root = in_.open(file);
+        if (!root) return {};
+        if (root->children.size() > 1)
+            diagnostics_.warning(root->children[1].where,
                                  "the included file holds several models; the first one is used");
         Content content;
-        if (model != elements.end())
+        if (const auto* model = root->child("model"))
             content.model = read_model(*model);
-        else if (light != elements.end())
-            content.light = *light;
+        else if (const auto* light = root->child("light"))
+            content.light = light;
         else
-            diagnostics_.error(in_.at(include), fmt::format("'{}' holds neither a model nor a light", file));
+            diagnostics_.error(include.where, fmt::format("'{}' holds neither a model nor a light", file));
         return content;
     }
 
     /// The file that an <include> names; empty when there is none.
-    std::string model_file(const sdf::ElementPtr& include) {
-        const std::string uri = in_.value(include, "uri", std::string());
-        const Location where = in_.at(include->HasElement("uri") ? include->GetElement("uri") : include);
+    std::string model_file(const xml::Element& include) {
+        const auto* element = include.child("uri");
+        if (!element) {
+            diagnostics_.error(include.where, "this <include> does not say what to include",
+                               "write <uri>model://NAME</uri> into it");
+            return {};
+        }
+        if (element->text.empty()) {
+            diagnostics_.error(element->where, "<uri> is empty", "write <uri>model://NAME</uri>");
+            return {};
+        }
+        const std::string& uri = element->text;
+        const Location& where = element->where;
         const std::string found = in_.folders.find(uri);
         // A bare name that happens to be a folder here would not be one elsewhere.
         const bool bare = uri.find('/') == std::string::npos;
@@ -106,104 +110,97 @@ class Reader {
             return {};
         }
         if (!fs::is_directory(found)) return found;
-        const fs::path folder = found;
-        if (!fs::exists(folder / "model.config") && !fs::exists(folder / "manifest.xml")) {
-            diagnostics_.error(where, fmt::format("the folder '{}' of this model has no model.config", found),
-                               "it says which file holds the model; copy it from another model");
-            return {};
-        }
-        const std::string file = SdfParser::model_file(found);
-        if (file.empty() || !fs::exists(file)) {
-            diagnostics_.error(where, fmt::format("'{}/model.config' names no file that there is", found),
-                               "<sdf version=\"1.4\">model.sdf</sdf>");
-            return {};
-        }
-        return file;
+        return file_of_model(found, where, diagnostics_).value_or("");
     }
 
     /// `model`, with the name and the place that an <include> gives it.
-    Model placed(Model model, const sdf::ElementPtr& include) {
-        model.where = in_.at(include);
-        if (const auto name = in_.value(include, "name", std::string()); !name.empty()) model.name = name;
-        if (include->HasElement("pose")) model.pose = in_.pose_of(include);
+    Model placed(Model model, const xml::Element& include) {
+        model.where = include.where;
+        if (const auto name = text_of(include, "name"); !name.empty()) model.name = name;
+        if (include.child("pose")) model.pose = in_.pose_of(include);
         model.is_static = in_.value(include, "static", model.is_static);
-        if (include->HasElement("placement_frame"))
-            diagnostics_.error(in_.at(include->GetElement("placement_frame")),
-                               "<placement_frame> is not supported", "give the <pose> of the model's origin");
+        if (const auto* frame = include.child("placement_frame"))
+            diagnostics_.error(frame->where, "<placement_frame> is not supported",
+                               "give the <pose> of the model's origin");
         read_plugins(include, model);
         return model;
     }
 
     // ---- elements ----
 
-    Model read_model(const sdf::ElementPtr& e) {
+    Model read_model(const xml::Element& e) {
         Model model;
-        model.where = in_.at(e), model.name = name_of(e), model.pose = in_.pose_of(e);
+        model.where = e.where, model.name = name_of(e), model.pose = in_.pose_of(e);
         model.is_static = in_.value(e, "static", false);
-        each(e, "link", [&](const sdf::ElementPtr& l) { model.links.push_back(read_link(in_, l)); });
-        each_model(e, model.models, [](const sdf::ElementPtr&) {});
-        each(e, "joint", [&](const sdf::ElementPtr& j) { read_joint(in_, j, model); });
+        each(e, "link", [&](const xml::Element& l) { model.links.push_back(read_link(in_, l)); });
+        each_model(e, model.models, [](const xml::Element&) {});
+        each(e, "joint", [&](const xml::Element& j) { read_joint(in_, j, model); });
+        check_joints(in_, model);
         read_plugins(e, model);
         return model;
     }
 
-    void read_plugins(const sdf::ElementPtr& e, Model& model) {
-        each(e, "plugin", [&](const sdf::ElementPtr& p) {
-            model.plugins.push_back({in_.at(p), name_of(p), p->Get<std::string>("filename")});
+    void read_plugins(const xml::Element& e, Model& model) {
+        each(e, "plugin", [&](const xml::Element& p) {
+            model.plugins.push_back({p.where, name_of(p), attribute_of(p, "filename")});
         });
     }
 
     /// The models and includes in `parent`, in file order; visit_light(element) for an included light.
     template <class F>
-    void each_model(const sdf::ElementPtr& parent, std::vector<Model>& models, F visit_light) {
-        for (auto e = parent->GetFirstElement(); e; e = e->GetNextElement()) {
-            if (e->GetName() == "model") models.push_back(read_model(e));
-            if (e->GetName() != "include") continue;
+    void each_model(const xml::Element& parent, std::vector<Model>& models, F visit_light) {
+        for (const xml::Element& e : parent.children) {
+            if (e.name == "model") models.push_back(read_model(e));
+            if (e.name != "include") continue;
             const Content content = included(e);
             if (content.model) models.push_back(placed(*content.model, e));
-            if (content.light) visit_light(content.light);
+            if (content.light) visit_light(*content.light);
         }
     }
 
-    WorldDescription read_world_element(const sdf::ElementPtr& e) {
+    WorldDescription read_world_element(const xml::Element& e) {
         WorldDescription world;
         world.path = path_;
-        if (const auto physics = child(e, {"physics"})) {
-            world.step = in_.value(physics, "max_step_size", 0.001);
-            world.update_rate = in_.value(physics, "real_time_update_rate", 1000.0);
+        if (const auto* physics = e.child("physics")) {
+            // Until version 1.3 they were called otherwise.
+            world.step = in_.value(*physics, "max_step_size", in_.value(*physics, "ode/solver/dt", 0.001));
+            world.update_rate =
+                in_.value(*physics, "real_time_update_rate", in_.value(*physics, "update_rate", 1000.0));
             if (!(world.step > 0 && world.update_rate > 0))
-                diagnostics_.error(in_.at(physics),
+                diagnostics_.error(physics->where,
                                    "max_step_size and real_time_update_rate must be positive");
             else if (!(world.step >= 1e-6 && world.step <= 1 && world.update_rate <= 1e6))
                 diagnostics_.error(
-                    in_.at(physics),
+                    physics->where,
                     "max_step_size lies between 1e-6 and 1 s, real_time_update_rate below 1e6");
         }
-        if (const auto ambient = child(e, {"scene", "ambient"}))
-            world.ambient = ambient->Get<ignition::math::Color>().R();
-        const auto read_light = [&](const sdf::ElementPtr& light) {
-            if (light->Get<std::string>("type") != "directional") {
-                diagnostics_.warning(in_.at(light),
+        world.ambient = in_.value(e, "scene/ambient", Colour(Colour::Constant(world.ambient)))(0);
+        const auto read_light = [&](const xml::Element& light) {
+            if (attribute_of(light, "type") != "directional") {
+                diagnostics_.warning(light.where,
                                      "only directional lights are simulated; this one is left out");
             } else if (world.sun) {
-                diagnostics_.warning(in_.at(light),
+                diagnostics_.warning(light.where,
                                      "there are several directional lights; the first one is used");
             } else {
-                const auto d = in_.value(light, "direction", ignition::math::Vector3d(0, 0, -1));
-                if (!(d.Length() > 0))
-                    diagnostics_.error(in_.at(light), "a light needs a <direction> that is not 0");
-                world.sun = -Eigen::Vector3d(d.X(), d.Y(), d.Z()).normalized();
+                const Eigen::Vector3d d = in_.value(light, "direction", Eigen::Vector3d(0, 0, -1));
+                if (!(d.norm() > 0))
+                    diagnostics_.error(light.where, "a light needs a <direction> that is not 0");
+                world.sun = -d.normalized();
             }
         };
         each(e, "light", read_light);
-        each(e, "plugin", [&](const sdf::ElementPtr& p) {
-            if (p->Get<std::string>("filename") == "libforage_game.so")
+        each(e, "plugin", [&](const xml::Element& p) {
+            const bool game = attribute_of(p, "filename") == "libforage_game.so";
+            if (game && world.game)
+                diagnostics_.error(p.where, "there are two games in this world", "take one away");
+            else if (game)
                 world.game = read_game(in_, p);
             else
                 diagnostics_.warning(
-                    in_.at(p),
+                    p.where,
                     fmt::format("plugin '{}' of the world is not known here and does nothing",
-                                p->Get<std::string>("filename")),
+                                attribute_of(p, "filename")),
                     "known is libforage_game.so");
         });
         each_model(e, world.models, read_light);

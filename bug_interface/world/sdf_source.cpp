@@ -1,60 +1,120 @@
 #include "bug_interface/world/sdf_source.h"
 
-#include <array>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
 #include <numbers>
-#include <sstream>
 
 #include <fmt/format.h>
 
-namespace forage::bug {
+#include "bug_interface/world/sdf_check.h"
+#include "bug_interface/world/sdf_values.h"
 
-void SdfSource::not_finite(const sdf::ElementPtr& e) {
-    diagnostics.error(at(e), fmt::format("<{}> holds a number that is not finite", e->GetName()));
+namespace forage::bug {
+namespace {
+
+constexpr std::size_t most_nodes = 10'000;  // elements and attributes of a file: any world of ours has fewer
+
+void not_finite(const xml::Element& e, Diagnostics& diagnostics) {
+    diagnostics.error(e.where, fmt::format("<{}> holds a number that is not finite", e.name));
+}
+
+bool finite(const std::vector<double>& values) {
+    return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+}  // namespace
+
+const xml::Element* SdfSource::open(const std::string& path) {
+    const int errors_before = diagnostics.errors();
+    auto text = read_text(path);
+    if (!text) {
+        diagnostics.error({std::make_shared<SourceFile>(SourceFile{path, {}}), 0, 0},
+                          "this file cannot be read");
+        return nullptr;
+    }
+    auto root = xml::parse_element(path, std::move(*text), "<sdf version=\"1.4\">", most_nodes, diagnostics);
+    if (root) check_sdf(*root, diagnostics);
+    if (diagnostics.errors() > errors_before) return nullptr;
+    return &files_.emplace_back(std::move(*root));
+}
+
+std::vector<double> SdfSource::list(const xml::Element& parent, std::string_view path, std::size_t n) {
+    const auto* e = parent.child(path);
+    if (!e) return {};
+    auto values = numbers(e->text).values;
+    if (!finite(values)) not_finite(*e, diagnostics), values.clear();
+    if (values.size() < n) values.clear();
+    return values;
+}
+
+double SdfSource::value(const xml::Element& parent, std::string_view path, double otherwise) {
+    const auto v = list(parent, path, 1);
+    return v.empty() ? otherwise : v[0];
+}
+
+int SdfSource::value(const xml::Element& parent, std::string_view path, int otherwise) {
+    const auto v = list(parent, path, 1);
+    constexpr double most = std::numeric_limits<int>::max();
+    return v.empty() ? otherwise : static_cast<int>(std::clamp(v[0], -most, most));
+}
+
+bool SdfSource::value(const xml::Element& parent, std::string_view path, bool otherwise) {
+    return truth(text_of(parent, path)).value_or(otherwise);
+}
+
+Eigen::Vector2d SdfSource::value(const xml::Element& parent, std::string_view path,
+                                 const Eigen::Vector2d& otherwise) {
+    const auto v = list(parent, path, 2);
+    return v.empty() ? otherwise : Eigen::Vector2d(v[0], v[1]);
+}
+
+Eigen::Vector3d SdfSource::value(const xml::Element& parent, std::string_view path,
+                                 const Eigen::Vector3d& otherwise) {
+    const auto v = list(parent, path, 3);
+    return v.empty() ? otherwise : Eigen::Vector3d(v[0], v[1], v[2]);
+}
+
+Colour SdfSource::value(const xml::Element& parent, std::string_view path, const Colour& otherwise) {
+    const auto v = list(parent, path, 3);
+    return v.empty() ? otherwise : Eigen::Array3d(v[0], v[1], v[2]).cast<float>();
 }
 
 /// Angles of more than a turn are likely degrees.
-void SdfSource::check_angles(const sdf::ElementPtr& pose) {
-    for (const char* attribute : {"degrees", "rotation_format"})
-        if (pose->GetAttributeSet(attribute)) return;
-    std::istringstream in(pose->GetValue()->GetAsString());
-    std::array<double, 6> v{};
-    for (double& each : v) in >> each;
+void SdfSource::check_angles(const xml::Element& pose) {
+    if (in_degrees(pose) || is_quaternion(pose)) return;
+    const auto v = numbers(pose.text).values;
     for (std::size_t i = 3; i < v.size(); ++i)
         if (std::abs(v[i]) > 2 * std::numbers::pi + 1e-3) {
             diagnostics.warning(
-                at(pose), fmt::format("an angle of {} in a <pose>: radians, not degrees?", v[i]),
+                pose.where, fmt::format("an angle of {} in a <pose>: radians, not degrees?", v[i]),
                 fmt::format("{} degrees are {:.5g} rad", v[i], v[i] * std::numbers::pi / 180));
             return;
         }
 }
 
-Pose SdfSource::pose_of(const sdf::ElementPtr& parent) {
-    if (!parent->HasElement("pose")) return Pose::Identity();
-    const auto e = parent->GetElement("pose");
-    if (e->HasAttribute("relative_to") && !e->Get<std::string>("relative_to").empty())
-        diagnostics.error(at(e), "poses relative to a named frame are not supported",
-                          "give the pose relative to the enclosing element");
-    const auto p = e->Get<ignition::math::Pose3d>();
-    if (!p.IsFinite()) return not_finite(e), Pose::Identity();
-    check_angles(e);
-    Pose pose = Pose::Identity();
-    pose.translation() = Eigen::Vector3d(p.Pos().X(), p.Pos().Y(), p.Pos().Z());
-    pose.linear() = Eigen::Quaterniond(p.Rot().W(), p.Rot().X(), p.Rot().Y(), p.Rot().Z()).toRotationMatrix();
-    return pose;
+Pose SdfSource::pose_of(const xml::Element& parent) {
+    const auto* e = parent.child("pose");
+    if (!e) return Pose::Identity();
+    for (const char* attribute : {"relative_to", "frame"})  // "frame" until version 1.6
+        if (!attribute_of(*e, attribute).empty())
+            diagnostics.error(e->where, "poses relative to a named frame are not supported",
+                              "give the pose relative to the enclosing element");
+    if (!finite(numbers(e->text).values)) return not_finite(*e, diagnostics), Pose::Identity();
+    check_angles(*e);
+    return to_pose(*e);
 }
 
-double SdfSource::noise_of(const sdf::ElementPtr& e) {
-    const auto stddev = child(e, {"noise", "stddev"});
-    if (!stddev) return 0;
-    const double noise = stddev->Get<double>();
-    if (!(noise >= 0 && std::isfinite(noise)))
-        diagnostics.error(at(stddev), "a standard deviation is a finite number, at least 0");
+double SdfSource::noise_of(const xml::Element& e) {
+    const double noise = value(e, "noise/stddev", 0.0);
+    if (noise < 0) diagnostics.error(e.child("noise/stddev")->where, "a standard deviation is at least 0");
     return noise;
 }
 
-double SdfSource::rate_of(const sdf::ElementPtr& sensor) {
+double SdfSource::rate_of(const xml::Element& sensor) {
     const double rate = value(sensor, "update_rate", 0.0);
-    if (rate < 0) diagnostics.error(at(sensor), "an <update_rate> cannot be negative");
+    if (rate < 0) diagnostics.error(sensor.where, "an <update_rate> cannot be negative");
     return rate;
 }
 

@@ -1,18 +1,15 @@
 // The files of a world while they are read: values of their elements, and what is wrong with them.
 #pragma once
 
-#include <cmath>
-#include <initializer_list>
+#include <deque>
 #include <string>
-#include <type_traits>
+#include <string_view>
 #include <vector>
-
-#include <sdf/sdf.hh>
 
 #include "bug_interface/world/description.h"
 #include "bug_interface/world/model_folders.h"
-#include "bug_interface/world/sdf_parser.h"
 #include "core/model/diagnostic.h"
+#include "core/xml/element.h"
 
 namespace forage::bug {
 
@@ -20,58 +17,58 @@ namespace forage::bug {
 class SdfSource {
   public:
     SdfSource(const std::string& world, Diagnostics& diagnostics_, const std::vector<std::string>& extra)
-        : diagnostics(diagnostics_), folders(world, extra), parser(diagnostics_) {}
+        : diagnostics(diagnostics_), folders(world, extra) {}
 
-    Location at(const std::string& file, int line) { return parser.at(file, line); }
-    Location at(const sdf::ElementPtr& e) { return parser.at(e); }
+    /// The outermost element of SDF file `path`, as long as `this` lives. Null when the file cannot be read
+    /// or does not hold what the format says: `diagnostics` then have more errors.
+    const xml::Element* open(const std::string& path);
 
-    /// What element `name` in `parent` holds; `otherwise` without one. An error when it is not finite.
-    template <class T>
-    T value(const sdf::ElementPtr& parent, const std::string& name, T otherwise) {
-        if (!parent->HasElement(name)) return otherwise;
-        const auto e = parent->GetElement(name);
-        T out = e->Get<T>();
-        if constexpr (requires { out.IsFinite(); }) {
-            if (!out.IsFinite()) return not_finite(e), otherwise;
-        } else if constexpr (std::is_same_v<T, double>) {
-            if (!std::isfinite(out)) return not_finite(e), otherwise;
-        }
-        return out;
-    }
+    // What the element holds to which `path` leads from `parent` ("inertia/izz"); `otherwise` without one,
+    // or when it is empty. An error when it is not finite.
+    double value(const xml::Element& parent, std::string_view path, double otherwise);
+    int value(const xml::Element& parent, std::string_view path, int otherwise);
+    bool value(const xml::Element& parent, std::string_view path, bool otherwise);
+    Eigen::Vector2d value(const xml::Element& parent, std::string_view path,
+                          const Eigen::Vector2d& otherwise);
+    Eigen::Vector3d value(const xml::Element& parent, std::string_view path,
+                          const Eigen::Vector3d& otherwise);
+    Colour value(const xml::Element& parent, std::string_view path, const Colour& otherwise);
+
     /// The <pose> in `parent`.
-    Pose pose_of(const sdf::ElementPtr& parent);
+    Pose pose_of(const xml::Element& parent);
     /// The standard deviation of the <noise> in `e`.
-    double noise_of(const sdf::ElementPtr& e);
-    double rate_of(const sdf::ElementPtr& sensor);  ///< 1/s
+    double noise_of(const xml::Element& e);
+    double rate_of(const xml::Element& sensor);  ///< 1/s
 
     Diagnostics& diagnostics;
     ModelFolders folders;
-    SdfParser parser;
 
   private:
-    void not_finite(const sdf::ElementPtr& e);
-    void check_angles(const sdf::ElementPtr& pose);
+    /// Empty when there is no such element, or `n` finite numbers.
+    std::vector<double> list(const xml::Element& parent, std::string_view path, std::size_t n);
+    void check_angles(const xml::Element& pose);
+
+    std::deque<xml::Element> files_;
 };
 
-inline std::string name_of(const sdf::ElementPtr& e) {
-    return e->HasAttribute("name") ? e->Get<std::string>("name") : std::string();
+/// What the element says to which `path` leads; empty without one.
+inline std::string text_of(const xml::Element& parent, std::string_view path) {
+    const auto* e = parent.child(path);
+    return e ? e->text : std::string();
 }
 
-/// The element that a path of names leads to; null when there is none.
-inline sdf::ElementPtr child(const sdf::ElementPtr& e, std::initializer_list<const char*> path) {
-    sdf::ElementPtr at = e;
-    for (const char* name : path) {
-        if (!at->HasElement(name)) return nullptr;
-        at = at->GetElement(name);
-    }
-    return at;
+/// The value of an attribute; empty without one.
+inline std::string attribute_of(const xml::Element& e, std::string_view name) {
+    const auto* a = e.attribute(name);
+    return a ? a->value : std::string();
 }
+inline std::string name_of(const xml::Element& e) { return attribute_of(e, "name"); }
 
 /// Calls visit(element) for the elements `name` in `parent`, in file order.
 template <class F>
-void each(const sdf::ElementPtr& parent, const std::string& name, F visit) {
-    for (auto e = parent->GetFirstElement(); e; e = e->GetNextElement())
-        if (e->GetName() == name) visit(e);
+void each(const xml::Element& parent, std::string_view name, F visit) {
+    for (const xml::Element& e : parent.children)
+        if (e.name == name) visit(e);
 }
 
 }  // namespace forage::bug

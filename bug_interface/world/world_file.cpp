@@ -8,11 +8,29 @@
 #include <fmt/ranges.h>
 
 #include "bug_interface/world/model_folders.h"
-#include "bug_interface/world/sdf_text.h"
 
 namespace forage::bug {
 
+namespace {
+
 namespace fs = std::filesystem;
+
+/// The name of the first element of an XML text; empty when there is none.
+std::string root_name(std::string_view text) {
+    for (;;) {
+        const auto open = text.find('<');
+        if (open == std::string_view::npos) return {};
+        text.remove_prefix(open + 1);
+        if (!text.starts_with('!') && !text.starts_with('?'))
+            return std::string(text.substr(0, text.find_first_of(" \t\r\n/>")));
+        const std::string_view end = text.starts_with("!--") ? "-->" : ">";
+        const auto close = text.find(end);
+        if (close == std::string_view::npos) return {};
+        text.remove_prefix(close + end.size());
+    }
+}
+
+}  // namespace
 
 bool looks_like_a_world(const std::string& path, Diagnostics& diagnostics) {
     std::error_code ignored;

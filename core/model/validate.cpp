@@ -176,7 +176,8 @@ class Validator {
         ports.process = process.name;
         check_ports(use, *type, use.inputs, false, process.module_enabled, ports.inputs);
         check_ports(use, *type, use.outputs, true, process.module_enabled, ports.outputs);
-        if (process.module_enabled && !out_.failed()) check_with_type(use, *type, ports);
+        // What modules find is told of all of them; they look only where nothing else is wrong.
+        if (process.module_enabled && out_.errors() == found_by_modules_) check_with_type(use, *type, ports);
     }
 
     void check_ports(const ModuleUse& use, const ModuleType& type,
@@ -264,6 +265,7 @@ class Validator {
                 for (const auto& r : *references)
                     if (r.name == problem.port) at = r.at;
             out_.error(at, problem.message, problem.hint);
+            ++found_by_modules_;
         }
     }
 
@@ -392,6 +394,7 @@ class Validator {
     const System& system_;
     const Registry& registry_;
     Diagnostics& out_;
+    int found_by_modules_ = 0;  ///< errors
     GroupIndex groups_;
 };
 

@@ -41,7 +41,7 @@ Document::Document(Document&&) noexcept = default;
 Document& Document::operator=(Document&&) noexcept = default;
 Document::~Document() = default;
 
-std::optional<Document> Document::read(const std::string& path, std::string_view root,
+std::optional<Document> Document::read(const std::string& path, std::string_view beginning,
                                        Diagnostics& diagnostics) {
     const auto fail = [&](const std::string& message,
                           const std::string& hint = {}) -> std::optional<Document> {
@@ -68,11 +68,11 @@ std::optional<Document> Document::read(const std::string& path, std::string_view
     } catch (const FileError& e) {
         return fail(e.faults().front().message);
     }
-    return parse(path, std::move(text), root, diagnostics);
+    return parse(path, std::move(text), beginning, diagnostics);
 }
 
-std::optional<Document> Document::parse(std::string path, std::string text, std::string_view root,
-                                        Diagnostics& diagnostics) {
+std::optional<Document> Document::parse(std::string path, std::string text, std::string_view beginning,
+                                        Diagnostics& diagnostics, std::size_t most_nodes) {
     Document document;
     document.source_ = std::make_shared<SourceFile>(SourceFile{std::move(path), std::move(text)});
     const std::string& t = document.source_->text;
@@ -80,8 +80,7 @@ std::optional<Document> Document::parse(std::string path, std::string text, std:
     for (std::size_t i = 0; i < t.size(); ++i)
         if (t[i] == '\n') document.line_starts_.push_back(i + 1);
 
-    const std::string_view attributes = root == "experiment" ? "" : " ...";
-    if (const auto fault = first_fault(t, fmt::format("<{}{}>", root, attributes))) {
+    if (const auto fault = first_fault(t, beginning, most_nodes)) {
         const Location where =
             fault->of_the_whole ? Location{document.source_, 0, 0} : document.place(fault->offset);
         diagnostics.error(where, fault->message, fault->hint);

@@ -20,13 +20,14 @@ namespace forage::xml {
 
 class Document {
   public:
-    /// Reads `path`, whose outermost element should be a `root`; on failure reports what and where, and
-    /// returns nothing.
-    static std::optional<Document> read(const std::string& path, std::string_view root,
+    /// Reads `path`; on failure reports what and where, and returns nothing. `beginning`: how the outermost
+    /// element of such a file begins, for hints ("<System ...>").
+    static std::optional<Document> read(const std::string& path, std::string_view beginning,
                                         Diagnostics& diagnostics);
-    /// Parses `text`, which a person knows as `path`.
-    static std::optional<Document> parse(std::string path, std::string text, std::string_view root,
-                                         Diagnostics& diagnostics);
+    /// Parses `text`, which a person knows as `path`; at most `most_nodes` elements and attributes.
+    static std::optional<Document> parse(std::string path, std::string text, std::string_view beginning,
+                                         Diagnostics& diagnostics,
+                                         std::size_t most_nodes = std::size_t{1} << 20);
 
     Document(Document&&) noexcept;
     Document& operator=(Document&&) noexcept;

@@ -242,12 +242,12 @@ std::optional<model::Experiment> build(const std::optional<Document>& document, 
 }  // namespace
 
 std::optional<model::Experiment> read_experiment(const std::string& path, Diagnostics& diagnostics) {
-    return build(Document::read(path, "experiment", diagnostics), diagnostics);
+    return build(Document::read(path, "<experiment>", diagnostics), diagnostics);
 }
 
 std::optional<model::Experiment> parse_experiment(std::string path, std::string text,
                                                   Diagnostics& diagnostics) {
-    return build(Document::parse(std::move(path), std::move(text), "experiment", diagnostics), diagnostics);
+    return build(Document::parse(std::move(path), std::move(text), "<experiment>", diagnostics), diagnostics);
 }
 
 }  // namespace forage::xml

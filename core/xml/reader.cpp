@@ -353,15 +353,15 @@ std::optional<model::System> build(const std::string& path, const std::optional<
 }  // namespace
 
 std::optional<model::System> read_system(const std::string& path, Diagnostics& diagnostics) {
-    return build(path, Document::read(path, "System", diagnostics), diagnostics);
+    return build(path, Document::read(path, "<System ...>", diagnostics), diagnostics);
 }
 
 std::optional<model::System> parse_system(std::string path, std::string text, Diagnostics& diagnostics) {
-    return build(path, Document::parse(path, std::move(text), "System", diagnostics), diagnostics);
+    return build(path, Document::parse(path, std::move(text), "<System ...>", diagnostics), diagnostics);
 }
 
 std::optional<model::ProcessFile> read_process(const std::string& path, Diagnostics& diagnostics) {
-    const auto document = Document::read(path, "iqrEntity", diagnostics);
+    const auto document = Document::read(path, "<iqrEntity ...>", diagnostics);
     if (!document || !check(*document, "iqrEntity", diagnostics)) return std::nullopt;
     const int errors_before = diagnostics.errors();
     auto file = Reader(*document, diagnostics).process_file(document->root());

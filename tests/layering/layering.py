@@ -36,7 +36,7 @@ OWNED = [
     (r'Random123/', {'core/types'}),
     (r'(hdf5|H5\w*)(_hl)?\.h|zip\.h', {'core/observe'}),
     (r'cairo', {'tools'}),
-    (r'(bullet/|bt[A-Z]\w*\.h|Bullet\w*/|LinearMath/|opencv2?/|sdf/|sdformat|png\.h)', {'bug_interface'}),
+    (r'(bullet/|bt[A-Z]\w*\.h|Bullet\w*/|LinearMath/|opencv2?/|png\.h)', {'bug_interface'}),
 ]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <regex>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include <cairo-svg.h>
 #include <fmt/format.h>
 
+#include "bug_interface/world/png.h"
 #include "tools/plot/apng.h"
 
 namespace forage::plot {
@@ -64,9 +66,21 @@ std::string png(const Picture& picture) {
                                                      static_cast<int>(std::ceil(picture.width)),
                                                      static_cast<int>(std::ceil(picture.height))));
     draw(picture, surface.get(), 1);
-    std::string out;
-    check(cairo_surface_write_to_png_stream(surface.get(), append, &out));
-    return out;
+    cairo_surface_flush(surface.get());
+    const int width = cairo_image_surface_get_width(surface.get());
+    const int height = cairo_image_surface_get_height(surface.get());
+    const unsigned char* data = cairo_image_surface_get_data(surface.get());
+    const int stride = cairo_image_surface_get_stride(surface.get());
+    std::vector<std::uint8_t> rgb(std::size_t(3) * std::size_t(width) * std::size_t(height));
+    std::uint8_t* out = rgb.data();
+    for (int row = 0; row < height; ++row)
+        for (int column = 0; column < width; ++column, out += 3) {
+            std::uint32_t pixel = 0;
+            std::memcpy(&pixel, data + row * stride + 4 * column, sizeof pixel);
+            out[0] = static_cast<std::uint8_t>(pixel >> 16), out[1] = static_cast<std::uint8_t>(pixel >> 8),
+            out[2] = static_cast<std::uint8_t>(pixel);
+        }
+    return bug::encode_png(width, height, rgb);
 }
 
 }  // namespace

@@ -162,8 +162,10 @@ class Film::Screen {
                              36 * cells[k], colour);
             y += 58;
         };
-        bars("light", seen.target, {0.95, 0.75, 0.05});
+        bars("light, from the left to the right", seen.target, {0.95, 0.75, 0.05});
         bars("proximity", seen.proximity, {0.95, 0.25, 0.15});
+        if (world_.robot(robot).wants_gripper_scan)
+            bars("between the fingers", seen.gripper, {0.4, 0.4, 0.8});
     }
 
     bug::World& world_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "bug_interface/world/png.h"
 #include "tools/plot/axes.h"
@@ -24,6 +26,30 @@ double top_of(const bug::DrawnSolid& d) { return d.solid.pose.translation().z() 
 void dashed(cairo_t* c, double on, double off) {
     const double dash[] = {on, off};
     cairo_set_dash(c, dash, 2, 0);
+}
+
+/// Each n x n pixels become one, their mean; at the right and lower edge fewer do.
+bug::Image shrunk(bug::Image image, int n) {
+    if (n <= 1) return image;
+    bug::Image out{(image.width + n - 1) / n, (image.height + n - 1) / n, {}};
+    out.rgb.resize(std::size_t(3) * std::size_t(out.width) * std::size_t(out.height));
+    std::vector<std::uint32_t> sums(std::size_t(3) * std::size_t(out.width));
+    for (int y = 0; y < out.height; ++y) {
+        const int rows = std::min(n, image.height - y * n);
+        std::fill(sums.begin(), sums.end(), 0u);
+        for (int row = y * n; row < y * n + rows; ++row) {
+            const std::uint8_t* in = image.pixel(0, row);
+            for (int x = 0; x < out.width; ++x)
+                for (int columns = std::min(n, image.width - x * n); columns > 0; --columns, in += 3)
+                    for (std::size_t i = 0; i < 3; ++i) sums[3 * std::size_t(x) + i] += in[i];
+        }
+        for (int x = 0; x < out.width; ++x)
+            for (std::size_t i = 0; i < 3; ++i)
+                out.pixel(x, y)[i] = static_cast<std::uint8_t>(
+                    sums[3 * std::size_t(x) + i] /
+                    static_cast<std::uint32_t>(rows * std::min(n, image.width - x * n)));
+    }
+    return out;
 }
 
 }  // namespace
@@ -74,19 +100,29 @@ void WorldMap::draw_floor(Canvas& canvas, const bug::Floor& floor) const {
     } catch (const std::exception&) {
         return;  // the picture shows the rest all the same; the camera reports a floor that cannot be read
     }
+    double pixel = floor.size_x * scale_ / image.width;  // of the floor's picture on ours
+    const double aspect = floor.size_y / image.height / (floor.size_x / image.width);
+    // It has more than are seen, and cairo takes its time with each. On paper one may look closer.
+    if (cairo_surface_get_type(cairo_get_target(c)) == CAIRO_SURFACE_TYPE_IMAGE) {
+        const int n = static_cast<int>(std::lround(1 / std::clamp(pixel, 0.01, 1.0)));
+        image = shrunk(std::move(image), n);
+        pixel *= n;
+    }
     Surface texture(cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height));
     auto* data = cairo_image_surface_get_data(texture.get());
     const int stride = cairo_image_surface_get_stride(texture.get());
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) {
-            const auto* p = image.pixel(x, y);
-            reinterpret_cast<std::uint32_t*>(data + y * stride)[x] =
-                std::uint32_t{p[0]} << 16 | std::uint32_t{p[1]} << 8 | p[2];
-        }
+    for (int y = 0; y < image.height; ++y) {
+        auto* row = reinterpret_cast<std::uint32_t*>(data + y * stride);
+        const std::uint8_t* p = image.pixel(0, y);
+        for (int x = 0; x < image.width; ++x, p += 3)
+            row[x] = std::uint32_t{p[0]} << 16 | std::uint32_t{p[1]} << 8 | p[2];
+    }
     cairo_surface_mark_dirty(texture.get());
     cairo_save(c);
     cairo_translate(c, px(floor.x - floor.size_x / 2), py(floor.y + floor.size_y / 2));
-    cairo_scale(c, floor.size_x * scale_ / image.width, floor.size_y * scale_ / image.height);
+    cairo_rectangle(c, 0, 0, floor.size_x * scale_, floor.size_y * scale_);
+    cairo_clip(c);
+    cairo_scale(c, pixel, pixel * aspect);
     cairo_set_source_surface(c, texture.get(), 0, 0);
     cairo_pattern_set_filter(cairo_get_source(c), CAIRO_FILTER_GOOD);
     cairo_paint(c);
@@ -105,12 +141,124 @@ void WorldMap::draw_solid(Canvas& canvas, const bug::DrawnSolid& d) const {
     else
         cairo_arc(c, 0, 0, w / 2, 0, 2 * M_PI);
     cairo_set_source_rgb(c, d.colour[0], d.colour[1], d.colour[2]);
-    cairo_fill(c);
+    cairo_fill_preserve(c);
+    if (d.solid.size.z() > 0.02) {  // a wall on a floor of its colour
+        cairo_set_source_rgba(c, 0, 0, 0, 0.6);
+        cairo_set_line_width(c, 0.8);
+        cairo_stroke(c);
+    }
+    cairo_new_path(c);
     cairo_restore(c);
 }
 
+namespace {
+
+void draw_label(Canvas& canvas, double x, double y, const std::string& text, double size) {
+    const double wide = canvas.width_of(text, size);
+    canvas.fill(x - wide / 2 - 2, y - size, wide + 4, size + 3, white);
+    canvas.text(x, y, text, size, 0.5);
+}
+
+/// Whose homes are where, and where resources appear.
+void draw_homes(Canvas& canvas, const bug::World& world, const WorldMap& map) {
+    const auto& description = world.description();
+    const bool named = std::any_of(description.models.begin(), description.models.end(),
+                                   [](const bug::Model& m) { return m.name == "Home_A"; });
+    if (world.game().empty() && !named) return;
+    cairo_t* c = canvas.cairo();
+    for (int team = 0; team < 2; ++team) {
+        const bug::Pose2& at = world.game().homes()[static_cast<std::size_t>(team)];
+        const double r = bug::Game::home_radius * map.scale();
+        canvas.colour(white, 0.8);
+        dashed(c, 2, 4);
+        cairo_set_line_width(c, 1);
+        cairo_arc(c, map.px(at.x), map.py(at.y), r, 0, 2 * M_PI);
+        cairo_stroke(c);
+        cairo_set_dash(c, nullptr, 0, 0);
+        // Its middle may be outside, or under the robots that start there: at the rim towards the middle of
+        // the map.
+        const Eigen::Vector2d middle = map.view().center(), home(at.x, at.y);
+        const Eigen::Vector2d inwards =
+            (middle - home).normalized() * (bug::Game::home_radius + 0.03 * map.view().sizes().x());
+        draw_label(canvas, map.px(home.x() + inwards.x()), map.py(home.y() + inwards.y()) + 4,
+                   team ? "home B" : "home A", 11);
+    }
+    if (!description.game) return;
+    for (const bug::GameSite& site : description.game->sites) {
+        canvas.colour({0.2, 0.3, 1}, 0.7);
+        dashed(c, 2, 3);
+        cairo_set_line_width(c, 1.2);
+        cairo_arc(c, map.px(site.x), map.py(site.y), 0.5 * map.scale(), 0, 2 * M_PI);
+        cairo_stroke(c);
+        cairo_set_dash(c, nullptr, 0, 0);
+    }
+}
+
+struct Label {
+    double x, y, half;  ///< the middle of its lower edge, half its width
+    std::string text;
+};
+
+/// The names of the robots beside them, none on another one or on a robot where that can be.
+std::vector<Label> robot_labels(Canvas& canvas, const bug::World& world, const WorldMap& map) {
+    constexpr double size = 11, tall = 14;
+    std::vector<Label> out;
+    const auto names = world.bug_names();
+    for (std::size_t i = 0; i < world.bugs(); ++i) {
+        const double r = world.robot(i).body.radius * map.scale(), x = map.px(world.pose(i).x),
+                     y = map.py(world.pose(i).y), half = canvas.width_of(names[i], size) / 2 + 2;
+        const auto is_free = [&](const Label& l) {
+            for (const Label& other : out)
+                if (std::abs(l.x - other.x) < l.half + other.half + 1 && std::abs(l.y - other.y) < tall + 1)
+                    return false;
+            for (std::size_t j = 0; j < world.bugs(); ++j)
+                if (std::abs(map.px(world.pose(j).x) - l.x) < r + l.half &&
+                    std::abs(map.py(world.pose(j).y) - (l.y - tall / 2 + 3)) < r + tall / 2)
+                    return false;
+            return true;
+        };
+        Label best{x, y - r - 5, half, names[i]};
+        bool found = false;
+        for (double ring = 0; ring < 6 && !found; ++ring)
+            for (const auto& [dx, dy] : {std::pair{0.0, -1.0},
+                                         {0.0, 1.0},
+                                         {1.0, 0.0},
+                                         {-1.0, 0.0},
+                                         {1.0, -1.0},
+                                         {-1.0, -1.0},
+                                         {1.0, 1.0},
+                                         {-1.0, 1.0}}) {
+                const double away = r + 5 + ring * (tall + 2);
+                const Label tried{x + dx * (away + half),
+                                  y + dy * (away + (dy > 0 ? size : 0)) + (dy == 0 ? 4 : 0), half, names[i]};
+                if (!is_free(tried)) continue;
+                best = tried, found = true;
+                break;
+            }
+        out.push_back(best);
+    }
+    return out;
+}
+
+/// What the colours of rays mean.
+void draw_legend(Canvas& canvas, double right, double y) {
+    cairo_t* c = canvas.cairo();
+    for (const auto& [name, colour] : {std::pair{"light", light_ray}, {"proximity", near_ray}}) {
+        canvas.text(right, y, name, 11, 1);
+        right -= canvas.width_of(name, 11) + 6;
+        canvas.colour(colour);
+        cairo_set_line_width(c, 2);
+        cairo_move_to(c, right - 18, y - 4), cairo_line_to(c, right, y - 4);
+        cairo_stroke(c);
+        right -= 32;
+    }
+}
+
+}  // namespace
+
 void WorldMap::draw_marks(Canvas& canvas) const {
     cairo_t* c = canvas.cairo();
+    draw_homes(canvas, world_, *this);
     const auto plan = world_.reset_plan();
     if (!plan) return;
     dashed(c, 6, 5);
@@ -150,7 +298,7 @@ void WorldMap::draw_targets(Canvas& canvas) const {
 void WorldMap::draw_rays(Canvas& canvas, std::size_t robot) const {
     cairo_t* c = canvas.cairo();
     const auto& pose = world_.pose(robot);
-    const auto& seen = world_.snapshot(robot);
+    const auto& seen = world_.robot(robot).snapshot;  // not late, as those of modules may be
     for (const bug::RangeSensor& sensor : world_.robot(robot).range_sensors) {
         const bool light = sensor.name == "laser_target";
         const auto& cells = light ? seen.target : seen.proximity;
@@ -159,8 +307,10 @@ void WorldMap::draw_rays(Canvas& canvas, std::size_t robot) const {
         canvas.colour(light ? light_ray : near_ray, 0.9);
         cairo_set_line_width(c, light ? 1.8 : 1.1);
         const double n = std::max(1, sensor.rays - 1);
+        const double nothing =
+            std::max(0.03, 5 * sensor.noise / sensor.max_range);  // of a ray that meets nothing
         for (std::size_t k = 0; k < cells.size(); ++k) {
-            if (cells[k] < 0.03) continue;  // noise of a ray that meets nothing
+            if (cells[k] < nothing) continue;
             const double angle = pose.yaw + sensor.last_angle -
                                  static_cast<double>(k) * (sensor.last_angle - sensor.first_angle) / n;
             const double range = sensor.max_range * (1 - cells[k]);
@@ -212,14 +362,17 @@ Picture world_plot(const bug::World& world, const std::string& title) {
                 map.draw_loose(canvas);
                 for (std::size_t i = 0; i < world.bugs(); ++i) map.draw_robot(canvas, i, true);
                 map.draw_targets(canvas);
-                const auto names = world.bug_names();
-                for (std::size_t i = 0; i < world.bugs(); ++i) {
-                    const auto& at = world.pose(i);
-                    const double x = map.px(at.x),
-                                 y = map.py(at.y) - world.robot(i).body.radius * map.scale() - 5;
-                    const double wide = canvas.width_of(names[i], 11);
-                    canvas.fill(x - wide / 2 - 2, y - 11, wide + 4, 14, white);
-                    canvas.text(x, y, names[i], 11, 0.5);
+                const auto labels = robot_labels(canvas, world, map);
+                for (std::size_t i = 0; i < labels.size(); ++i) {
+                    canvas.colour(white);
+                    cairo_set_line_width(c, 1);
+                    cairo_move_to(c, map.px(world.pose(i).x), map.py(world.pose(i).y));
+                    cairo_line_to(c, labels[i].x, labels[i].y - 4);
+                    cairo_stroke(c);
+                }
+                for (std::size_t i = 0; i < labels.size(); ++i) {
+                    map.draw_robot(canvas, i, false);
+                    draw_label(canvas, labels[i].x, labels[i].y, labels[i].text, 11);
                 }
                 cairo_restore(c);
                 plot::draw_axes(canvas,
@@ -227,6 +380,8 @@ Picture world_plot(const bug::World& world, const std::string& title) {
                                  {map.view().min().x(), map.view().max().x()},
                                  {map.view().min().y(), map.view().max().y()}},
                                 {"x (m)"}, {"y (m)"});
+                if (world.bugs() > 0)
+                    draw_legend(canvas, left + map.width(), top + map.height() + bottom - 8);
                 canvas.text(12, 22, title, 15, 0, black, true);
             }};
 }

@@ -113,9 +113,11 @@ TEST_CASE("The module accepts the groups of the tutorials") {
     Bench bench(world.get());
     CHECK(bench.problem().empty());
     all_groups(bench);
+    CHECK(bench.problem() ==
+          "robot 'Bug' has no gripper | set 'gripper' to false, or take a robot with a gripper @gripper");
+    bench.set("gripper", false);
     CHECK(bench.problem().empty());
     bench.group("_gripper") = shape(3, 1);
-    bench.set("gripper", false);
     CHECK(bench.problem().empty());
     CHECK(Bench(nullptr).problem().empty());
 }

@@ -26,7 +26,7 @@ std::pair<int, int> pair(const Location& at) { return {at.line, at.column}; }
 
 Document parsed(const std::string& text) {
     Diagnostics diagnostics;
-    auto document = Document::parse("test.iqr", text, "System", diagnostics);
+    auto document = Document::parse("test.iqr", text, "<System ...>", diagnostics);
     INFO(format(diagnostics));
     REQUIRE(document);
     return std::move(*document);
