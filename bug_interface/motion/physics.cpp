@@ -102,14 +102,17 @@ void Physics::step(std::span<const MotorCommand> drives) {
         State& s = states_[i];
         s.involved = contacts_ == Contacts::always && s.present;
         s.touches = 0;
-        if (!s.present) continue;
-        const MotorCommand command = bodies_[i].driven ? drives[i] : MotorCommand{};
-        drive(i, command);
-        const double travel = bodies_[i].driven ? std::abs(command.forward) * step_ : speed(i) * step_;
-        if (!(rests(velocities_[i]) && !bodies_[i].driven) &&
-            near_something(i, way(i, travel, std::abs(velocities_[i].turn) * step_)))
-            s.involved = contacts = true;
+        if (s.present) drive(i, bodies_[i].driven ? drives[i] : MotorCommand{});
     }
+    // Twice: what one body measures may leave less room for another one.
+    for (int pass = 0; pass < 2; ++pass)
+        for (std::size_t i = 0; i < states_.size(); ++i) {
+            State& s = states_[i];
+            if (!s.present || s.involved || (rests(velocities_[i]) && !bodies_[i].driven)) continue;
+            const double travel = (bodies_[i].driven ? std::abs(drives[i].forward) : speed(i)) * step_;
+            if (near_something(i, way(i, travel, std::abs(velocities_[i].turn) * step_)))
+                s.involved = contacts = true;
+        }
     if (contacts) {
         if (!engine_) engine_ = std::make_unique<Engine>(obstacles_, bodies_, meets_);
         ++contact_steps_;

@@ -66,8 +66,9 @@ bool World::drive_freely(std::uint64_t last) {
     const std::uint64_t steps = last - substep_;
     const double seconds = static_cast<double>(steps) * description_.step,
                  noise = options_.noise ? speed_noise : 0;
-    for (std::size_t i = 0; i < robots_.size(); ++i)
-        if (!is_free(i, seconds)) return false;
+    for (int pass = 0; pass < 2; ++pass)  // what one robot measures may leave less room for another one
+        for (std::size_t i = 0; i < robots_.size(); ++i)
+            if (!is_free(i, seconds)) return false;
     for (std::size_t i = 0; i < robots_.size(); ++i) {
         Robot& robot = robots_[i];
         const MotorCommand& command = robot.command;
