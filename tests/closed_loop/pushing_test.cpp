@@ -160,8 +160,10 @@ TEST_CASE(
                             "crate crate", "crate ball", "ball wall"})
         CHECK(pen.deepest.contains(met));
     CHECK(pen.deepest_round < 1e-3);
-    // Bullet tells of two boxes only when they overlap: one that arrives gets in by its way in a step, and no
-    // further. Robots drive at up to 1.3 m/s; the ends of their fingers turn at 0.5 m and 2 rad/s.
+    // Bullet tells of two boxes only when they overlap: one that arrives gets in by its way in a step, here
+    // within a minute. Robots drive at up to 1.3 m/s; the ends of their fingers turn at 0.5 m and 2 rad/s. In
+    // a million steps it is more where robots wedge their grippers into each other: what the nightly run
+    // shows is still to be mended.
     constexpr double way = 1e-3 * (1.3 + 0.5 * 2);
     for (const auto& [what, depth] : pen.deepest) {
         INFO(what);
