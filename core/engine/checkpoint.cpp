@@ -20,6 +20,9 @@ void keep(Archive& archive, const std::vector<Parameter>& parameters, void* obje
 void keep(Archive& archive, GroupPlan& g) {
     archive.same(g.id, "a group");
     archive.same(g.cells, g.path);
+    std::uint64_t drawn = 0;  // by this seed
+    g.random.bits(0, {&drawn, 1});
+    archive.same(drawn, "the seed");
     keep(archive, g.type.parameters, g.neuron->parameters());
     archive(g.row, g.delivered, g.same_input, g.same_for, g.rests, g.changed, g.silent);
 }

@@ -29,6 +29,9 @@ std::filesystem::path final_name(const std::string& path) {
 constexpr std::int64_t most_cells = 1 << 24;
 
 void open(std::ifstream& in, const std::string& path) {
+    std::error_code none;
+    if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
+        no_recording(path, "it is no file, but a directory, a pipe or a device");
     in.open(path, std::ios::binary);
     if (!in)
         throw FileError(path, {}, {{0, 0, fmt::format("cannot read the file: {}", std::strerror(errno))}});

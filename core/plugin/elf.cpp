@@ -32,6 +32,7 @@ Header own_header() {
 std::string why_not_loadable(const std::string& path) {
     std::error_code error;
     const std::uint64_t size = std::filesystem::file_size(path, error);
+    if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path)) return "is not a file";
     std::ifstream in(path, std::ios::binary);
     Header header{};
     if (error || !in) return "cannot be read";

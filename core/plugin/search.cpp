@@ -14,15 +14,16 @@ namespace fs = std::filesystem;
 
 class Found {
   public:
-    /// A file, or all shared objects of a folder.
-    void add(const fs::path& path) {
+    /// A file, or all shared objects of a folder; false when it has none.
+    bool add(const fs::path& path) {
         std::error_code ignored;
-        if (!fs::is_directory(path, ignored)) return add_file(path);
+        if (!fs::is_directory(path, ignored)) return add_file(path), true;
         std::vector<fs::path> files;
         for (const auto& entry : fs::directory_iterator(path, ignored))
             if (entry.path().extension() == ".so") files.push_back(entry.path());
         std::sort(files.begin(), files.end());
         for (const auto& file : files) add_file(file);
+        return !files.empty();
     }
     /// The shared objects of a folder, but for those that were added from elsewhere under the same name.
     void add_others(const fs::path& folder) {
@@ -50,7 +51,10 @@ std::vector<std::string> find(const std::vector<std::string>& named, const std::
                               const std::string& beside, Diagnostics& diagnostics) {
     Found found;
     std::error_code ignored;
-    for (const auto& name : named) found.add(name);  // loading reports those that do not exist
+    for (const auto& name : named)
+        if (!found.add(name))  // loading reports those that do not exist
+            diagnostics.warning({}, fmt::format("--plugin: there is no plugin in the folder '{}'", name),
+                                "plugins end in .so; 'forage build-plugin FILE.cpp' makes one");
     std::istringstream parts(path);
     for (std::string part; std::getline(parts, part, ':');) {
         if (part.empty()) continue;

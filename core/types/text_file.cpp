@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
 
 namespace forage {
 namespace {
@@ -29,6 +31,16 @@ std::string summary(const std::string& path, const std::vector<FileError::Fault>
     throw FileError(path, {}, {{0, 0, std::move(why)}});
 }
 
+struct FileHandle {
+    explicit FileHandle(int n) : number(n) {}
+    FileHandle(const FileHandle&) = delete;
+    FileHandle& operator=(const FileHandle&) = delete;
+    ~FileHandle() {
+        if (number >= 0) close(number);
+    }
+    int number;
+};
+
 }  // namespace
 
 FileError::FileError(std::string path, std::string text, std::vector<Fault> faults)
@@ -39,23 +51,35 @@ FileError::FileError(std::string path, std::string text, std::vector<Fault> faul
 
 std::string read_file(const std::string& path, std::size_t most) {
     std::error_code ignored;
-    std::ifstream in(path, std::ios::binary);
-    if (!in) unreadable(path, fmt::format("cannot read the file: {}", std::strerror(errno)));
+    const FileHandle in(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+    if (in.number < 0) unreadable(path, fmt::format("cannot read the file: {}", std::strerror(errno)));
     if (std::filesystem::is_directory(path, ignored)) unreadable(path, "this is a directory, not a file");
+    const bool pipe = std::filesystem::is_fifo(path, ignored);
     std::string text;
     if (const auto size = std::filesystem::file_size(path, ignored); !ignored)
         text.reserve(std::min<std::uintmax_t>(size, most) + 1);
     std::array<char, std::size_t{1} << 16> block;
-    while (in.read(block.data(), block.size()), in.gcount() > 0) {
-        const std::string_view read(block.data(), static_cast<std::size_t>(in.gcount()));
-        const auto nul = read.find('\0');
+    for (bool waited = false;;) {
+        const ssize_t count = read(in.number, block.data(), block.size());
+        pollfd ready{in.number, POLLIN, 0};
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0 && errno == EAGAIN) {  // a pipe or a terminal, and somebody is about to write
+            poll(&ready, 1, -1);
+            continue;
+        }
+        if (count < 0) unreadable(path, fmt::format("cannot read the file: {}", std::strerror(errno)));
+        if (count == 0 && pipe && text.empty()) {
+            if (waited) unreadable(path, "this is a pipe, and nobody writes into it");
+            poll(&ready, 1, 300), waited = true;
+            continue;
+        }
+        if (count == 0) return text;
+        const std::string_view got(block.data(), static_cast<std::size_t>(count));
         // What follows a NUL in its own block tells UTF-16 and pictures from damaged texts.
-        text.append(read);
+        text.append(got);
         if (text.size() > most) unreadable(path, fmt::format("the file is larger than {} MiB", most >> 20));
-        if (nul != read.npos) break;
+        if (got.find('\0') != got.npos) return text;
     }
-    if (in.bad()) unreadable(path, "cannot read the file to its end");
-    return text;
 }
 
 std::string shown(std::string_view piece) {

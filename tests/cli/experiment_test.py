@@ -328,7 +328,7 @@ class Mistakes(Experiment):
         try:
             while not (self.here / "out/runs").exists():
                 time.sleep(0.01)
-            self.assertIn("another experiment", self.forage("experiment", "small.xml", "-o", "out", status=1).stderr)
+            self.assertIn("another forage is writing", self.forage("experiment", "small.xml", "-o", "out", status=2).stderr)
         finally:
             first.kill()
             first.wait()

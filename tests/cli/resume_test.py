@@ -161,6 +161,63 @@ class Resume(Stopped):
         self.assertIn("needs a directory", done.stderr)
 
 
+    def test_a_directory_that_a_run_writes_into_is_not_taken_by_another(self):
+        process = self.start(*EVERYTHING, "--cycles", 10 ** 7, "--checkpoint-every", 100, "-o", "out")
+        self.until_there_is("out/checkpoint.previous.forage")
+        for again in (("resume", "out"), ("run", SYSTEM, "--world", WORLD, "--cycles", 5, "-o", "out")):
+            done = self.forage(*again, status=2)
+            self.assertIn("error: another forage is writing into '", done.stderr)
+            self.assertIn("\n  hint: ", done.stderr)
+        self.assertIsNone(process.poll())
+        self.assertIsNone(self.stop(process, 0))  # a kill lets go of it
+        self.assertEqual(self.stop(self.start("resume", "out", "-q"), 2, signal.SIGINT), 130)
+
+    def test_a_file_of_a_module_that_has_changed_is_refused_and_one_that_the_run_wrote_is_not(self):
+        weights = self.here / "learned.weights"
+        arguments = ("run", DAC, "--world", WORLD, "--seed", 2, "--cycles", 4000, "-q", "--hash",
+                     "--set", f"Adaptive.File Name={weights}", "--at", "cycle 300: Adaptive.write=true")
+        self.forage(*arguments, "-o", "through")
+        whole = weights.read_bytes()
+        weights.unlink()
+        process = self.start(*arguments, "--realtime", "--checkpoint-every", 100000, "-o", "out")
+        self.until_there_is("out/checkpoint.forage")  # as soon as the weights are written
+        self.assertIsNone(self.stop(process, 0))
+        self.assertEqual(weights.read_bytes(), whole)
+        weights.write_bytes(whole + b"\n")
+        done = self.forage("resume", "out", status=2)
+        self.assertRegex(done.stderr, r"learned.weights', a file of a module, is not what it was in cycle 30\d\n  hint: ")
+        weights.write_bytes(whole)
+        process = self.start("resume", "out")
+        self.assertEqual(self.stop(process, 3, signal.SIGINT), 130)  # in real time: it does not end by itself
+
+
+# What else a run may consist of: robots that play in teams, push balls, carry them and speak; sensors with rates of their own
+# and a delay.
+TEAMS = ("run", str(PROJECT / "systems/team_a.iqr"), str(PROJECT / "systems/team_b.iqr"),
+         "--world", str(PROJECT / "systems/worlds/team_arena.world"), "--seed", 5, "--hash", "-q")
+RATES = ("run", SYSTEM, "--world", WORLD, "--seed", 6, "--sensor-rates", "--latency", 2, "--hash", "-q", "-r", "Bug/Light")
+
+
+class Kinds(Stopped):
+    def test_runs_of_every_kind_go_on_after_kills(self):
+        for arguments, cycles, every in ((TEAMS, 150, 7), (RATES, 4000, 150)):
+            arguments = (*arguments, "--cycles", cycles)
+            begun = time.monotonic()
+            self.forage(*arguments, "-o", "through")
+            whole = time.monotonic() - begun
+            out, kills = "out", 0
+            process = self.start(*arguments, "--checkpoint-every", every, "-o", out)
+            chance = random.Random(cycles)
+            while self.stop(process, chance.uniform(0.3, 1) * whole if kills < 4 else 300) is None:
+                kills += 1
+                there = any((self.here / out).glob("checkpoint*.forage")) if (self.here / out).exists() else False
+                process = self.start(*(("resume", out, "-q") if there else (*arguments, "--checkpoint-every", every, "-o", out)))
+            self.assertGreater(kills, 0)
+            self.assert_same(out)
+            shutil.rmtree(self.here / out)
+            shutil.rmtree(self.here / "through")
+
+
 class Faults(Stopped):
     def limited(self, size, *arguments):
         """A run whose files cannot grow above a size: to a program that is what a full disk is."""

@@ -68,7 +68,14 @@ int build_plugin(const BuildPluginOptions& o) {
     const fs::path source = o.source;
     const std::string output =
         o.output.empty() ? (source.parent_path() / "plugins" / source.stem()).string() + ".so" : o.output;
-    if (const auto folder = fs::path(output).parent_path(); !folder.empty()) make_directory(folder.string());
+    const auto folder = fs::path(output).parent_path();
+    const bool new_folder = !folder.empty() && !fs::exists(folder);
+    if (!folder.empty()) make_directory(folder.string());
+    const auto clear = [&] {
+        std::error_code ignored;
+        fs::remove(partial(output), ignored);
+        if (new_folder) fs::remove(folder, ignored);
+    };
 
     const char* named = std::getenv("CXX");
     const std::string compiler = named && *named ? named : "c++";
@@ -85,17 +92,16 @@ int build_plugin(const BuildPluginOptions& o) {
                                       "-fvisibility-inlines-hidden",
                                       "-include",
                                       (sdk->headers / "core/types/size_checks.h").string()};
-    for (const auto& folder : sdk->includes) words.push_back("-I" + folder);
-    for (const std::string folder : {FORAGE_EIGEN_DIR, "/usr/include/eigen3", "/usr/local/include/eigen3"})
-        if (fs::exists(folder)) words.insert(words.end(), {"-isystem", folder});
+    for (const auto& headers : sdk->includes) words.push_back("-I" + headers);
+    for (const std::string eigen : {FORAGE_EIGEN_DIR, "/usr/include/eigen3", "/usr/local/include/eigen3"})
+        if (fs::exists(eigen)) words.insert(words.end(), {"-isystem", eigen});
     words.insert(words.end(), {o.source, sdk->library.string(), "-o", partial(output)});
     const int status = run_command(words);
     if (status == -1 || status == 127)
         return refuse(fmt::format("the compiler '{}' cannot be run", compiler),
                       "install g++ (Debian: apt install g++ libeigen3-dev), or name another one in CXX");
     if (status != 0) {
-        std::error_code ignored;
-        fs::remove(partial(output), ignored);
+        clear();
         fmt::print(stderr, "error: '{}' does not compile; the compiler says why above\n", o.source);
         return bad_input;
     }
@@ -103,7 +109,7 @@ int build_plugin(const BuildPluginOptions& o) {
     plugin::load({partial(output)}, shipped_types(nullptr, nullptr), diagnostics);  // whatever else there is
     if (diagnostics.failed()) {
         fmt::print(stderr, "{}", format(diagnostics));
-        fs::remove(partial(output));
+        clear();
         return bad_input;
     }
     finish(output);

@@ -17,13 +17,27 @@ Checkpoints::Checkpoints(const RunOptions& o, const Sources& sources, const Runn
     if (!wanted) return;
     const double cycles = wanted->in_seconds ? wanted->amount / running.seconds_per_cycle : wanted->amount;
     every_ = static_cast<std::uint64_t>(std::max(1.0, std::round(std::min(cycles, 1e15))));
-    origin_ = {FORAGE_VERSION, o.arguments, std::filesystem::current_path().string(),
-               input_files(o, sources, running.loaded), 0};
+    origin_ = {FORAGE_VERSION,          o.arguments, std::filesystem::current_path().string(),
+               input_files(o, sources), {},          0};
+    for (const auto& path : module_files(running.loaded, running.schedule)) module_files_.push_back({path});
+    written();
+}
+
+bool Checkpoints::written() {
+    bool out = false;
+    for (auto& f : module_files_) {
+        std::error_code none;  // one that is not there has the earliest time
+        const auto time = std::filesystem::last_write_time(f.path, none);
+        out |= time != f.time;
+        f.time = time;
+    }
+    return out;
 }
 
 void Checkpoints::write(Running& running) {
     Archive archive;
     origin_.cycle = running.simulation.cycle();
+    for (const auto& f : module_files_) origin_.module_files[f.path] = file_digest(f.path);
     archive(origin_, running);
     write_checkpoint(directory_, archive.bytes());
 }

@@ -1,6 +1,7 @@
 // What is in a checkpoint: all that a run needs to go on as if it had never stopped.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,10 +17,13 @@ struct CheckpointOrigin {
     std::string version;                 ///< of forage
     std::vector<std::string> arguments;  ///< of `forage run`
     std::string working_directory;       ///< in which they name files
-    InputFiles files;
+    InputFiles files;                    ///< when the run began
+    InputFiles module_files;             ///< in this cycle: modules may write theirs
     std::uint64_t cycle = 0;
 
-    void checkpoint(Archive& archive) { archive(version, arguments, working_directory, files, cycle); }
+    void checkpoint(Archive& archive) {
+        archive(version, arguments, working_directory, files, module_files, cycle);
+    }
 };
 
 /// Writes checkpoints of a run into its directory, in the cycles in which they are due.
@@ -28,9 +32,10 @@ class Checkpoints {
     /// Reads the files that the run depends on, for their digests.
     Checkpoints(const RunOptions& options, const Sources& sources, const Running& running);
 
-    /// After a cycle. Throws std::runtime_error.
+    /// After a cycle. A checkpoint also follows when a module has written its file: before that cycle the run
+    /// could not go on with the file as it is now. Throws std::runtime_error.
     void follow(Running& running) {
-        if (every_ > 0 && running.simulation.cycle() % every_ == 0) write(running);
+        if (every_ > 0 && (running.simulation.cycle() % every_ == 0 || written())) write(running);
     }
     /// When a run is stopped in order. Has no effect when no checkpoints are wanted.
     void stop(Running& running) {
@@ -39,7 +44,14 @@ class Checkpoints {
 
   private:
     void write(Running& running);
+    /// Whether a file of a module has changed since the last call.
+    bool written();
 
+    struct ModuleFile {
+        std::string path;
+        std::filesystem::file_time_type time{};
+    };
+    std::vector<ModuleFile> module_files_;
     std::uint64_t every_ = 0;  ///< cycles; 0: none are wanted
     std::string directory_;
     CheckpointOrigin origin_;

@@ -15,7 +15,7 @@ namespace forage::tool {
 namespace {
 
 constexpr std::string_view magic = "forage checkpoint\n";
-constexpr std::uint32_t version = 1;  ///< of everything that is in one
+constexpr std::uint32_t version = 2;  ///< of everything that is in one
 
 }  // namespace
 
@@ -38,6 +38,9 @@ std::string read_checkpoint(const std::string& path) {
     const auto refuse = [&](const std::string& why) {
         throw CheckpointError(fmt::format("checkpoint '{}' {}", path, why));
     };
+    std::error_code none;
+    if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
+        refuse("is not a file");
     std::ifstream in(path, std::ios::binary);
     if (!in) refuse(fmt::format("cannot be read: {}", std::strerror(errno)));
     const std::string text(std::istreambuf_iterator<char>(in), {});

@@ -1,16 +1,11 @@
 #include "core/xml/experiment.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <thread>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include "tools/forage/commands.h"
 #include "tools/forage/experiment_runs.h"
@@ -20,23 +15,6 @@
 
 namespace forage::tool {
 namespace {
-
-/// Holds a directory for one experiment at a time.
-class Hold {
-  public:
-    explicit Hold(const std::string& directory) : file_(open(directory.c_str(), O_RDONLY | O_CLOEXEC)) {
-        if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-            throw std::runtime_error(fmt::format("another experiment is writing to '{}'", directory));
-    }
-    Hold(const Hold&) = delete;
-    Hold& operator=(const Hold&) = delete;
-    ~Hold() {
-        if (file_ >= 0) close(file_);
-    }
-
-  private:
-    int file_;
-};
 
 std::string default_directory(const std::string& file) {
     return "forage-out/" + std::filesystem::path(file).stem().string();
@@ -60,7 +38,13 @@ int experiment(const ExperimentOptions& o) {
     if (diagnostics.failed()) return bad_input;
 
     make_directory(directory);
-    const Hold hold(directory);
+    DirectoryHold hold;
+    try {
+        hold = DirectoryHold(directory);
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "error: {}\n  hint: {}\n", e.what(), held_hint);
+        return bad_input;
+    }
     note_signals();
     Progress progress(!o.quiet);
     const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));

@@ -9,6 +9,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 namespace forage::tool {
@@ -24,6 +25,10 @@ void finish(const std::string& path) {
 namespace {
 
 void write_partial(const std::string& path, std::string_view text) {
+    // A device would be replaced by a file of its name.
+    if (std::error_code none;
+        std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
+        throw std::runtime_error(fmt::format("cannot write '{}': it is no file", path));
     std::ofstream out(partial(path), std::ios::binary);
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
     out.close();
@@ -82,6 +87,17 @@ void make_directory(const std::string& path) {
         throw std::runtime_error(fmt::format("cannot make the directory '{}': {}", path, error.message()));
     if (access(path.c_str(), W_OK) != 0)
         throw std::runtime_error(fmt::format("cannot write into '{}': {}", path, std::strerror(errno)));
+}
+
+DirectoryHold::DirectoryHold(const std::string& directory)
+    : file_(open(directory.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (file_ < 0 || flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+    close(file_);
+    throw std::runtime_error(fmt::format("another forage is writing into '{}'", directory));
+}
+
+DirectoryHold::~DirectoryHold() {
+    if (file_ >= 0) close(file_);
 }
 
 std::string file_name(std::string_view text) {

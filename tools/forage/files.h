@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace forage::tool {
 
@@ -22,6 +23,22 @@ std::string digest(std::string_view text);
 /// Makes a directory and those above it. Throws std::runtime_error, also when it is there and cannot be
 /// written.
 void make_directory(const std::string& path);
+/// What to do about a directory that is held.
+inline constexpr const char* held_hint = "wait until it has ended, or choose another directory with -o";
+/// A directory of results that this program alone writes into, for as long as this lives. The system lets go
+/// of it when the program is killed; it leaves no file. Where the file system cannot do it, nothing is held.
+class DirectoryHold {
+  public:
+    DirectoryHold() = default;  ///< of nothing
+    /// Throws std::runtime_error when another program holds it.
+    explicit DirectoryHold(const std::string& directory);
+    DirectoryHold(DirectoryHold&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+    DirectoryHold& operator=(DirectoryHold&& other) noexcept { return std::swap(file_, other.file_), *this; }
+    ~DirectoryHold();
+
+  private:
+    int file_ = -1;
+};
 /// `text` with everything but letters, digits, '.', '-' and '_' replaced by '_'.
 std::string file_name(std::string_view text);
 

@@ -1,7 +1,9 @@
 #include "tools/forage/input_files.h"
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include "core/model/validate.h"
 #include "tools/forage/files.h"
@@ -27,6 +29,8 @@ void add(InputFiles& all, const bug::Model& model) {
 }  // namespace
 
 std::string file_digest(const std::string& path) {
+    std::error_code none;  // what came through a pipe is not there any more
+    if (!std::filesystem::is_regular_file(path, none)) return digest({});
     std::ifstream in(path, std::ios::binary);
     return digest({std::string(std::istreambuf_iterator<char>(in), {})});
 }
@@ -45,7 +49,7 @@ InputFiles world_files(const Sources& sources) {
     return out;
 }
 
-InputFiles input_files(const RunOptions& o, const Sources& sources, const Loaded& loaded) {
+InputFiles input_files(const RunOptions& o, const Sources& sources) {
     InputFiles out = system_files(sources);
     const auto read = [&](const std::string& path) {
         if (!path.empty()) out[path] = file_digest(path);
@@ -54,17 +58,24 @@ InputFiles input_files(const RunOptions& o, const Sources& sources, const Loaded
     read(o.input.drive);
     for (const auto& table : o.clamp) read(table);
     for (const auto& m : o.manipulations) read(m.patterns.text);
+    return out;
+}
+
+std::vector<std::string> module_files(const Loaded& loaded, const observe::Schedule& schedule) {
+    std::set<std::string> out;
     for (const auto& p : loaded.system.processes) {
         const ModuleType* type = p.module ? loaded.registry.module(p.module->type) : nullptr;
         if (!type) continue;
         const auto module = type->make();
         model::apply(p.module->settings, type->parameters, module->parameters());
-        // Others are read when a person asks for it, or written.
         for (const auto& parameter : type->parameters)
-            if (parameter.is_path && parameter.at_start)
-                read(std::get<std::string>(parameter.get(module->parameters())));
+            if (parameter.is_path) out.insert(std::get<std::string>(parameter.get(module->parameters())));
     }
-    return out;
+    for (const auto& e : schedule.entries())
+        if (e.change.parameter && e.change.parameter->is_path)
+            out.insert(std::get<std::string>(e.change.value));
+    out.erase("");
+    return {out.begin(), out.end()};
 }
 
 }  // namespace forage::tool

@@ -40,6 +40,13 @@ std::string suggestion(const CLI::App& app, int argc, char** argv) {
     return {};
 }
 
+/// Where the command that was meant is explained.
+std::string help_of(const CLI::App& app) {
+    const auto parsed = app.get_subcommands();
+    return fmt::format("'forage {}--help' lists what there is",
+                       parsed.empty() ? "" : parsed.front()->get_name() + " ");
+}
+
 int program(int argc, char** argv) {
     CLI::App app("Runs iqr brain models headless, in a closed loop with a simulated robot.", "forage");
     app.set_version_flag("--version", "forage " FORAGE_VERSION);
@@ -124,15 +131,11 @@ int program(int argc, char** argv) {
         const std::string meant = suggestion(app, argc, argv);
         fmt::print(stderr, "error: {}\n  hint: {}\n",
                    no_command ? fmt::format("there is no command '{}'", argv[1]) : e.what(),
-                   meant.empty() ? "'forage --help' lists what there is" : meant);
+                   !meant.empty() ? meant : help_of(app));
         return bad_input;
     } catch (const CLI::ParseError& e) {
         const std::string meant = suggestion(app, argc, argv);
-        const auto parsed = app.get_subcommands();
-        fmt::print(stderr, "error: {}\n  hint: {}\n", e.what(),
-                   !meant.empty() ? meant
-                                  : fmt::format("'forage {}--help' lists what there is",
-                                                parsed.empty() ? "" : parsed.front()->get_name() + " "));
+        fmt::print(stderr, "error: {}\n  hint: {}\n", e.what(), !meant.empty() ? meant : help_of(app));
         return bad_input;
     }
     try {

@@ -65,6 +65,7 @@ void add_input(CLI::App& command, Input& input) {
         ->expected(1, 1000)
         ->option_text("FILE...");
     command.add_option("-w,--world", input.world, "World in which the robot lives (.world)")
+        ->check([](const std::string& name) { return name.empty() ? "no file is named" : std::string(); })
         ->option_text("FILE");
     repeated(
         command.add_option_function<std::vector<std::string>>(

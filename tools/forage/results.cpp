@@ -11,6 +11,7 @@
 
 #include "bug_interface/versions.h"
 #include "tools/forage/files.h"
+#include "tools/forage/input_files.h"
 #include "tools/forage/score.h"
 
 namespace forage::tool {
@@ -18,9 +19,7 @@ namespace {
 
 /// A file that a run has read, with a digest (64-bit FNV-1a) that tells whether it has changed since.
 nlohmann::ordered_json input_file(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    const std::string text(std::istreambuf_iterator<char>(in), {});
-    return {{"file", path}, {"fnv1a64", digest(text)}};
+    return {{"file", path}, {"fnv1a64", file_digest(path)}};
 }
 
 std::string base_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
@@ -117,6 +116,7 @@ std::string run_json(const RunOptions& o, const Loaded& loaded, const Outcome& o
 
 std::vector<std::string> files_of_last_run(const std::string& directory) {
     std::vector<std::string> out;
+    if (!std::filesystem::is_regular_file(directory + "/run.json")) return out;
     std::ifstream in(directory + "/run.json");
     const auto json = nlohmann::json::parse(in, nullptr, false);
     if (!json.is_object() || !json.contains("forage") || !json.contains("result")) return out;

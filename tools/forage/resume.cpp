@@ -44,6 +44,12 @@ void check_files(const CheckpointOrigin& origin, const InputFiles& now, Diagnost
                         same == now.end() ? ": it is not read any more" : ""),
             "a run goes on with the same files only; restore it, or start anew with 'forage run'");
     }
+    for (const auto& [path, digest] : origin.module_files)
+        if (file_digest(path) != digest)
+            diagnostics.error(
+                {},
+                fmt::format("'{}', a file of a module, is not what it was in cycle {}", path, origin.cycle),
+                "restore it, or start anew with 'forage run'");
 }
 
 /// The run as it was when the checkpoint was written. Throws what is wrong with the checkpoint; empty when
@@ -53,7 +59,7 @@ std::optional<Running> restore(const Found& found, const RunOptions& options, co
     if (diagnostics.failed()) return std::nullopt;
     auto running = prepare(sources, options, diagnostics);
     if (!running) return std::nullopt;
-    check_files(found.origin, input_files(options, sources, running->loaded), diagnostics);
+    check_files(found.origin, input_files(options, sources), diagnostics);
     if (diagnostics.failed()) return std::nullopt;
     Archive archive(found.state);
     archive(*running);

@@ -97,7 +97,8 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
         simulation->watch(o.on_nan != OnNan::ignore);
         const double seconds_per_cycle =
             loaded->world ? loaded->world->seconds_per_cycle() : 1 / cycles_per_second(loaded->system);
-        Running out{std::move(*loaded),
+        Running out{{},
+                    std::move(*loaded),
                     std::move(*simulation),
                     seconds_per_cycle,
                     std::move(scheduled),
@@ -116,6 +117,12 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
                 out.measures.emplace_back(*out.loaded.world, i, out.simulation);
         if (!o.directory.empty()) {
             make_directory(o.directory);
+            try {
+                out.hold = DirectoryHold(o.directory);
+            } catch (const std::exception& e) {
+                diagnostics.error({}, e.what(), held_hint);
+                return std::nullopt;
+            }
             out.recordings.emplace(std::move(files), o.record, o.directory, run_attributes(o, out.loaded));
         }
         if (o.paths && !o.directory.empty() && out.loaded.world)

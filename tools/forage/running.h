@@ -11,6 +11,7 @@
 #include "core/observe/manipulation.h"
 #include "core/observe/schedule.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/files.h"
 #include "tools/forage/paths.h"
 #include "tools/forage/plots.h"
 #include "tools/forage/recordings.h"
@@ -22,6 +23,7 @@ namespace forage::tool {
 
 /// A system that has started, with its world and all that looks at it and pokes it.
 struct Running {
+    DirectoryHold hold;  ///< of the directory of results, if there is one
     Loaded loaded;
     engine::Simulation simulation;
     double seconds_per_cycle;  ///< of the world, or at the system's pace

@@ -88,6 +88,15 @@ TEST_CASE("A checkpoint of another system is refused") {
     CHECK_THROWS_AS(other.checkpoint(in), ArchiveError);
 }
 
+TEST_CASE("A checkpoint of another seed is refused") {
+    const CountingSystem<true> s;
+    auto one = run(s.system, s.types, {.seed = 1}), other = run(s.system, s.types, {.seed = 2});
+    Archive out;
+    one.checkpoint(out);
+    Archive in{std::string_view(out.bytes())};
+    CHECK_THROWS_WITH(other.checkpoint(in), Catch::Matchers::Contains("the seed differs"));
+}
+
 TEST_CASE("The first number that is not finite is found, with any number of threads, when it is looked for") {
     for (const double value :
          {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
