@@ -1,6 +1,5 @@
 #include "bug_interface/world/png.h"
 
-#include <array>
 #include <stdexcept>
 
 #include <png.h>
@@ -16,23 +15,12 @@ Image read_png(const std::string& path) {
     png.version = PNG_IMAGE_VERSION;
     if (!png_image_begin_read_from_file(&png, path.c_str()))
         throw std::runtime_error(path + ": " + png.message);
-    // Floors are large and have few colours: libpng takes ten times as long to look them up.
-    const bool palette = png.format & PNG_FORMAT_FLAG_COLORMAP;
-    png.format = palette ? PNG_FORMAT_RGB_COLORMAP : PNG_FORMAT_RGB;
-    const std::size_t pixels = std::size_t{png.width} * png.height;
+    png.format = PNG_FORMAT_RGB;
     Image image{static_cast<int>(png.width), static_cast<int>(png.height),
-                std::vector<std::uint8_t>(3 * pixels)};
-    std::vector<std::uint8_t> indices(palette ? pixels : 0);
-    std::array<std::uint8_t, 3 * 256> colours{};
+                std::vector<std::uint8_t>(PNG_IMAGE_SIZE(png))};
     const png_color black{0, 0, 0};  // behind transparent pixels
-    if (!png_image_finish_read(&png, &black, palette ? indices.data() : image.rgb.data(), 0, colours.data()))
+    if (!png_image_finish_read(&png, &black, image.rgb.data(), 0, nullptr))
         throw std::runtime_error(path + ": " + png.message);
-    std::uint8_t* out = image.rgb.data();
-    for (const std::uint8_t index : indices) {
-        const std::uint8_t* colour = &colours[3 * std::size_t{index}];
-        out[0] = colour[0], out[1] = colour[1], out[2] = colour[2];
-        out += 3;
-    }
     return image;
 }
 

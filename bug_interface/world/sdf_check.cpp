@@ -91,7 +91,8 @@ class Check {
     }
 
     void unknown(const xml::Element& e, std::string_view parent) {
-        const auto near = nearest(e.name, known_children(parent));
+        const auto known = known_children(parent);
+        const auto near = nearest(e.name, known);
         if (near.empty() && parent == "sdf") return;  // that the world is missing is said once
         diagnostics_.warning(e.where,
                              fmt::format("<{}> is not known in <{}> and has no effect", e.name, parent),

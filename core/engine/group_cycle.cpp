@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/engine/finite.h"
 #include "core/engine/simulation.h"
 #include "core/types/reason.h"
 #include "core/types/simd.h"
@@ -36,17 +37,6 @@ bool all_zero(const double* row, Index n) {
         if (bits) return false;
     }
     return true;
-}
-
-/// Of a multiple of eight numbers. x - x is 0, or NaN when x is NaN or infinite.
-FORAGE_SIMD bool all_finite(const double* row, Index n) {
-    constexpr Index lanes = 8;
-    double sums[lanes] = {};
-    for (Index i = 0; i < n; i += lanes)
-        for (Index k = 0; k < lanes; ++k) sums[k] += row[i + k] - row[i + k];
-    double sum = 0;
-    for (const double s : sums) sum += s;
-    return sum == 0;
 }
 
 /// Calls visit(row) for all rows of all states.

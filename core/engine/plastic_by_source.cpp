@@ -4,18 +4,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/engine/finite.h"
 #include "core/types/simd.h"
 
 namespace forage::engine {
 namespace {
 
 constexpr std::size_t least_synapses = 8;  ///< per source: below, an update for each costs more than it saves
-
-bool all_finite(const double* row, Index n) {
-    double sum = 0;
-    for (Index i = 0; i < n; ++i) sum += row[i] - row[i];  // 0, or NaN
-    return sum == 0;
-}
 
 FORAGE_SIMD void gather(const double* row, const int* cells, Index n, double* out) {
     for (Index i = 0; i < n; ++i) out[i] = row[cells[i]];
@@ -124,7 +119,7 @@ void PlasticBySource::deliver(const History& source, double* target) {
 /// 0 times infinity is NaN: once a number was not finite nobody rests any more.
 bool PlasticBySource::may_rest() {
     for (std::size_t f = 0; f < feedback_.size() && *diverged_ == 0; ++f)
-        if (feedback_rows_[f] && !all_finite(feedback_rows_[f], target_cells_)) *diverged_ = 1;
+        if (feedback_rows_[f] && !all_finite(feedback_rows_[f], Arena::stride(target_cells_))) *diverged_ = 1;
     return *diverged_ == 0;
 }
 

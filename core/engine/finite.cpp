@@ -1,0 +1,18 @@
+#include "core/engine/finite.h"
+
+#include "core/types/simd.h"
+
+namespace forage::engine {
+
+/// x - x is 0, or NaN when x is NaN or infinite.
+FORAGE_SIMD bool all_finite(const double* row, Index n) {
+    constexpr Index lanes = 8;
+    double sums[lanes] = {};
+    for (Index i = 0; i < n; i += lanes)
+        for (Index k = 0; k < lanes; ++k) sums[k] += row[i + k] - row[i + k];
+    double sum = 0;
+    for (const double s : sums) sum += s;
+    return sum == 0;
+}
+
+}  // namespace forage::engine
