@@ -1,13 +1,16 @@
 #include "bug_interface/world/png.h"
 
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
+#include <string_view>
 
 #include <png.h>
 
 namespace forage::bug {
 
 namespace {
-constexpr png_uint_32 most_pixels = 16384;
+constexpr std::uint64_t most_pixels = 4096 * 4096;  ///< a floor takes 11 bytes for each
 }
 
 Image read_png(const std::string& path) {
@@ -25,13 +28,20 @@ Image read_png(const std::string& path) {
 }
 
 std::string png_problem(const std::string& path) {
+    if (!std::filesystem::is_regular_file(path))
+        return "it is no file";  // reading a pipe would wait for ever
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
     if (!png_image_begin_read_from_file(&png, path.c_str())) return png.message;
-    const auto width = png.width, height = png.height;
+    const std::uint64_t pixels = std::uint64_t{png.width} * png.height;
     png_image_free(&png);
-    if (width > most_pixels || height > most_pixels)
-        return "it has more than " + std::to_string(most_pixels) + " pixels in a row or column";
+    if (pixels > most_pixels)
+        return "it has " + std::to_string(pixels) + " pixels; the most are " + std::to_string(most_pixels);
+    std::ifstream file(path, std::ios::binary);
+    file.seekg(-8, std::ios::end);
+    char last[4] = {};
+    if (!file.read(last, sizeof last) || std::string_view(last, sizeof last) != "IEND")
+        return "its end is missing";
     return {};
 }
 

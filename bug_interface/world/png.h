@@ -24,8 +24,8 @@ struct Image {
 /// Throws std::runtime_error with the reason when the file cannot be read.
 Image read_png(const std::string& path);
 
-/// What keeps a file from being a picture for read_png(), as far as its beginning tells; empty when nothing
-/// does.
+/// What keeps a file from being a picture for read_png(), as far as its beginning and end tell; empty when
+/// nothing does.
 std::string png_problem(const std::string& path);
 
 /// Throws std::runtime_error with the reason when the file cannot be written.
