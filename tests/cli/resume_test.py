@@ -200,7 +200,7 @@ RATES = ("run", SYSTEM, "--world", WORLD, "--seed", 6, "--sensor-rates", "--late
 
 class Kinds(Stopped):
     def test_runs_of_every_kind_go_on_after_kills(self):
-        for arguments, cycles, every in ((TEAMS, 150, 7), (RATES, 4000, 150)):
+        for arguments, cycles, every in ((TEAMS, 300, 7), (RATES, 60000, 1500)):
             arguments = (*arguments, "--cycles", cycles)
             begun = time.monotonic()
             self.forage(*arguments, "-o", "through")
