@@ -38,13 +38,18 @@ std::string by_start(const bug::World& world, const Trials& trials) {
     return fmt::format("{}", fmt::join(out, ", "));
 }
 
-/// "88 96 100 %": the success ratio of one window after the other.
+/// "88 96 100 %": the success ratio of one block of trials after the other; up to 20 of them.
 std::string over_time(const Trials& trials) {
+    constexpr std::size_t most = 20 * Trials::window;
+    const auto& all = trials.finished;
+    const std::size_t block = Trials::window * ((all.size() + most - 1) / most);
     std::vector<std::string> out;
-    for (std::size_t end = Trials::window; end <= trials.finished.size(); end += Trials::window)
-        out.push_back(fmt::format("{:.0f}", 100 * trials.recent_success(end)));
-    return fmt::format("{} % at the target, {} trials after {}", fmt::join(out, " "), Trials::window,
-                       Trials::window);
+    for (std::size_t first = 0; first + block <= all.size(); first += block) {
+        Count count;
+        for (std::size_t i = first; i < first + block; ++i) count.add(all[i]);
+        out.push_back(fmt::format("{:.0f}", count.percent()));
+    }
+    return fmt::format("{} % at the target, {} trials after {}", fmt::join(out, " "), block, block);
 }
 
 /// "cyan > red 31 of 33, ...", the most frequent first.
