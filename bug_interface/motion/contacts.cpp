@@ -215,7 +215,7 @@ void Physics::Engine::add(const Body& b) {
     // velocity anew in every step, so that within one it makes little difference to it how heavy the things
     // are that it pushes.
     const double mass = b.driven ? b.mass : std::max(b.mass, heaviest_);
-    const btScalar inertia = scalar(b.inertia * (b.parts.empty() ? 1 : mass / b.mass));
+    const btScalar inertia = scalar(b.inertia * mass / b.mass);
     auto body = std::make_unique<btRigidBody>(
         btRigidBody::btRigidBodyConstructionInfo(scalar(mass), nullptr, shape, {inertia, inertia, inertia}));
     body->setLinearFactor({1, 1, 0});

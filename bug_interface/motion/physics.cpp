@@ -39,8 +39,10 @@ Physics::Physics(std::span<const Obstacle> obstacles, std::span<const Body> bodi
         for (const Part& part : bodies_[i].parts) states_[i].layers |= LayerMask{1} << part.layer;
         grow(i);
         most_parts = std::max(most_parts, bodies_[i].parts.size());
+        placed_.emplace_back().reserve(bodies_[i].parts.size() + 1);
     }
     // A step shall not allocate.
+    began_.resize(bodies_.size()), stays_.reserve(bodies_.size());
     here_.reserve(most_parts + 1), there_.reserve(most_parts + 1);
     unswung_.reserve(most_parts), pushed_.reserve(bodies_.size());
 }
@@ -122,6 +124,7 @@ void Physics::step(std::span<const MotorCommand> drives) {
     for (std::size_t i = 0; i < states_.size(); ++i) {
         State& s = states_[i];
         if (!s.present) continue;
+        began_[i] = s.pose;
         const Velocity& v = velocities_[i];
         if (rests(v)) continue;
         s.pose.x += v.x * step_;
@@ -132,6 +135,7 @@ void Physics::step(std::span<const MotorCommand> drives) {
             s.involved || !bodies_[i].driven ? std::sqrt(v.x * v.x + v.y * v.y) : std::abs(drives[i].forward);
         s.room -= way(i, speed * step_, std::abs(v.turn) * step_);
     }
+    if (contacts) separate();
 }
 
 }  // namespace forage::bug

@@ -54,6 +54,8 @@ struct Body {
 /// bodies that could (nearness.cpp). Far from everything Bullet would change nothing and is not called: both
 /// ways give the same bits. There is no restitution, and nothing of a contact lasts longer than its step,
 /// except the velocity of loose things.
+///
+/// No step ends with shapes deeper in each other than 0.8 mm, or than they were (separation.cpp).
 class Physics {
   public:
     /// When Bullet is called. `always` is for tests and benchmarks.
@@ -142,6 +144,13 @@ class Physics {
     void shapes_of(std::size_t body, std::vector<Placed>& out) const;
     double gap_between(const std::vector<Placed>& shapes, std::size_t body, std::size_t other);
     void involve_neighbours();
+    // ---- who got too deep into what ----
+    template <class F>
+    void each_overlap(F&& visit) const;
+    double depth_before(std::size_t a, std::size_t p, std::size_t b, std::size_t q) const;
+    void shift(std::size_t body, double x, double y);
+    void separate();
+    void take_back();
     // ---- what swings ----
     void grow(std::size_t body);
     bool meet(LayerMask layers, int layer) const { return layers & meets_[static_cast<std::size_t>(layer)]; }
@@ -170,6 +179,9 @@ class Physics {
     std::vector<LayerMask> meets_;
     std::uint64_t contact_steps_ = 0;
     std::vector<Placed> here_, there_;                   ///< while distances are measured
+    std::vector<Pose2> began_;                           ///< where bodies were before a step
+    std::vector<std::vector<Placed>> placed_;            ///< the shapes of each body after it
+    std::vector<char> stays_;                            ///< whether a body is taken back
     std::vector<Outline> unswung_;                       ///< parts that swing, as they were
     std::vector<std::pair<std::size_t, Pose2>> pushed_;  ///< by them, and from where
     std::unique_ptr<Engine> engine_;

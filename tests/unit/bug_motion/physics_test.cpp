@@ -104,16 +104,46 @@ TEST_CASE("Calling Bullet where nothing is near changes no bit") {
 TEST_CASE("A fast robot that comes upon a slow one is seen in time, whichever of them looks first") {
     for (const bool slow_first : {true, false}) {
         const std::size_t slow = slow_first ? 0 : 1, fast = 1 - slow;
-        for (double apart = 1; apart < 1.3; apart += 0.0137) {
-            Physics p({}, std::vector<Body>(2), dt);
-            p.place(slow, {apart, 0, 0}), p.place(fast, {0, 0, 0});
-            std::array<MotorCommand, 2> drives{};
-            drives[fast].forward = 8, drives[slow].forward = 0.5;  // at 15 m/s Bullet leaves 1.7 mm
-            for (int i = 0; i < 100; ++i) {
-                p.step(drives);
-                REQUIRE(p.pose(slow).x - p.pose(fast).x > 2 * radius - 0.001);
+        for (const double speed : {8.0, 15.0, 30.0}) {
+            for (double apart = 1; apart < 1.3; apart += 0.0137) {
+                Physics p({}, std::vector<Body>(2), dt);
+                p.place(slow, {apart, 0, 0}), p.place(fast, {0, 0, 0});
+                std::array<MotorCommand, 2> drives{};
+                drives[fast].forward = speed, drives[slow].forward = 0.5;
+                for (int i = 0; i < 100; ++i) {
+                    p.step(drives);
+                    INFO(speed << " m/s, step " << i);
+                    REQUIRE(p.pose(slow).x - p.pose(fast).x > 2 * radius - 0.001);
+                }
             }
         }
+    }
+}
+
+TEST_CASE("A robot that was put into a wall is not pushed out of it, and gets no deeper") {
+    OneRobot r({box(1, 0, 0, 0.2, 4)}, {0.8, 0, 0});  // 0.1 m deep
+    r.drive({1, 0.3}, 1000);
+    CHECK(r.pose().x == Approx(0.8).margin(1e-5));
+    r.drive({-1, 0}, 1000);
+    CHECK(r.pose().x < 0.3);
+}
+
+TEST_CASE("A robot that is squeezed between two crates and a wall gets into none of them") {
+    // The wall is in front, and two heavy crates come from the sides, corners first.
+    Body crate;
+    crate.radius = 0, crate.mass = 50, crate.inertia = 5, crate.driven = true;
+    crate.parts = {{box(0, 0, pi / 4, 0.3, 0.3).outline, 0, 0.1}};
+    const std::array<Body, 3> bodies = {Body{}, crate, crate};
+    const std::array<Obstacle, 1> wall = {box(0.4, 0, 0, 0.2, 4)};
+    Physics p(wall, bodies, dt);
+    p.place(0, {0, 0, 0}), p.place(1, {-0.1, 0.8, -pi / 2}), p.place(2, {-0.1, -0.8, pi / 2});
+    for (int i = 0; i < 1500; ++i) {
+        p.step(std::array<MotorCommand, 3>{{{1, 0.5}, {1, 0.1}, {1, -0.2}}});
+        Outline round;
+        round.round = true, round.x = p.pose(0).x, round.y = p.pose(0).y, round.radius = radius;
+        REQUIRE(overlap(wall[0].outline, round).depth < 0.001);
+        for (const std::size_t c : {1u, 2u})
+            REQUIRE(overlap(moved(p.parts(c)[0].outline, p.pose(c)), round).depth < 0.001);
     }
 }
 

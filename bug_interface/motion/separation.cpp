@@ -1,0 +1,118 @@
+// No step ends with shapes deeper in each other than they were, or than half a millimetre.
+//
+// Bullet solves velocities. It tells of two boxes only once they overlap, and its solution is approximate where
+// a body is squeezed from several sides. What a step got too deep into each other is moved apart here; who
+// cannot be freed stays where the step began.
+#include <algorithm>
+#include <cmath>
+
+#include "bug_interface/motion/overlap.h"
+#include "bug_interface/motion/physics.h"
+
+namespace forage::bug {
+namespace {
+
+constexpr double depth_left = 5e-4;       ///< m that shapes may stay in each other
+constexpr double depth_tolerated = 8e-4;  ///< m, where all moves left more than that
+constexpr double depth_noticed = 1e-9;    ///< m more that are worth a move
+constexpr int most_rounds = 20;           ///< of moves, pair by pair
+
+double square(double v) { return v * v; }
+bool may_touch(const Outline& a, const Outline& b) {
+    return square(b.x - a.x) + square(b.y - a.y) < square(reach(a) + reach(b));
+}
+
+}  // namespace
+
+/// Calls visit(a, shape of a, b, shape of b, how deep they are in each other) for shapes of bodies that are
+/// involved. For an obstacle, b is the number of bodies and its shape the number of the obstacle.
+template <class F>
+void Physics::each_overlap(F&& visit) const {
+    const auto look = [&](std::size_t a, std::size_t p, const Outline& there, std::size_t b, std::size_t q) {
+        const Outline& here = placed_[a][p].outline;
+        if (!may_touch(there, here)) return;
+        const Overlap in = overlap(there, here);
+        if (in.depth > depth_left + depth_noticed) visit(a, p, b, q, in);
+    };
+    for (std::size_t a = 0; a < states_.size(); ++a) {
+        const State& s = states_[a];
+        if (!s.involved) continue;
+        for (std::size_t o = 0; o < obstacles_.size(); ++o) {
+            const Outline& there = obstacles_[o].outline;
+            if (!(obstacles_[o].layers & s.layers) ||
+                square(there.x - s.pose.x) + square(there.y - s.pose.y) >= square(reach(there) + s.reach))
+                continue;
+            for (std::size_t p = 0; p < placed_[a].size(); ++p)
+                if (obstacles_[o].layers >> placed_[a][p].layer & 1u) look(a, p, there, bodies_.size(), o);
+        }
+        for (std::size_t b = 0; b < a; ++b) {
+            if (!states_[b].involved || apart(a, b) >= 0) continue;
+            for (std::size_t p = 0; p < placed_[a].size(); ++p)
+                for (std::size_t q = 0; q < placed_[b].size(); ++q)
+                    if (meet(LayerMask{1} << placed_[a][p].layer, placed_[b][q].layer))
+                        look(a, p, placed_[b][q].outline, b, q);
+        }
+    }
+}
+
+/// How deep two shapes were in each other when the step began, m.
+double Physics::depth_before(std::size_t a, std::size_t p, std::size_t b, std::size_t q) const {
+    const auto began = [&](std::size_t body, std::size_t shape) {
+        const Body& what = bodies_[body];
+        const bool middle = what.radius > 0;
+        if (!middle || shape > 0) return moved(what.parts[shape - (middle ? 1 : 0)].outline, began_[body]);
+        Outline outline = placed_[body][shape].outline;
+        outline.x = began_[body].x, outline.y = began_[body].y;
+        return outline;
+    };
+    const Outline there = b < bodies_.size() ? began(b, q) : obstacles_[q].outline;
+    return overlap(there, began(a, p)).depth;
+}
+
+void Physics::shift(std::size_t body, double x, double y) {
+    State& s = states_[body];
+    s.pose.x += x, s.pose.y += y;
+    s.room -= std::sqrt(x * x + y * y);
+    for (Placed& shape : placed_[body]) shape.outline.x += x, shape.outline.y += y;
+}
+
+void Physics::separate() {
+    for (std::size_t i = 0; i < states_.size(); ++i)
+        if (states_[i].involved) shapes_of(i, placed_[i]);
+    for (int round = 0; round < most_rounds; ++round) {
+        bool moved = false;
+        each_overlap([&](std::size_t a, std::size_t p, std::size_t b, std::size_t q, const Overlap& in) {
+            const double before = depth_before(a, p, b, q);  // some are placed in each other
+            const double deeper = in.depth - (before > depth_tolerated ? before : depth_left);
+            if (deeper <= depth_noticed) return;
+            moved = true;
+            const double share = b < bodies_.size() ? deeper / 2 : deeper;
+            shift(a, share * in.normal.x(), share * in.normal.y());
+            if (b < bodies_.size()) shift(b, -share * in.normal.x(), -share * in.normal.y());
+        });
+        if (!moved) return;
+    }
+    take_back();
+}
+
+/// Where a step began nothing was too deep in anything: who still is goes back there, and who is in the way of
+/// that too.
+void Physics::take_back() {
+    stays_.assign(states_.size(), 0);
+    for (bool more = true; more;) {
+        more = false;
+        const auto stay = [&](std::size_t i) {
+            if (i == bodies_.size() || stays_[i]) return;
+            stays_[i] = more = true;
+            states_[i].pose = began_[i];
+            velocities_[i] = {};
+            shapes_of(i, placed_[i]);
+        };
+        each_overlap([&](std::size_t a, std::size_t p, std::size_t b, std::size_t q, const Overlap& in) {
+            if (in.depth > depth_noticed + std::max(depth_tolerated, depth_before(a, p, b, q)))
+                stay(a), stay(b);
+        });
+    }
+}
+
+}  // namespace forage::bug
