@@ -38,18 +38,22 @@ double Physics::lever(std::size_t body) const {
     return bodies_[body].parts.empty() ? 0 : states_[body].reach;
 }
 
-void Physics::shapes_of(std::size_t body, std::vector<Placed>& out) const {
+/// Where the shapes of a body are in the world: its middle, then its parts.
+const std::vector<Physics::Placed>& Physics::shapes(std::size_t body) {
+    Standing& s = standing_[body];
     const Pose2& pose = states_[body].pose;
-    out.clear();
-    each_shape(body, pose, [&](const Outline& outline, int layer) { out.push_back({outline, layer}); });
+    if (s.known && s.at.x == pose.x && s.at.y == pose.y && s.at.yaw == pose.yaw) return s.shapes;
+    s.shapes.clear();
+    each_shape(body, pose, [&](const Outline& outline, int layer) { s.shapes.push_back({outline, layer}); });
+    s.at = pose, s.known = true;
+    return s.shapes;
 }
 
 /// A bound for the gap between the shapes of two bodies, at least as good as that between their circles.
-double Physics::gap_between(const std::vector<Placed>& shapes, std::size_t body, std::size_t other) {
-    shapes_of(other, there_);
+double Physics::gap_between(std::size_t body, std::size_t other) {
     double gap = std::numeric_limits<double>::infinity();
-    for (const Placed& a : shapes)
-        for (const Placed& b : there_) {
+    for (const Placed& a : shapes(body))
+        for (const Placed& b : shapes(other)) {
             // Circles round them first: most shapes are far from each other.
             const double near = gap + reach(a.outline) + reach(b.outline);
             const double dx = b.outline.x - a.outline.x, dy = b.outline.y - a.outline.y;
@@ -63,31 +67,24 @@ double Physics::gap_between(const std::vector<Placed>& shapes, std::size_t body,
 /// Of a gap between two bodies each may use one half.
 void Physics::measure_room(std::size_t body) {
     State& state = states_[body];
-    bool listed = false;
     double gap = std::numeric_limits<double>::infinity();
-    const auto list = [&] {
-        if (!listed) shapes_of(body, here_);
-        listed = true;
-    };
     for (const Obstacle& o : obstacles_) {
         if (!(o.layers & state.layers)) continue;
         double to_it = distance_to(o.outline, state.pose.x, state.pose.y) - state.reach;
         if (to_it >= gap) continue;
         if (to_it < worth_a_look && lever(body) > 0) {
-            list();
-            double shapes = std::numeric_limits<double>::infinity();
-            for (const Placed& shape : here_)
+            double of_shapes = std::numeric_limits<double>::infinity();
+            for (const Placed& shape : shapes(body))
                 if (o.layers >> shape.layer & 1u)
-                    shapes = std::min(shapes, -overlap(o.outline, shape.outline).depth);
-            to_it = std::max(to_it, shapes);
+                    of_shapes = std::min(of_shapes, -overlap(o.outline, shape.outline).depth);
+            to_it = std::max(to_it, of_shapes);
         }
         gap = std::min(gap, to_it);
     }
     for (std::size_t other = 0; other < states_.size(); ++other) {
         if (other == body || !states_[other].present) continue;
         double between = apart(body, other);
-        if (between < worth_a_look && lever(body) + lever(other) > 0)
-            list(), between = gap_between(here_, body, other);
+        if (between < worth_a_look && lever(body) + lever(other) > 0) between = gap_between(body, other);
         gap = std::min(gap, between / 2);
         states_[other].room = std::min(states_[other].room, between / 2);
     }
@@ -125,15 +122,12 @@ void Physics::involve_neighbours() {
         more = false;
         for (std::size_t i = 0; i < states_.size(); ++i) {
             if (!states_[i].involved) continue;
-            bool listed = false;
             for (std::size_t j = 0; j < states_.size(); ++j) {
                 State& other = states_[j];
                 if (other.involved || !other.present) continue;
                 const double near = 4 * near_enough + 2 * step_ * (reaches(i) + reaches(j));
                 if (apart(i, j) >= near) continue;
-                if (!listed) shapes_of(i, here_);
-                listed = true;
-                if (gap_between(here_, i, j) < near) other.involved = more = true;
+                if (gap_between(i, j) < near) other.involved = more = true;
             }
         }
     }

@@ -39,11 +39,10 @@ Physics::Physics(std::span<const Obstacle> obstacles, std::span<const Body> bodi
         for (const Part& part : bodies_[i].parts) states_[i].layers |= LayerMask{1} << part.layer;
         grow(i);
         most_parts = std::max(most_parts, bodies_[i].parts.size());
-        placed_.emplace_back().reserve(bodies_[i].parts.size() + 1);
+        standing_.emplace_back().shapes.reserve(bodies_[i].parts.size() + 1);
     }
     // A step shall not allocate.
     began_.resize(bodies_.size()), stays_.reserve(bodies_.size());
-    here_.reserve(most_parts + 1), there_.reserve(most_parts + 1);
     unswung_.reserve(most_parts), pushed_.reserve(bodies_.size());
 }
 

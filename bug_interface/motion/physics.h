@@ -130,6 +130,12 @@ class Physics {
         Outline outline;
         int layer = 0;
     };
+    /// The shapes of a body as they were placed last.
+    struct Standing {
+        std::vector<Placed> shapes;
+        Pose2 at;
+        bool known = false;  ///< whether they are those that it has, at that pose
+    };
     class Engine;  ///< Bullet's side
 
     void drive(std::size_t body, const MotorCommand& command);
@@ -141,12 +147,12 @@ class Physics {
     bool has_room_for(std::size_t body, double way);
     void checkpoint_parts(std::size_t body, Archive& archive);
     void measure_room(std::size_t body);
-    void shapes_of(std::size_t body, std::vector<Placed>& out) const;
-    double gap_between(const std::vector<Placed>& shapes, std::size_t body, std::size_t other);
+    const std::vector<Placed>& shapes(std::size_t body);
+    double gap_between(std::size_t body, std::size_t other);
     void involve_neighbours();
     // ---- who got too deep into what ----
     template <class F>
-    void each_overlap(F&& visit) const;
+    void each_overlap(F&& visit);
     double depth_before(std::size_t a, std::size_t p, std::size_t b, std::size_t q) const;
     void shift(std::size_t body, double x, double y);
     void separate();
@@ -174,13 +180,12 @@ class Physics {
     std::vector<Body> bodies_;
     std::vector<State> states_;
     std::vector<Velocity> velocities_;  ///< of this step
+    std::vector<Standing> standing_;
     double step_;
     Contacts contacts_;
     std::vector<LayerMask> meets_;
     std::uint64_t contact_steps_ = 0;
-    std::vector<Placed> here_, there_;                   ///< while distances are measured
     std::vector<Pose2> began_;                           ///< where bodies were before a step
-    std::vector<std::vector<Placed>> placed_;            ///< the shapes of each body after it
     std::vector<char> stays_;                            ///< whether a body is taken back
     std::vector<Outline> unswung_;                       ///< parts that swing, as they were
     std::vector<std::pair<std::size_t, Pose2>> pushed_;  ///< by them, and from where

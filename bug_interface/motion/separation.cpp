@@ -27,9 +27,9 @@ bool may_touch(const Outline& a, const Outline& b) {
 /// Calls visit(a, shape of a, b, shape of b, how deep they are in each other) for shapes of bodies that are
 /// involved. For an obstacle, b is the number of bodies and its shape the number of the obstacle.
 template <class F>
-void Physics::each_overlap(F&& visit) const {
+void Physics::each_overlap(F&& visit) {
     const auto look = [&](std::size_t a, std::size_t p, const Outline& there, std::size_t b, std::size_t q) {
-        const Outline& here = placed_[a][p].outline;
+        const Outline& here = shapes(a)[p].outline;
         if (!may_touch(there, here)) return;
         const Overlap in = overlap(there, here);
         if (in.depth > depth_left + depth_noticed) visit(a, p, b, q, in);
@@ -42,15 +42,15 @@ void Physics::each_overlap(F&& visit) const {
             if (!(obstacles_[o].layers & s.layers) ||
                 square(there.x - s.pose.x) + square(there.y - s.pose.y) >= square(reach(there) + s.reach))
                 continue;
-            for (std::size_t p = 0; p < placed_[a].size(); ++p)
-                if (obstacles_[o].layers >> placed_[a][p].layer & 1u) look(a, p, there, bodies_.size(), o);
+            for (std::size_t p = 0; p < shapes(a).size(); ++p)
+                if (obstacles_[o].layers >> shapes(a)[p].layer & 1u) look(a, p, there, bodies_.size(), o);
         }
         for (std::size_t b = 0; b < a; ++b) {
             if (!states_[b].involved || apart(a, b) >= 0) continue;
-            for (std::size_t p = 0; p < placed_[a].size(); ++p)
-                for (std::size_t q = 0; q < placed_[b].size(); ++q)
-                    if (meet(LayerMask{1} << placed_[a][p].layer, placed_[b][q].layer))
-                        look(a, p, placed_[b][q].outline, b, q);
+            for (std::size_t p = 0; p < shapes(a).size(); ++p)
+                for (std::size_t q = 0; q < shapes(b).size(); ++q)
+                    if (meet(LayerMask{1} << shapes(a)[p].layer, shapes(b)[q].layer))
+                        look(a, p, shapes(b)[q].outline, b, q);
         }
     }
 }
@@ -61,7 +61,7 @@ double Physics::depth_before(std::size_t a, std::size_t p, std::size_t b, std::s
         const Body& what = bodies_[body];
         const bool middle = what.radius > 0;
         if (!middle || shape > 0) return moved(what.parts[shape - (middle ? 1 : 0)].outline, began_[body]);
-        Outline outline = placed_[body][shape].outline;
+        Outline outline = standing_[body].shapes[shape].outline;
         outline.x = began_[body].x, outline.y = began_[body].y;
         return outline;
     };
@@ -73,12 +73,9 @@ void Physics::shift(std::size_t body, double x, double y) {
     State& s = states_[body];
     s.pose.x += x, s.pose.y += y;
     s.room -= std::sqrt(x * x + y * y);
-    for (Placed& shape : placed_[body]) shape.outline.x += x, shape.outline.y += y;
 }
 
 void Physics::separate() {
-    for (std::size_t i = 0; i < states_.size(); ++i)
-        if (states_[i].involved) shapes_of(i, placed_[i]);
     for (int round = 0; round < most_rounds; ++round) {
         bool moved = false;
         each_overlap([&](std::size_t a, std::size_t p, std::size_t b, std::size_t q, const Overlap& in) {
@@ -106,7 +103,6 @@ void Physics::take_back() {
             stays_[i] = more = true;
             states_[i].pose = began_[i];
             velocities_[i] = {};
-            shapes_of(i, placed_[i]);
         };
         each_overlap([&](std::size_t a, std::size_t p, std::size_t b, std::size_t q, const Overlap& in) {
             if (in.depth > depth_noticed + std::max(depth_tolerated, depth_before(a, p, b, q)))

@@ -96,7 +96,7 @@ bool Physics::swing(std::size_t body, std::span<const std::pair<std::size_t, Out
             if (fixed_in_the_way(body, shape.parts[number], outline, shape.parts[number].layer)) return false;
 
     // The parts go where they are to be; what then overlaps them is pushed out, or all is undone.
-    unswung_.clear(), pushed_.clear();
+    unswung_.clear(), pushed_.clear(), standing_[body].known = false;
     for (const auto& [number, outline] : parts) {
         Outline& part = shape.parts[number].outline;
         unswung_.push_back(part);
@@ -144,6 +144,7 @@ bool Physics::swing(std::size_t body, std::span<const std::pair<std::size_t, Out
 void Physics::checkpoint_parts(std::size_t body, Archive& archive) {
     auto& parts = bodies_[body].parts;
     for (Part& p : parts) archive(p.outline.x, p.outline.y, p.outline.cos_yaw, p.outline.sin_yaw);
+    standing_[body].known = false;
     if (archive.loading() && engine_ && !parts.empty()) engine_->reshape(body, parts);
 }
 
