@@ -69,7 +69,8 @@ void Physics::Engine::set(std::size_t body, const State& state, const Velocity& 
     const bool round = object.getCollisionShape()->getShapeType() == SPHERE_SHAPE_PROXYTYPE;
     if (state.involved) {
         transform.setOrigin(vector(state.pose.x, state.pose.y));
-        if (!round) transform.setRotation({{0, 0, 1}, scalar(state.pose.yaw)});
+        const btScalar c = scalar(state.cos_yaw), s = scalar(state.sin_yaw);
+        if (!round) transform.setBasis({c, -s, 0, s, c, 0, 0, 0, 1});
     } else {
         transform.setOrigin(vector(1e4, 10.0 * static_cast<double>(body)));
     }
@@ -86,6 +87,7 @@ void Physics::Engine::set(std::size_t body, const State& state, const Velocity& 
 void Physics::Engine::solve(double step, std::span<State> states, std::span<Velocity> velocities) {
     solved_.clear();
     for (std::size_t i = 0; i < states.size(); ++i) {
+        if (states[i].involved) states[i].face();
         set(i, states[i], velocities[i]);
         if (states[i].involved) solved_.push_back(bodies_[i]);
     }

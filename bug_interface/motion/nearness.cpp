@@ -41,10 +41,15 @@ double Physics::lever(std::size_t body) const {
 /// Where the shapes of a body are in the world: its middle, then its parts.
 const std::vector<Physics::Placed>& Physics::shapes(std::size_t body) {
     Standing& s = standing_[body];
-    const Pose2& pose = states_[body].pose;
+    State& state = states_[body];
+    const Pose2& pose = state.pose;
     if (s.known && s.at.x == pose.x && s.at.y == pose.y && s.at.yaw == pose.yaw) return s.shapes;
     s.shapes.clear();
-    each_shape(body, pose, [&](const Outline& outline, int layer) { s.shapes.push_back({outline, layer}); });
+    state.face();
+    each_shape(body, Frame(pose.x, pose.y, state.cos_yaw, state.sin_yaw),
+               [&](const Outline& outline, int layer) {
+                   s.shapes.push_back({outline, layer});
+               });
     s.at = pose, s.known = true;
     return s.shapes;
 }

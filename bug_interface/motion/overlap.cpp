@@ -60,7 +60,9 @@ Overlap overlap(const Outline& a, const Outline& b) {
     return turned;
 }
 
-double reach(const Outline& o) { return o.round ? o.radius : std::sqrt(o.half_x * o.half_x + o.half_y * o.half_y); }
+double reach(const Outline& o) {
+    return o.round ? o.radius : std::sqrt(o.half_x * o.half_x + o.half_y * o.half_y);
+}
 
 Outline Frame::moved(const Outline& outline) const {
     Outline out = outline;

@@ -24,7 +24,10 @@ double reach(const Outline& outline);
 /// A frame that stands somewhere in the plane.
 class Frame {
   public:
-    explicit Frame(const Pose2& at) : x_(at.x), y_(at.y), cos_(std::cos(at.yaw)), sin_(std::sin(at.yaw)) {}
+    explicit Frame(const Pose2& at) : Frame(at.x, at.y, std::cos(at.yaw), std::sin(at.yaw)) {}
+    Frame(double x, double y, double cos_yaw, double sin_yaw) : x_(x), y_(y), cos_(cos_yaw), sin_(sin_yaw) {}
+    double x() const { return x_; }
+    double y() const { return y_; }
     /// `outline`, given in this frame, in the frame in which this one stands.
     Outline moved(const Outline& outline) const;
 

@@ -70,10 +70,11 @@ void Physics::lift(std::size_t body) {
 double Physics::speed(std::size_t body) const { return std::hypot(velocities_[body].x, velocities_[body].y); }
 
 void Physics::drive(std::size_t i, const MotorCommand& command) {
-    const Pose2& pose = states_[i].pose;
+    State& s = states_[i];
     Velocity& v = velocities_[i];
     if (bodies_[i].driven) {
-        v = {command.forward * std::cos(pose.yaw), command.forward * std::sin(pose.yaw), command.turn};
+        s.face();
+        v = {command.forward * s.cos_yaw, command.forward * s.sin_yaw, command.turn};
         return;
     }
     const double before = std::hypot(v.x, v.y);

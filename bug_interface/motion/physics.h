@@ -1,6 +1,7 @@
 // Bodies that drive over a plane, slide along walls, stop at each other and push what is loose.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -120,6 +121,12 @@ class Physics {
         double reach = 0;       ///< radius of a circle round all that it ever was, m
         LayerMask layers = 0;   ///< of its middle and parts
         int touches = 0;
+        double faces = 0, cos_yaw = 1, sin_yaw = 0;  ///< of the last yaw that was asked for
+        /// Computes them for the pose.
+        void face() {
+            if (faces == pose.yaw) return;
+            faces = pose.yaw, cos_yaw = std::cos(faces), sin_yaw = std::sin(faces);
+        }
     };
     struct Velocity {
         double x = 0, y = 0, turn = 0;  ///< m/s, m/s, rad/s
@@ -165,14 +172,16 @@ class Physics {
     /// Calls visit(outline in the world, layer) for the middle and the parts of a body at `pose`.
     template <class F>
     void each_shape(std::size_t body, const Pose2& pose, F&& visit) const {
+        each_shape(body, Frame(pose), std::forward<F>(visit));
+    }
+    template <class F>
+    void each_shape(std::size_t body, const Frame& frame, F&& visit) const {
         const Body& b = bodies_[body];
         if (b.radius > 0) {
             Outline middle;
-            middle.round = true, middle.x = pose.x, middle.y = pose.y, middle.radius = b.radius;
+            middle.round = true, middle.x = frame.x(), middle.y = frame.y(), middle.radius = b.radius;
             visit(middle, b.layer);
         }
-        if (b.parts.empty()) return;
-        const Frame frame(pose);
         for (const Part& part : b.parts) visit(frame.moved(part.outline), part.layer);
     }
 

@@ -1,8 +1,8 @@
 // No step ends with shapes deeper in each other than they were, or than half a millimetre.
 //
-// Bullet solves velocities. It tells of two boxes only once they overlap, and its solution is approximate where
-// a body is squeezed from several sides. What a step got too deep into each other is moved apart here; who
-// cannot be freed stays where the step began.
+// Bullet solves velocities. It tells of two boxes only once they overlap, and its solution is approximate
+// where a body is squeezed from several sides. What a step got too deep into each other is moved apart here;
+// who cannot be freed stays where the step began.
 #include <algorithm>
 #include <cmath>
 
@@ -92,8 +92,8 @@ void Physics::separate() {
     take_back();
 }
 
-/// Where a step began nothing was too deep in anything: who still is goes back there, and who is in the way of
-/// that too.
+/// Where a step began nothing was too deep in anything: who still is goes back there, and who is in the way
+/// of that too.
 void Physics::take_back() {
     stays_.assign(states_.size(), 0);
     for (bool more = true; more;) {

@@ -126,7 +126,7 @@ class Pen {
 
 std::uint64_t steps_to_do() {
     const char* wanted = std::getenv("FORAGE_PUSHING_STEPS");
-    return wanted ? std::strtoull(wanted, nullptr, 10) : 60000;
+    return wanted ? std::strtoull(wanted, nullptr, 10) : 200000;
 }
 
 }  // namespace
