@@ -1,58 +1,45 @@
 #include "bug_interface/sensing/floor_texture.h"
 
 #include <algorithm>
-
-#include <opencv2/imgproc.hpp>
+#include <functional>
+#include <numeric>
+#include <utility>
 
 namespace forage::bug {
 namespace {
 
-Image one_pixel() { return {1, 1, {255, 255, 255}}; }
-
-}  // namespace
-
-template <class Uneven>
-void FloorTexture::Sums::fill(std::size_t columns, std::size_t rows, Uneven uneven) {
-    wide = columns + 1;
-    counts.assign((rows + 1) * wide, 0);
-    for (std::size_t row = 0; row < rows; ++row) {
-        std::uint32_t in_row = 0;
-        for (std::size_t column = 0; column < columns; ++column) {
-            in_row += uneven(column, row) ? 1 : 0;
-            counts[(row + 1) * wide + column + 1] = counts[row * wide + column + 1] + in_row;
-        }
+/// Texels of a row that differ from a neighbour to the right or below are no longer opaque.
+void mark_flat(std::uint32_t* __restrict here, const std::uint32_t* __restrict below, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t differ =
+            (here[i] ^ here[i + 1]) | (here[i] ^ below[i]) | (here[i] ^ below[i + 1]);
+        here[i] &= differ ? 0x00ffffffu : ~0u;
     }
 }
 
-FloorTexture::FloorTexture(const Colour& colour) : FloorTexture(one_pixel(), colour) {}
+}  // namespace
 
-FloorTexture::FloorTexture(const Image& image, const Colour& gain)
-    : width_(image.width), height_(image.height), stride_(image.width + 2), gain_(gain / 255.0f) {
-    const cv::Mat picture(height_, width_, CV_8UC3, const_cast<std::uint8_t*>(image.rgb.data()));
-    cv::Mat four_channels;
-    cv::cvtColor(picture, four_channels, cv::COLOR_RGB2RGBA);
-    texels_.resize(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height_ + 2));
-    cv::Mat packed(height_ + 2, stride_, CV_8UC4, texels_.data());
-    cv::copyMakeBorder(four_channels, packed, 1, 1, 1, 1, cv::BORDER_REPLICATE);
+FloorTexture::FloorTexture(const Colour& colour) : FloorTexture({1, 1, 1, Pixels(9, ~0u)}, colour) {}
 
-    const auto stride = static_cast<std::size_t>(stride_);
-    constexpr std::uint32_t flag = 0xff000000u;
-    const auto colour = [&](std::size_t i) { return texels_[i] & ~flag; };
-    for (std::size_t i = 0; i < texels_.size(); ++i) {
-        const bool last = i + stride + 1 >= texels_.size();  // never the upper left of a lookup
-        const bool is_flat = last || (colour(i) == colour(i + 1) && colour(i) == colour(i + stride) &&
-                                      colour(i) == colour(i + stride + 1));
-        texels_[i] = colour(i) | (is_flat ? flag : 0);
-    }
-    const auto rows = static_cast<std::size_t>(height_ + 2);
-    uneven_.fill(stride, rows,
-                 [&](std::size_t column, std::size_t row) { return !flat(texels_[row * stride + column]); });
-    uneven_blocks_.fill((stride + block - 1) / block, (rows + block - 1) / block,
-                        [&](std::size_t column, std::size_t row) {
-                            const std::size_t left = column * block, top = row * block;
-                            return !uneven_.none(left, std::min(left + block, stride) - 1, top,
-                                                 std::min(top + block, rows) - 1);
-                        });
+FloorTexture::FloorTexture(Image image, const Colour& gain)
+    : width_(image.width),
+      height_(image.height),
+      stride_(image.width + 2),
+      texels_(std::move(image.pixels)),
+      gain_(gain / 255.0f) {
+    // Pixels are opaque: what is left opaque is flat. The last row and column are never the upper left of a
+    // lookup.
+    const auto stride = static_cast<std::size_t>(stride_), rows = static_cast<std::size_t>(height_ + 2);
+    for (std::size_t row = 0; row + 1 < rows; ++row)
+        mark_flat(&texels_[row * stride], &texels_[(row + 1) * stride], stride - 1);
+    uneven_ = MarkedCells(stride, rows, [&](std::size_t column, std::size_t row, std::size_t count) {
+        const std::uint32_t* here = &texels_[row * stride + column];
+        const std::uint32_t all = std::accumulate(here, here + count, ~0u, std::bit_and());
+        unsigned bits = 0;
+        if (!flat(all))  // of most are all flat
+            for (std::size_t i = 0; i < count; ++i) bits |= (flat(here[i]) ? 0u : 1u) << i;
+        return bits;
+    });
     for (std::size_t channel = 0; channel < 3; ++channel)
         for (std::size_t value = 0; value < 256; ++value)
             seen_[channel][value] =

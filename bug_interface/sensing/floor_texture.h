@@ -1,11 +1,11 @@
 // A picture on a floor, stored for fast bilinear lookup.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "bug_interface/sensing/marked_cells.h"
 #include "bug_interface/world/description.h"
 #include "bug_interface/world/png.h"
 
@@ -20,7 +20,7 @@ namespace forage::bug {
 class FloorTexture {
   public:
     /// `gain`: light on a white texel, per channel; may exceed 1.
-    FloorTexture(const Image& image, const Colour& gain);
+    FloorTexture(Image image, const Colour& gain);
     /// One colour everywhere: a picture of 1 x 1.
     explicit FloorTexture(const Colour& colour);
 
@@ -33,13 +33,14 @@ class FloorTexture {
         return static_cast<int>(v + 0.5f) * stride_ + static_cast<int>(u + 0.5f);
     }
     /// Whether all points of the rectangle, which must lie on the picture, look up texels that are flat: then
-    /// all are of one colour. Mostly a small table of blocks of texels knows.
+    /// all are of one colour.
     bool even(float u_first, float u_last, float v_first, float v_last) const {
         const auto column = [](float u) { return static_cast<std::size_t>(u + 0.5f); };
-        const std::size_t left = column(u_first), right = column(u_last), top = column(v_first),
-                          bottom = column(v_last);
-        return uneven_blocks_.none(left / block, right / block, top / block, bottom / block) ||
-               uneven_.none(left, right, top, bottom);
+        return uneven_.none(column(u_first), column(u_last), column(v_first), column(v_last));
+    }
+    /// A row of the picture, from the top: red, green and blue from the low byte, and a flag.
+    const std::uint32_t* row(int row) const {
+        return &texels_[static_cast<std::size_t>((row + 1) * stride_ + 1)];
     }
     std::uint32_t texel(int index) const { return texels_[static_cast<std::size_t>(index)]; }
     static bool flat(std::uint32_t texel) { return texel >> 24; }
@@ -58,28 +59,13 @@ class FloorTexture {
     }
 
   private:
-    /// Counts of what is uneven, of all above and to the left, so that four of them count any rectangle.
-    struct Sums {
-        std::size_t wide = 0;  ///< columns + 1
-        std::vector<std::uint32_t> counts;
-
-        template <class Uneven>
-        void fill(std::size_t columns, std::size_t rows, Uneven uneven);
-        /// Whether none is in the rectangle from the first to the last row and column.
-        bool none(std::size_t left, std::size_t right, std::size_t top, std::size_t bottom) const {
-            const std::uint32_t *above = &counts[top * wide], *below = &counts[(bottom + 1) * wide];
-            return below[right + 1] - below[left] == above[right + 1] - above[left];
-        }
-    };
-
-    static constexpr std::size_t block = 8;  ///< texels, in rows and columns
     void add_blend(float u, float v, float* rgb) const;
 
     int width_, height_;
-    int stride_;                         ///< width + 2: the border is repeated once on every side
-    std::vector<std::uint32_t> texels_;  ///< red, green, blue, flag; from the low byte
-    Sums uneven_, uneven_blocks_;        ///< texels that are not flat, and blocks that hold such
-    Colour gain_;                        ///< of a value in 0..255
+    int stride_;          ///< width + 2: the border is repeated once on every side
+    Pixels texels_;       ///< red, green, blue, flag; from the low byte
+    MarkedCells uneven_;  ///< texels that are not flat
+    Colour gain_;         ///< of a value in 0..255
     std::array<std::array<float, 256>, 3> seen_;
 };
 

@@ -40,7 +40,7 @@ void Scene::add(const Visual& visual, const Pose& pose, std::optional<float> flo
     FloorTexture texture =
         material.texture.empty()
             ? FloorTexture(light.min(1.0f))
-            : FloorTexture(read_png(material.texture), floor_gain ? Colour::Constant(*floor_gain) : light);
+            : FloorTexture(read_png(material.texture, 1), floor_gain ? Colour::Constant(*floor_gain) : light);
     floors_.push_back({pose.translation().z(), in_plane(pose), size.x(), size.y(), std::move(texture)});
 }
 

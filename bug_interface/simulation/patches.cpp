@@ -5,9 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Geometry>
 #include <opencv2/imgproc.hpp>
-
-#include "bug_interface/world/png.h"
 
 namespace forage::bug {
 namespace {
@@ -22,12 +21,26 @@ std::string name_of(int hue) {
     return names[static_cast<std::size_t>((hue + 7) / 15) % names.size()];
 }
 
-void add_patches(const Floor& floor, std::vector<Patch>& out) {
-    Image image = read_png(floor.texture);
-    const cv::Mat picture(image.height, image.width, CV_8UC3, image.rgb.data());
-    const double scale = std::min(1.0, double(longest_side) / std::max(image.width, image.height));
-    cv::Mat small, hsv, coloured, labels, statistics, middles;
-    cv::resize(picture, small, {}, scale, scale, cv::INTER_NEAREST);
+/// A picture of the floor, red, green and blue; every so manieth pixel where it has more than enough.
+cv::Mat looked_at(const FloorTexture& floor) {
+    const double scale = std::min(1.0, double(longest_side) / std::max(floor.width(), floor.height()));
+    cv::Mat out(std::max(1, static_cast<int>(std::lround(floor.height() * scale))),
+                std::max(1, static_cast<int>(std::lround(floor.width() * scale))), CV_8UC3);
+    for (int row = 0; row < out.rows; ++row) {
+        const std::uint32_t* in = floor.row(std::min(floor.height() - 1, static_cast<int>(row / scale)));
+        for (int column = 0; column < out.cols; ++column) {
+            const std::uint32_t colour = in[std::min(floor.width() - 1, static_cast<int>(column / scale))];
+            out.at<cv::Vec3b>(row, column) = {static_cast<std::uint8_t>(colour),
+                                              static_cast<std::uint8_t>(colour >> 8),
+                                              static_cast<std::uint8_t>(colour >> 16)};
+        }
+    }
+    return out;
+}
+
+void add_patches(const FloorSurface& floor, std::vector<Patch>& out) {
+    const cv::Mat small = looked_at(floor.texture);
+    cv::Mat hsv, coloured, labels, statistics, middles;
     cv::cvtColor(small, hsv, cv::COLOR_RGB2HSV);
     cv::inRange(hsv, cv::Scalar(0, 128, 64), cv::Scalar(180, 255, 255), coloured);
     const int count = cv::connectedComponentsWithStats(coloured, labels, statistics, middles);
@@ -39,18 +52,19 @@ void add_patches(const Floor& floor, std::vector<Patch>& out) {
         const double column = middles.at<double>(i, 0), row = middles.at<double>(i, 1);
         const auto& colour =
             hsv.at<cv::Vec3b>(static_cast<int>(std::lround(row)), static_cast<int>(std::lround(column)));
-        out.push_back({{floor.x + (column + 0.5) * width - floor.size_x / 2,
-                        floor.y + floor.size_y / 2 - (row + 0.5) * height},
-                       radius,
-                       name_of(colour[0])});
+        const Eigen::Vector2d on_floor((column + 0.5) * width - floor.size_x / 2,
+                                       floor.size_y / 2 - (row + 0.5) * height);
+        out.push_back(
+            {Eigen::Vector2d(floor.pose.x, floor.pose.y) + Eigen::Rotation2Dd(floor.pose.yaw) * on_floor,
+             radius, name_of(colour[0])});
     }
 }
 
 }  // namespace
 
-std::vector<Patch> patches_of(std::span<const Floor> floors) {
+std::vector<Patch> patches_of(std::span<const FloorSurface> floors) {
     std::vector<Patch> out;
-    for (const Floor& floor : floors) add_patches(floor, out);
+    for (const FloorSurface& floor : floors) add_patches(floor, out);
     return out;
 }
 

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "bug_interface/simulation/surroundings.h"
+#include "bug_interface/sensing/scene.h"
 
 namespace forage::bug {
 
@@ -20,8 +20,8 @@ struct Patch {
 
 /// The patches with a radius of at least 0.05 m, row by row from the top of each floor's picture. Places are
 /// good to 2 cm on a floor of 8 m (pictures are looked at with 512 pixels a side). Patches that touch each
-/// other count as one. Throws std::runtime_error when a picture cannot be read.
-std::vector<Patch> patches_of(std::span<const Floor> floors);
+/// other count as one.
+std::vector<Patch> patches_of(std::span<const FloorSurface> floors);
 
 /// The patch in which `place` lies, or none (-1); the first when several overlap.
 int patch_at(std::span<const Patch> patches, const Eigen::Vector2d& place);

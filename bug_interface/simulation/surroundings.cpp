@@ -82,20 +82,6 @@ std::vector<Eigen::Vector2d> targets_of(const WorldDescription& world) {
     return out;
 }
 
-std::vector<Floor> floors_of(const WorldDescription& world) {
-    std::vector<Floor> out;
-    for (const Model& model : world.models)
-        each_link(model, Pose::Identity(), [&](const Link& link, const Pose& pose) {
-            for (const Visual& v : link.visuals)
-                if (v.shape.kind == ShapeKind::plane && !v.material.texture.empty()) {
-                    const Eigen::Vector3d middle = (pose * v.pose).translation();
-                    out.push_back(
-                        {v.material.texture, middle.x(), middle.y(), v.shape.size.x(), v.shape.size.y()});
-                }
-        });
-    return out;
-}
-
 std::vector<DrawnSolid> drawing_of(const WorldDescription& world) {
     std::vector<DrawnSolid> out;
     for (const Model& model : world.models)

@@ -13,14 +13,6 @@
 
 namespace forage::bug {
 
-/// A floor with a picture, for drawing.
-struct Floor {
-    std::string texture;  ///< path of a PNG image
-    double x = 0, y = 0;  ///< its middle, m
-    double size_x = 0,
-           size_y = 0;  ///< full extents, m; the picture's top edge lies at +y, its left edge at -x
-};
-
 /// A solid with its colour, for drawing.
 struct DrawnSolid {
     Solid solid;
@@ -55,7 +47,6 @@ std::vector<Obstacle> obstacles_of(const WorldDescription& world, const Heights&
 /// proximity sensors (at 0.175 m) do not.
 std::vector<Eigen::Vector2d> targets_of(const WorldDescription& world);
 
-std::vector<Floor> floors_of(const WorldDescription& world);
 /// What a map of the world shows: the visible solids of everything that stands still, in file order.
 std::vector<DrawnSolid> drawing_of(const WorldDescription& world);
 

@@ -110,7 +110,6 @@ class World {
 
     const std::vector<Eigen::Vector2d>& targets() const { return targets_; }  ///< their middles, m
     std::optional<ResetPlan> reset_plan() const { return plan_; }             ///< start poses and bounds
-    std::vector<Floor> floors() const { return floors_of(description_); }     ///< for drawing
     /// For drawing: what stands still, and where loose things are now.
     std::vector<DrawnSolid> drawing() const;
     std::size_t things() const { return things_.size(); }
@@ -121,8 +120,9 @@ class World {
     const Robot& robot(std::size_t bug) const { return robots_[bug]; }
     const Stage& stage() const { return stage_; }  ///< at the last snapshot
     std::span<const MovingSight> moving_sights() const { return sights_; }
-    /// What stands still, for cameras. Throws std::runtime_error when a floor's picture cannot be read.
-    std::shared_ptr<const Scene> scene();
+    /// What stands still, for cameras and maps: made when it is first asked for. Throws std::runtime_error
+    /// when a floor's picture cannot be read.
+    std::shared_ptr<const Scene> scene() const;
     const WorldDescription& description() const { return description_; }
     const Physics& physics() const { return *physics_; }
 
@@ -164,7 +164,7 @@ class World {
     bool sights_placed_ = false;        ///< whether their visuals are where they are on stage
     std::vector<MotorCommand> drives_;  ///< of this substep, with noise
     std::unique_ptr<Physics> physics_;
-    std::shared_ptr<const Scene> scene_;  ///< made for the first image
+    mutable std::shared_ptr<const Scene> scene_;
 };
 
 /// A world in a few lines for people: robots, start poses, targets, bounds, whether there are trials, and how

@@ -51,7 +51,7 @@ const BugSnapshot& World::snapshot(std::size_t bug) const {
     return robot.history.empty() ? robot.snapshot : robot.history[(cycle_ + 1) % robot.history.size()];
 }
 
-std::shared_ptr<const Scene> World::scene() {
+std::shared_ptr<const Scene> World::scene() const {
     if (!scene_) scene_ = std::make_shared<const Scene>(without_movers(description_));
     return scene_;
 }

@@ -1,29 +1,53 @@
 #include "bug_interface/world/png.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include <png.h>
 
 namespace forage::bug {
 
 namespace {
-constexpr std::uint64_t most_pixels = 4096 * 4096;  ///< a floor takes 11 bytes for each
+
+constexpr std::uint64_t most_pixels = 4096 * 4096;  ///< a floor takes 4 bytes for each
+
+void fill_border(Image& image) {
+    for (int r = 0; r < image.height; ++r) {
+        std::uint32_t* row = image.row(r);
+        std::fill_n(row - image.border, image.border, row[0]);
+        std::fill_n(row + image.width, image.border, row[image.width - 1]);
+    }
+    for (int r = 1; r <= image.border; ++r)
+        for (const auto& [from, to] : {std::pair(0, -r), {image.height - 1, image.height - 1 + r}})
+            std::copy_n(image.row(from) - image.border, image.stride(), image.row(to) - image.border);
 }
 
-Image read_png(const std::string& path) {
+}  // namespace
+
+Image read_png(const std::string& path, int border) {
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
     if (!png_image_begin_read_from_file(&png, path.c_str()))
         throw std::runtime_error(path + ": " + png.message);
-    png.format = PNG_FORMAT_RGB;
-    Image image{static_cast<int>(png.width), static_cast<int>(png.height),
-                std::vector<std::uint8_t>(PNG_IMAGE_SIZE(png))};
-    const png_color black{0, 0, 0};  // behind transparent pixels
-    if (!png_image_finish_read(&png, &black, image.rgb.data(), 0, nullptr))
+    Image image{static_cast<int>(png.width), static_cast<int>(png.height), border, {}};
+    image.pixels.resize(image.stride() * (png.height + 2 * static_cast<std::size_t>(border)));
+    const bool opaque = !(png.format & PNG_FORMAT_FLAG_ALPHA);
+    png.format = opaque ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+    const png_color black{0, 0, 0};
+    std::vector<std::uint8_t> rgb(opaque ? 0 : PNG_IMAGE_SIZE(png));
+    void* to = opaque ? static_cast<void*>(image.row(0)) : rgb.data();
+    const auto stride = static_cast<png_int_32>(opaque ? 4 * image.stride() : 0);
+    if (!png_image_finish_read(&png, &black, to, stride, nullptr))
         throw std::runtime_error(path + ": " + png.message);
+    const std::uint8_t* p = rgb.data();
+    for (int r = 0; r < image.height && !opaque; ++r)
+        for (int c = 0; c < image.width; ++c, p += 3)
+            image.row(r)[c] = 0xff000000u | std::uint32_t{p[2]} << 16 | std::uint32_t{p[1]} << 8 | p[0];
+    fill_border(image);
     return image;
 }
 

@@ -6,23 +6,28 @@
 #include <string>
 #include <vector>
 
+#include "bug_interface/world/huge_pages.h"
+
 namespace forage::bug {
 
-/// Pixels in rows from the top, three bytes (red, green, blue) each.
-struct Image {
-    int width = 0, height = 0;
-    std::vector<std::uint8_t> rgb;
+using Pixels = std::vector<std::uint32_t, HugePages<std::uint32_t>>;
 
-    const std::uint8_t* pixel(int column, int row) const {
-        return &rgb[3 * (std::size_t(row) * std::size_t(width) + std::size_t(column))];
-    }
-    std::uint8_t* pixel(int column, int row) {
-        return &rgb[3 * (std::size_t(row) * std::size_t(width) + std::size_t(column))];
+/// A picture with a border round it.
+struct Image {
+    int width = 0, height = 0;  ///< without the border
+    int border = 0;             ///< pixels on every side, which repeat the nearest ones of the picture
+    Pixels pixels;              ///< in rows from the top: red, green, blue, 255, from the low byte
+
+    std::size_t stride() const { return static_cast<std::size_t>(width + 2 * border); }
+    /// From the left; negative ones are of the border.
+    std::uint32_t* row(int row) {
+        return &pixels[static_cast<std::size_t>(row + border) * stride()] + border;
     }
 };
 
-/// Throws std::runtime_error with the reason when the file cannot be read.
-Image read_png(const std::string& path);
+/// Transparent pixels stand before black. Throws std::runtime_error with the reason when the file cannot be
+/// read.
+Image read_png(const std::string& path, int border = 0);
 
 /// What keeps a file from being a picture for read_png(), as far as its beginning and end tell; empty when
 /// nothing does.

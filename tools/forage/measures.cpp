@@ -28,7 +28,7 @@ std::optional<TrialMeasures::Peaks> TrialMeasures::peaks() const {
 }
 
 Measures::Measures(const bug::World& world, std::size_t robot, const engine::Simulation& simulation)
-    : world_(world), robot_(robot), patches_(bug::patches_of(world.floors())) {
+    : world_(world), robot_(robot), patches_(bug::patches_of(world.scene()->floors())) {
     if (world.bugs() == 1) layers_ = Layers(simulation);
 }
 

@@ -36,8 +36,11 @@ std::vector<std::string> write_pictures(const RunOptions& o, const Running& r, O
     for (std::size_t i = 0; i < r.paths.size(); ++i) {
         const std::string name = "trajectory" + robot_suffix(*r.loaded.world, i);
         attempt(name + ".csv", [&] { return r.paths[i].csv(); });
+        auto paths = r.paths[i].paths();
+        const auto leads_somewhere = [](const plot::Path& path) { return path.points.size() > 1; };
+        if (std::none_of(paths.begin(), paths.end(), leads_somewhere)) continue;  // there is no path to show
         attempt(name + std::string(plot::ending(format)), [&] {
-            return plot::render(plot::trajectory_plot(*r.loaded.world, r.paths[i].paths(), title), format);
+            return plot::render(plot::trajectory_plot(*r.loaded.world, std::move(paths), title), format);
         });
     }
     const PlotContext context = context_of(o, r, outcome);

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "bug_interface/world/png.h"
+#include "bug_interface/sensing/scene.h"
 #include "tools/plot/axes.h"
 
 namespace forage::plot {
@@ -28,27 +29,34 @@ void dashed(cairo_t* c, double on, double off) {
     cairo_set_dash(c, dash, 2, 0);
 }
 
-/// Each n x n pixels become one, their mean; at the right and lower edge fewer do.
-bug::Image shrunk(bug::Image image, int n) {
-    if (n <= 1) return image;
-    bug::Image out{(image.width + n - 1) / n, (image.height + n - 1) / n, {}};
-    out.rgb.resize(std::size_t(3) * std::size_t(out.width) * std::size_t(out.height));
-    std::vector<std::uint32_t> sums(std::size_t(3) * std::size_t(out.width));
-    for (int y = 0; y < out.height; ++y) {
-        const int rows = std::min(n, image.height - y * n);
-        std::fill(sums.begin(), sums.end(), 0u);
+/// A floor's picture; each n x n pixels become one, their mean. At the right and lower edge fewer do.
+Surface picture_of(const bug::FloorTexture& floor, int n) {
+    const int width = (floor.width() + n - 1) / n, height = (floor.height() + n - 1) / n;
+    Surface out(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
+    auto* data = cairo_image_surface_get_data(out.get());
+    const int stride = cairo_image_surface_get_stride(out.get());
+    // Of every column the sums of n rows: in the high half of a word those of blue, below of red, and of
+    // green.
+    std::vector<std::uint32_t> red_blue(static_cast<std::size_t>(floor.width())), green(red_blue.size());
+    for (int y = 0; y < height; ++y) {
+        const int rows = std::min(n, floor.height() - y * n);
+        std::fill(red_blue.begin(), red_blue.end(), 0u), std::fill(green.begin(), green.end(), 0u);
         for (int row = y * n; row < y * n + rows; ++row) {
-            const std::uint8_t* in = image.pixel(0, row);
-            for (int x = 0; x < out.width; ++x)
-                for (int columns = std::min(n, image.width - x * n); columns > 0; --columns, in += 3)
-                    for (std::size_t i = 0; i < 3; ++i) sums[3 * std::size_t(x) + i] += in[i];
+            const std::uint32_t* in = floor.row(row);
+            for (std::size_t i = 0; i < green.size(); ++i)
+                red_blue[i] += in[i] & 0xff00ffu, green[i] += in[i] >> 8 & 255u;
         }
-        for (int x = 0; x < out.width; ++x)
-            for (std::size_t i = 0; i < 3; ++i)
-                out.pixel(x, y)[i] = static_cast<std::uint8_t>(
-                    sums[3 * std::size_t(x) + i] /
-                    static_cast<std::uint32_t>(rows * std::min(n, image.width - x * n)));
+        auto* to = reinterpret_cast<std::uint32_t*>(data + y * stride);
+        for (int x = 0; x < width; ++x) {
+            const int columns = std::min(n, floor.width() - x * n);
+            std::uint32_t sums[3] = {};
+            for (auto i = static_cast<std::size_t>(x * n); i < static_cast<std::size_t>(x * n + columns); ++i)
+                sums[0] += red_blue[i] & 0xffffu, sums[1] += green[i], sums[2] += red_blue[i] >> 16;
+            const auto count = static_cast<std::uint32_t>(rows * columns);
+            to[x] = sums[0] / count << 16 | sums[1] / count << 8 | sums[2] / count;
+        }
     }
+    cairo_surface_mark_dirty(out.get());
     return out;
 }
 
@@ -79,7 +87,12 @@ WorldMap::WorldMap(const bug::World& world, const Box& extra, double pixels, dou
 
 void WorldMap::draw_ground(Canvas& canvas) const {
     canvas.fill(left_, top_, width(), height(), {0.5, 0.5, 0.5});
-    for (const auto& floor : world_.floors()) draw_floor(canvas, floor);
+    try {
+        for (const auto& floor : world_.scene()->floors())
+            if (floor.texture.width() > 1) draw_floor(canvas, floor);  // the others are of one colour
+    } catch (const std::exception&) {
+        // The map shows the rest all the same; the camera reports a floor that cannot be read.
+    }
     auto solids = bug::drawing_of(world_.description());
     std::stable_sort(solids.begin(), solids.end(),
                      [](const auto& a, const auto& b) { return top_of(a) < top_of(b); });
@@ -92,39 +105,25 @@ void WorldMap::draw_loose(Canvas& canvas) const {
     for (std::size_t i = still; i < all.size(); ++i) draw_solid(canvas, all[i]);
 }
 
-void WorldMap::draw_floor(Canvas& canvas, const bug::Floor& floor) const {
+void WorldMap::draw_floor(Canvas& canvas, const bug::FloorSurface& floor) const {
     cairo_t* c = canvas.cairo();
-    bug::Image image;
-    try {
-        image = bug::read_png(floor.texture);
-    } catch (const std::exception&) {
-        return;  // the picture shows the rest all the same; the camera reports a floor that cannot be read
-    }
-    double pixel = floor.size_x * scale_ / image.width;  // of the floor's picture on ours
-    const double aspect = floor.size_y / image.height / (floor.size_x / image.width);
+    const bug::FloorTexture& texture = floor.texture;
+    double pixel = floor.size_x * scale_ / texture.width();  // of the floor's picture on ours
+    const double aspect = floor.size_y / texture.height() / (floor.size_x / texture.width());
     // It has more than are seen, and cairo takes its time with each. On paper one may look closer.
-    if (cairo_surface_get_type(cairo_get_target(c)) == CAIRO_SURFACE_TYPE_IMAGE) {
-        const int n = static_cast<int>(std::lround(1 / std::clamp(pixel, 0.01, 1.0)));
-        image = shrunk(std::move(image), n);
-        pixel *= n;
-    }
-    Surface texture(cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height));
-    auto* data = cairo_image_surface_get_data(texture.get());
-    const int stride = cairo_image_surface_get_stride(texture.get());
-    for (int y = 0; y < image.height; ++y) {
-        auto* row = reinterpret_cast<std::uint32_t*>(data + y * stride);
-        const std::uint8_t* p = image.pixel(0, y);
-        for (int x = 0; x < image.width; ++x, p += 3)
-            row[x] = std::uint32_t{p[0]} << 16 | std::uint32_t{p[1]} << 8 | p[2];
-    }
-    cairo_surface_mark_dirty(texture.get());
+    const bool on_screen = cairo_surface_get_type(cairo_get_target(c)) == CAIRO_SURFACE_TYPE_IMAGE;
+    const int n = on_screen ? static_cast<int>(std::lround(1 / std::clamp(pixel, 0.01, 1.0))) : 1;  // to 100
+    pixel *= n;
+    const Surface picture = picture_of(texture, n);
     cairo_save(c);
-    cairo_translate(c, px(floor.x - floor.size_x / 2), py(floor.y + floor.size_y / 2));
+    cairo_translate(c, px(floor.pose.x), py(floor.pose.y));
+    cairo_rotate(c, -floor.pose.yaw);
+    cairo_translate(c, -floor.size_x / 2 * scale_, -floor.size_y / 2 * scale_);
     cairo_rectangle(c, 0, 0, floor.size_x * scale_, floor.size_y * scale_);
     cairo_clip(c);
     cairo_scale(c, pixel, pixel * aspect);
-    cairo_set_source_surface(c, texture.get(), 0, 0);
-    cairo_pattern_set_filter(cairo_get_source(c), CAIRO_FILTER_GOOD);
+    cairo_set_source_surface(c, picture.get(), 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(c), on_screen ? CAIRO_FILTER_BILINEAR : CAIRO_FILTER_GOOD);
     cairo_paint(c);
     cairo_restore(c);
 }

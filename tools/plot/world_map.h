@@ -32,7 +32,7 @@ class WorldMap {
     void draw_robot(Canvas& canvas, std::size_t robot, bool rays) const;
 
   private:
-    void draw_floor(Canvas& canvas, const bug::Floor& floor) const;
+    void draw_floor(Canvas& canvas, const bug::FloorSurface& floor) const;
     void draw_solid(Canvas& canvas, const bug::DrawnSolid& solid) const;
     void draw_rays(Canvas& canvas, std::size_t robot) const;
 

@@ -10,7 +10,7 @@ using namespace forage;
 using namespace forage::bug;
 
 TEST_CASE("The basic arena has six patches, each of its own colour") {
-    const auto patches = patches_of(floors_of(test::description("basic_arena")));
+    const auto patches = patches_of(Scene(test::description("basic_arena")).floors());
     const std::map<std::string, Eigen::Vector2d> places{{"red", {-1.49, 1.694}},    {"green", {1.49, 1.694}},
                                                         {"yellow", {0, 0.993}},     {"cyan", {-1.49, 0.204}},
                                                         {"magenta", {1.49, 0.204}}, {"blue", {0, -0.497}}};
@@ -25,7 +25,7 @@ TEST_CASE("The basic arena has six patches, each of its own colour") {
 
 TEST_CASE("In the ambiguous arena the upper patches are all red") {
     std::multimap<std::string, double> by_colour;
-    for (const Patch& patch : patches_of(floors_of(test::description("ambiguous_arena"))))
+    for (const Patch& patch : patches_of(Scene(test::description("ambiguous_arena")).floors()))
         by_colour.emplace(patch.colour, patch.middle.y());
     CHECK(by_colour.size() == 6);
     CHECK(by_colour.count("red") == 3);

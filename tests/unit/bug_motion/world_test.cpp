@@ -227,8 +227,8 @@ TEST_CASE("The camera sees the floor in front of the robot") {
 
 TEST_CASE("What is drawn: floors, walls and colours") {
     const auto world = make_world(description("basic_arena"));
-    REQUIRE(world->floors().size() == 1);
-    CHECK(world->floors()[0].size_x == 8);
+    REQUIRE(world->scene()->floors().size() == 1);
+    CHECK(world->scene()->floors()[0].size_x == 8);
     const auto drawing = world->drawing();
     CHECK(drawing.size() == 5);  // wall, target, three start discs; not the robot
 }
