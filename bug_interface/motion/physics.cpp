@@ -12,7 +12,7 @@ namespace forage::bug {
 namespace {
 
 double wrapped(double yaw) {
-    if (yaw > -std::numbers::pi && yaw <= std::numbers::pi) return yaw;
+    if (yaw > -std::numbers::pi && yaw <= std::numbers::pi) return yaw + 0.0;  // no negative zero
     const double rest = std::remainder(yaw, 2 * std::numbers::pi);
     return rest <= -std::numbers::pi ? std::numbers::pi : rest;
 }

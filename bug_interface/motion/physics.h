@@ -49,14 +49,16 @@ struct Body {
 
 /// Moves bodies in steps. In every step each driven body is given its velocity anew, contacts take away what
 /// would lead into an obstacle or another body, friction takes its share, and the rest moves the body: x += v
-/// cos(yaw) dt, y += v sin(yaw) dt, yaw += w dt, with the yaw from the start of the step.
+/// cos(yaw) dt, y += v sin(yaw) dt, yaw += w dt, with the yaw from the start of the step. What then is too
+/// deep in something is moved out of it.
 ///
 /// Contacts are resolved by Bullet, and only in steps in which some body could touch something, among the
 /// bodies that could (nearness.cpp). Far from everything Bullet would change nothing and is not called: both
 /// ways give the same bits. There is no restitution, and nothing of a contact lasts longer than its step,
 /// except the velocity of loose things.
 ///
-/// No step ends with shapes deeper in each other than 0.8 mm, or than they were (separation.cpp).
+/// No step ends with shapes deeper in each other than 0.8 mm, or than they were when it began
+/// (separation.cpp).
 class Physics {
   public:
     /// When Bullet is called. `always` is for tests and benchmarks.
@@ -121,11 +123,11 @@ class Physics {
         double reach = 0;       ///< radius of a circle round all that it ever was, m
         LayerMask layers = 0;   ///< of its middle and parts
         int touches = 0;
-        double faces = 0, cos_yaw = 1, sin_yaw = 0;  ///< of the last yaw that was asked for
-        /// Computes them for the pose.
+        double facing = 0, cos_yaw = 1, sin_yaw = 0;  ///< a yaw, and of that
+        /// Makes them those of the pose.
         void face() {
-            if (faces == pose.yaw) return;
-            faces = pose.yaw, cos_yaw = std::cos(faces), sin_yaw = std::sin(faces);
+            if (facing == pose.yaw) return;
+            facing = pose.yaw, cos_yaw = std::cos(facing), sin_yaw = std::sin(facing);
         }
     };
     struct Velocity {

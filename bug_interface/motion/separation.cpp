@@ -1,4 +1,4 @@
-// No step ends with shapes deeper in each other than they were, or than half a millimetre.
+// No step ends with shapes deeper in each other than 0.8 mm, or than they were when it began.
 //
 // Bullet solves velocities. It tells of two boxes only once they overlap, and its solution is approximate
 // where a body is squeezed from several sides. What a step got too deep into each other is moved apart here;
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double depth_left = 5e-4;       ///< m that shapes may stay in each other
 constexpr double depth_tolerated = 8e-4;  ///< m, where all moves left more than that
-constexpr double depth_noticed = 1e-9;    ///< m more that are worth a move
+constexpr double depth_noticed = 1e-12;   ///< m more that are worth a move
 constexpr int most_rounds = 20;           ///< of moves, pair by pair
 
 double square(double v) { return v * v; }
@@ -24,8 +24,9 @@ bool may_touch(const Outline& a, const Outline& b) {
 
 }  // namespace
 
-/// Calls visit(a, shape of a, b, shape of b, how deep they are in each other) for shapes of bodies that are
-/// involved. For an obstacle, b is the number of bodies and its shape the number of the obstacle.
+/// Calls visit(a, shape of a, b, shape of b, how deep they are in each other) for shapes that are deeper in
+/// each other than half a millimetre, where a or b is involved. For an obstacle, b is the number of bodies
+/// and its shape the number of the obstacle.
 template <class F>
 void Physics::each_overlap(F&& visit) {
     const auto look = [&](std::size_t a, std::size_t p, const Outline& there, std::size_t b, std::size_t q) {
@@ -36,8 +37,8 @@ void Physics::each_overlap(F&& visit) {
     };
     for (std::size_t a = 0; a < states_.size(); ++a) {
         const State& s = states_[a];
-        if (!s.involved) continue;
-        for (std::size_t o = 0; o < obstacles_.size(); ++o) {
+        if (!s.present) continue;
+        for (std::size_t o = 0; s.involved && o < obstacles_.size(); ++o) {
             const Outline& there = obstacles_[o].outline;
             if (!(obstacles_[o].layers & s.layers) ||
                 square(there.x - s.pose.x) + square(there.y - s.pose.y) >= square(reach(there) + s.reach))
@@ -46,7 +47,8 @@ void Physics::each_overlap(F&& visit) {
                 if (obstacles_[o].layers >> shapes(a)[p].layer & 1u) look(a, p, there, bodies_.size(), o);
         }
         for (std::size_t b = 0; b < a; ++b) {
-            if (!states_[b].involved || apart(a, b) >= 0) continue;
+            const State& other = states_[b];
+            if (!other.present || !(s.involved || other.involved) || apart(a, b) >= 0) continue;
             for (std::size_t p = 0; p < shapes(a).size(); ++p)
                 for (std::size_t q = 0; q < shapes(b).size(); ++q)
                     if (meet(LayerMask{1} << shapes(a)[p].layer, shapes(b)[q].layer))
@@ -72,14 +74,22 @@ double Physics::depth_before(std::size_t a, std::size_t p, std::size_t b, std::s
 void Physics::shift(std::size_t body, double x, double y) {
     State& s = states_[body];
     s.pose.x += x, s.pose.y += y;
+    s.involved = true;  // it may be one that nobody could reach by the velocities before they were solved
     s.room -= std::sqrt(x * x + y * y);
 }
 
+/// Two that both stayed where they were are left alone: some are placed in each other.
 void Physics::separate() {
+    const auto stayed = [&](std::size_t i) {
+        if (i == bodies_.size()) return true;
+        const Pose2 &now = states_[i].pose, &before = began_[i];
+        return now.x == before.x && now.y == before.y && now.yaw == before.yaw;
+    };
     for (int round = 0; round < most_rounds; ++round) {
         bool moved = false;
         each_overlap([&](std::size_t a, std::size_t p, std::size_t b, std::size_t q, const Overlap& in) {
-            const double before = depth_before(a, p, b, q);  // some are placed in each other
+            if (stayed(a) && stayed(b)) return;
+            const double before = depth_before(a, p, b, q);
             const double deeper = in.depth - (before > depth_tolerated ? before : depth_left);
             if (deeper <= depth_noticed) return;
             moved = true;
@@ -92,8 +102,8 @@ void Physics::separate() {
     take_back();
 }
 
-/// Where a step began nothing was too deep in anything: who still is goes back there, and who is in the way
-/// of that too.
+/// Where a step began nothing was deeper in anything than it may be: who is goes back there, at rest, and so
+/// does who is in the way of that.
 void Physics::take_back() {
     stays_.assign(states_.size(), 0);
     for (bool more = true; more;) {
@@ -101,7 +111,7 @@ void Physics::take_back() {
         const auto stay = [&](std::size_t i) {
             if (i == bodies_.size() || stays_[i]) return;
             stays_[i] = more = true;
-            states_[i].pose = began_[i];
+            states_[i].pose = began_[i], states_[i].involved = true;
             velocities_[i] = {};
         };
         each_overlap([&](std::size_t a, std::size_t p, std::size_t b, std::size_t q, const Overlap& in) {

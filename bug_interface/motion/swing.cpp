@@ -112,12 +112,15 @@ bool Physics::swing(std::size_t body, std::span<const std::pair<std::size_t, Out
         for (std::size_t i = 0; i < parts.size(); ++i) {
             const Outline is = moved(parts[i].second, state.pose), was = moved(unswung_[i], state.pose);
             const int layer = shape.parts[parts[i].first].layer;
+            Overlap deepest;
             each_shape(thing, other.pose, [&](const Outline& o, int there) {
                 if (!meet(LayerMask{1} << layer, there)) return;
                 const Overlap in = overlap(is, o);
-                if (in.depth <= tolerance || in.depth <= overlap(was, o).depth) return;
-                other.pose.x += in.depth * in.normal.x(), other.pose.y += in.depth * in.normal.y();
+                if (in.depth > tolerance && in.depth > overlap(was, o).depth && in.depth > deepest.depth)
+                    deepest = in;
             });
+            other.pose.x += deepest.depth * deepest.normal.x();
+            other.pose.y += deepest.depth * deepest.normal.y();
         }
         if (other.pose.x == from.x && other.pose.y == from.y) continue;
         possible = is_free(thing, from, other.pose);

@@ -36,7 +36,7 @@ FloorTexture::FloorTexture(Image image, const Colour& gain)
         const std::uint32_t* here = &texels_[row * stride + column];
         const std::uint32_t all = std::accumulate(here, here + count, ~0u, std::bit_and());
         unsigned bits = 0;
-        if (!flat(all))  // of most are all flat
+        if (!flat(all))  // mostly all are
             for (std::size_t i = 0; i < count; ++i) bits |= (flat(here[i]) ? 0u : 1u) << i;
         return bits;
     });

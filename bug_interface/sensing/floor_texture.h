@@ -19,7 +19,7 @@ namespace forage::bug {
 /// same.
 class FloorTexture {
   public:
-    /// `gain`: light on a white texel, per channel; may exceed 1.
+    /// `image` has a border of one pixel. `gain`: light on a white texel, per channel; may exceed 1.
     FloorTexture(Image image, const Colour& gain);
     /// One colour everywhere: a picture of 1 x 1.
     explicit FloorTexture(const Colour& colour);

@@ -21,7 +21,7 @@ std::string name_of(int hue) {
     return names[static_cast<std::size_t>((hue + 7) / 15) % names.size()];
 }
 
-/// A picture of the floor, red, green and blue; every so manieth pixel where it has more than enough.
+/// A picture of the floor, red, green and blue; every n-th pixel where it has more than enough.
 cv::Mat looked_at(const FloorTexture& floor) {
     const double scale = std::min(1.0, double(longest_side) / std::max(floor.width(), floor.height()));
     cv::Mat out(std::max(1, static_cast<int>(std::lround(floor.height() * scale))),

@@ -120,8 +120,8 @@ class World {
     const Robot& robot(std::size_t bug) const { return robots_[bug]; }
     const Stage& stage() const { return stage_; }  ///< at the last snapshot
     std::span<const MovingSight> moving_sights() const { return sights_; }
-    /// What stands still, for cameras and maps: made when it is first asked for. Throws std::runtime_error
-    /// when a floor's picture cannot be read.
+    /// What stands still, for cameras and maps: made when it is first asked for, so not by two threads at a
+    /// time. Throws std::runtime_error when a floor's picture cannot be read.
     std::shared_ptr<const Scene> scene() const;
     const WorldDescription& description() const { return description_; }
     const Physics& physics() const { return *physics_; }

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "bug_interface/world/huge_pages.h"
+#include "core/types/huge_pages.h"
 
 namespace forage::bug {
 
-using Pixels = std::vector<std::uint32_t, HugePages<std::uint32_t>>;
+using Pixels = HugeVector<std::uint32_t>;
 
 /// A picture with a border round it.
 struct Image {
@@ -27,7 +27,7 @@ struct Image {
 
 /// Transparent pixels stand before black. Throws std::runtime_error with the reason when the file cannot be
 /// read.
-Image read_png(const std::string& path, int border = 0);
+Image read_png(const std::string& path, int border);
 
 /// What keeps a file from being a picture for read_png(), as far as its beginning and end tell; empty when
 /// nothing does.

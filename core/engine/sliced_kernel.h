@@ -5,6 +5,7 @@
 
 #include "core/engine/by_target.h"
 #include "core/engine/kernel.h"
+#include "core/types/huge_pages.h"
 
 namespace forage::engine {
 
@@ -32,13 +33,13 @@ class SlicedKernel final : public Kernel {
 
     const SynapseInstance& synapse_;
     std::size_t source_cells_, targets_;
-    std::vector<int> delays_;     ///< those that occur
-    std::vector<double> scaled_;  ///< by delay: gain times activity; then a 0
-    double factor_;               ///< of every synapse, when it is the same
+    std::vector<int> delays_;    ///< those that occur
+    HugeVector<double> scaled_;  ///< by delay: gain times activity; then a 0
+    double factor_;              ///< of every synapse, when it is the same
     std::vector<Slice> slices_;
-    std::vector<int> target_;     ///< of lane l of slice s: target_[8 s + l]; -1 for none
-    std::vector<Cell> pre_;       ///< places in scaled_
-    std::vector<double> weight_;  ///< factors; empty when all are the same
+    std::vector<int> target_;    ///< of lane l of slice s: target_[8 s + l]; -1 for none
+    HugeVector<Cell> pre_;       ///< places in scaled_
+    HugeVector<double> weight_;  ///< factors; empty when all are the same
 };
 
 /// Null when a list serves better: many delays, or targets of very different numbers of synapses. Takes

@@ -1,5 +1,8 @@
 #include "tools/forage/pictures.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "tools/forage/files.h"
 #include "tools/forage/structure.h"
 #include "tools/plot/trajectory.h"
@@ -38,7 +41,7 @@ std::vector<std::string> write_pictures(const RunOptions& o, const Running& r, O
         attempt(name + ".csv", [&] { return r.paths[i].csv(); });
         auto paths = r.paths[i].paths();
         const auto leads_somewhere = [](const plot::Path& path) { return path.points.size() > 1; };
-        if (std::none_of(paths.begin(), paths.end(), leads_somewhere)) continue;  // there is no path to show
+        if (!r.plots.paths() && std::none_of(paths.begin(), paths.end(), leads_somewhere)) continue;
         attempt(name + std::string(plot::ending(format)), [&] {
             return plot::render(plot::trajectory_plot(*r.loaded.world, std::move(paths), title), format);
         });

@@ -95,8 +95,11 @@ LivePlots LivePlots::make(const std::vector<model::Wish>& wishes, const model::S
     for (const auto& [text, at] : wishes) {
         const std::string option = at.file ? "plot" : "--plot";
         auto wish = parse_plot(text, option, diagnostics, at);
-        if (!wish || wish->kind == PlotWish::Kind::trajectory)
-            continue;  // every run in a world draws its paths
+        if (!wish) continue;
+        if (wish->kind == PlotWish::Kind::trajectory) {
+            out.paths_ = true;
+            continue;
+        }
         if (!wish->of_cells()) {
             check_structure(*wish, system, option, diagnostics, at);
             out.others_.push_back(std::move(*wish));

@@ -65,12 +65,14 @@ class LivePlots {
 
     const std::vector<RowPlot>& of_cells() const { return plots_; }
     const std::vector<PlotWish>& others() const { return others_; }  ///< diagrams and connections
+    bool paths() const { return paths_; }  ///< of robots, also when they lead nowhere
 
   private:
     std::vector<RowPlot> plots_;
     std::vector<observe::Source> sources_;  ///< one for each of plots_
     std::vector<double> row_;
     std::vector<PlotWish> others_;
+    bool paths_ = false;
 };
 
 }  // namespace forage::tool

@@ -33,10 +33,10 @@ void dashed(cairo_t* c, double on, double off) {
 Surface picture_of(const bug::FloorTexture& floor, int n) {
     const int width = (floor.width() + n - 1) / n, height = (floor.height() + n - 1) / n;
     Surface out(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
+    if (cairo_surface_status(out.get()) != CAIRO_STATUS_SUCCESS) return out;  // larger than cairo draws
     auto* data = cairo_image_surface_get_data(out.get());
     const int stride = cairo_image_surface_get_stride(out.get());
-    // Of every column the sums of n rows: in the high half of a word those of blue, below of red, and of
-    // green.
+    // The sums of n rows, by column: those of blue in the high half of a word, of red in the low half.
     std::vector<std::uint32_t> red_blue(static_cast<std::size_t>(floor.width())), green(red_blue.size());
     for (int y = 0; y < height; ++y) {
         const int rows = std::min(n, floor.height() - y * n);
@@ -89,7 +89,7 @@ void WorldMap::draw_ground(Canvas& canvas) const {
     canvas.fill(left_, top_, width(), height(), {0.5, 0.5, 0.5});
     try {
         for (const auto& floor : world_.scene()->floors())
-            if (floor.texture.width() > 1) draw_floor(canvas, floor);  // the others are of one colour
+            if (floor.texture.width() * floor.texture.height() > 1) draw_floor(canvas, floor);
     } catch (const std::exception&) {
         // The map shows the rest all the same; the camera reports a floor that cannot be read.
     }

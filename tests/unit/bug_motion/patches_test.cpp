@@ -32,6 +32,23 @@ TEST_CASE("In the ambiguous arena the upper patches are all red") {
     for (auto [red, end] = by_colour.equal_range("red"); red != end; ++red) CHECK(red->second > 0.9);
 }
 
+TEST_CASE("Patches turn with their floor") {
+    auto turned = test::description("basic_arena");
+    const auto turn = Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ());
+    Model* floor = nullptr;
+    for (Model& model : turned.models)
+        for (const Link& link : model.links)
+            for (const Visual& visual : link.visuals)
+                if (visual.shape.kind == ShapeKind::plane) floor = &model;
+    REQUIRE(floor);
+    floor->pose = turn * floor->pose;
+    const Scene straight(test::description("basic_arena")), scene(turned);
+    const auto before = patches_of(straight.floors()), after = patches_of(scene.floors());
+    REQUIRE(before.size() == after.size());
+    for (std::size_t i = 0; i < before.size(); ++i)
+        CHECK((after[i].middle - Eigen::Vector2d(-before[i].middle.y(), before[i].middle.x())).norm() < 1e-9);
+}
+
 TEST_CASE("A place lies in a patch up to its rim") {
     const std::vector<Patch> patches{{{0, 0}, 0.2, "red"}, {{1, 0}, 0.2, "blue"}};
     CHECK(patch_at(patches, {0.19, 0}) == 0);

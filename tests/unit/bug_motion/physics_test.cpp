@@ -128,6 +128,36 @@ TEST_CASE("A robot that was put into a wall is not pushed out of it, and gets no
     CHECK(r.pose().x < 0.3);
 }
 
+TEST_CASE("A thing that is hit by something fast does not run into the next one") {
+    Body ball;
+    ball.driven = false, ball.radius = 0.08, ball.mass = 0.01, ball.inertia = 1;
+    const std::array<Body, 3> bodies = {Body{}, ball, ball};
+    for (const double speed : {1.0, 8.0, 30.0})
+        for (double gap = 0.0005; gap < 0.06; gap *= 1.3) {
+            Physics p({}, bodies, dt);
+            p.place(0, {0, 0, 0}), p.place(1, {0.35, 0, 0}), p.place(2, {0.35 + 2 * ball.radius + gap, 0, 0});
+            for (int i = 0; i < 200; ++i) {
+                p.step(std::array<MotorCommand, 3>{{{speed, 0}, {}, {}}});
+                INFO(speed << " m/s, " << gap << " m, step " << i);
+                REQUIRE(p.pose(1).x - p.pose(0).x > radius + ball.radius - 0.001);
+                REQUIRE(p.pose(2).x - p.pose(1).x > 2 * ball.radius - 0.001);
+            }
+        }
+}
+
+TEST_CASE("Things that rest in each other are left there, whoever looks") {
+    Body ball;
+    ball.driven = false, ball.radius = 0.08, ball.mass = 0.01, ball.inertia = 1;
+    const std::array<Body, 3> bodies = {Body{}, ball, ball};
+    for (const auto when : {Physics::Contacts::when_near, Physics::Contacts::always}) {
+        Physics p({}, bodies, dt, when);
+        p.place(0, {5, 0, 0}), p.place(1, {0, 0, 0}), p.place(2, {2 * ball.radius - 0.0007, 0, 0});
+        for (int i = 0; i < 100; ++i) p.step(std::array<MotorCommand, 3>{{{0.1, 0.1}, {}, {}}});
+        CHECK(p.pose(2).x == 2 * ball.radius - 0.0007);
+        CHECK(p.pose(1).x == 0);
+    }
+}
+
 TEST_CASE("A robot that is squeezed between two crates and a wall gets into none of them") {
     // The wall is in front, and two heavy crates come from the sides, corners first.
     Body crate;

@@ -1,0 +1,46 @@
+// Memory for large tables.
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include <sys/mman.h>
+
+namespace forage {
+
+/// An allocator that asks the system for large pages for large blocks: fewer of them have to be made, and
+/// looked up. Where there are none it is an ordinary one.
+template <class T>
+class HugePages {
+  public:
+    using value_type = T;
+    HugePages() = default;
+    template <class U>
+    HugePages(const HugePages<U>&) {}
+
+    T* allocate(std::size_t count) {
+        const std::size_t size = count * sizeof(T), whole = (size + page - 1) / page * page;
+        if (size < large) return static_cast<T*>(::operator new(size));
+        void* memory = std::aligned_alloc(page, whole);
+        if (!memory) throw std::bad_alloc();
+        madvise(memory, whole, MADV_HUGEPAGE);
+        return static_cast<T*>(memory);
+    }
+    void deallocate(T* memory, std::size_t count) {
+        if (count * sizeof(T) < large)
+            ::operator delete(memory);
+        else
+            std::free(memory);
+    }
+    bool operator==(const HugePages&) const = default;
+
+  private:
+    static constexpr std::size_t page = std::size_t{2} << 20, large = page / 4;  ///< bytes
+};
+
+template <class T>
+using HugeVector = std::vector<T, HugePages<T>>;
+
+}  // namespace forage
