@@ -9,6 +9,7 @@ namespace {
 
 constexpr float box_half_height = 1;    ///< m; any, as long as contacts are horizontal
 constexpr btScalar touching = 0.0005f;  ///< m; shapes nearer than this touch
+constexpr btScalar residual = 1e-12f;   ///< (N s)^2, below which impulses are solved: some 1e-7 m/s
 
 /// Bullet's default is megabytes for thousands of contacts; it takes more when these are used up.
 btDefaultCollisionConstructionInfo small_pools() {
@@ -20,10 +21,15 @@ btDefaultCollisionConstructionInfo small_pools() {
 btScalar scalar(double v) { return static_cast<btScalar>(v); }
 btVector3 vector(double x, double y) { return {scalar(x), scalar(y), 0}; }
 
+btMatrix3x3 turn(double cos_yaw, double sin_yaw) {
+    const btScalar c = scalar(cos_yaw), s = scalar(sin_yaw);
+    return {c, -s, 0, s, c, 0, 0, 0, 1};
+}
+
 btTransform place_of(const Outline& o) {
     btTransform transform = btTransform::getIdentity();
     transform.setOrigin(vector(o.x, o.y));
-    if (!o.round) transform.setRotation({{0, 0, 1}, scalar(std::atan2(o.sin_yaw, o.cos_yaw))});
+    if (!o.round) transform.setBasis(turn(o.cos_yaw, o.sin_yaw));
     return transform;
 }
 
@@ -48,7 +54,8 @@ Physics::Engine::Engine(std::span<const Obstacle> obstacles, std::span<const Bod
     solver_.setConstraintRowSolverGeneric(solver_.getScalarConstraintRowSolverGeneric());
     solver_.setConstraintRowSolverLowerLimit(solver_.getScalarConstraintRowSolverLowerLimit());
     info_.m_solverMode = 0;  // no warm start: see above
-    info_.m_erp2 = 0;        // whatever overlaps may stay so: static things push nothing out in the original
+    info_.m_leastSquaresResidualThreshold = residual;
+    info_.m_erp2 = 0;  // whatever overlaps may stay so: static things push nothing out in the original
     for (const Obstacle& o : obstacles) add(o);
     obstacles_ = objects_.size();
     for (const Body& b : bodies)
@@ -69,8 +76,7 @@ void Physics::Engine::set(std::size_t body, const State& state, const Velocity& 
     const bool round = object.getCollisionShape()->getShapeType() == SPHERE_SHAPE_PROXYTYPE;
     if (state.involved) {
         transform.setOrigin(vector(state.pose.x, state.pose.y));
-        const btScalar c = scalar(state.cos_yaw), s = scalar(state.sin_yaw);
-        if (!round) transform.setBasis({c, -s, 0, s, c, 0, 0, 0, 1});
+        if (!round) transform.setBasis(turn(state.cos_yaw, state.sin_yaw));
     } else {
         transform.setOrigin(vector(1e4, 10.0 * static_cast<double>(body)));
     }

@@ -48,7 +48,7 @@ const std::vector<Physics::Placed>& Physics::shapes(std::size_t body) {
     state.face();
     each_shape(body, Frame(pose.x, pose.y, state.cos_yaw, state.sin_yaw),
                [&](const Outline& outline, int layer) {
-                   s.shapes.push_back({outline, layer});
+                   s.shapes.push_back({outline, layer, reach(outline)});
                });
     s.at = pose, s.known = true;
     return s.shapes;
@@ -60,7 +60,7 @@ double Physics::gap_between(std::size_t body, std::size_t other) {
     for (const Placed& a : shapes(body))
         for (const Placed& b : shapes(other)) {
             // Circles round them first: most shapes are far from each other.
-            const double near = gap + reach(a.outline) + reach(b.outline);
+            const double near = gap + a.reach + b.reach;
             const double dx = b.outline.x - a.outline.x, dy = b.outline.y - a.outline.y;
             if (near >= 0 && dx * dx + dy * dy >= near * near) continue;
             if (meet(LayerMask{1} << a.layer, b.layer))

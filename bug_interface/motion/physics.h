@@ -138,6 +138,7 @@ class Physics {
     struct Placed {
         Outline outline;
         int layer = 0;
+        double reach = 0;  ///< radius of a circle round it, m
     };
     /// The shapes of a body as they were placed last.
     struct Standing {

@@ -18,8 +18,9 @@ constexpr double depth_noticed = 1e-12;   ///< m more that are worth a move
 constexpr int most_rounds = 20;           ///< of moves, pair by pair
 
 double square(double v) { return v * v; }
-bool may_touch(const Outline& a, const Outline& b) {
-    return square(b.x - a.x) + square(b.y - a.y) < square(reach(a) + reach(b));
+/// Whether circles round two outlines, which reach so far together, touch.
+bool may_touch(const Outline& a, const Outline& b, double reaches) {
+    return square(b.x - a.x) + square(b.y - a.y) < square(reaches);
 }
 
 }  // namespace
@@ -29,10 +30,11 @@ bool may_touch(const Outline& a, const Outline& b) {
 /// and its shape the number of the obstacle.
 template <class F>
 void Physics::each_overlap(F&& visit) {
-    const auto look = [&](std::size_t a, std::size_t p, const Outline& there, std::size_t b, std::size_t q) {
-        const Outline& here = shapes(a)[p].outline;
-        if (!may_touch(there, here)) return;
-        const Overlap in = overlap(there, here);
+    const auto look = [&](std::size_t a, std::size_t p, const Outline& there, double reach_there,
+                          std::size_t b, std::size_t q) {
+        const Placed& here = shapes(a)[p];
+        if (!may_touch(there, here.outline, reach_there + here.reach)) return;
+        const Overlap in = overlap(there, here.outline);
         if (in.depth > depth_left + depth_noticed) visit(a, p, b, q, in);
     };
     for (std::size_t a = 0; a < states_.size(); ++a) {
@@ -40,19 +42,23 @@ void Physics::each_overlap(F&& visit) {
         if (!s.present) continue;
         for (std::size_t o = 0; s.involved && o < obstacles_.size(); ++o) {
             const Outline& there = obstacles_[o].outline;
-            if (!(obstacles_[o].layers & s.layers) ||
-                square(there.x - s.pose.x) + square(there.y - s.pose.y) >= square(reach(there) + s.reach))
+            if (!(obstacles_[o].layers & s.layers)) continue;
+            const double reach_there = reach(there);
+            if (square(there.x - s.pose.x) + square(there.y - s.pose.y) >= square(reach_there + s.reach))
                 continue;
             for (std::size_t p = 0; p < shapes(a).size(); ++p)
-                if (obstacles_[o].layers >> shapes(a)[p].layer & 1u) look(a, p, there, bodies_.size(), o);
+                if (obstacles_[o].layers >> shapes(a)[p].layer & 1u)
+                    look(a, p, there, reach_there, bodies_.size(), o);
         }
         for (std::size_t b = 0; b < a; ++b) {
             const State& other = states_[b];
             if (!other.present || !(s.involved || other.involved) || apart(a, b) >= 0) continue;
             for (std::size_t p = 0; p < shapes(a).size(); ++p)
-                for (std::size_t q = 0; q < shapes(b).size(); ++q)
-                    if (meet(LayerMask{1} << shapes(a)[p].layer, shapes(b)[q].layer))
-                        look(a, p, shapes(b)[q].outline, b, q);
+                for (std::size_t q = 0; q < shapes(b).size(); ++q) {
+                    const Placed& there = shapes(b)[q];
+                    if (meet(LayerMask{1} << shapes(a)[p].layer, there.layer))
+                        look(a, p, there.outline, there.reach, b, q);
+                }
         }
     }
 }
