@@ -62,6 +62,13 @@ void check_homes(const WorldDescription& world, Diagnostics& diagnostics) {
 }  // namespace
 
 void check_models(const WorldDescription& world, Diagnostics& diagnostics) {
+    constexpr std::ptrdiff_t most_robots = 200;  // each keeps its own pictures of what it sees: about 1 MB
+    std::ptrdiff_t robots = 0;
+    for (const Model& model : world.models)
+        if (robot_link(model) && ++robots == most_robots + 1)
+            diagnostics.error(model.where,
+                              fmt::format("this is robot {}: a world holds {} at most", robots, most_robots),
+                              "take some away, or run several worlds");
     for (const Model& model : world.models) {
         check_plugins(model, diagnostics);
         if (robot_link(model)) check_robot(model, diagnostics);

@@ -54,6 +54,7 @@ std::unique_ptr<World> World::make(const WorldDescription& description, const Wo
 bool World::build(Diagnostics& diagnostics) {
     const int errors_before = diagnostics.errors();
     check_models(description_, diagnostics);
+    if (diagnostics.errors() > errors_before) return false;
     if (options_.game && !description_.game) description_.game.emplace();
     plan_ = find_reset(description_, diagnostics);
     targets_ = targets_of(description_);

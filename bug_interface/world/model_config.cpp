@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "bug_interface/world/model_folders.h"
 #include "bug_interface/world/sdf_values.h"
+#include "core/model/named_file.h"
 #include "core/xml/element.h"
 
 namespace forage::bug {
@@ -37,9 +37,10 @@ std::optional<std::string> file_of_model(const fs::path& folder, const Location&
                           "it says which file holds the model; copy it from another model");
         return {};
     }
-    constexpr std::size_t most_nodes = 1000;
-    const auto model =
-        xml::parse_element(config, read_text(config).value_or(""), "<model>", most_nodes, diagnostics);
+    constexpr std::size_t most_nodes = 1000, largest_file = std::size_t{1} << 20;
+    auto text = read_file(config.string(), largest_file, diagnostics);
+    if (!text) return {};
+    const auto model = xml::parse_element(config, std::move(*text), "<model>", most_nodes, diagnostics);
     if (!model) return {};
     const xml::Element* sdf = newest(*model);
     if (!sdf || sdf->text.empty()) {

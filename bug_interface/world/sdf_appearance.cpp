@@ -48,6 +48,22 @@ std::string texture_of(SdfSource& in, const xml::Element& script, const std::str
     return {};
 }
 
+/// Contacts are found in single precision: what is very large or very small cannot be right in it.
+void check_size(SdfSource& in, const Shape& shape, const Location& where) {
+    constexpr double smallest = 1e-6, largest = 1e4;  // m
+    const auto size = shape.size.array();
+    if ((size < 0).any()) in.diagnostics.error(where, "a size is negative", "sizes are in m");
+    const auto zeros = (size == 0).count();  // a box may be flat, and is then no obstacle
+    if (shape.kind != ShapeKind::plane && zeros > (shape.kind == ShapeKind::box ? 1 : 0))
+        in.diagnostics.error(where, "a size is 0", "sizes are in m");
+    if (!(size <= largest).all())
+        in.diagnostics.error(where,
+                             fmt::format("a size of {:g} m is more than {:g} m", size.maxCoeff(), largest),
+                             "sizes are in m");
+    if (((size > 0) && (size < smallest)).any())
+        in.diagnostics.error(where, fmt::format("a size is less than {:g} m", smallest), "sizes are in m");
+}
+
 }  // namespace
 
 Shape read_shape(SdfSource& in, const xml::Element& parent) {
@@ -58,6 +74,9 @@ Shape read_shape(SdfSource& in, const xml::Element& parent) {
                              "the shapes are <plane>, <box>, <cylinder> and <sphere>");
         return shape;
     }
+    if (geometry->children.size() > 1)
+        in.diagnostics.error(geometry->children[1].where, "a <geometry> holds one shape; this is another one",
+                             fmt::format("give it a <{}> of its own", parent.name));
     const xml::Element& kind = geometry->children.front();
     if (kind.name == "box") {
         shape = {ShapeKind::box, in.value(kind, "size", Eigen::Vector3d(1, 1, 1))};
@@ -74,10 +93,7 @@ Shape read_shape(SdfSource& in, const xml::Element& parent) {
                              "the shapes are <plane>, <box>, <cylinder> and <sphere>");
         return shape;
     }
-    if ((shape.size.array() < 0).any()) in.diagnostics.error(kind.where, "a size is negative");
-    const auto zeros = (shape.size.array() == 0).count();  // a box may be flat, and is then no obstacle
-    if (shape.kind != ShapeKind::plane && zeros > (shape.kind == ShapeKind::box ? 1 : 0))
-        in.diagnostics.error(kind.where, "a size is 0");
+    check_size(in, shape, kind.where);
     return shape;
 }
 

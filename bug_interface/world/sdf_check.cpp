@@ -82,7 +82,9 @@ class Check {
                 diagnostics_.error(e.where, fmt::format("<{}> needs the attribute '{}'", e.name, name),
                                    fmt::format("<{} {}=\"...\">", e.name, name));
         for (const std::string_view name : required_children(e.name))
-            if (!e.child(name)) diagnostics_.error(e.where, fmt::format("<{}> needs a <{}>", e.name, name));
+            if (!e.child(name))
+                diagnostics_.error(e.where, fmt::format("<{}> needs a <{}>", e.name, name),
+                                   fmt::format("<{0}><{1}>...</{1}></{0}>", e.name, name));
         if (content == Content::truth)
             check_truth(e);
         else if (content != Content::elements && content != Content::text && content != Content::anything)
@@ -103,7 +105,8 @@ class Check {
         if (e.text.empty())
             empty(e);
         else if (!truth(e.text))
-            diagnostics_.error(e.where, fmt::format("<{}> must be true or false", e.name));
+            diagnostics_.error(e.where, fmt::format("<{}> cannot be '{}'", e.name, shown(e.text)),
+                               "write true or false");
     }
 
     void empty(const xml::Element& e) {
@@ -122,6 +125,9 @@ class Check {
             return diagnostics_.error(
                 e.where, fmt::format("<{}> has {} numbers instead of {}", e.name, values.size(), wanted),
                 expected(e, content));
+        if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }))
+            return diagnostics_.error(e.where, fmt::format("<{}> holds a number that is not finite", e.name),
+                                      expected(e, content));
         const auto outside = [](double v) { return !(v >= 0 && v <= 1); };
         if ((content == Content::whole_number && std::trunc(values[0]) != values[0]) ||
             (content == Content::colour && std::any_of(values.begin(), values.end(), outside)))
@@ -153,7 +159,11 @@ void check_sdf(const xml::Element& root, Diagnostics& diagnostics) {
     if (root.name != "sdf" && root.name != "gazebo")  // the root of version 1.2
         return diagnostics.error(
             root.where,
-            fmt::format("the root element is <{}>; that of a world or a model is <sdf>", root.name));
+            fmt::format("the root element is <{}>; that of a world or a model is <sdf>", root.name),
+            root.name == "System" ? "this is a system file; a world holds the robot, its arena and the lights"
+            : root.name == "experiment"
+                ? "this is an experiment file; 'forage experiment' runs it"
+                : "a world file is <sdf version=\"1.4\"><world name=\"..\">..</world></sdf>");
     const auto* version = root.attribute("version");
     if (!version)
         return diagnostics.error(root.where, "<sdf> needs the attribute 'version'", "<sdf version=\"1.4\">");

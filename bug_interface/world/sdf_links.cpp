@@ -15,7 +15,12 @@ Link read_link(SdfSource& in, const xml::Element& e) {
         link.mass = in.value(*inertial, "mass", 1.0);
         link.inertia_z = in.value(*inertial, "inertia/izz", 1.0);
         if (!(link.mass > 0 && link.inertia_z > 0))
-            in.diagnostics.error(inertial->where, "mass and inertia must be positive");
+            in.diagnostics.error(inertial->where, "mass and inertia must be positive",
+                                 "they are in kg and kg m2");
+        constexpr double heaviest = 1e6;
+        if (link.mass > heaviest || link.inertia_z > heaviest)
+            in.diagnostics.error(inertial->where, fmt::format("mass or inertia is more than {:g}", heaviest),
+                                 "they are in kg and kg m2");
     }
     each(e, "collision", [&](const xml::Element& c) {
         link.collisions.push_back({c.where, name_of(c), in.pose_of(c), read_shape(in, c),
@@ -29,8 +34,19 @@ Link read_link(SdfSource& in, const xml::Element& e) {
 }
 
 void read_joint(SdfSource& in, const xml::Element& e, Model& model) {
+    static const std::vector<std::string> types = {"revolute",   "revolute2", "prismatic", "ball",
+                                                   "screw",      "universal", "fixed",     "gearbox",
+                                                   "continuous", "piston"};
+    const std::string type = attribute_of(e, "type");
+    if (std::find(types.begin(), types.end(), type) == types.end())
+        in.diagnostics.error(e.where, fmt::format("there is no joint of type '{}'", type),
+                             suggest(type, types));
+    if (text_of(e, "parent") == text_of(e, "child"))
+        in.diagnostics.error(e.where,
+                             fmt::format("joint '{}' ties '{}' to itself", name_of(e), text_of(e, "child")),
+                             "<parent> and <child> name two links");
     const auto* axis = e.child("axis");
-    if (attribute_of(e, "type") != "revolute" || !axis) return;
+    if (type != "revolute" || !axis) return;
     Hinge hinge;
     hinge.where = e.where, hinge.name = name_of(e), hinge.pose = in.pose_of(e);
     hinge.parent = text_of(e, "parent"), hinge.child = text_of(e, "child");

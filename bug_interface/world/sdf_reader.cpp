@@ -30,6 +30,12 @@ class Reader {
                                "a world file is <sdf><world name=\"..\">..</world></sdf>");
             return {};
         }
+        int worlds = 0;
+        each(*root, "world", [&](const xml::Element& e) {
+            if (++worlds == 2)
+                diagnostics_.error(e.where, "this is the second <world> of the file",
+                                   "a file holds one world");
+        });
         WorldDescription world = read_world_element(*world_element);
         if (diagnostics_.errors() > errors_before) return {};
         return world;
@@ -41,6 +47,7 @@ class Reader {
     /// What a model's file holds: a model or a light.
     struct Content {
         std::optional<Model> model;
+        std::size_t links = 0;  ///< of the model and those within it
         const xml::Element* light = nullptr;
     };
 
@@ -52,7 +59,8 @@ class Reader {
         if (const auto known = contents_.find(file); known != contents_.end()) {
             if (open_.contains(file))
                 diagnostics_.error(include.where,
-                                   fmt::format("'{}' includes itself", text_of(include, "uri")));
+                                   fmt::format("'{}' includes itself", text_of(include, "uri")),
+                                   "take this <include> away, or the one that leads here");
             return known->second;
         }
         contents_[file];
@@ -70,11 +78,12 @@ class Reader {
                                  "the included file holds several models; the first one is used");
         Content content;
         if (const auto* model = root->child("model"))
-            content.model = read_model(*model);
+            content.model = read_model(*model), content.links = count_links(*content.model);
         else if (const auto* light = root->child("light"))
             content.light = light;
         else
-            diagnostics_.error(include.where, fmt::format("'{}' holds neither a model nor a light", file));
+            diagnostics_.error(include.where, fmt::format("'{}' holds neither a model nor a light", file),
+                               "an <include> stands for <sdf><model name=\"..\">..</model></sdf>");
         return content;
     }
 
@@ -126,6 +135,27 @@ class Reader {
         return model;
     }
 
+    static std::size_t count_links(const Model& model) {
+        std::size_t out = 1 + model.links.size();
+        for (const Model& inner : model.models) out += count_links(inner);
+        return out;
+    }
+
+    /// Whether a copy of so many links can be afforded: a few files that include each other many times make
+    /// any number.
+    bool fits(std::size_t links, const xml::Element& include) {
+        links_ += links;
+        if (links_ > most_links && !too_many_) {
+            too_many_ = true;  // once is enough
+            diagnostics_.error(
+                include.where,
+                fmt::format("with this <include> there are more than {} included models and links",
+                            most_links),
+                "does a model include others many times?");
+        }
+        return links_ <= most_links;
+    }
+
     // ---- elements ----
 
     Model read_model(const xml::Element& e) {
@@ -153,7 +183,7 @@ class Reader {
             if (e.name == "model") models.push_back(read_model(e));
             if (e.name != "include") continue;
             const Content content = included(e);
-            if (content.model) models.push_back(placed(*content.model, e));
+            if (content.model && fits(content.links, e)) models.push_back(placed(*content.model, e));
             if (content.light) visit_light(*content.light);
         }
     }
@@ -167,12 +197,12 @@ class Reader {
             world.update_rate =
                 in_.value(*physics, "real_time_update_rate", in_.value(*physics, "update_rate", 1000.0));
             if (!(world.step > 0 && world.update_rate > 0))
-                diagnostics_.error(physics->where,
-                                   "max_step_size and real_time_update_rate must be positive");
+                diagnostics_.error(physics->where, "max_step_size and real_time_update_rate must be positive",
+                                   "usual are 0.001 (s) and 1000 (1/s)");
             else if (!(world.step >= 1e-6 && world.step <= 1 && world.update_rate <= 1e6))
-                diagnostics_.error(
-                    physics->where,
-                    "max_step_size lies between 1e-6 and 1 s, real_time_update_rate below 1e6");
+                diagnostics_.error(physics->where,
+                                   "max_step_size lies between 1e-6 and 1 s, real_time_update_rate below 1e6",
+                                   "usual are 0.001 (s) and 1000 (1/s)");
         }
         world.ambient = in_.value(e, "scene/ambient", Colour(Colour::Constant(world.ambient)))(0);
         const auto read_light = [&](const xml::Element& light) {
@@ -185,7 +215,8 @@ class Reader {
             } else {
                 const Eigen::Vector3d d = in_.value(light, "direction", Eigen::Vector3d(0, 0, -1));
                 if (!(d.norm() > 0))
-                    diagnostics_.error(light.where, "a light needs a <direction> that is not 0");
+                    diagnostics_.error(light.where, "a light needs a <direction> that is not 0",
+                                       "straight down is 0 0 -1");
                 world.sun = -d.normalized();
             }
         };
@@ -212,14 +243,16 @@ class Reader {
     SdfSource in_;
     std::map<std::string, Content> contents_;  ///< of the model files that were read
     std::set<std::string> open_;               ///< those that are being read
-    bool no_models_ = false;
+    static constexpr std::size_t most_links = 10'000;
+    std::size_t links_ = 0;  ///< in all models that were included so far
+    bool no_models_ = false, too_many_ = false;
 };
 
 }  // namespace
 
 std::optional<WorldDescription> read_world(const std::string& path, Diagnostics& diagnostics,
                                            const std::vector<std::string>& extra_model_dirs) {
-    if (!looks_like_a_world(path, diagnostics)) return {};
+    if (is_a_folder(path, diagnostics)) return {};
     return Reader(path, diagnostics, extra_model_dirs).read();
 }
 

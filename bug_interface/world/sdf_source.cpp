@@ -10,6 +10,7 @@
 
 #include "bug_interface/world/sdf_check.h"
 #include "bug_interface/world/sdf_values.h"
+#include "core/model/named_file.h"
 
 namespace forage::bug {
 namespace {
@@ -28,12 +29,9 @@ bool finite(const std::vector<double>& values) {
 
 const xml::Element* SdfSource::open(const std::string& path) {
     const int errors_before = diagnostics.errors();
-    auto text = read_text(path);
-    if (!text) {
-        diagnostics.error({std::make_shared<SourceFile>(SourceFile{path, {}}), 0, 0},
-                          "this file cannot be read");
-        return nullptr;
-    }
+    constexpr std::size_t largest_file = std::size_t{32} << 20;
+    auto text = read_file(path, largest_file, diagnostics);
+    if (!text) return nullptr;
     auto root = xml::parse_element(path, std::move(*text), "<sdf version=\"1.4\">", most_nodes, diagnostics);
     if (root) check_sdf(*root, diagnostics);
     if (diagnostics.errors() > errors_before) return nullptr;
@@ -103,7 +101,14 @@ Pose SdfSource::pose_of(const xml::Element& parent) {
                               "give the pose relative to the enclosing element");
     if (!finite(numbers(e->text).values)) return not_finite(*e, diagnostics), Pose::Identity();
     check_angles(*e);
-    return to_pose(*e);
+    const Pose pose = to_pose(*e);
+    constexpr double farthest = 1000;  // m; contacts are found in single precision
+    if (!(pose.translation().cwiseAbs().maxCoeff() <= farthest)) {
+        diagnostics.error(e->where, fmt::format("this <pose> leads more than {} m away", farthest),
+                          "poses are in m");
+        return Pose::Identity();
+    }
+    return pose;
 }
 
 double SdfSource::noise_of(const xml::Element& e) {

@@ -1,4 +1,4 @@
-// Whether a file can be a world at all.
+// Folders that are named where a world file is wanted.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace forage::bug {
 
-/// Whether the file `path` may hold a world; `diagnostics` say what it is when it is something else.
-bool looks_like_a_world(const std::string& path, Diagnostics& diagnostics);
+/// Whether `path` is a folder; `diagnostics` say so then, and which worlds are in it.
+bool is_a_folder(const std::string& path, Diagnostics& diagnostics);
 
 }  // namespace forage::bug

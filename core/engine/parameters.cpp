@@ -8,6 +8,7 @@
 #include "core/engine/group_cycle.h"
 #include "core/engine/plan.h"
 #include "core/engine/simulation.h"
+#include "core/model/named_file.h"
 
 namespace forage::engine {
 namespace {
@@ -67,7 +68,11 @@ class Rehearsal {
         ModuleInstance& copy = copied(modules_, m, &ModulePlan::module);
         a.parameter->set(copy.parameters(), a.value);
         Problems problems;
-        copy.check(m.ports, problems);
+        try {
+            copy.check(m.ports, problems);
+        } catch (const FileError& e) {
+            return report(e, diagnostics_);
+        }
         for (const auto& p : problems.all) diagnostics_.error(a.at, said(a, p), p.hint);
     }
 

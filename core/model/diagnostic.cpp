@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/model/utf8.h"
-#include "core/types/text_file.h"
 
 namespace forage {
 namespace {
@@ -123,11 +122,6 @@ Location location_of(std::shared_ptr<const SourceFile> file, std::size_t offset)
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
     const auto column = before.size() - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0
     return {std::move(file), static_cast<int>(line), static_cast<int>(column)};
-}
-
-void report(const FileError& error, Diagnostics& diagnostics) {
-    const auto file = std::make_shared<SourceFile>(SourceFile{error.path(), error.text()});
-    for (const auto& f : error.faults()) diagnostics.error({file, f.line, f.column}, f.message, f.hint);
 }
 
 std::string format(const Diagnostic& d) {

@@ -9,8 +9,6 @@
 
 namespace forage {
 
-class FileError;
-
 /// A file that a person edits, as it was read.
 struct SourceFile {
     std::string path;  ///< as given by the person
@@ -61,9 +59,6 @@ class Diagnostics {
 
 /// Where the byte `offset` of a file stands.
 Location location_of(std::shared_ptr<const SourceFile> file, std::size_t offset);
-
-/// Says all that is wrong with a file.
-void report(const FileError& error, Diagnostics& diagnostics);
 
 /// `file:line:column: error: message`, the line with a caret under the column, `hint: ...`.
 std::string format(const Diagnostic& diagnostic);

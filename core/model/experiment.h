@@ -74,6 +74,7 @@ struct Experiment {
 
     std::optional<std::uint64_t> cycles, trials;  ///< the length: one of these, or `seconds`
     std::optional<double> seconds;
+    Location length_at;
     double longest_trial = 300;  ///< s
     Wish until;                  ///< a condition that ends a run before its time; none when empty
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/model/lookup.h"
+#include "core/model/named_file.h"
 #include "core/types/reason.h"
 
 namespace forage::model {
@@ -112,7 +113,7 @@ class Validator {
 
     /// Lets a neuron or synapse type look at its parameters: what it finds is legal, and perhaps not meant.
     template <class Type>
-    void check_with_type(const TypeUse& use, const Type& type) {
+    void check_with_type(const TypeUse& use, const Type& type, std::string_view whose) {
         if (!type.check) return;
         Problems problems;
         try {
@@ -127,14 +128,16 @@ class Validator {
             Location at = use.at;
             for (const auto& s : use.settings)
                 if (s.name == problem.parameter) at = s.value_at;
-            out_.warning(at, problem.message, problem.hint);
+            // What was set on the command line stands in no line that would show whose it is.
+            out_.warning(at, at.file ? problem.message : fmt::format("'{}': {}", whose, problem.message),
+                         problem.hint);
         }
     }
 
     void check_group(const Group& group) {
         if (const NeuronType* type = registry_.neuron(group.neuron.type)) {
             check_settings(group.neuron, type->parameters);
-            check_with_type(group.neuron, *type);
+            check_with_type(group.neuron, *type, trim(group.name));
         } else
             out_.error(group.neuron.at, fmt::format("there is no neuron type '{}'", group.neuron.type),
                        suggest(group.neuron.type, names(registry_.neurons())));
@@ -253,6 +256,9 @@ class Validator {
             const auto module = type.make();
             apply(use.settings, type.parameters, module->parameters());
             module->check(ports, problems);
+        } catch (const FileError& e) {
+            ++found_by_modules_;
+            return report(e, out_);
         } catch (...) {
             return out_.error(use.at,
                               fmt::format("{} failed to check its parameters: {}", type.name, reason()));
@@ -283,7 +289,7 @@ class Validator {
                        "add <Synapse name=\"synapseFixedWeight\"/>");
         } else if (const SynapseType* type = registry_.synapse(c.synapse->type)) {
             check_settings(*c.synapse, type->parameters);
-            check_with_type(*c.synapse, *type);
+            check_with_type(*c.synapse, *type, trim(c.name));
             check_feedback(*c.synapse, *type, target);
         } else {
             out_.error(c.synapse->at, fmt::format("there is no synapse type '{}'", c.synapse->type),

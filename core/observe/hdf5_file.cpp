@@ -10,6 +10,7 @@
 #include <hdf5_hl.h>
 #include <unistd.h>
 
+#include "core/observe/disk_space.h"
 #include "core/observe/hdf5_handle.h"
 #include "core/observe/hdf5_recording.h"
 
@@ -17,6 +18,8 @@ namespace forage::observe {
 namespace {
 
 constexpr std::size_t block = 1 << 16;  ///< bytes of rows that are written at once
+constexpr std::uint64_t index_space =
+    1 << 18;  ///< bytes: what HDF5 writes beside the rows, at most, until it is closed
 
 void check(herr_t status, const std::string& what) {
     if (status < 0) throw std::runtime_error(fmt::format("HDF5: cannot {}", what));
@@ -115,6 +118,13 @@ class Hdf5File final : public RowFile {
         const Hdf5Handle options(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "make a list");
         H5Pset_obj_track_times(options, false);
         file_ = {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, options, access), H5Fclose, "write '" + path + "'"};
+        space_.emplace(path);
+        try {
+            reserve(0);
+        } catch (const std::exception& e) {
+            std::filesystem::remove(path);
+            throw std::runtime_error(fmt::format("cannot write '{}': {}", path, e.what()));
+        }
         for (const auto& [name, text] : header.attributes) attribute(file_, name, text);
         std::size_t row = 1;
         for (const auto& s : header.sources) row += s.size();
@@ -141,6 +151,7 @@ class Hdf5File final : public RowFile {
     void flush() override {
         if (cycles_.empty() || file_ < 0) return;
         try {
+            reserve(cycles_.size());
             for (auto& s : sets_) s.set.append(s.rows.data(), cycles_.size()), s.rows.clear();
             cycle_->append(cycles_.data(), cycles_.size());  // last: the rows it counts are there
             cycles_.clear();
@@ -182,13 +193,23 @@ class Hdf5File final : public RowFile {
         for (unsigned d = 0; d <= row.size(); ++d) H5DSset_label(set, d, dimensions[d]);
     }
 
+    /// Rows are written chunk by chunk. What comes with them, and with closing the file, has its space, too.
+    void reserve(std::size_t rows) {
+        std::uint64_t row = 1;
+        for (const auto& s : sets_) row += s.size;
+        space_->ahead(8 * row * (rows + 2 * chunk_) + index_space * (1 + sets_.size()));
+    }
+
     bool end() {
         sets_.clear();
         cycle_.reset();
-        return file_.close();
+        const bool fine = file_.close();
+        space_.reset();
+        return fine;
     }
 
     std::string path_;
+    std::optional<DiskSpace> space_;
     Hdf5Handle file_;
     std::optional<Growing> cycle_;
     std::vector<Set> sets_;

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/model/named_file.h"
 #include "core/types/parameter.h"
-#include "core/types/text_file.h"
 
 namespace forage::observe {
 namespace {
@@ -24,11 +24,11 @@ class PatternReader {
             const auto end = std::min(rest.find('\n'), rest.size());
             line(rest.substr(0, end), number);
             rest.remove_prefix(std::min(end + 1, rest.size()));
-            last_ = number;
         }
-        finish(last_);
+        finish();
         if (patterns_.empty() && out_.errors() == errors_before_)
-            out_.error({file_, 0, 0}, "there are no patterns in it", "");
+            out_.error({file_, 0, 0}, "there are no patterns in it",
+                       fmt::format("a pattern is {}; an empty line stands between patterns", form()));
         if (out_.errors() > errors_before_) return {};
         return std::move(patterns_);
     }
@@ -36,10 +36,15 @@ class PatternReader {
   private:
     static constexpr int most_faults = 100;
 
+    std::string form() const {
+        return fmt::format("{} row{} of {} number{}", height_, height_ == 1 ? "" : "s", width_,
+                           width_ == 1 ? "" : "s");
+    }
+
     void line(std::string_view text, int number) {
         constexpr std::string_view between = " \t\r,;";
         std::size_t at = text.find_first_not_of(between);
-        if (at == std::string_view::npos) return finish(number);
+        if (at == std::string_view::npos) return finish();
         if (text[at] == '#') return;
         int count = 0;
         while (at != std::string_view::npos && out_.errors() < errors_before_ + most_faults) {
@@ -47,34 +52,39 @@ class PatternReader {
             const auto word = text.substr(at, end - at);
             const auto value = parse_parameter(ParameterKind::real, word);
             if (!value)
-                out_.error({file_, number, static_cast<int>(at) + 1},
-                           fmt::format("'{}' is not a number", shown(word)));
+                out_.error({file_, number, static_cast<int>(at) + 1}, no_number(word),
+                           "a pattern holds finite numbers with a decimal point and blanks between them");
+            sound_ = sound_ && value;
             pattern_.push_back(value ? std::get<double>(*value) : 0);
             ++count;
             at = text.find_first_not_of(between, end);
         }
-        if (count != width_)
-            out_.error({file_, number, 1}, fmt::format("{} numbers in a row, not {}", count, width_),
+        if (sound_ && count != width_)
+            out_.error({file_, number, 1},
+                       fmt::format("{} number{} in a row, not {}", count, count == 1 ? "" : "s", width_),
                        sparse_ ? "the group is sparse: a pattern is one row with a number per cell"
                                : "a row has as many numbers as the group has columns");
         ++rows_;
+        last_row_ = number;
     }
 
-    /// Ends a pattern; `number`: the line after it.
-    void finish(int number) {
+    void finish() {
         if (rows_ == 0) return;
-        if (rows_ != height_)
-            out_.error({file_, number, 0},
-                       fmt::format("a pattern of {} rows ends here, not {}", rows_, height_),
+        if (sound_ && rows_ != height_)
+            out_.error({file_, last_row_, 1},
+                       fmt::format("a pattern ends here after {} row{}, not {}", rows_, rows_ == 1 ? "" : "s",
+                                   height_),
                        "a pattern has as many rows as the group; an empty line stands between patterns");
         patterns_.push_back(std::move(pattern_));
         pattern_.clear();
         rows_ = 0;
+        sound_ = true;
     }
 
     std::shared_ptr<const SourceFile> file_;
     bool sparse_;
-    int width_, height_, rows_ = 0, last_ = 0;
+    int width_, height_, rows_ = 0, last_row_ = 0;
+    bool sound_ = true;  ///< the words of this pattern are numbers
     Diagnostics& out_;
     const int errors_before_;
     std::vector<double> pattern_;
@@ -86,8 +96,9 @@ class PatternReader {
 std::vector<std::vector<double>> parse_patterns(const std::string& text, const std::string& path,
                                                 const GroupShape& shape, Diagnostics& diagnostics) {
     auto file = std::make_shared<SourceFile>(SourceFile{path, text});
-    if (const auto what = what_begins_with(text); !what.empty()) {
-        diagnostics.error({std::move(file), 0, 0}, fmt::format("these are no patterns, but {}", what));
+    if (const auto fault = not_lines(text, "these are no patterns")) {
+        diagnostics.error({std::move(file), fault->line, fault->column}, fault->message,
+                          fault->hint.empty() ? "a list of patterns is a text" : fault->hint);
         return {};
     }
     return PatternReader(std::move(file), shape, diagnostics).run();
@@ -95,12 +106,9 @@ std::vector<std::vector<double>> parse_patterns(const std::string& text, const s
 
 std::vector<std::vector<double>> read_patterns(const std::string& path, const GroupShape& shape,
                                                Diagnostics& diagnostics) {
-    try {
-        return parse_patterns(read_file(path), path, shape, diagnostics);
-    } catch (const FileError& e) {
-        report(e, diagnostics);
-        return {};
-    }
+    constexpr std::size_t most = std::size_t{128} << 20;
+    const auto text = read_file(path, most, diagnostics);
+    return text ? parse_patterns(*text, path, shape, diagnostics) : std::vector<std::vector<double>>();
 }
 
 }  // namespace forage::observe

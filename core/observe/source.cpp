@@ -93,6 +93,15 @@ void Source::read(const engine::Simulation& simulation, std::span<double> out) c
 std::optional<Source> find_source(const engine::Simulation& s, std::string_view text, std::string_view what,
                                   Diagnostics& diagnostics, Location at) {
     const Selection selection = parse_selection(text);
+    if (const auto open = text.rfind('('); !selection.region && open != text.npos && text.ends_with(')')) {
+        Diagnostics whole, part;  // a name may hold parentheses
+        if (!find_column(s, selection.column, what, whole, at) &&
+            find_column(s, parse_selection(text.substr(0, open)).column, what, part, at)) {
+            diagnostics.error(at, fmt::format("{} '{}': '{}' names no cells", what, text, text.substr(open)),
+                              "cells are written (x,y) or (x1..x2,y1..y2)");
+            return std::nullopt;
+        }
+    }
     auto column = find_column(s, selection.column, what, diagnostics, at);
     if (!column) return std::nullopt;
     const GroupShape shape = s.shape(column->group);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -31,6 +32,32 @@ std::string summary(const std::string& path, const std::vector<FileError::Fault>
     throw FileError(path, {}, {{0, 0, std::move(why)}});
 }
 
+FileError::Fault refusal(const std::string& path, int error) {
+    if (path.empty()) return {0, 0, "no file is named"};
+    switch (error) {
+        case ENOENT:
+        case ENOTDIR:
+            return {0, 0, "there is no such file"};
+        case ENAMETOOLONG:
+            return {0, 0, "there is no such file: its name is longer than names can be"};
+        case ELOOP:
+            return {0, 0, "this link leads back to itself", "name the file that it should lead to"};
+        case EACCES:
+            return {0, 0, "cannot read the file: Permission denied",
+                    "'chmod +r' gives leave to read a file, 'chmod +x' to enter a folder"};
+        default:
+            return {0, 0, fmt::format("cannot read the file: {}", std::strerror(error))};
+    }
+}
+
+/// The place of the byte `at`.
+FileError::Fault fault_at(std::string_view text, std::size_t at, std::string message, std::string hint) {
+    const std::string_view before = text.substr(0, at);
+    return {1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+            static_cast<int>(at - (before.rfind('\n') + 1)) + 1,  // npos + 1 is 0
+            std::move(message), std::move(hint)};
+}
+
 struct FileHandle {
     explicit FileHandle(int n) : number(n) {}
     FileHandle(const FileHandle&) = delete;
@@ -51,8 +78,8 @@ FileError::FileError(std::string path, std::string text, std::vector<Fault> faul
 
 std::string read_file(const std::string& path, std::size_t most) {
     std::error_code ignored;
-    const FileHandle in(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
-    if (in.number < 0) unreadable(path, fmt::format("cannot read the file: {}", std::strerror(errno)));
+    const FileHandle in(path.empty() ? -1 : open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+    if (in.number < 0) throw FileError(path, {}, {refusal(path, errno)});
     if (std::filesystem::is_directory(path, ignored)) unreadable(path, "this is a directory, not a file");
     const bool pipe = std::filesystem::is_fifo(path, ignored);
     std::string text;
@@ -69,7 +96,9 @@ std::string read_file(const std::string& path, std::size_t most) {
         }
         if (count < 0) unreadable(path, fmt::format("cannot read the file: {}", std::strerror(errno)));
         if (count == 0 && pipe && text.empty()) {
-            if (waited) unreadable(path, "this is a pipe, and nobody writes into it");
+            if (waited)
+                throw FileError(path, {},
+                                {{0, 0, "this is a pipe, and nobody writes into it", "name a file"}});
             poll(&ready, 1, 300), waited = true;
             continue;
         }
@@ -89,9 +118,17 @@ std::string shown(std::string_view piece) {
     return piece.size() > out.size() ? out + "..." : out;
 }
 
-std::string_view what_begins_with(std::string_view text) {
+std::optional<FileError::Fault> why_unreadable(const std::string& path) {
+    const FileHandle in(path.empty() ? -1 : open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+    if (in.number < 0) return refusal(path, errno);
+    if (std::error_code ignored; std::filesystem::is_directory(path, ignored))
+        return FileError::Fault{0, 0, "this is a directory, not a file"};
+    return std::nullopt;
+}
+
+std::optional<FileError::Fault> not_lines(std::string_view text, std::string_view wanted) {
     using namespace std::string_view_literals;
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 9> known = {
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 7> known = {
         {{"\x1f\x8b"sv, "a gzip archive"},
          {"\x89PNG"sv, "a PNG picture"},
          {"\x7f"
@@ -100,12 +137,30 @@ std::string_view what_begins_with(std::string_view text) {
          {"PK\x03\x04"sv, "a zip archive"},
          {"\x89HDF"sv, "an HDF5 file"},
          {"\x93NUMPY"sv, "a NumPy file"},
-         {"%PDF"sv, "a PDF document"},
-         {"\xff\xfe"sv, "encoded as UTF-16: save it as UTF-8"},
-         {"\xfe\xff"sv, "encoded as UTF-16: save it as UTF-8"}}};
+         {"%PDF"sv, "a PDF document"}}};
     for (const auto& [bytes, what] : known)
-        if (text.starts_with(bytes)) return what;
-    return {};
+        if (text.starts_with(bytes)) return FileError::Fault{0, 0, fmt::format("{}, but {}", wanted, what)};
+    const std::size_t nul = text.find('\0'), cr = text.find('\r');
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") ||
+        (nul <= 1 && text.find_first_not_of('\0') < 2))
+        return FileError::Fault{0, 0, "the file is encoded as UTF-16", "save it as UTF-8"};
+    if (nul != text.npos)
+        return fault_at(text, nul, "the byte 0x00 does not occur in a text",
+                        "is the file damaged? Remove the byte");
+    if (cr != text.npos && cr + 1 < text.size() && text[cr + 1] != '\n')
+        return fault_at(text, cr, "a carriage return that ends no line",
+                        "save the file with the line ends of Unix or Windows");
+    return std::nullopt;
+}
+
+std::string no_number(std::string_view word) {
+    if (word.empty()) return "there is no number here";
+    double value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const bool all = end == word.data() + word.size();
+    if (all && error == std::errc::result_out_of_range)
+        return fmt::format("'{}' is beyond all numbers that can be stored", shown(word));
+    return fmt::format("'{}' is not a {}number", shown(word), all ? "finite " : "");
 }
 
 }  // namespace forage

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -38,8 +39,15 @@ std::string read_file(const std::string& path, std::size_t most = std::size_t{12
 /// A piece of a file for a message: shortened, and harmless on a terminal.
 std::string shown(std::string_view piece);
 
-/// The bytes that begin a file which is no text at all, in a person's words: "a gzip archive"; empty for
-/// others.
-std::string_view what_begins_with(std::string_view text);
+/// Why no file can be read at `path`, as a fault of the whole; nothing when one can. Its content is not
+/// looked at.
+std::optional<FileError::Fault> why_unreadable(const std::string& path);
+
+/// What shows that a file of lines is no such text: the beginning of a file of another kind, a NUL byte, line
+/// ends that no program writes any more. `wanted`: "this is no table".
+std::optional<FileError::Fault> not_lines(std::string_view text, std::string_view wanted);
+
+/// What is wrong with a word that stands where a finite number is wanted.
+std::string no_number(std::string_view word);
 
 }  // namespace forage

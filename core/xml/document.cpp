@@ -1,13 +1,12 @@
 #include "core/xml/document.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <vector>
 
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
-#include "core/types/text_file.h"
+#include "core/model/named_file.h"
 #include "core/xml/well_formed.h"
 
 namespace forage::xml {
@@ -43,32 +42,9 @@ Document::~Document() = default;
 
 std::optional<Document> Document::read(const std::string& path, std::string_view beginning,
                                        Diagnostics& diagnostics) {
-    const auto fail = [&](const std::string& message,
-                          const std::string& hint = {}) -> std::optional<Document> {
-        auto file = std::make_shared<SourceFile>(SourceFile{path, {}});
-        diagnostics.error({file, 0, 0}, message, hint);
-        return std::nullopt;
-    };
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) {
-        std::vector<std::string> siblings;
-        const auto folder = std::filesystem::path(path).parent_path();
-        for (const auto& entry : std::filesystem::directory_iterator(folder.empty() ? "." : folder, error))
-            if (entry.path().extension() == std::filesystem::path(path).extension())
-                siblings.push_back(entry.path().filename().string());
-        std::sort(siblings.begin(), siblings.end());
-        const auto near = nearest(std::filesystem::path(path).filename().string(), siblings);
-        return fail("there is no such file",
-                    near.empty() ? "" : fmt::format("did you mean '{}'?", (folder / near).string()));
-    }
-    std::string text;
-    try {
-        text = read_file(path, largest_file);
-    } catch (const FileError& e) {
-        return fail(e.faults().front().message);
-    }
-    return parse(path, std::move(text), beginning, diagnostics);
+    auto text = read_file(path, largest_file, diagnostics);
+    if (!text) return std::nullopt;
+    return parse(path, std::move(*text), beginning, diagnostics);
 }
 
 std::optional<Document> Document::parse(std::string path, std::string text, std::string_view beginning,

@@ -90,6 +90,14 @@ class ExperimentReader {
         return {text(e, "parameter") + "=" + text(e, "value"), at(e, "parameter")};
     }
 
+    /// Whether an element has an attribute that the check has refused: it may have meant any other.
+    static bool misspelt(const XMLElement& e) {
+        const ElementRule* rule = find_element(e.Name(), experiment_format());
+        for (const auto* a = e.FirstAttribute(); a; a = a->Next())
+            if (!rule->attribute(a->Name())) return true;
+        return false;
+    }
+
     /// The one of these attributes that an element has; reports none or several.
     const char* one_of(const XMLElement& e, std::span<const char* const> names) {
         const char* found = nullptr;
@@ -100,7 +108,7 @@ class ExperimentReader {
                                "keep one of them");
                 found = name;
             }
-        if (!found)
+        if (!found && !misspelt(e))
             out_.error(document_.at(e), fmt::format("<{}> does not say what it is", e.Name()),
                        fmt::format("give it one of '{}'", fmt::join(names, "', '")));
         return found;
@@ -108,7 +116,8 @@ class ExperimentReader {
 
     void length(const XMLElement& e) {
         static constexpr std::array names = {"cycles", "seconds", "trials"};
-        one_of(e, names);
+        const char* kind = one_of(e, names);
+        experiment_.length_at = kind ? at(e, kind) : document_.at(e);
         experiment_.cycles = whole(e, "cycles");
         experiment_.trials = whole(e, "trials");
         experiment_.seconds = number(e, "seconds");
@@ -163,10 +172,12 @@ class ExperimentReader {
         if (!kind) return;
         model::Measure m;
         m.name = text(e, "name"), m.at = at(e, "name"), m.what = wish(e, kind);
+        if (m.name.empty() && e.FindAttribute("name"))
+            out_.error(m.at, "a measure needs a name", "names are columns of the table of results");
         m.kind = static_cast<model::Measure::Kind>(
             std::find(names.begin(), names.end(), std::string_view(kind)) - names.begin());
         for (const auto& other : experiment_.measures)
-            if (other.name == m.name)
+            if (other.name == m.name && !m.name.empty())
                 out_.error(m.at,
                            fmt::format("there is a measure '{}' already, on line {}", m.name, other.at.line),
                            "names are columns of the table of results");
@@ -193,7 +204,7 @@ class ExperimentReader {
             if (!seen.insert(v.text).second)
                 out_.error(v.at, fmt::format("the value {} is given twice", v.text), "remove one of them");
         for (const auto& other : experiment_.sweeps)
-            if (other.parameter.text == s.parameter.text)
+            if (other.parameter.text == s.parameter.text && !s.parameter.empty())
                 out_.error(s.parameter.at,
                            fmt::format("'{}' is swept already, on line {}", s.parameter.text,
                                        other.parameter.at.line),
@@ -234,7 +245,9 @@ class ExperimentReader {
 namespace {
 std::optional<model::Experiment> build(const std::optional<Document>& document, Diagnostics& diagnostics) {
     const int errors_before = diagnostics.errors();
-    if (!document || !check(*document, "experiment", diagnostics)) return std::nullopt;
+    if (!document) return std::nullopt;
+    check(*document, "experiment", diagnostics);
+    if (document->root().Name() != std::string_view("experiment")) return std::nullopt;
     auto out = ExperimentReader(*document, diagnostics).run();
     if (diagnostics.errors() > errors_before) return std::nullopt;
     return out;

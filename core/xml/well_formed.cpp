@@ -131,6 +131,10 @@ class Scanner {
                 character(what))
                 continue;
             const bool named = !what.empty() && std::all_of(what.begin(), what.end(), continues_name);
+            if (what.starts_with('#') && what.size() < 40)
+                return fail(
+                    i, fmt::format("'&{};' is no character that XML may hold", what),
+                    "&#N; is a character by its number in Unicode; control characters have none here");
             return fail(
                 i, named ? fmt::format("there is no entity '&{};'", what) : "a '&' that begins no entity",
                 named ? "XML has &lt; &gt; &amp; &quot; and &apos;; other characters stand for themselves"

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/types/text_file.h"
 #include "modules/adaptive_layer/weights_file.h"
 
 namespace forage::adaptive {
@@ -98,9 +99,11 @@ void AdaptiveLayerModule::check(const ModulePorts& ports, Problems& problems) co
     else if (read) {
         try {
             read_weights(file_name, cs.shape.cells, ur.shape.cells);
-        } catch (const std::exception& e) {
-            problems.all.push_back(
-                {e.what(), "'read' is set: the weights are read in the first cycle", "File Name", ""});
+        } catch (const FileError& e) {
+            auto faults = e.faults();
+            for (auto& fault : faults)
+                if (fault.hint.empty()) fault.hint = "'read' is set: the weights are read in the first cycle";
+            throw FileError(e.path(), e.text(), std::move(faults));
         }
     }
 }

@@ -28,13 +28,15 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/// `text` as a finite single-precision number.
-bool parse(std::string_view text, double& value) {
+/// Reads `text` as a finite single-precision number; returns what is wrong with it.
+std::string parse(std::string_view text, double& value) {
     if (text.starts_with('+')) text.remove_prefix(1);
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size()) return false;
+    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+        return no_number(text);
     value = static_cast<double>(static_cast<float>(value));
-    return std::isfinite(value);
+    return std::isfinite(value) ? ""
+                                : fmt::format("'{}' is too large: weights are stored as float", shown(text));
 }
 
 constexpr std::size_t most_faults = 100;
@@ -49,10 +51,13 @@ Eigen::MatrixXd parse_weights(const std::string& text, const std::string& path, 
     const auto fault = [&](std::size_t at, std::string message) {
         for (; counted < at; ++counted)
             if (text[counted] == '\n') ++line, line_start = counted + 1;
-        faults.push_back({line, static_cast<int>(at - line_start) + 1, std::move(message)});
+        faults.push_back(
+            {line, static_cast<int>(at - line_start) + 1, std::move(message),
+             fmt::format("weights are numbers with commas between them, {} x {} of them: a row of "
+                         "stimulus cells for each response cell",
+                         responses, stimuli)});
     };
-    if (const auto what = what_begins_with(text); !what.empty())
-        throw FileError(path, text, {{0, 0, fmt::format("these are no weights, but {}", what)}});
+    if (const auto wrong = not_lines(text, "these are no weights")) throw FileError(path, text, {*wrong});
     Eigen::MatrixXd weights(stimuli, responses);
     Index count = 0;
     for (std::size_t at = 0; at < text.size() && faults.size() < most_faults; ++at) {
@@ -61,9 +66,7 @@ Eigen::MatrixXd parse_weights(const std::string& text, const std::string& path, 
         const auto token = trimmed(std::string_view(text).substr(at, comma - at));
         if (token.empty() && comma == text.size()) break;  // what follows the last comma
         double value = 0;
-        if (!parse(token, value))
-            fault(at, fmt::format("'{}' is not a number; weights are numbers with commas between them",
-                                  shown(token)));
+        if (const auto wrong = parse(token, value); !wrong.empty()) fault(at, wrong);
         if (count < weights.size()) weights(count % stimuli, count / stimuli) = value;
         ++count;
         at = comma;

@@ -41,6 +41,12 @@ std::optional<N> number(std::string_view text) {
     return value;
 }
 
+std::string no_cycle(std::string_view field) {
+    if (!field.empty() && field.find_first_not_of("-0123456789") == field.npos)
+        return fmt::format("there is no cycle {}", shown(field));
+    return fmt::format("'{}' is not the number of a cycle", shown(field));
+}
+
 class Parser {
   public:
     std::vector<DriveTable::Row> rows;
@@ -52,17 +58,30 @@ class Parser {
         if (line == 1 && content.starts_with("\xEF\xBB\xBF")) content.remove_prefix(3);  // byte order mark
         if (content.empty() || content.starts_with('#') || content.starts_with("cycle")) return;
         const auto fields = fields_of(content);
-        if (fields.size() < 4 || fields[1].empty() || fields[2].empty())
+        const auto other = content.find_first_of(";\t");
+        if (fields.size() < 4 && other != content.npos)
+            return fault(content.substr(other),
+                         content[other] == ';' ? "a semicolon between values" : "a tab between values",
+                         fmt::format("{}, with commas; numbers have a decimal point", form));
+        if (fields.size() < 4)
             return fault(content, fmt::format("'{}' is no row of a table", shown(content)), form);
+        for (std::size_t i = 1; i <= 2; ++i) {
+            if (fields[i].empty())
+                return fault(fields[i], fmt::format("the row names no {}", i == 1 ? "process" : "group"),
+                             form);
+            if (fields[i].starts_with('"'))
+                return fault(fields[i], fmt::format("{} stands in quotes", shown(fields[i])),
+                             "write names without quotes");
+        }
         DriveTable::Row row{0, std::string(fields[1]), std::string(fields[2]), {}, line, column(fields[1])};
         if (const auto cycle = number<std::int64_t>(fields[0]); !cycle)
-            fault(fields[0], fmt::format("'{}' is not a whole number", shown(fields[0])), form);
+            fault(fields[0], no_cycle(fields[0]), form);
         else if ((row.cycle = *cycle) < -1)
             fault(fields[0], fmt::format("there is no cycle {}", row.cycle), "-1 means from the start");
         for (std::size_t i = 3; i < fields.size() && faults.size() < most_faults; ++i) {
             const auto value = number<double>(fields[i]);
             if (!value)
-                fault(fields[i], fmt::format("'{}' is not a number", shown(fields[i])),
+                fault(fields[i], no_number(fields[i]),
                       "a value is a finite number with a decimal point; commas stand between values");
             row.values.push_back(value.value_or(0));
         }
@@ -85,8 +104,10 @@ DriveTable DriveTable::parse(std::string_view text, const std::string& name) {
     const auto wrong = [&](std::vector<FileError::Fault> faults) {
         return FileError(name, std::string(text.substr(0, std::size_t{1} << 20)), std::move(faults));
     };
-    if (const auto what = what_begins_with(text); !what.empty())
-        throw wrong({{0, 0, fmt::format("this is no table, but {}", what), form}});
+    if (auto fault = not_lines(text, "this is no table")) {
+        if (fault->hint.empty()) fault->hint = form;
+        throw wrong({*fault});
+    }
     Parser parser;
     std::string_view rest = text;
     for (int line = 1; !rest.empty() && parser.faults.size() < most_faults; ++line) {
@@ -100,8 +121,21 @@ DriveTable DriveTable::parse(std::string_view text, const std::string& name) {
                      [](const Row& a, const Row& b) { return a.cycle < b.cycle; });
     DriveTable table;
     table.name_ = name;
+    table.beginning_ = text.substr(0, std::size_t{1} << 20);
     table.rows_ = std::move(parser.rows);
     return table;
+}
+
+FileError::Fault DriveTable::misfit(const Row& row, std::string_view group, const GroupShape& shape) {
+    const std::size_t n = row.values.size();
+    const std::string order =
+        shape.cells == shape.width * shape.height
+            ? fmt::format("{} x {} of them, row by row from the upper left", shape.width, shape.height)
+            : "as many as the group has cells";
+    return {row.line, row.column,
+            fmt::format("{} value{} for '{}', which has {} cell{}", n, n == 1 ? "" : "s", group, shape.cells,
+                        shape.cells == 1 ? "" : "s"),
+            fmt::format("a row has one value per cell: {}", order)};
 }
 
 DriveTable DriveTable::read(const std::string& path) { return parse(read_file(path), path); }

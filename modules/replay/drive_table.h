@@ -6,6 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "core/types/column.h"
+#include "core/types/text_file.h"
+
 namespace forage::replay {
 
 /// Rows `cycle,process,target,v0,v1,...`, one value per cell. `process` is a name, or `*` for any; `target`
@@ -25,11 +28,15 @@ class DriveTable {
     static DriveTable parse(std::string_view text, const std::string& name);
     static DriveTable read(const std::string& path);
 
-    const std::string& name() const { return name_; }  ///< of the file
+    /// What to say of a row that has not as many values as its group has cells.
+    static FileError::Fault misfit(const Row& row, std::string_view group, const GroupShape& shape);
+
+    const std::string& name() const { return name_; }            ///< of the file
+    const std::string& beginning() const { return beginning_; }  ///< its first mebibyte, for excerpts
     const std::vector<Row>& rows() const { return rows_; }
 
   private:
-    std::string name_;
+    std::string name_, beginning_;
     std::vector<Row> rows_;
 };
 

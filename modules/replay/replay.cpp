@@ -15,10 +15,8 @@ void require_sizes(const DriveTable& table, const ModulePorts& ports) {
         for (const auto& output : ports.outputs)
             if (plays(row, ports.process, output) &&
                 row.values.size() != static_cast<std::size_t>(output.shape.cells))
-                faults.push_back({row.line, row.column,
-                                  fmt::format("{} values for '{}', which has {} cells", row.values.size(),
-                                              output.path, output.shape.cells)});
-    if (!faults.empty()) throw FileError(table.name(), {}, std::move(faults));
+                faults.push_back(DriveTable::misfit(row, output.path, output.shape));
+    if (!faults.empty()) throw FileError(table.name(), table.beginning(), std::move(faults));
 }
 
 }  // namespace
@@ -29,15 +27,11 @@ bool plays(const DriveTable::Row& row, std::string_view process, const ModulePor
            (row.target == output.port || row.target == group);
 }
 
-void Replay::check(const ModulePorts& ports, Problems& problems) {
-    try {
-        if (!file.empty())
-            require_sizes(DriveTable::read(file), ports);
-        else if (table)
-            require_sizes(*table, ports);
-    } catch (const std::exception& e) {
-        problems.all.push_back({e.what(), {}, "file", {}});
-    }
+void Replay::check(const ModulePorts& ports, Problems&) {
+    if (!file.empty())
+        require_sizes(DriveTable::read(file), ports);
+    else if (table)
+        require_sizes(*table, ports);
 }
 
 void Replay::start(const ModulePorts& ports, ModuleFrame& frame) {

@@ -224,8 +224,8 @@ class Run(Cli):
         self.assertEqual(a("--clamp", "P/A(1,1)=5", "--multiply", "P/A(1,1)=2", "--add", "P/A(1,1)=1")[0], [12] * 8)  # in this order: clamp, add, multiply
         settings = json.loads((self.here / "out/run.json").read_text())
         self.assertEqual((settings["clamp"], settings["multiply"]), (["P/A(1,1)=5"], ["P/A(1,1)=2"]))
-        for rows, message in (("1 2\n3\n", "p.txt:2:1: error: 1 numbers in a row, not 2"), ("1 2\n3 x\n\n", "p.txt:2:3: error: 'x' is not a number"),
-                              ("1 2\n3 4\n\n", "p.txt:3: error: a pattern of 2 rows ends here, not 1"), ("\n", "p.txt: error: there are no patterns")):
+        for rows, message in (("1 2\n3\n", "p.txt:2:1: error: 1 number in a row, not 2"), ("1 2\n3 x\n\n", "p.txt:2:3: error: 'x' is not a number"),
+                              ("1 2\n3 4\n\n", "p.txt:2:1: error: a pattern ends here after 2 rows, not 1"), ("\n", "p.txt: error: there are no patterns")):
             (self.here / "p.txt").write_text(rows)
             self.assertIn(message, self.forage("run", "small.iqr", "--cycles", 1, "--drive", "d.csv", "--clamp", "P/A=p.txt", status=2).stderr)
 
@@ -340,20 +340,20 @@ class Mistakes(Cli):
             (["--set", "Bug/Light.thresold=1"], "did you mean 'threshold'"),
             (["--set", "Bug/Light.threshold=high"], "is not a number"),
             (["--set", "nonsense"], "not an assignment"),
-            (["--drive", "absent.csv"], "absent.csv: error: cannot read the file: No such file"),
+            (["--drive", "absent.csv"], "absent.csv: error: there is no such file"),
             (["--record", "Light"], "did you mean 'Bug/Light'"),
             (["--set", "US.threshold=1"], "did you mean 'Reactive Layer/US'"),
             (["--set", "Approach.threshold=1"], "did you mean 'Reactive Layer/Approach' or 'Selection/Approach'"),
             (["--clamp", "Bug/Motor(10,1)=1"], "it has 9 columns and 9 rows"),
             (["--clamp", "Bug/Motr(1,1)=1"], "did you mean 'Bug/Motor'"),
             (["--clamp", "Bug/Motor:vm(1,1)=1"], "only the activity"),
-            (["--add", "Bug/Motor(1,1)=x"], "is no list of cells"),
-            (["--add", "Bug/Motor(1,1)=1 2"], "is no list of cells"),
+            (["--add", "Bug/Motor(1,1)=x"], "--add: 'x' is not a number"),
+            (["--add", "Bug/Motor(1,1)=1 2"], "--add: '2' is no cell with a value"),
             (["--add", "Bug/Motor"], "is neither 'Process/Group(x,y)=value' nor 'Process/Group=FILE'"),
             (["--multiply", "Bug/Motor(1,1)=1; evry 2"], "'evry 2' is none of every N, step N"),
             (["--multiply", "Bug/Motor(1,1)=1; every 0"], "'every' needs a whole number, at least 1"),
             (["--add", "Bug/Motor(1,1)=1; from trail 2"], "there is no group 'trail 2'"),
-            (["--add", "Bug/Motor=absent.txt"], "absent.txt: error: cannot read the file: No such file"),
+            (["--add", "Bug/Motor=absent.txt"], "absent.txt: error: there is no such file"),
             (["--at", "trial 5"], "'trial 5' is not a condition, a colon, a blank and a change, such as 'trial >= 200:"),
             (["--at", "trial 5: Bug/Light.thresold=1"], "did you mean 'threshold'"),
             (["--at", "trail 5: Bug/Light.threshold=1"], "there is no group 'trail 5'"),
@@ -373,9 +373,9 @@ class Mistakes(Cli):
         (self.here / "small.iqr").write_text(SMALL_SYSTEM)
         for rows, message in (
             ("0,P,outt,1,2", "t.csv:1:3: error: no moduleReplay plays 'P,outt'"),
-            ("0,P,out,1,2,3", "t.csv:1:3: 3 values for 'P/A', which has 2 cells"),
+            ("0,P,out,1,2,3", "t.csv:1:3: error: 3 values for 'P/A', which has 2 cells"),
             ("0,P,out,1,x", "t.csv:1:11: error: 'x' is not a number"),
-            ("0,P,out,1,2,", "t.csv:1:13: error: '' is not a number"),
+            ("0,P,out,1,2,", "t.csv:1:13: error: there is no number here"),
             ("", "there are no rows in it"),
         ):
             (self.here / "t.csv").write_text(rows + "\n")
@@ -395,7 +395,7 @@ class Mistakes(Cli):
         (self.here / "sub/d.csv").write_text("0,P,out,1,2\n")
         self.forage("run", "sub/small.iqr", "--cycles", 3)
         (self.here / "sub/d.csv").write_text("0,P,out,1\n")
-        self.assertRegex(self.forage("check", "sub/small.iqr", status=2).stderr, r"small.iqr:\d+:\d+: error: sub/d.csv:1:3: 1 values")
+        self.assertRegex(self.forage("check", "sub/small.iqr", status=2).stderr, r"sub/d.csv:1:3: error: 1 value for 'P/A'")
 
     def test_a_directory_that_cannot_be_written(self):
         if os.geteuid() == 0:

@@ -129,7 +129,7 @@ class Results(Experiment):
         self.forage("experiment", "small.xml", "-o", "out")
         self.assertEqual([r["end"] for r in self.rows("out/results.csv")], [f"{18 + 180}", f"{9 + 90}"])
         (self.here / "p.txt").write_text("1 1\n\n3\n")
-        self.assertRegex(self.forage("experiment", "small.xml", status=2).stderr, r"p.txt:3:1: error: 1 numbers in a row")
+        self.assertRegex(self.forage("experiment", "small.xml", status=2).stderr, r"p.txt:3:1: error: 1 number in a row")
         self.edit("small.xml", 'cells="(2,1)=10"', 'cells="(3,1)=10"')
         self.assertRegex(self.forage("experiment", "small.xml", status=2).stderr, r"small.xml:6:\d+: error: .* has no cell \(3, 1\)")
 

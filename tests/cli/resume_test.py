@@ -9,6 +9,7 @@ import re
 import resource
 import shutil
 import signal
+import struct
 import subprocess
 import time
 import unittest
@@ -195,12 +196,52 @@ class Resume(Stopped):
 # and a delay.
 TEAMS = ("run", str(PROJECT / "systems/team_a.iqr"), str(PROJECT / "systems/team_b.iqr"),
          "--world", str(PROJECT / "systems/worlds/team_arena.world"), "--seed", 5, "--hash", "-q")
+# One robot that carries a ball about, another one that drives round it; both speak, and listen.
+VOICES = ("run", "voices.iqr", "--world", "voices.world", "--seed", 7, "--hash", "-q", "-r", "Carrier/Heard",
+          "-r", "Carrier/Between the fingers=rays.npy", "-r", "Speaker/Heard", "--clamp", "Carrier/Gripper(1,1)=1; from cycle 10")
 RATES = ("run", SYSTEM, "--world", WORLD, "--seed", 6, "--sensor-rates", "--latency", 2, "--hash", "-q", "-r", "Bug/Light")
+
+
+def voices(name):
+    """The process of a robot that drives at random and says at random what others hear."""
+
+    def group(short, title, width, height, neuron="neuronNumeric"):
+        return (f'<Group id="{name}.{short}" name="{title}"><Topology><TopologyRect hcount="{width}" vcount="{height}"/>'
+                f"</Topology><Neuron name=\"{neuron}\"/></Group>")
+
+    def references(holder, **targets):
+        return (f'<XRefHolder name="{holder}">' + "".join(f'<XRef name="{port}" target="{name}.{short}"/>'
+                for port, short in targets.items()) + "</XRefHolder>")
+
+    return (f'<Process id="{name}" name="{name}"><Module name="moduleGazeboBug"><Parameter name="device_name" value="{name}"/>'
+            '<Parameter name="comkey" value="all"/><Parameter name="gripper" value="true"/>'
+            + references("InputFromGroup", _motor="motor", _gripper="gripper", _audio_out="shout")
+            + references("OutputToGroup", _proximityGripper="rays", _audio_in="heard") + "</Module>"
+            + group("motor", "Motor", 3, 3, "neuronRandomSpike") + group("gripper", "Gripper", 1, 1)
+            + group("shout", "Shout", 6, 6, "neuronRandomSpike") + group("rays", "Between the fingers", 16, 1)
+            + group("heard", "Heard", 6, 6) + "</Process>")
+
+
+VOICES_SYSTEM = ('<System id="s" name="Voices" author="" date="" cylesPerSecond="25">' + voices("Carrier") + voices("Speaker")
+                 + "</System>")
+VOICES_WORLD = """<sdf version="1.4"><world name="voices">
+<include><uri>model://grey_ground</uri></include>
+<include><name>Carrier</name><uri>model://team_a_bug</uri></include>
+<include><name>Speaker</name><uri>model://team_a_bug</uri><pose>2 1 0 0 0 3</pose></include>
+<model name="Ball"><pose>0.34 0 0 0 0 0</pose><link name="body"><pose>0 0 0.06 0 0 0</pose>
+  <inertial><mass>0.01</mass></inertial>
+  <collision name="c"><geometry><sphere><radius>0.08</radius></sphere></geometry></collision>
+  <visual name="v"><geometry><sphere><radius>0.08</radius></sphere></geometry></visual></link></model>
+</world></sdf>
+"""
 
 
 class Kinds(Stopped):
     def test_runs_of_every_kind_go_on_after_kills(self):
-        for arguments, cycles, every in ((TEAMS, 300, 7), (RATES, 60000, 1500)):
+        (self.here / "models").symlink_to(PROJECT / "systems/worlds/models")
+        (self.here / "voices.iqr").write_text(VOICES_SYSTEM)
+        (self.here / "voices.world").write_text(VOICES_WORLD)
+        for arguments, cycles, every in ((TEAMS, 300, 7), (RATES, 60000, 1500), (VOICES, 3000, 50)):
             arguments = (*arguments, "--cycles", cycles)
             begun = time.monotonic()
             self.forage(*arguments, "-o", "through")
@@ -214,8 +255,21 @@ class Kinds(Stopped):
                 process = self.start(*(("resume", out, "-q") if there else (*arguments, "--checkpoint-every", every, "-o", out)))
             self.assertGreater(kills, 0)
             self.assert_same(out)
+            if arguments[:-2] == VOICES:
+                self.assert_carried_and_heard()
             shutil.rmtree(self.here / out)
             shutil.rmtree(self.here / "through")
+
+    def assert_carried_and_heard(self):
+        """The run was one in which there was something to lose."""
+        heard = [[float(v) for v in row[1:]] for row in self.table("through/Carrier_Heard_act.csv")[1:]]
+        self.assertGreater(len({tuple(row) for row in heard}), 100)
+        rays = (self.here / "through/rays.npy").read_bytes()
+        size = 8 + 16 * 8
+        rows = rays[int.from_bytes(rays[8:10], "little") + 10:]
+        middle = [struct.unpack_from("<d", rows, at + 8 + 7 * 8)[0] for at in range(0, len(rows), size)]
+        held = sum(value > 0.5 for value in middle)
+        self.assertGreater(held, 0.9 * len(middle))
 
 
 class Faults(Stopped):
@@ -244,6 +298,41 @@ class Faults(Stopped):
                 self.assertTrue(rows.endswith(b"\n"))
             self.assertTrue(whole.startswith(rows))
             self.assertFalse(list((self.here / form).glob("*.part")))
+
+    def test_on_a_full_disk_an_hdf5_file_stays_whole(self):
+        """HDF5 is asked to write only what there is space for; h5py, which did not write it, reads the rows."""
+        import h5py
+        import numpy
+
+        arguments = ("run", SYSTEM, "--world", WORLD, "--seconds", 600, "-r", "Bug/Light", "--format", "h5", "-q")
+        self.forage(*arguments, "-o", "whole")
+
+        def rows(directory):
+            with h5py.File(self.here / directory / "recording.h5", "r") as file:
+                return file["cycle"][:], file["Bug/Light/act"][:]
+
+        cycles, values = rows("whole")
+        small = self.here / "small"
+        small.mkdir()
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", small], capture_output=True).returncode == 0
+        try:
+            if not mounted:
+                print("no small disk can be mounted here: only a limited size of files is tried")
+            for out, why in ((small / "out", "No space left on device"), ("limited", "File too large")):
+                if out != "limited" and not mounted:
+                    continue
+                done = self.limited(1_000_000 if out == "limited" else resource.RLIM_INFINITY, *arguments, "-o", out)
+                self.assertEqual(done.returncode, 1, done.stderr)
+                self.assertRegex(done.stderr, rf"(?m)^error: cannot write '.*recording.h5.part': {why}$")
+                kept, seen = rows(out)
+                self.assertGreater(len(kept), 100)
+                self.assertLess(len(kept), len(cycles))
+                numpy.testing.assert_array_equal(kept, cycles[:len(kept)])
+                numpy.testing.assert_array_equal(seen[:len(kept)], values[:len(kept)])
+                self.forage("plot", self.here / out / "recording.h5", "-o", "pictures")
+        finally:
+            if mounted:
+                subprocess.run(["umount", small], check=True)
 
     def test_a_full_disk_keeps_the_checkpoint_before(self):
         arguments = (*EVERYTHING[:8], "-r", "Adaptive/Weights Display", "--cycles", 1500, "--checkpoint-every", 100)

@@ -86,6 +86,12 @@ def add_kinds():
                     file.write(b"x" * (1 << 20))
             return Case(command(kind, name))
 
+        def pipe(here, kind=kind):
+            name = "pipe" + ENDING.get(kind, ".txt")
+            os.mkfifo(here / name)
+            return Case(command(kind, name))
+
+        CASES[f"{kind}_a_pipe_that_nobody_writes_into"] = pipe
         CASES[f"{kind}_without_an_end"] = device
         CASES[f"{kind}_linked_to_itself"] = circle
         CASES[f"{kind}_of_ten_gigabytes_of_nothing"] = sparse
@@ -198,3 +204,74 @@ def a_full_disk_for_a_page(here):
 @case
 def an_answer_that_cannot_be_printed(here):
     return Case(["describe", "system.iqr"], 1, {"stdout": os.open("/dev/full", os.O_WRONLY)})
+
+
+def in_the_way(*names):
+    """Folders that have the names of what is to be written."""
+
+    def make(here):
+        for name in names:
+            (here / "out" / name).mkdir(parents=True)
+
+    return make
+
+
+@case
+def a_folder_in_the_way_of_the_record_of_a_run(here):
+    in_the_way("run.json")(here)
+    return Case(["run", "system.iqr", "--cycles", "5", "-o", "out"])
+
+
+@case
+def a_folder_in_the_way_of_a_recording(here):
+    in_the_way("P_A_act.csv")(here)
+    return Case(["run", "system.iqr", "--cycles", "5", "-o", "out", "--record", "P/A"])
+
+
+@case
+def a_folder_in_the_way_of_a_trajectory(here):
+    in_the_way("trajectory.csv")(here)
+    return Case(["run", "system.iqr", "--world", "world.world", "--cycles", "5", "-o", "out"])
+
+
+@case
+def a_folder_in_the_way_of_an_experiments_table(here):
+    in_the_way("summary.csv", "runs")(here)
+    return Case(["experiment", "experiment.xml", "-q", "-o", "out"])
+
+
+@case
+def a_name_that_steers_the_terminal(here):
+    return Case(["check", "red\x1b[31m\nsystem.iqr"])
+
+
+@case
+def results_with_nothing_to_draw(here):
+    (here / "out").mkdir()
+    return Case(["plot", "out"])
+
+
+def model(here, name, text):
+    folder = here / "models" / name
+    folder.mkdir()
+    (folder / "model.config").write_text(f"<model><name>{name}</name><sdf version='1.4'>model.sdf</sdf></model>")
+    (folder / "model.sdf").write_text(f'<sdf version="1.4"><model name="{name}">{text}</model></sdf>')
+
+
+def world_with(here, text):
+    (here / "input.world").write_text((here / "world.world").read_text().replace("</world>", text + "</world>"))
+    return Case(command("world", "input.world"))
+
+
+@case
+def a_world_of_a_trillion_models_in_forty_files(here):
+    for i in range(40):
+        model(here, f"m{i}", "".join(f"<include><name>{n}</name><uri>model://m{i + 1}</uri></include>" for n in "ab"))
+    model(here, "m40", '<link name="l"><collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision></link>')
+    return world_with(here, "<include><uri>model://m0</uri></include>")
+
+
+@case
+def a_world_of_two_thousand_robots(here):
+    robot = "<include><name>r{0}</name><uri>model://robot</uri><pose>{1} {2} 0 0 0 0</pose></include>"
+    return world_with(here, "".join(robot.format(i, i % 40 * 2 - 40, i // 40 * 2 + 20) for i in range(2000)))

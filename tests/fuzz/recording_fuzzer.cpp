@@ -1,6 +1,6 @@
 // Recordings that are read back: the first byte chooses the format.
+#include "core/model/named_file.h"
 #include "core/observe/recording.h"
-#include "core/types/text_file.h"
 #include "tests/fuzz/holds.h"
 #include "tests/fuzz/scratch_file.h"
 

@@ -108,7 +108,10 @@ int build_plugin(const BuildPluginOptions& o) {
     Diagnostics diagnostics;
     plugin::load({partial(output)}, shipped_types(nullptr, nullptr), diagnostics);  // whatever else there is
     if (diagnostics.failed()) {
-        fmt::print(stderr, "{}", format(diagnostics));
+        std::string said = format(diagnostics);
+        for (auto at = said.find(partial(output)); at != said.npos; at = said.find(partial(output), at))
+            said.replace(at, partial(output).size(), output);
+        fmt::print(stderr, "{}", said);
         clear();
         return bad_input;
     }

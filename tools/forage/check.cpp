@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <set>
 
@@ -46,7 +48,10 @@ int check(const Input& input) {
         simulation = engine::Simulation::build(loaded->system, loaded->registry, {input.seed}, diagnostics);
     fmt::print(stderr, "{}", format(diagnostics));
     if (!simulation) {
-        fmt::print(stderr, "{}: {}, {}\n", input.system,
+        std::string name = input.system;  // it may hold anything, and the terminal must not obey it
+        std::replace_if(
+            name.begin(), name.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+        fmt::print(stderr, "{}: {}, {}\n", name,
                    counted(static_cast<std::size_t>(diagnostics.errors()), "error"),
                    counted(static_cast<std::size_t>(diagnostics.warnings()), "warning"));
         return bad_input;

@@ -40,6 +40,7 @@ struct RunOptions {
     std::optional<std::uint64_t> cycles;
     std::optional<double> seconds;
     std::optional<std::uint64_t> trials;
+    Location length_at;          ///< no file: on the command line
     double longest_trial = 300;  ///< s of the world
     model::Wish until;           ///< a condition that ends the run before its time; none when empty
     std::vector<model::RecordingWish> recordings;

@@ -1,3 +1,4 @@
+
 #include "core/xml/experiment.h"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/model/named_file.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/experiment_runs.h"
 #include "tools/forage/experiment_tables.h"
@@ -20,6 +22,15 @@ std::string default_directory(const std::string& file) {
     return "forage-out/" + std::filesystem::path(file).stem().string();
 }
 
+/// Whether the files that an experiment names can be read; reports where it names those that cannot.
+bool files_are_there(const model::Experiment& e, Diagnostics& diagnostics) {
+    bool all = find_file(e.system, e.system_at, diagnostics);
+    if (e.world_at.file) all &= find_file(e.world, e.world_at, diagnostics);
+    for (const auto& m : e.manipulations)
+        if (!m.patterns.empty()) all &= find_file(m.patterns.text, m.patterns.at, diagnostics);
+    return all;
+}
+
 }  // namespace
 
 int experiment(const ExperimentOptions& o) {
@@ -28,7 +39,7 @@ int experiment(const ExperimentOptions& o) {
     const std::string directory = o.directory.empty() ? default_directory(o.file) : o.directory;
     std::vector<PlannedRun> runs;
     Sources sources;
-    if (wanted) {
+    if (wanted && files_are_there(*wanted, diagnostics)) {
         runs = planned_runs(*wanted, directory);
         for (auto& run : runs) run.options.input.plugins = o.plugins;
         sources = read(runs.front().options.input, diagnostics);
@@ -37,8 +48,15 @@ int experiment(const ExperimentOptions& o) {
     if (diagnostics.failed() || !o.quiet) fmt::print(stderr, "{}", format(diagnostics));
     if (diagnostics.failed()) return bad_input;
 
-    make_directory(directory);
+    const std::string results_file = directory + "/results.csv", summary_file = directory + "/summary.csv";
     DirectoryHold hold;
+    try {
+        make_directory(directory + "/runs");
+        for (const auto& table : {results_file, summary_file}) refuse_no_file(table);
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "error: {}\n  hint: choose another directory for the results with -o\n", e.what());
+        return bad_input;
+    }
     try {
         hold = DirectoryHold(directory);
     } catch (const std::exception& e) {
@@ -48,7 +66,6 @@ int experiment(const ExperimentOptions& o) {
     note_signals();
     Progress progress(!o.quiet);
     const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    const std::string results_file = directory + "/results.csv", summary_file = directory + "/summary.csv";
     for (const auto& table : {results_file, summary_file})  // one that is there is whole
         std::remove(table.c_str());
     const auto results = make_runs(*wanted, sources, runs, o.jobs > 0 ? o.jobs : cores, o.fresh, progress);

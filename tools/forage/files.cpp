@@ -14,6 +14,12 @@
 
 namespace forage::tool {
 
+void refuse_no_file(const std::string& path) {
+    std::error_code none;
+    if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
+        throw std::runtime_error(fmt::format("cannot write '{}': it is no file", path));
+}
+
 std::string partial(const std::string& path) { return path + ".part"; }
 
 void finish(const std::string& path) {
@@ -25,10 +31,7 @@ void finish(const std::string& path) {
 namespace {
 
 void write_partial(const std::string& path, std::string_view text) {
-    // A device would be replaced by a file of its name.
-    if (std::error_code none;
-        std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
-        throw std::runtime_error(fmt::format("cannot write '{}': it is no file", path));
+    refuse_no_file(path);
     std::ofstream out(partial(path), std::ios::binary);
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
     out.close();

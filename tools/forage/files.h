@@ -7,6 +7,9 @@
 
 namespace forage::tool {
 
+/// Throws std::runtime_error when what stands at `path` is no file, but a directory or a device: a file would
+/// take its place, or could not.
+void refuse_no_file(const std::string& path);
 /// The name under which a file grows; rename it with finish().
 std::string partial(const std::string& path);
 /// Gives a file that was written as partial(path) its name. Throws std::runtime_error.

@@ -18,21 +18,26 @@ std::uint64_t cycles_in(double seconds, double seconds_per_cycle) {
 
 void check_length(const RunOptions& o, const bug::World* world, Diagnostics& diagnostics) {
     if (!o.trials) return;
+    const bool in_file = o.length_at.file != nullptr;
+    const std::string trials = in_file ? "trials" : "--trials";
+    const std::string otherwise =
+        in_file ? "give the length in cycles or seconds" : "give the length with --cycles or --seconds";
+    const auto refuse = [&](const std::string& why, const std::string& hint) {
+        diagnostics.error(o.length_at, why, hint);
+    };
     if (!world) {
-        diagnostics.error({}, "--trials needs a world",
-                          "add --world FILE.world, or give the length with --cycles");
+        refuse(
+            trials + (in_file ? " need a world" : " needs a world"),
+            fmt::format("add {}, or {}", in_file ? "<world file=\"..\"/>" : "--world FILE.world", otherwise));
     } else if (world->bugs() == 0) {
-        diagnostics.error({}, "--trials: there is no robot in the world",
-                          "give the length with --cycles or --seconds");
+        refuse(trials + ": there is no robot in the world", otherwise);
     } else if (!world->reset_plan()) {
-        diagnostics.error({}, "--trials: this world never resets the robot, so it has no trials",
-                          "give the length with --cycles or --seconds, or add models named Reset_0, Reset_1, "
-                          "... to the world");
+        refuse(trials + ": this world never resets the robot, so it has no trials",
+               otherwise + ", or add models named Reset_0, Reset_1, ... to the world");
     } else if (world->seconds_per_cycle() > 1) {
-        diagnostics.error({},
-                          fmt::format("--trials: a cycle takes {:g} s of the world, longer than a reset",
-                                      world->seconds_per_cycle()),
-                          "choose a smaller --world-pace");
+        refuse(fmt::format("{}: a cycle takes {:g} s of the world, longer than a reset", trials,
+                           world->seconds_per_cycle()),
+               in_file ? "choose a smaller pace of the world" : "choose a smaller --world-pace");
     }
 }
 

@@ -9,9 +9,9 @@
 #include "bug_interface/world/sdf_reader.h"
 #include "core/model/build.h"
 #include "core/model/edit.h"
+#include "core/model/named_file.h"
 #include "core/model/validate.h"
 #include "core/plugin/search.h"
-#include "core/types/text_file.h"
 #include "core/xml/reader.h"
 #include "modules/modules.h"
 #include "modules/replay/replay.h"
@@ -92,7 +92,9 @@ Sources read(const Input& input, Diagnostics& diagnostics) {
     }
     if (!input.world.empty()) out.world = bug::read_world(input.world, diagnostics);
     out.drive = read_table(input.drive, diagnostics);
+    const int errors_before = diagnostics.errors();
     out.plugins = load_plugins(input.plugins, input.system, diagnostics);
+    out.plugins_failed = diagnostics.errors() > errors_before;
     return out;
 }
 
@@ -115,7 +117,7 @@ std::optional<Loaded> assemble(const Sources& sources, const Input& input, Diagn
     out.registry = shipped_types(out.world.get(), out.drive);
     plugin::add(sources.plugins, out.registry);
     for (const auto& p : sources.plugins) out.plugins.push_back(p.path);
-    if (sources.system) {
+    if (sources.system && !sources.plugins_failed) {
         for (const auto& wish : input.settings)
             model::set(out.system, out.registry, wish.text, diagnostics, wish.at);
         if (diagnostics.failed())

@@ -39,6 +39,7 @@ struct Sources {
     std::optional<bug::WorldDescription> world;       ///< none without one, and when it could not be read
     std::shared_ptr<const replay::DriveTable> drive;  ///< null without one
     std::vector<plugin::Plugin> plugins;
+    bool plugins_failed = false;  ///< types may be missing
 };
 
 /// Everything read and checked. Registry and system refer to world and table: keep them together.

@@ -109,7 +109,7 @@ int program(int argc, char** argv) {
         "Example:\n  forage completion bash > ~/.local/share/bash-completion/completions/forage");
     completion_command.add_option("SHELL", shell, "bash, zsh or fish")
         ->required()
-        ->check(CLI::IsMember({"bash", "zsh", "fish"}))
+        ->check(one_of({"bash", "zsh", "fish"}))
         ->option_text(" ");
     app.add_subcommand("man", "Print the manual page")
         ->footer("Example:\n  forage man > forage.1; man ./forage.1");

@@ -8,6 +8,7 @@
 #include "core/model/lookup.h"
 #include "core/observe/cell.h"
 #include "core/observe/pattern_file.h"
+#include "core/types/text_file.h"
 #include "tools/forage/schedule.h"
 
 namespace forage::tool {
@@ -16,11 +17,16 @@ namespace {
 using Wish = model::ManipulationWish;
 using model::trim;
 
+/// A name may hold parentheses, too.
+bool looks_like_a_cell(std::string_view text) {
+    return !text.empty() && text.find_first_not_of("0123456789., \t+-") == text.npos;
+}
+
 /// Where "(x,y)=value ..." begins.
 std::size_t first_cell(std::string_view text) {
     for (auto open = text.find('('); open != text.npos; open = text.find('(', open + 1))
         if (const auto close = text.find(")=", open);
-            close != text.npos && observe::parse_cell(text.substr(open + 1, close - open - 1)))
+            close != text.npos && looks_like_a_cell(text.substr(open + 1, close - open - 1)))
             return open;
     return text.npos;
 }
@@ -52,33 +58,36 @@ void parse_option(std::string_view option, Wish& out) {
             "'{}' is none of every N, step N, times N, backwards, from WHEN, until WHEN", option));
 }
 
-/// One "(x,y)=value" of a list of cells, taken off its beginning; false when it is none.
-bool take_cell(std::string_view& list, std::pair<int, int>& place, double& value) {
-    list = trim(list);
+/// Takes one "(x,y)=value" off the beginning of a list; returns what is wrong with it.
+std::string take_cell(std::string_view& list, std::pair<int, int>& place, double& value) {
     const auto close = list.find(")=");
-    if (!list.starts_with("(") || close == list.npos) return false;
+    const auto end = std::min(list.find_first_of(" \t\r\n", close == list.npos ? 0 : close), list.size());
+    if (!list.starts_with("(") || close == list.npos)
+        return fmt::format("'{}' is no cell with a value", shown(list.substr(0, end)));
     const auto cell = observe::parse_cell(list.substr(1, close - 1));
-    const auto end = std::min(list.find_first_of(" \t\r\n", close), list.size());
-    const auto number = parse_parameter(ParameterKind::real, list.substr(close + 2, end - close - 2));
-    if (!cell || !number) return false;
+    if (!cell) return fmt::format("'{}' is no cell", shown(list.substr(0, close + 1)));
+    const auto word = list.substr(close + 2, end - close - 2);
+    const auto number = parse_parameter(ParameterKind::real, word);
+    if (!number) return no_number(word);
     place = *cell, value = std::get<double>(*number);
     list = trim(list.substr(end));
-    return true;
+    return {};
 }
 
 void add_cells(const Wish& w, std::string_view what, const engine::Simulation& s, int group,
                std::vector<double>& pattern, Diagnostics& diagnostics) {
-    std::string_view rest = w.cells.text;
+    std::string_view rest = trim(w.cells.text);
     do {
         std::pair<int, int> place;
         double value = 0;
-        if (!take_cell(rest, place, value)) {
-            diagnostics.error(w.cells.at, fmt::format("{}: '{}' is no list of cells", what, w.cells.text),
-                              "for example '(1,1)=0.5 (2,1)=1'");
+        Location at = w.cells.at;
+        if (at.file) at.column += static_cast<int>(rest.data() - w.cells.text.data());
+        if (const auto wrong = take_cell(rest, place, value); !wrong.empty()) {
+            diagnostics.error(at, fmt::format("{}: {}", what, wrong),
+                              "a list of cells with values is written '(1,1)=0.5 (2,1)=1'");
             return;
         }
-        if (const auto index =
-                observe::find_cell(s, group, place.first, place.second, what, diagnostics, w.cells.at))
+        if (const auto index = observe::find_cell(s, group, place.first, place.second, what, diagnostics, at))
             pattern[static_cast<std::size_t>(*index)] = value;
     } while (!rest.empty());
 }

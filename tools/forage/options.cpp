@@ -1,8 +1,11 @@
 #include "tools/forage/options.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/types/parameter.h"
 
@@ -14,8 +17,14 @@ CLI::Validator number_that(bool (*fits)(double), const char* description) {
     return CLI::Validator(
         [=](std::string& text) {
             const auto value = forage::parse_parameter(forage::ParameterKind::real, text);
-            return value && fits(std::get<double>(*value)) ? std::string()
-                                                           : fmt::format("'{}' is not {}", text, description);
+            if (!value || !fits(std::get<double>(*value)))
+                return fmt::format("'{}' is not {}", text, description);
+            // 1e6 is a whole number as well.
+            if (const double v = std::get<double>(*value); v == std::floor(v) && v < 1e15)
+                text = fmt::format("{:.0f}", v);
+            else if (v >= 1e15 && text.find_first_not_of("0123456789") != text.npos)
+                return fmt::format("'{}' is too large to be written so: write all digits", text);
+            return std::string();
         },
         "");
 }
@@ -34,13 +43,28 @@ CLI::Validator seed() {
                        "a whole number, at least 0");
 }
 
+CLI::Validator threads() {
+    return number_that([](double v) { return v >= 1 && v <= 1024 && v == std::floor(v); },
+                       "a whole number from 1 to 1024");
+}
+CLI::Validator one_of(std::vector<std::string> names) {
+    const std::string set = fmt::format("{{{}}}", fmt::join(names, ","));  // for completion
+    return CLI::Validator(
+        [names = std::move(names)](const std::string& text) {
+            return std::find(names.begin(), names.end(), text) != names.end()
+                       ? std::string()
+                       : fmt::format("'{}' is none of {}", text, fmt::join(names, ", "));
+        },
+        set);
+}
+
 CLI::Option* repeated(CLI::Option* option) {
     return option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 CLI::Option* add_picture_format(CLI::App& command, std::string& format) {
     return command.add_option("--as", format, "Format of pictures: png, svg or pdf [png]")
-        ->check(CLI::IsMember({"png", "svg", "pdf"}))
+        ->check(one_of({"png", "svg", "pdf"}))
         ->option_text("FORMAT");
 }
 
@@ -104,7 +128,7 @@ void add_experiment(CLI::App& app, ExperimentOptions& o) {
     experiment.add_option("-o,--output", o.directory, "Directory for results [forage-out/ and FILE's name]")
         ->option_text("DIR");
     experiment.add_option("-j,--jobs", o.jobs, "Runs at a time [one per core]")
-        ->check(count())
+        ->transform(threads())
         ->option_text("N");
     add_plugins(experiment, o.plugins);
     experiment.add_flag("--fresh", o.fresh, "Repeat runs that are finished");
@@ -161,7 +185,7 @@ void add_new(CLI::App& app, std::string& kind, std::string& name) {
     command.footer("Example:\n  forage new neuron adaptive");
     command.add_option("KIND", kind, "neuron, synapse or module")
         ->required()
-        ->check(CLI::IsMember({"neuron", "synapse", "module"}))
+        ->check(one_of({"neuron", "synapse", "module"}))
         ->option_text(" ");
     command.add_option("NAME", name, "Name of the folder, and of the type after its kind")
         ->required()

@@ -14,6 +14,8 @@ namespace forage::tool {
 CLI::Validator positive();  ///< a number above 0, at most 1e9
 CLI::Validator count();     ///< a whole number, at least 1
 CLI::Validator seed();      ///< a whole number, at least 0
+CLI::Validator threads();   ///< a whole number from 1 to 1024
+CLI::Validator one_of(std::vector<std::string> names);
 /// An option that may be repeated, with one value each time.
 CLI::Option* repeated(CLI::Option* option);
 CLI::Option* add_picture_format(CLI::App& command, std::string& format);

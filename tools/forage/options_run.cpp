@@ -80,7 +80,7 @@ void add_recording(CLI::App& run, RunOptions& o) {
            "--format", o.record.format,
            "Of recordings without a named file: csv, npy, npz (NumPy), h5 (HDF5) or dat (the original's "
            "data sampler) [csv]")
-        ->check(CLI::IsMember({"csv", "npy", "npz", "h5", "dat"}))
+        ->check(one_of({"csv", "npy", "npz", "h5", "dat"}))
         ->option_text("FORMAT")
         ->needs(record);
     run.add_option_function<std::uint64_t>(
@@ -89,17 +89,17 @@ void add_recording(CLI::App& run, RunOptions& o) {
                for (auto& r : o.recordings) r.every = every;
            },
            "Record every K-th cycle [1]")
-        ->check(count())
+        ->transform(count())
         ->option_text("K")
         ->needs(record);
     run.add_flag("--record-mean", o.record.mean, "Record the mean of K cycles instead of every K-th")
         ->needs("--every");
     run.add_option("--record-from", o.record.from, "Record from this cycle on [0]")
-        ->check(seed())
+        ->transform(seed())
         ->option_text("CYCLE")
         ->needs(record);
     run.add_option("--record-until", o.record.until, "Record up to this cycle")
-        ->check(seed())
+        ->transform(seed())
         ->option_text("CYCLE")
         ->needs(record);
     repeated(run.add_option_function<std::vector<std::string>>(
@@ -125,14 +125,14 @@ void add_run(CLI::App& app, RunOptions& o) {
         "Bug/Light.threshold=1'");
     add_input(run, o.input);
     auto* cycles = run.add_option("-c,--cycles", o.cycles, "Stop after so many cycles")
-                       ->check(count())
+                       ->transform(count())
                        ->option_text("N");
     auto* seconds = run.add_option("--seconds", o.seconds, "Stop after so many seconds of the world")
                         ->check(positive())
                         ->option_text("S");
     auto* trials = run.add_option("-t,--trials", o.trials,
                                   "Stop after so many trials; a trial ends when the robot is reset")
-                       ->check(count())
+                       ->transform(count())
                        ->option_text("N");
     cycles->excludes(seconds)->excludes(trials);
     seconds->excludes(trials);
@@ -141,7 +141,9 @@ void add_run(CLI::App& app, RunOptions& o) {
         ->check(positive())
         ->option_text("S")
         ->needs(trials);
-    run.add_option("--seed", o.input.seed, "Decides everything random [1]")->check(seed())->option_text("N");
+    run.add_option("--seed", o.input.seed, "Decides everything random [1]")
+        ->transform(seed())
+        ->option_text("N");
     add_recording(run, o);
     run.add_option("--until", o.until.text, "Stop before its time when a condition holds, as for --at")
         ->option_text("WHEN");
@@ -194,7 +196,7 @@ void add_run(CLI::App& app, RunOptions& o) {
         ->option_text("FILE")
         ->needs("--world");
     run.add_option("--threads", o.threads, "For large systems; the numbers do not depend on it [1]")
-        ->check(count())
+        ->transform(threads())
         ->option_text("N");
     run.add_option_function<std::string>(
            "--checkpoint-every", [&o](const std::string& text) { o.checkpoint_every = parse_interval(text); },
@@ -202,13 +204,13 @@ void add_run(CLI::App& app, RunOptions& o) {
            "'forage resume' goes on from there")
         ->option_text("N")
         ->excludes("--video");  // a film cannot go on
-    run.add_option(
-           "--on-nan", o.on_nan,
+    run.add_option_function<std::string>(
+           "--on-nan",
+           [&o](const std::string& text) {
+               o.on_nan = text == "warn" ? OnNan::warn : text == "stop" ? OnNan::stop : OnNan::ignore;
+           },
            "When a number becomes NaN or infinite: 'warn' once and go on, 'stop', or 'ignore' it [warn]")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, OnNan>{{"warn", OnNan::warn},
-                                                                         {"stop", OnNan::stop},
-                                                                         {"ignore", OnNan::ignore}})
-                        .description(""))
+        ->check(one_of({"warn", "stop", "ignore"}))
         ->option_text("HOW");
     run.add_flag("--hash", o.hash, "Give a digest of the state at the end: equal runs have the same one");
     run.add_flag("--realtime", o.real_time, "No faster than the clock: one second of the world per second");

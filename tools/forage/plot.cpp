@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/model/named_file.h"
 #include "core/observe/recording.h"
-#include "core/types/text_file.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/files.h"
 #include "tools/forage/plots.h"
@@ -231,7 +231,9 @@ int plot(const PlotOptions& o) {
     };
     Source source;
     try {
-        if (!fs::exists(o.source)) throw std::runtime_error(fmt::format("there is no '{}'", o.source));
+        std::error_code none;
+        if (const auto wrong = why_unreadable(o.source); wrong && !fs::is_directory(o.source, none))
+            throw FileError(o.source, {}, {*wrong});
         source = open(o.source);
     } catch (const FileError& e) {
         report(e, diagnostics);
@@ -249,6 +251,9 @@ int plot(const PlotOptions& o) {
             trajectory |= wish->kind == Kind::trajectory;
             wishes.push_back(std::move(*wish));
         }
+    if (wishes.empty() && !diagnostics.failed())
+        diagnostics.error({}, fmt::format("there is nothing to draw in '{}'", o.source),
+                          "'forage run --record' makes recordings, 'forage run --plot' draws at once");
     std::optional<Loaded> loaded;
     if ((structure || trajectory) && !diagnostics.failed()) {
         if (source.input.system.empty())

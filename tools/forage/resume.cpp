@@ -110,7 +110,10 @@ int resume(const ResumeOptions& o, const RunParser& parse) {
         } catch (const observe::ShortFile& e) {
             refused += fmt::format("{}checkpoint '{}': {}", refused.empty() ? "" : "\n", path, e.what());
         }
-    fmt::print(stderr, "error: {}\n", refused);
+    fmt::print(stderr,
+               "error: {}\n  hint: start the run again; name the directory of results of a run with "
+               "--checkpoint-every\n",
+               refused);
     return bad_input;
 }
 

@@ -14,6 +14,7 @@
 #include "tools/forage/length.h"
 #include "tools/forage/pictures.h"
 #include "tools/forage/progress.h"
+#include "tools/forage/result_names.h"
 #include "tools/forage/results.h"
 #include "tools/forage/running.h"
 #include "tools/forage/stop.h"
@@ -97,10 +98,11 @@ int run(const RunOptions& options) {
     if (diagnostics.failed() || !options.quiet) fmt::print(stderr, "{}", format(diagnostics));
     if (!running) return bad_input;
     try {
+        check_result_names(options, *running);
         if (!options.directory.empty()) remove_checkpoints(options.directory);  // of another run
         if (running->recordings) running->recordings->begin();
     } catch (const std::exception& e) {
-        fmt::print(stderr, "error: {}\n", e.what());
+        fmt::print(stderr, "error: {}\n  hint: choose another directory for the results with -o\n", e.what());
         return bad_input;
     }
     return carry_on(options, sources, *running);

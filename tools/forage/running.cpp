@@ -116,7 +116,12 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
             for (std::size_t i = 0; i < out.loaded.world->bugs(); ++i)
                 out.measures.emplace_back(*out.loaded.world, i, out.simulation);
         if (!o.directory.empty()) {
-            make_directory(o.directory);
+            try {
+                make_directory(o.directory);
+            } catch (const std::exception& e) {
+                diagnostics.error({}, e.what(), "choose another directory for the results with -o");
+                return std::nullopt;
+            }
             try {
                 out.hold = DirectoryHold(o.directory);
             } catch (const std::exception& e) {

@@ -16,7 +16,8 @@ RunOptions common(const model::Experiment& e) {
     RunOptions o;
     o.input.system = e.system, o.input.world = e.world, o.input.settings = e.settings;
     o.input.world_pace = e.world_pace, o.input.noise = e.noise;
-    o.cycles = e.cycles, o.seconds = e.seconds, o.trials = e.trials, o.longest_trial = e.longest_trial;
+    o.length_at = e.length_at, o.cycles = e.cycles, o.seconds = e.seconds, o.trials = e.trials,
+    o.longest_trial = e.longest_trial;
     o.until = e.until, o.recordings = e.recordings, o.at = e.changes, o.measures = e.measures,
     o.manipulations = e.manipulations;
     o.plots = e.plots, o.quiet = true;

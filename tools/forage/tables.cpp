@@ -1,12 +1,13 @@
 #include "tools/forage/tables.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "core/model/lookup.h"
-#include "core/types/text_file.h"
+#include "core/model/named_file.h"
 #include "modules/replay/replay.h"
 #include "tools/forage/manipulations.h"
 
@@ -23,22 +24,27 @@ std::vector<int> groups_of(const replay::DriveTable::Row& row, const Location& a
     std::vector<int> out;
     for (int g = 0; g < s.groups(); ++g)
         if (s.path(g).substr(s.path(g).find('/') + 1) == row.target) out.push_back(g);
-    if (out.empty()) diagnostics.error(at, fmt::format("no process has a group '{}'", row.target));
+    std::vector<std::string> names;
+    for (int g = 0; out.empty() && g < s.groups(); ++g)
+        names.push_back(s.path(g).substr(s.path(g).find('/') + 1));
+    if (out.empty())
+        diagnostics.error(at, fmt::format("no process has a group '{}'", row.target),
+                          suggest(row.target, names));
     return out;
 }
 
 void add_table(const replay::DriveTable& table, const engine::Simulation& s, observe::Clamp& out,
                Diagnostics& diagnostics) {
-    const auto file = std::make_shared<SourceFile>(SourceFile{table.name(), {}});
+    const auto file = std::make_shared<SourceFile>(SourceFile{table.name(), table.beginning()});
     for (const auto& row : table.rows()) {
         const Location at{file, row.line, row.column};
         for (const int group : groups_of(row, at, s, diagnostics)) {
-            const int cells = s.shape(group).cells;
-            if (row.values.size() == static_cast<std::size_t>(cells))
+            if (row.values.size() == static_cast<std::size_t>(s.shape(group).cells)) {
                 out.add(row.cycle, group, row.values);
-            else
-                diagnostics.error(at, fmt::format("{} values for '{}', which has {} cells", row.values.size(),
-                                                  s.path(group), cells));
+                continue;
+            }
+            const auto fault = replay::DriveTable::misfit(row, s.path(group), s.shape(group));
+            diagnostics.error(at, fault.message, fault.hint);
         }
     }
 }
@@ -52,11 +58,12 @@ observe::Clamp clamp(const std::vector<std::string>& wishes, const engine::Simul
         try {
             add_table(replay::DriveTable::read(wish), simulation, out, diagnostics);
         } catch (const FileError& e) {
-            if (e.faults().front().line > 0)
+            std::error_code none;
+            if (std::filesystem::exists(std::filesystem::symlink_status(wish, none)))
                 report(e, diagnostics);
             else  // perhaps no file was meant
                 diagnostics.error(
-                    {}, e.what(),
+                    {}, fmt::format("--clamp '{}': {}", wish, e.faults().front().message),
                     "a clamp is a file of rows cycle,process,group,v0,v1,... or 'Process/Group(x,y)=value'");
         }
     }
@@ -86,7 +93,7 @@ void check_drive(const replay::DriveTable& table, const model::System& system, D
             "--clamp overwrites the activity of any group");
         return;
     }
-    const auto file = std::make_shared<SourceFile>(SourceFile{table.name(), {}});
+    const auto file = std::make_shared<SourceFile>(SourceFile{table.name(), table.beginning()});
     std::set<std::string> reported;
     for (const auto& row : table.rows()) {
         const bool played = std::any_of(outputs.begin(), outputs.end(),

@@ -393,7 +393,7 @@ TEST_CASE("A value of the wrong form is said in plain words, at its line") {
     const std::string pose = " | a pose is x y z roll pitch yaw: six numbers, in m and rad\n";
     CHECK(said("<pose>a b c</pose>") == "71: error: <pose> cannot be 'a b c'" + pose);
     CHECK(said("<pose>1 2 3</pose>") == "71: error: <pose> has 3 numbers instead of 6" + pose);
-    CHECK(said("<static>maybe</static>") == "71: error: <static> must be true or false\n");
+    CHECK(said("<static>maybe</static>") == "71: error: <static> cannot be 'maybe' | write true or false\n");
     CHECK(said("</include><model><link name='l'/></model><include><uri>model://target</uri>") ==
           "71: error: <model> needs the attribute 'name' | <model name=\"...\">\n");
     CHECK(said_of(edited("<sdf version=\"1.4\">", "<sdf>")) ==
@@ -435,15 +435,17 @@ TEST_CASE("A file that is no world is told what it is") {
     };
     const auto systems = test::source_dir() / "systems";
     const Scratch scratch;
-    CHECK(said(systems / "reactive_foraging.iqr") == "this is a system file; a world is wanted here");
+    CHECK(said(systems / "reactive_foraging.iqr") ==
+          "the root element is <System>; that of a world or a model is <sdf>");
     CHECK_THAT(said(systems / "worlds"), Catch::Contains("is a folder, not a world file"));
     CHECK_THAT(said(systems / "worlds/models/floor_open/materials/floor_open.png"),
-               Catch::Contains("is a PNG picture, not a world file"));
-    CHECK_THAT(said(scratch.write("a.world", std::string("a\0b", 3))), Catch::Contains("is a binary file"));
+               Catch::Contains("the byte 0x89 is not UTF-8"));
+    CHECK_THAT(said(scratch.write("a.world", std::string("a\0b", 3))),
+               Catch::Contains("the byte 0x00 does not occur in a text"));
     CHECK_THAT(said(scratch.write("a.world", " \n")), Catch::Contains("is empty"));
-    CHECK(said(scratch.write("a.world", "hello")) == "there is no XML in this file");
+    CHECK(said(scratch.write("a.world", "hello")) == "there is text before the first element");
     CHECK(said(scratch.write("a.world", "<!-- <sdf> --><sfd/>")) ==
-          "the root element is <sfd>; that of a world is <sdf>");
+          "the root element is <sfd>; that of a world or a model is <sdf>");
 }
 
 TEST_CASE("An include takes name, place, fixedness and plugins from the world, the rest from the model") {

@@ -1,0 +1,56 @@
+#include "core/model/named_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace forage {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "did you mean 'x'?" for a file that is not there; empty when nothing of that ending is near.
+std::string near_file(const fs::path& path) {
+    std::error_code error;
+    if (path.empty() || fs::exists(fs::symlink_status(path, error))) return {};
+    std::vector<std::string> siblings;
+    const fs::path folder = path.parent_path();
+    for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+         entry.increment(error))
+        if (entry->path().extension() == path.extension())
+            siblings.push_back(entry->path().filename().string());
+    std::sort(siblings.begin(), siblings.end());
+    const auto near = nearest(path.filename().string(), siblings);
+    return near.empty() ? "" : fmt::format("did you mean '{}'?", (folder / near).string());
+}
+
+}  // namespace
+
+void report(const FileError& error, Diagnostics& diagnostics) {
+    const auto file = std::make_shared<SourceFile>(SourceFile{error.path(), error.text()});
+    for (const auto& f : error.faults())
+        diagnostics.error({file, f.line, f.column}, f.message,
+                          f.hint.empty() && f.line == 0 ? near_file(error.path()) : f.hint);
+}
+
+std::optional<std::string> read_file(const std::string& path, std::size_t most, Diagnostics& diagnostics) {
+    try {
+        return read_file(path, most);
+    } catch (const FileError& e) {
+        report(e, diagnostics);
+        return std::nullopt;
+    }
+}
+
+bool find_file(const std::string& path, const Location& where, Diagnostics& diagnostics) {
+    const auto fault = why_unreadable(path);
+    if (fault)
+        diagnostics.error(where, fmt::format("'{}': {}", path, fault->message),
+                          fault->hint.empty() ? near_file(path) : fault->hint);
+    return !fault;
+}
+
+}  // namespace forage
