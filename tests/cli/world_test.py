@@ -92,8 +92,10 @@ class World(unittest.TestCase):
         frames = int(re.search(r"game.gif: (\d+) frames", out)[1])
         self.assertGreater(frames, 20)
         self.assertEqual(gif_frames((self.here / "game.gif").read_bytes()), frames)
-        self.forage("run", *TEAMS, "--seconds", 1, "--video", "game.png", "-o", "")
-        self.assertGreater(len(list(self.here.glob("game_*.png"))), 5)
+        out = self.forage("run", *TEAMS, "--seconds", 1, "--video", "game.png", "-o", "").stdout
+        pictures = sorted(p.name for p in self.here.glob("game_*.png"))
+        self.assertGreater(len(pictures), 5)
+        self.assertIn(f"{pictures[0]} to {pictures[-1]}", out)
         self.assertIn("it ends with .gif or .png", self.forage("run", *TEAMS, "--video", "game.avi", status=2).stderr)
 
     def test_the_page_on_making_a_world_works_as_it_is_written(self):
