@@ -384,7 +384,7 @@ TEST_CASE("That no models are found is said once, with how to make them found") 
     CHECK(said ==
           "46: error: there is no model 'model://floor_basic', nor any other: no models are found | put them "
           "into a "
-          "folder 'models' beside the world file or one above, or name their folder in FORAGE_MODEL_PATH\n");
+          "folder 'models' beside the world file or up to two above, or name their folder in FORAGE_MODEL_PATH\n");
 }
 
 TEST_CASE("A value of the wrong form is said in plain words, at its line") {
