@@ -109,8 +109,15 @@ class World(unittest.TestCase):
             with self.subTest(block):
                 done = subprocess.run(["sh", "-e"], input=block, cwd=self.here, capture_output=True, text=True, timeout=120)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        out = self.here / "forage-out/my"
         for name in ("my.png", "my.gif", "run/trajectory.png"):
-            self.assertTrue((self.here / "forage-out/my" / name).stat().st_size > 1000)
+            self.assertTrue((out / name).stat().st_size > 1000)
+        with (out / "avoid/trajectory.csv").open(newline="") as file:
+            path = [(float(row["x"]), float(row["y"])) for row in csv.DictReader(file)]
+        for x, y in path:  # the system of one's own keeps the robot off the walls, on all sides
+            self.assertTrue(-3.7 < x < 3.7 and -2.7 < y < 2.7, (x, y))
+        self.assertTrue(min(x for x, _ in path) < -3 and max(x for x, _ in path) > 3)
+        self.assertTrue((out / "duel/score.csv").is_file())
 
 
 if __name__ == "__main__":
