@@ -82,7 +82,9 @@ class Check {
                 diagnostics_.error(e.where, fmt::format("<{}> needs the attribute '{}'", e.name, name),
                                    fmt::format("<{} {}=\"...\">", e.name, name));
         for (const std::string_view name : required_children(e.name))
-            if (!e.child(name)) diagnostics_.error(e.where, fmt::format("<{}> needs a <{}>", e.name, name));
+            if (!e.child(name))
+                diagnostics_.error(e.where, fmt::format("<{}> needs a <{}>", e.name, name),
+                                   fmt::format("<{0}>...</{0}>", name));
         if (content == Content::truth)
             check_truth(e);
         else if (content != Content::elements && content != Content::text && content != Content::anything)

@@ -80,6 +80,9 @@ std::vector<std::string_view> required_attributes(std::string_view element) {
 
 std::vector<std::string_view> required_children(std::string_view element) {
     if (element == "joint") return {"parent", "child"};
+    if (element == "box") return {"size"};
+    if (element == "cylinder") return {"radius", "length"};
+    if (element == "sphere") return {"radius"};
     return {};
 }
 

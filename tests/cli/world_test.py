@@ -119,6 +119,21 @@ class World(unittest.TestCase):
         self.assertTrue(min(x for x, _ in path) < -3 and max(x for x, _ in path) > 3)
         self.assertTrue((out / "duel/score.csv").is_file())
 
+    def test_the_page_on_the_robot_names_tests_that_there_are(self):
+        rows = re.findall(r"^\| (.+?) \| (.+?) \|$", (PROJECT / "docs/reference/robot.md").read_text(), re.MULTILINE)[1:]
+        self.assertGreater(len(rows), 25)
+        files = ""
+        for what, where in rows:
+            folder = ""
+            if not where.startswith("the same"):
+                files = ""
+            for name in re.findall(r"`([^`]+)`", where):
+                folder, stem = name.rsplit("/", 1) if "/" in name else (folder, name)
+                path = PROJECT / "tests" / folder / stem
+                files += (path if path.suffix else path.with_suffix(".cpp")).read_text()
+            for test in re.findall(r'"([^"]+)"', where):
+                self.assertRegex(files, rf'TEST_CASE\(\s*"{test}|def test_{test}', what)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])
