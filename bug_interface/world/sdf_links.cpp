@@ -19,11 +19,11 @@ Link read_link(SdfSource& in, const xml::Element& e) {
             in.diagnostics.error(inertial->where, "mass and inertia must be positive", "in kg and kg m^2");
     }
     each(e, "collision", [&](const xml::Element& c) {
-        if (const auto* mu = c.child("surface/friction/ode/mu");
-            mu && in.value(c, "surface/friction/ode/mu", 1.0) < 0)
-            in.diagnostics.error(mu->where, "a friction coefficient is at least 0", "0 is ice, 1 holds well");
-        link.collisions.push_back({c.where, name_of(c), in.pose_of(c), read_shape(in, c),
-                                   in.value(c, "surface/friction/ode/mu", 1.0)});
+        const double friction = in.value(c, "surface/friction/ode/mu", 1.0);
+        if (friction < 0)
+            in.diagnostics.error(c.child("surface/friction/ode/mu")->where,
+                                 "a friction coefficient is at least 0", "0 is ice, 1 holds well");
+        link.collisions.push_back({c.where, name_of(c), in.pose_of(c), read_shape(in, c), friction});
     });
     each(e, "visual", [&](const xml::Element& v) {
         link.visuals.push_back({v.where, name_of(v), in.pose_of(v), read_shape(in, v), read_material(in, v)});
