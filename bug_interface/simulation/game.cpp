@@ -59,7 +59,10 @@ void Game::substep(Physics& physics, double time, double step) {
     to_next_second_ -= step;
     if (to_next_second_ > step / 2) return;
     to_next_second_ += 1;
-    second(physics);
+    if (over())
+        begin(physics);  // nothing is left to play with
+    else
+        second(physics);
 }
 
 void Game::look(Physics& physics, double time) {
@@ -67,7 +70,7 @@ void Game::look(Physics& physics, double time) {
         r.held = std::exchange(r.contacts, 0) > held_contacts;
         if (r.away) continue;
         const Pose2& at = physics.pose(r.thing);
-        for (int team = 0; team < 2; ++team) {
+        for (const int team : {1, 0}) {  // where homes overlap, B's counts
             const Pose2& home = homes_[static_cast<std::size_t>(team)];
             if (std::hypot(at.x - home.x, at.y - home.y) >= home_radius) continue;
             const int points = !rules_ ? 1 : r.good ? rules_->points : rules_->penalty;

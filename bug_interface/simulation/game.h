@@ -23,12 +23,12 @@ struct Delivery {
 };
 
 /// Resources are loose things with the target plugin. In every 101st substep each one is looked at: at a home
-/// (its middle within 3 m) it counts for that team and goes back to where it came from; with more than 100
-/// contacts with robots since the last look it is held.
+/// (its middle within 3 m) it counts for that team, at both homes for B, and goes back to where it came from;
+/// with more than 100 contacts with robots since the last look it is held.
 ///
 /// With rules there is a clock, and once a second every resource that nobody holds grows older, turns bad
 /// (yellow), dissolves, and new good ones (blue) appear at the sites. Resources that are not in the game are
-/// away, where the original hid them in the central pillar.
+/// away, where the original hid them in the central pillar; so are all when the time is over.
 class Game {
   public:
     struct Resource {
@@ -45,7 +45,7 @@ class Game {
     Game(std::optional<GameRules> rules, std::array<Pose2, 2> homes, std::vector<Resource> resources,
          std::uint64_t seed);
 
-    /// Takes all resources away that the rules let appear. Before the first substep.
+    /// Takes all resources away, where rules let them appear. Before the first substep.
     void begin(Physics& physics);
     /// After each substep; `time`: s of the world, `step`: duration of a substep, s.
     void substep(Physics& physics, double time, double step);

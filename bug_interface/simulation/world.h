@@ -132,6 +132,7 @@ class World {
     void add_robot(const Model& model, Diagnostics& diagnostics);
     void add_things(Diagnostics& diagnostics);
     void add_game();
+    void place_all(Diagnostics& diagnostics);
     void surround();
     bool in_reset(std::size_t bug);  ///< one substep of the reset rule: true when the robot is not driven
     void drive(std::size_t bug);

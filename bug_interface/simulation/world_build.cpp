@@ -26,6 +26,18 @@ Model resource(int number) {
     return model;
 }
 
+/// The top of all robots and their ray sensors, m; 0 without any.
+double highest(const std::vector<Robot>& robots) {
+    double top = 0;
+    for (const Robot& robot : robots) {
+        for (const MovingSolid& s : robot.solids)
+            top = std::max(top, s.solid.pose.translation().z() + s.solid.size.z() / 2);
+        for (const RangeSensor& s : robot.range_sensors)
+            top = std::max(top, (robot.link_pose * s.pose).translation().z());
+    }
+    return top;
+}
+
 }  // namespace
 
 World::World(const WorldDescription& description, const WorldOptions& options)
@@ -62,6 +74,7 @@ bool World::build(Diagnostics& diagnostics) {
         if (robot_link(model)) add_robot(model, diagnostics);
     add_things(diagnostics);
     if (diagnostics.errors() > errors_before) return false;
+    check_places(description_, plan_, highest(robots_), diagnostics);
 
     for (const Robot& robot : robots_) bodies_.push_back(robot.body);
     std::rotate(bodies_.begin(), bodies_.begin() + static_cast<std::ptrdiff_t>(things_.size()),
@@ -72,15 +85,7 @@ bool World::build(Diagnostics& diagnostics) {
     stage_.bodies.resize(bodies_.size()), stage_.present.assign(bodies_.size(), 1);
     stage_.hinges.resize(bodies_.size());
     for (std::size_t i = 0; i < robots_.size(); ++i) stage_.hinges[i].resize(robots_[i].hinges.size());
-    for (std::size_t i = 0; i < robots_.size(); ++i) physics_->place(i, robots_[i].pose);
-    for (std::size_t i = 0; i < things_.size(); ++i) physics_->place(robots_.size() + i, things_[i].start);
-    for (const Model& model : description_.models)
-        if (const auto robot = robot_link(model) ? find(model.name) : std::nullopt;
-            robot && !physics_->has_room(*robot, physics_->pose(*robot)))
-            diagnostics.warning(
-                model.where,
-                fmt::format("robot '{}' starts inside of something, and may be stuck there", model.name),
-                "give it another <pose>");
+    place_all(diagnostics);
     add_game();
     surround();
     for (std::size_t i = 0; i < robots_.size(); ++i) {
@@ -95,6 +100,33 @@ bool World::build(Diagnostics& diagnostics) {
               [&](std::size_t a, std::size_t b) { return robots_[a].name < robots_[b].name; });
     set_stage();
     return true;
+}
+
+/// Everything where the file has it, with a word about what cannot be there.
+void World::place_all(Diagnostics& diagnostics) {
+    const auto warn = [&](const std::string& name, std::string_view what) {
+        const auto model = std::find_if(description_.models.begin(), description_.models.end(),
+                                        [&](const Model& m) { return m.name == name; });
+        if (model != description_.models.end())
+            diagnostics.warning(
+                model->where,
+                fmt::format("{}'{}' starts inside of something, and may be stuck there", what, name),
+                "give it another <pose>");
+    };
+    if (description_.game && !things_.empty())
+        for (const GameSite& site : description_.game->sites)
+            if (!physics_->has_room(robots_.size(), {site.x, site.y, 0}))
+                diagnostics.warning(site.where,
+                                    fmt::format("something stands at the site ({:g}, {:g})", site.x, site.y),
+                                    "resources appear where there is room, within 0.5 m");
+    for (std::size_t i = 0; i < robots_.size(); ++i) physics_->place(i, robots_[i].pose);
+    for (std::size_t i = 0; i < robots_.size(); ++i)
+        if (!physics_->has_room(i, physics_->pose(i))) warn(robots_[i].name, "robot ");
+    for (std::size_t i = 0; i < things_.size(); ++i)  // alone: what is loose makes room for each other
+        if (!(description_.game && things_[i].resource) &&
+            !physics_->has_room(robots_.size() + i, things_[i].start))
+            warn(things_[i].name, "");
+    for (std::size_t i = 0; i < things_.size(); ++i) physics_->place(robots_.size() + i, things_[i].start);
 }
 
 void World::add_robot(const Model& model, Diagnostics& diagnostics) {

@@ -115,6 +115,7 @@ struct Model {
 struct GameSite {
     double x = 0, y = 0;  ///< m
     double chance = 0;    ///< that one appears in a second, 0..1
+    Location where = {};
 };
 
 /// A game of two teams that collect resources; the defaults are the robotics challenge's.

@@ -29,8 +29,8 @@ std::string lower(std::string_view text) {
 ModelFolders::ModelFolders(const std::string& world_file, const std::vector<std::string>& extra)
     : folders_(extra) {
     const fs::path beside = fs::path(world_file).parent_path();
-    folders_.push_back((beside / "models").string());
-    folders_.push_back((beside / ".." / "models").string());
+    for (const char* folder : {"models", "../models", "../../models"})
+        folders_.push_back((beside / folder).string());
     for (const char* variable : {"FORAGE_MODEL_PATH", "GAZEBO_MODEL_PATH"}) {
         const char* list = std::getenv(variable);
         std::istringstream in(list ? list : "");

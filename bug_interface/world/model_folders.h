@@ -8,8 +8,9 @@
 
 namespace forage::bug {
 
-/// The folders in which `model://NAME` is looked up, in this order: `extra`, `models` and `../models` beside
-/// the world file, and those listed in FORAGE_MODEL_PATH and GAZEBO_MODEL_PATH (separated by colons).
+/// The folders in which `model://NAME` is looked up, in this order: `extra`, `models` beside the world
+/// file, one and two folders above, and those listed in FORAGE_MODEL_PATH and GAZEBO_MODEL_PATH (separated by
+/// colons).
 class ModelFolders {
   public:
     ModelFolders(const std::string& world_file, const std::vector<std::string>& extra);

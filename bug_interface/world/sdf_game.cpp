@@ -32,8 +32,9 @@ GameRules read_game(SdfSource& in, const xml::Element& e) {
                             : "a number is expected here");
         } else if (name == "site") {
             if (!(v[2] >= 0 && v[2] <= 1))
-                in.diagnostics.error(place, fmt::format("a chance of {} is not from 0 to 1", v[2]));
-            rules.sites.push_back({v[0], v[1], v[2]});
+                in.diagnostics.error(place, fmt::format("a chance of {} is not from 0 to 1", v[2]),
+                                     "it is that of a resource in each second");
+            rules.sites.push_back({v[0], v[1], v[2], place});
         } else if ((name == "points" || name == "penalty" || name == "most") &&
                    !(v[0] == std::floor(v[0]) && std::abs(v[0]) <= most_resources)) {
             in.diagnostics.error(place, fmt::format("<{}> cannot be '{}'", name, text),
@@ -41,7 +42,8 @@ GameRules read_game(SdfSource& in, const xml::Element& e) {
         } else if (name == "points" || name == "penalty") {
             (name == "points" ? rules.points : rules.penalty) = static_cast<int>(v[0]);
         } else if (!(v[0] > 0 && v[0] <= 1e6)) {
-            in.diagnostics.error(place, fmt::format("<{}> must be above 0", name));
+            in.diagnostics.error(place, fmt::format("<{}> must be above 0", name),
+                                 name == "most" ? "resources at a time" : "seconds of the world");
         } else if (name == "most") {
             rules.most = static_cast<int>(v[0]);
         } else {
@@ -50,6 +52,10 @@ GameRules read_game(SdfSource& in, const xml::Element& e) {
                                      : rules.dissolves_after) = v[0];
         }
     }
+    if (rules.stale_after >= rules.dissolves_after)
+        in.diagnostics.warning(e.where, "resources dissolve before they turn yellow",
+                               fmt::format("<stale_after> is {:g} s, <dissolves_after> {:g} s",
+                                           rules.stale_after, rules.dissolves_after));
     return rules;
 }
 

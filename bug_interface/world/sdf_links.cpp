@@ -1,6 +1,7 @@
 // Links and the joints between them.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -23,8 +24,11 @@ Link read_link(SdfSource& in, const xml::Element& e) {
                                  "they are in kg and kg m2");
     }
     each(e, "collision", [&](const xml::Element& c) {
-        link.collisions.push_back({c.where, name_of(c), in.pose_of(c), read_shape(in, c),
-                                   in.value(c, "surface/friction/ode/mu", 1.0)});
+        const double friction = in.value(c, "surface/friction/ode/mu", 1.0);
+        if (friction < 0)
+            in.diagnostics.error(c.child("surface/friction/ode/mu")->where,
+                                 "a friction coefficient is at least 0", "0 is ice, 1 holds well");
+        link.collisions.push_back({c.where, name_of(c), in.pose_of(c), read_shape(in, c), friction});
     });
     each(e, "visual", [&](const xml::Element& v) {
         link.visuals.push_back({v.where, name_of(v), in.pose_of(v), read_shape(in, v), read_material(in, v)});
@@ -46,13 +50,22 @@ void read_joint(SdfSource& in, const xml::Element& e, Model& model) {
                              fmt::format("joint '{}' ties '{}' to itself", name_of(e), text_of(e, "child")),
                              "<parent> and <child> name two links");
     const auto* axis = e.child("axis");
-    if (type != "revolute" || !axis) return;
+    if (type != "revolute" || !axis) {
+        if (type != "fixed")
+            in.diagnostics.warning(
+                e.where, fmt::format("joint '{}' does not turn here", name_of(e)),
+                type == "revolute" ? "give it an <axis>" : "only joints of type=\"revolute\" do, about z");
+        return;
+    }
     Hinge hinge;
     hinge.where = e.where, hinge.name = name_of(e), hinge.pose = in.pose_of(e);
     hinge.parent = text_of(e, "parent"), hinge.child = text_of(e, "child");
     const Eigen::Vector3d xyz = in.value(*axis, "xyz", Eigen::Vector3d(0, 0, 1));
     hinge.lower = in.value(*axis, "limit/lower", -1e16), hinge.upper = in.value(*axis, "limit/upper", 1e16);
     if (hinge.lower == hinge.upper) return;
+    if (hinge.upper - hinge.lower > 2 * std::numbers::pi)
+        in.diagnostics.warning(axis->where, fmt::format("joint '{}' turns by more than a turn", hinge.name),
+                               "give its <axis> a <limit> with <lower> and <upper>, in rad");
     if (std::abs(xyz.x()) > 1e-6 || std::abs(xyz.y()) > 1e-6 || xyz.z() == 0) {
         in.diagnostics.warning(
             axis->where,
@@ -62,7 +75,8 @@ void read_joint(SdfSource& in, const xml::Element& e, Model& model) {
     hinge.sense = xyz.z() > 0 ? 1 : -1;
     if (!(hinge.lower < hinge.upper))
         in.diagnostics.error(axis->where,
-                             fmt::format("joint '{}' has its lower limit above the upper one", hinge.name));
+                             fmt::format("joint '{}' has its lower limit above the upper one", hinge.name),
+                             fmt::format("they are {:g} and {:g} rad", hinge.lower, hinge.upper));
     model.hinges.push_back(std::move(hinge));
 }
 

@@ -113,7 +113,7 @@ class Reader {
                 no_models_ = true;  // once is enough
                 diagnostics_.error(
                     where, fmt::format("there is no model '{}', nor any other: no models are found", uri),
-                    "put them into a folder 'models' beside the world file or one above, or name their "
+                    "put them into a folder 'models' beside the world file or up to two above, or name their "
                     "folder in FORAGE_MODEL_PATH");
             }
             return {};

@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <array>
+#include <string>
+
 #include <fmt/format.h>
 
 #include "bug_interface/world/sdf_elements.h"
@@ -7,6 +11,9 @@ namespace {
 
 constexpr int most_rays = 10'000;
 
+/// Groups get what these see.
+const std::array<std::string, 3> known_rays = {"laser", "laser_target", "laser_gripper"};
+
 }  // namespace
 
 void read_sensor(SdfSource& in, const xml::Element& e, Link& link) {
@@ -14,6 +21,10 @@ void read_sensor(SdfSource& in, const xml::Element& e, Link& link) {
     if (type == "ray") {
         RangeSensor s;
         s.where = e.where, s.name = name_of(e), s.pose = in.pose_of(e);
+        if (std::find(known_rays.begin(), known_rays.end(), s.name) == known_rays.end())
+            in.diagnostics.warning(s.where,
+                                   fmt::format("no group gets what a ray sensor called '{}' sees", s.name),
+                                   suggest(s.name, known_rays));
         const auto* scan = e.child("ray/scan/horizontal");
         const auto* range = e.child("ray/range");
         if (!scan || !range) {
@@ -29,8 +40,10 @@ void read_sensor(SdfSource& in, const xml::Element& e, Link& link) {
         s.noise = in.noise_of(*e.child("ray")), s.rate = in.rate_of(e);
         if (in.diagnostics.errors() == errors_before &&
             (s.rays < 1 || s.rays > most_rays || !(s.max_range > s.min_range)))
-            in.diagnostics.error(s.where, fmt::format("ray sensor '{}' needs 1 to {} samples and min < max",
-                                                      s.name, most_rays));
+            in.diagnostics.error(
+                s.where,
+                fmt::format("ray sensor '{}' needs 1 to {} samples and min < max", s.name, most_rays),
+                fmt::format("it has {} samples, min {:g} m, max {:g} m", s.rays, s.min_range, s.max_range));
         link.range_sensors.push_back(std::move(s));
     } else if (type == "camera") {
         CameraSensor s;
@@ -49,7 +62,13 @@ void read_sensor(SdfSource& in, const xml::Element& e, Link& link) {
         if (!(s.horizontal_fov > 0 && s.horizontal_fov < 3.1))
             in.diagnostics.error(
                 s.where, fmt::format("camera '{}' needs a horizontal_fov between 0 and 3.1 rad", s.name));
+        if (!link.cameras.empty())
+            in.diagnostics.warning(s.where, fmt::format("camera '{}' is the second one of its link", s.name),
+                                   "robots see with the first one");
         link.cameras.push_back(std::move(s));
+    } else {
+        in.diagnostics.warning(e.where, fmt::format("a sensor of type '{}' has no effect here", type),
+                               "type=\"ray\" and type=\"camera\" have");
     }
 }
 

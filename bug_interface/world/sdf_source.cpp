@@ -113,13 +113,17 @@ Pose SdfSource::pose_of(const xml::Element& parent) {
 
 double SdfSource::noise_of(const xml::Element& e) {
     const double noise = value(e, "noise/stddev", 0.0);
-    if (noise < 0) diagnostics.error(e.child("noise/stddev")->where, "a standard deviation is at least 0");
+    if (noise < 0)
+        diagnostics.error(e.child("noise/stddev")->where, "a standard deviation is at least 0",
+                          "0 for no noise; of a ray sensor it is in m");
     return noise;
 }
 
 double SdfSource::rate_of(const xml::Element& sensor) {
     const double rate = value(sensor, "update_rate", 0.0);
-    if (rate < 0) diagnostics.error(sensor.where, "an <update_rate> cannot be negative");
+    if (rate < 0)
+        diagnostics.error(sensor.where, "an <update_rate> cannot be negative",
+                          "it is how often it looks in a second of the world; 0 for in every cycle");
     return rate;
 }
 

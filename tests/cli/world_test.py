@@ -92,8 +92,10 @@ class World(unittest.TestCase):
         frames = int(re.search(r"game.gif: (\d+) frames", out)[1])
         self.assertGreater(frames, 20)
         self.assertEqual(gif_frames((self.here / "game.gif").read_bytes()), frames)
-        self.forage("run", *TEAMS, "--seconds", 1, "--video", "game.png", "-o", "")
-        self.assertGreater(len(list(self.here.glob("game_*.png"))), 5)
+        out = self.forage("run", *TEAMS, "--seconds", 1, "--video", "game.png", "-o", "").stdout
+        pictures = sorted(p.name for p in self.here.glob("game_*.png"))
+        self.assertGreater(len(pictures), 5)
+        self.assertIn(f"{pictures[0]} to {pictures[-1]}", out)
         self.assertIn("it ends with .gif or .png", self.forage("run", *TEAMS, "--video", "game.avi", status=2).stderr)
 
     def test_the_page_on_making_a_world_works_as_it_is_written(self):
@@ -107,8 +109,30 @@ class World(unittest.TestCase):
             with self.subTest(block):
                 done = subprocess.run(["sh", "-e"], input=block, cwd=self.here, capture_output=True, text=True, timeout=120)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        out = self.here / "forage-out/my"
         for name in ("my.png", "my.gif", "run/trajectory.png"):
-            self.assertTrue((self.here / "forage-out/my" / name).stat().st_size > 1000)
+            self.assertTrue((out / name).stat().st_size > 1000)
+        with (out / "avoid/trajectory.csv").open(newline="") as file:
+            path = [(float(row["x"]), float(row["y"])) for row in csv.DictReader(file)]
+        for x, y in path:  # the system of one's own keeps the robot off the walls, on all sides
+            self.assertTrue(-3.7 < x < 3.7 and -2.7 < y < 2.7, (x, y))
+        self.assertTrue(min(x for x, _ in path) < -3 and max(x for x, _ in path) > 3)
+        self.assertTrue((out / "duel/score.csv").is_file())
+
+    def test_the_page_on_the_robot_names_tests_that_there_are(self):
+        rows = re.findall(r"^\| (.+?) \| (.+?) \|$", (PROJECT / "docs/reference/robot.md").read_text(), re.MULTILINE)[1:]
+        self.assertGreater(len(rows), 25)
+        files = ""
+        for what, where in rows:
+            folder = ""
+            if not where.startswith("the same"):
+                files = ""
+            for name in re.findall(r"`([^`]+)`", where):
+                folder, stem = name.rsplit("/", 1) if "/" in name else (folder, name)
+                path = PROJECT / "tests" / folder / stem
+                files += (path if path.suffix else path.with_suffix(".cpp")).read_text()
+            for test in re.findall(r'"([^"]+)"', where):
+                self.assertRegex(files, rf'TEST_CASE\(\s*"{test}|def test_{test}', what)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@
 #include "tools/forage/files.h"
 #include "tools/forage/input_files.h"
 #include "tools/forage/score.h"
+#include "tools/plot/film.h"
 
 namespace forage::tool {
 namespace {
@@ -155,7 +156,11 @@ std::string summary(const RunOptions& o, const Loaded& loaded, const Outcome& ou
                 line(name + what, text);
         }
     if (loaded.world && !loaded.world->game().empty()) out += score_table(loaded.world->game());
-    if (outcome.frames) line("film", fmt::format("{}: {} frames", o.video, outcome.frames));
+    if (outcome.frames)
+        line("film", o.video.ends_with(".gif")
+                         ? fmt::format("{}: {} frames", o.video, outcome.frames)
+                         : fmt::format("{} to {}", plot::Film::frame_name(o.video, 1),
+                                       plot::Film::frame_name(o.video, outcome.frames)));
     if (!outcome.diverged.empty()) line("diverged", outcome.diverged);
     if (!outcome.state.empty()) line("state", outcome.state);
     if (outcome.resumable) line("to go on", "forage resume " + o.directory);

@@ -105,6 +105,11 @@ Canvas::Canvas(cairo_t* context) : c_(context) {
     cairo_font_options_destroy(options);
 }
 
+void Canvas::dashes(double on, double off) {
+    const double lengths[] = {on, off};
+    cairo_set_dash(c_, lengths, on > 0 ? 2 : 0, 0);
+}
+
 void Canvas::fill(double x, double y, double width, double height, const Colour& c) {
     colour(c);
     cairo_rectangle(c_, x, y, width, height);

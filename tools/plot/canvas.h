@@ -28,6 +28,8 @@ class Canvas {
 
     cairo_t* cairo() const { return c_; }
     void colour(const Colour& c, double alpha = 1) { cairo_set_source_rgba(c_, c.r, c.g, c.b, alpha); }
+    /// Of lines from now on, until they are 0 and 0: lengths drawn and left out.
+    void dashes(double on, double off);
     void fill(double x, double y, double width, double height, const Colour& c);
     void line(double x0, double y0, double x1, double y1, const Colour& c, double width = 1);
     /// `anchor` 0: starts at x; 0.5: centred; 1: ends at x. y is the base line.

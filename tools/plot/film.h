@@ -15,7 +15,7 @@ namespace forage::plot {
 class Film {
   public:
     /// `seconds_per_frame`: of the world; it plays at that pace. The world must outlive the film.
-    Film(bug::World& world, std::string name, double seconds_per_frame, std::string title);
+    Film(bug::World& world, std::string name, double seconds_per_frame, const std::string& title);
     ~Film();
     /// A frame of the world as it is now. Throws std::runtime_error.
     void add();
@@ -23,6 +23,8 @@ class Film {
     std::size_t finish();
 
     static bool is_name(const std::string& name);
+    /// The file of a frame, the first is 1, of a film with a name that ends with .png.
+    static std::string frame_name(const std::string& name, std::size_t frame);
 
   private:
     class Screen;

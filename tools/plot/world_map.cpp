@@ -9,6 +9,7 @@
 
 #include "bug_interface/sensing/scene.h"
 #include "tools/plot/axes.h"
+#include "tools/plot/world_labels.h"
 
 namespace forage::plot {
 namespace {
@@ -20,14 +21,7 @@ struct Free {
 };
 using Surface = std::unique_ptr<cairo_surface_t, Free>;
 
-constexpr Colour near_ray{0.95, 0.25, 0.15}, light_ray{0.95, 0.75, 0.05};
-
 double top_of(const bug::DrawnSolid& d) { return d.solid.pose.translation().z() + d.solid.size.z() / 2; }
-
-void dashed(cairo_t* c, double on, double off) {
-    const double dash[] = {on, off};
-    cairo_set_dash(c, dash, 2, 0);
-}
 
 /// A floor's picture; each n x n pixels become one, their mean. At the right and lower edge fewer do.
 Surface picture_of(const bug::FloorTexture& floor, int n) {
@@ -62,19 +56,30 @@ Surface picture_of(const bug::FloorTexture& floor, int n) {
 
 }  // namespace
 
+bool has_homes(const bug::World& world) {
+    const auto& models = world.description().models;
+    return !world.game().empty() ||
+           std::any_of(models.begin(), models.end(), [](const auto& m) { return m.name == "Home_A"; });
+}
+
 WorldMap::WorldMap(const bug::World& world, const Box& extra, double pixels, double left, double top)
     : world_(world), left_(left), top_(top) {
-    Box box = extra;
-    if (const auto plan = world.reset_plan()) {
+    Box box = extra, near;  // of what is far outside the bounds nothing is shown
+    const auto plan = world.reset_plan();
+    if (plan) {
         box.extend(plan->bounds);
         for (const auto& s : plan->starts) box.extend(Eigen::Vector2d(s.x, s.y));
-    } else {
-        for (const auto& d : world.drawing()) {
-            if (d.solid.size.z() < 0.02) continue;  // paint may reach under the walls
-            const Eigen::Vector2d at = d.solid.pose.translation().head<2>();
-            const Eigen::Vector2d half = (d.solid.pose.linear().cwiseAbs() * d.solid.size / 2).head<2>();
-            box.extend(Eigen::Vector2d(at - half)).extend(Eigen::Vector2d(at + half));
-        }
+        near = Box(box.min().array() - 1, box.max().array() + 1);
+    }
+    for (const auto& d : world.drawing()) {
+        if (d.solid.size.z() < 0.02) continue;  // paint may reach under the walls
+        const Eigen::Vector2d at = d.solid.pose.translation().head<2>();
+        const Eigen::Vector2d half = (d.solid.pose.linear().cwiseAbs() * d.solid.size / 2).head<2>();
+        const Box solid(at - half, at + half);
+        if (!plan)
+            box.extend(solid);
+        else if (near.intersects(solid))
+            box.extend(near.intersection(solid));
     }
     for (const auto& t : world.targets()) box.extend(t);
     for (std::size_t i = 0; i < world.bugs(); ++i)
@@ -152,105 +157,27 @@ void WorldMap::draw_solid(Canvas& canvas, const bug::DrawnSolid& d) const {
 
 namespace {
 
-void draw_label(Canvas& canvas, double x, double y, const std::string& text, double size) {
-    const double wide = canvas.width_of(text, size);
-    canvas.fill(x - wide / 2 - 2, y - size, wide + 4, size + 3, white);
-    canvas.text(x, y, text, size, 0.5);
-}
-
 /// Whose homes are where, and where resources appear.
 void draw_homes(Canvas& canvas, const bug::World& world, const WorldMap& map) {
-    const auto& description = world.description();
-    const bool named = std::any_of(description.models.begin(), description.models.end(),
-                                   [](const bug::Model& m) { return m.name == "Home_A"; });
-    if (world.game().empty() && !named) return;
+    if (!has_homes(world)) return;
     cairo_t* c = canvas.cairo();
-    for (int team = 0; team < 2; ++team) {
-        const bug::Pose2& at = world.game().homes()[static_cast<std::size_t>(team)];
-        const double r = bug::Game::home_radius * map.scale();
+    for (const bug::Pose2& at : world.game().homes()) {
         canvas.colour(white, 0.8);
-        dashed(c, 2, 4);
+        canvas.dashes(2, 4);
         cairo_set_line_width(c, 1);
-        cairo_arc(c, map.px(at.x), map.py(at.y), r, 0, 2 * M_PI);
+        cairo_arc(c, map.px(at.x), map.py(at.y), bug::Game::home_radius * map.scale(), 0, 2 * M_PI);
         cairo_stroke(c);
-        cairo_set_dash(c, nullptr, 0, 0);
-        // Its middle may be outside, or under the robots that start there: at the rim towards the middle of
-        // the map.
-        const Eigen::Vector2d middle = map.view().center(), home(at.x, at.y);
-        const Eigen::Vector2d inwards =
-            (middle - home).normalized() * (bug::Game::home_radius + 0.03 * map.view().sizes().x());
-        draw_label(canvas, map.px(home.x() + inwards.x()), map.py(home.y() + inwards.y()) + 4,
-                   team ? "home B" : "home A", 11);
     }
-    if (!description.game) return;
-    for (const bug::GameSite& site : description.game->sites) {
-        canvas.colour({0.2, 0.3, 1}, 0.7);
-        dashed(c, 2, 3);
-        cairo_set_line_width(c, 1.2);
-        cairo_arc(c, map.px(site.x), map.py(site.y), 0.5 * map.scale(), 0, 2 * M_PI);
-        cairo_stroke(c);
-        cairo_set_dash(c, nullptr, 0, 0);
-    }
-}
-
-struct Label {
-    double x, y, half;  ///< the middle of its lower edge, half its width
-    std::string text;
-};
-
-/// The names of the robots beside them, none on another one or on a robot where that can be.
-std::vector<Label> robot_labels(Canvas& canvas, const bug::World& world, const WorldMap& map) {
-    constexpr double size = 11, tall = 14;
-    std::vector<Label> out;
-    const auto names = world.bug_names();
-    for (std::size_t i = 0; i < world.bugs(); ++i) {
-        const double r = world.robot(i).body.radius * map.scale(), x = map.px(world.pose(i).x),
-                     y = map.py(world.pose(i).y), half = canvas.width_of(names[i], size) / 2 + 2;
-        const auto is_free = [&](const Label& l) {
-            for (const Label& other : out)
-                if (std::abs(l.x - other.x) < l.half + other.half + 1 && std::abs(l.y - other.y) < tall + 1)
-                    return false;
-            for (std::size_t j = 0; j < world.bugs(); ++j)
-                if (std::abs(map.px(world.pose(j).x) - l.x) < r + l.half &&
-                    std::abs(map.py(world.pose(j).y) - (l.y - tall / 2 + 3)) < r + tall / 2)
-                    return false;
-            return true;
-        };
-        Label best{x, y - r - 5, half, names[i]};
-        bool found = false;
-        for (double ring = 0; ring < 6 && !found; ++ring)
-            for (const auto& [dx, dy] : {std::pair{0.0, -1.0},
-                                         {0.0, 1.0},
-                                         {1.0, 0.0},
-                                         {-1.0, 0.0},
-                                         {1.0, -1.0},
-                                         {-1.0, -1.0},
-                                         {1.0, 1.0},
-                                         {-1.0, 1.0}}) {
-                const double away = r + 5 + ring * (tall + 2);
-                const Label tried{x + dx * (away + half),
-                                  y + dy * (away + (dy > 0 ? size : 0)) + (dy == 0 ? 4 : 0), half, names[i]};
-                if (!is_free(tried)) continue;
-                best = tried, found = true;
-                break;
-            }
-        out.push_back(best);
-    }
-    return out;
-}
-
-/// What the colours of rays mean.
-void draw_legend(Canvas& canvas, double right, double y) {
-    cairo_t* c = canvas.cairo();
-    for (const auto& [name, colour] : {std::pair{"light", light_ray}, {"proximity", near_ray}}) {
-        canvas.text(right, y, name, 11, 1);
-        right -= canvas.width_of(name, 11) + 6;
-        canvas.colour(colour);
-        cairo_set_line_width(c, 2);
-        cairo_move_to(c, right - 18, y - 4), cairo_line_to(c, right, y - 4);
-        cairo_stroke(c);
-        right -= 32;
-    }
+    if (const auto& game = world.description().game)
+        for (const bug::GameSite& site : game->sites) {
+            canvas.colour(site_colour, 0.9);
+            canvas.dashes(2, 3);
+            cairo_set_line_width(c, 1.2);
+            cairo_arc(c, map.px(site.x), map.py(site.y), 0.5 * map.scale(), 0, 2 * M_PI);
+            cairo_stroke(c);
+        }
+    canvas.dashes(0, 0);
+    draw_home_names(canvas, world, map);
 }
 
 }  // namespace
@@ -260,13 +187,13 @@ void WorldMap::draw_marks(Canvas& canvas) const {
     draw_homes(canvas, world_, *this);
     const auto plan = world_.reset_plan();
     if (!plan) return;
-    dashed(c, 6, 5);
+    canvas.dashes(6, 5);
     cairo_set_line_width(c, 1);
-    cairo_set_source_rgb(c, 0.65, 0.65, 0.65);
+    canvas.colour(bounds_colour);
     cairo_rectangle(c, px(plan->bounds.min().x()), py(plan->bounds.max().y()),
                     plan->bounds.sizes().x() * scale_, plan->bounds.sizes().y() * scale_);
     cairo_stroke(c);
-    cairo_set_dash(c, nullptr, 0, 0);
+    canvas.dashes(0, 0);
     for (const auto& s : plan->starts) {  // an arrow in the robot's direction
         cairo_set_source_rgb(c, 0.1, 0.1, 0.1);
         cairo_set_line_width(c, 2);
@@ -286,10 +213,10 @@ void WorldMap::draw_targets(Canvas& canvas) const {
     for (const auto& t : world_.targets()) {
         cairo_set_source_rgb(c, 1, 1, 1);
         cairo_set_line_width(c, 1.5);
-        dashed(c, 3, 3);
+        canvas.dashes(3, 3);
         cairo_arc(c, px(t.x()), py(t.y()), bug::Trial::reach * scale_, 0, 2 * M_PI);
         cairo_stroke(c);
-        cairo_set_dash(c, nullptr, 0, 0);
+        canvas.dashes(0, 0);
     }
 }
 
@@ -337,10 +264,12 @@ void WorldMap::draw_robot(Canvas& canvas, std::size_t robot, bool rays) const {
         }
     const auto& pose = world_.pose(robot);
     const double r = world_.robot(robot).body.radius * scale_, x = px(pose.x), y = py(pose.y);
-    canvas.colour(black);
-    cairo_set_line_width(c, 1.2);
-    cairo_arc(c, x, y, r, 0, 2 * M_PI);
-    cairo_stroke(c);
+    for (const double out : {1.2, 0.0}) {  // seen on any ground, also on a patch of the robot's colour
+        canvas.colour(out > 0 ? white : black);
+        cairo_set_line_width(c, 1.2);
+        cairo_arc(c, x, y, r + out, 0, 2 * M_PI);
+        cairo_stroke(c);
+    }
     canvas.colour(white);
     cairo_set_line_width(c, std::max(1.5, r / 5));
     cairo_move_to(c, x, y), cairo_line_to(c, x + r * std::cos(pose.yaw), y - r * std::sin(pose.yaw));
@@ -348,7 +277,7 @@ void WorldMap::draw_robot(Canvas& canvas, std::size_t robot, bool rays) const {
 }
 
 Picture world_plot(const bug::World& world, const std::string& title) {
-    constexpr double left = 62, top = 34, right = 24, bottom = 52;
+    constexpr double left = 62, top = 34, right = 24, bottom = 80;
     const WorldMap map(world, {}, 800, left, top);
     return {left + std::floor(map.width()) + right, top + std::floor(map.height()) + bottom,
             [map, &world, title](Canvas& canvas) {
@@ -361,26 +290,14 @@ Picture world_plot(const bug::World& world, const std::string& title) {
                 map.draw_loose(canvas);
                 for (std::size_t i = 0; i < world.bugs(); ++i) map.draw_robot(canvas, i, true);
                 map.draw_targets(canvas);
-                const auto labels = robot_labels(canvas, world, map);
-                for (std::size_t i = 0; i < labels.size(); ++i) {
-                    canvas.colour(white);
-                    cairo_set_line_width(c, 1);
-                    cairo_move_to(c, map.px(world.pose(i).x), map.py(world.pose(i).y));
-                    cairo_line_to(c, labels[i].x, labels[i].y - 4);
-                    cairo_stroke(c);
-                }
-                for (std::size_t i = 0; i < labels.size(); ++i) {
-                    map.draw_robot(canvas, i, false);
-                    draw_label(canvas, labels[i].x, labels[i].y, labels[i].text, 11);
-                }
+                draw_robot_names(canvas, world, map);
                 cairo_restore(c);
                 plot::draw_axes(canvas,
                                 {{left, top, map.width(), map.height()},
                                  {map.view().min().x(), map.view().max().x()},
                                  {map.view().min().y(), map.view().max().y()}},
                                 {"x (m)"}, {"y (m)"});
-                if (world.bugs() > 0)
-                    draw_legend(canvas, left + map.width(), top + map.height() + bottom - 8);
+                draw_legend(canvas, world, left, left + map.width(), top + map.height() + 66);
                 canvas.text(12, 22, title, 15, 0, black, true);
             }};
 }

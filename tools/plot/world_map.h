@@ -8,6 +8,13 @@
 
 namespace forage::plot {
 
+// Of lines in a world's map.
+inline constexpr Colour near_ray{0.95, 0.25, 0.15}, light_ray{0.95, 0.75, 0.05}, site_colour{0.1, 0.2, 0.9},
+    bounds_colour{0.65, 0.65, 0.65};
+
+/// Whether teams bring something home in it.
+bool has_homes(const bug::World& world);
+
 /// Draws a world into a rectangle of a picture, y upwards. The world must outlive it.
 class WorldMap {
   public:

@@ -220,3 +220,36 @@ TEST_CASE("The outputs carry the robot's snapshot") {
     CHECK(bench.output("_audio_in") == std::vector<double>(36, 0));
     CHECK(bench.output("_proximityGripper") == std::vector<double>(16, 0));
 }
+
+TEST_CASE("Offsets move the place cells' field, not the GPS; extents shift both") {
+    WorldOptions options;
+    options.noise = false;
+    const auto world = test::make_world(test::description("basic_arena"), options);  // the robot at (0, -2)
+    Bench bench(world.get());
+    all_groups(bench);
+    bench.set("placeXOffset", 1.0), bench.set("placeYOffset", -3.0);
+    bench.set("placeXMax", 5.0), bench.set("placeYMax", 2.0);
+    bench.start();
+    bench.update();
+    CHECK((bench.output("_gps")[0] == 5 && bench.output("_gps")[1] == 0));
+    const auto& place = bench.output("placeCell");  // 20 x 20: half a side is 10 cells; (-0.2, 0.5) of it
+    CHECK(std::max_element(place.begin(), place.end()) - place.begin() == 5 * 20 + 8);
+}
+
+TEST_CASE("The gripper closes above 0.5, and opens at 0.5 and below") {
+    const auto world = test::make_world(test::description("team_arena"));
+    Bench bench(world.get());
+    all_groups(bench);
+    bench.set("device_name", std::string("A_1"));
+    bench.start();
+    std::vector<double> angles;
+    for (const double activity : {0.5, 0.51, 1.0, 0.0}) {
+        bench.in_cells[1][0] = activity;
+        for (int cycle = 0; cycle < 25; ++cycle) bench.update(), world->step();
+        angles.push_back(world->gripper_angle(world->find("A_1").value(), 0));
+    }
+    CHECK(angles[0] == Approx(-0.2));
+    CHECK(angles[1] == Approx(0.45));
+    CHECK(angles[2] == Approx(0.45));
+    CHECK(angles[3] == Approx(-0.2));
+}

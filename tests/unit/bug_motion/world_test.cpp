@@ -10,12 +10,11 @@
 
 #include <stdlib.h>
 
-#include "tests/unit/bug_motion/worlds.h"
+#include "tests/unit/bug_motion/said.h"
 
 using namespace forage;
 using namespace forage::bug;
-using test::description;
-using test::make_world;
+using namespace forage::test;
 
 namespace {
 
@@ -269,69 +268,6 @@ TEST_CASE("A world is described in a few lines") {
 
 // ---- mistakes in world files ----
 
-namespace {
-
-/// A directory that goes away with everything in it.
-struct Scratch {
-    std::filesystem::path path;
-    Scratch() {
-        std::string name = (std::filesystem::temp_directory_path() / "forage_world_XXXXXX").string();
-        REQUIRE(mkdtemp(name.data()));
-        path = name;
-    }
-    ~Scratch() { std::filesystem::remove_all(path); }
-    std::string write(const std::string& file, const std::string& text) const {
-        std::filesystem::create_directories((path / file).parent_path());
-        std::ofstream(path / file) << text;
-        return (path / file).string();
-    }
-};
-
-std::string models() { return (test::source_dir() / "systems/worlds/models").string(); }
-
-std::string text_of(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// The basic arena with `from` replaced once.
-std::string edited(const std::string& from, const std::string& to) {
-    std::string text = text_of(test::source_dir() / "systems/worlds/basic_arena.world");
-    const auto at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, from.size(), to);
-}
-
-/// What is said of a world in `text`: one line each, "12: error: message | hint".
-std::string said_of(const std::string& text, bool with_models = true) {
-    const Scratch scratch;
-    const std::string file = scratch.write("test.world", text);
-    Diagnostics diagnostics;
-    const auto world =
-        read_world(file, diagnostics, with_models ? std::vector{models()} : std::vector<std::string>{});
-    CHECK(world.has_value() == (diagnostics.errors() == 0));
-    if (world) World::make(*world, {}, diagnostics);
-    std::string out;
-    for (const Diagnostic& d : diagnostics.all()) {
-        if (d.where.file && d.where.line > 0) {
-            CHECK(d.where.file->path == file);  // where the person edits
-            out += std::to_string(d.where.line) + ": ";
-        }
-        out += (d.severity == Severity::error ? "error: " : "warning: ") + d.message;
-        out += d.hint.empty() ? "\n" : " | " + d.hint + "\n";
-    }
-    return out;
-}
-
-/// The line of the edited arena on which `what` stands.
-std::string line_of(const std::string& text, const std::string& what) {
-    const auto at = text.find(what);
-    REQUIRE(at != std::string::npos);
-    return std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<long>(at), '\n'));
-}
-
-}  // namespace
-
 TEST_CASE("An unknown element is a warning at its line, with the nearest name") {
     const std::string target = "<pose>0 2.5 0 0 0 0</pose>",
                       text = edited(target, "<psoe>0 2.5 0 0 0 0</psoe>");
@@ -384,7 +320,8 @@ TEST_CASE("That no models are found is said once, with how to make them found") 
     CHECK(said ==
           "46: error: there is no model 'model://floor_basic', nor any other: no models are found | put them "
           "into a "
-          "folder 'models' beside the world file or one above, or name their folder in FORAGE_MODEL_PATH\n");
+          "folder 'models' beside the world file or up to two above, or name their folder in "
+          "FORAGE_MODEL_PATH\n");
 }
 
 TEST_CASE("A value of the wrong form is said in plain words, at its line") {

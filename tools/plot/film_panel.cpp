@@ -1,0 +1,119 @@
+#include "tools/plot/film_panel.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+#include <cairo.h>
+#include <fmt/format.h>
+
+#include "tools/plot/world_map.h"
+
+namespace forage::plot {
+namespace {
+
+struct Free {
+    void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
+};
+
+constexpr double clock_height = 30, name_height = 14, picture_aspect = 28.0 / 32;
+constexpr std::size_t most_with_rays = 4, rows_of_rays = 3;
+
+/// Of the cells of one ray sensor: their name, and bars as high as they are active.
+struct Bars {
+    double name, height, gap;  ///< pixels
+    double total() const { return name + height + gap; }
+};
+constexpr Bars large_bars{16, 36, 6}, small_bars{11, 16, 3};
+
+}  // namespace
+
+double FilmPanel::part_height() const {
+    const double rays = world_.bugs() > most_with_rays ? 0.0
+                                                       : static_cast<double>(rows_of_rays) *
+                                                             (single() ? large_bars : small_bars).total();
+    return name_height + part_width() * picture_aspect + rays + 8;
+}
+
+double FilmPanel::height() const {
+    const double rows = single() ? 1.0 : static_cast<double>((shown() + 1) / 2);
+    return clock_height + rows * part_height();
+}
+
+void FilmPanel::draw(Canvas& canvas, double x, double y) {
+    draw_clock(canvas, x, y);
+    for (std::size_t i = 0; i < shown(); ++i) {
+        const double left = x + (i % 2 ? part_width() + 10 : 0),
+                     top = y + clock_height + static_cast<double>(i / 2) * part_height();
+        const std::string name = world_.bug_names()[i];
+        canvas.text(left, top + 10,
+                    canvas.fitted(single() ? "camera of " + name : fmt::format("{} {}", i + 1, name), 11,
+                                  part_width()),
+                    11);
+        draw_picture(canvas, i, left, top + name_height);
+        if (world_.bugs() <= most_with_rays)
+            draw_rays(canvas, i, left, top + name_height + part_width() * picture_aspect);
+    }
+}
+
+void FilmPanel::draw_clock(Canvas& canvas, double x, double y) {
+    canvas.text(x, y + 14, fmt::format("{:.1f} s", world_.time()), 15, 0, black, true);
+    const bug::Game& game = world_.game();
+    if (game.empty()) return;
+    canvas.text(x + 90, y + 14, fmt::format("A {} : {} B", game.points(0), game.points(1)), 15, 0, black,
+                true);
+    if (game.timed()) canvas.text(x + panel_width, y + 14, fmt::format("{:.0f} s left", game.left()), 12, 1);
+}
+
+void FilmPanel::draw_picture(Canvas& canvas, std::size_t robot, double x, double y) {
+    const auto picture = world_.image(robot);
+    const bug::BugSnapshot& seen = world_.robot(robot).snapshot;
+    const int columns = seen.image_width, rows = seen.image_height;
+    const double wide = part_width(), tall = wide * picture_aspect;
+    if (picture.empty() || columns == 0) {
+        canvas.fill(x, y, wide, tall, pale);
+        canvas.text(x + wide / 2, y + tall / 2, "no camera", 11, 0.5, grey);
+        return;
+    }
+    const std::unique_ptr<cairo_surface_t, Free> image(
+        cairo_image_surface_create(CAIRO_FORMAT_RGB24, columns, rows));
+    auto* data = cairo_image_surface_get_data(image.get());
+    const int stride = cairo_image_surface_get_stride(image.get());
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column) {
+            const auto* p = &picture[3 * static_cast<std::size_t>(row * columns + column)];
+            reinterpret_cast<std::uint32_t*>(data + row * stride)[column] =
+                std::uint32_t{p[0]} << 16 | std::uint32_t{p[1]} << 8 | p[2];
+        }
+    cairo_surface_mark_dirty(image.get());
+    const double scale = std::min(wide / columns, tall / rows);
+    cairo_t* c = canvas.cairo();
+    cairo_save(c);
+    cairo_translate(c, x, y);
+    cairo_scale(c, scale, scale);
+    cairo_set_source_surface(c, image.get(), 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(c), CAIRO_FILTER_NEAREST);
+    cairo_paint(c);
+    cairo_restore(c);
+}
+
+/// The cells of the ray sensors, from the left to the right of the robot.
+void FilmPanel::draw_rays(Canvas& canvas, std::size_t robot, double x, double y) {
+    const auto& seen = world_.robot(robot).snapshot;  // not late, as those of modules may be
+    const Bars size = single() ? large_bars : small_bars;
+    const auto bars = [&](const char* name, const std::vector<double>& cells, const Colour& colour) {
+        if (cells.empty()) return;
+        canvas.text(x, y + size.name - 3, name, single() ? 11 : 9);
+        canvas.fill(x, y + size.name, part_width(), size.height, pale);
+        const double wide = part_width() / static_cast<double>(cells.size());
+        for (std::size_t k = 0; k < cells.size(); ++k)
+            canvas.fill(x + static_cast<double>(k) * wide, y + size.name + size.height * (1 - cells[k]),
+                        wide * 0.9, size.height * cells[k], colour);
+        y += size.total();
+    };
+    bars(single() ? "light, from the left to the right" : "light, left to right", seen.target, light_ray);
+    bars("proximity", seen.proximity, near_ray);
+    if (world_.robot(robot).wants_gripper_scan) bars("between the fingers", seen.gripper, {0.4, 0.4, 0.8});
+}
+
+}  // namespace forage::plot
