@@ -42,7 +42,8 @@ void read_joint(SdfSource& in, const xml::Element& e, Model& model) {
                                                    "screw",      "universal", "fixed",     "gearbox",
                                                    "continuous", "piston"};
     const std::string type = attribute_of(e, "type");
-    if (std::find(types.begin(), types.end(), type) == types.end())
+    const bool known = std::find(types.begin(), types.end(), type) != types.end();
+    if (!known)
         in.diagnostics.error(e.where, fmt::format("there is no joint of type '{}'", type),
                              suggest(type, types));
     if (text_of(e, "parent") == text_of(e, "child"))
@@ -51,7 +52,7 @@ void read_joint(SdfSource& in, const xml::Element& e, Model& model) {
                              "<parent> and <child> name two links");
     const auto* axis = e.child("axis");
     if (type != "revolute" || !axis) {
-        if (type != "fixed")
+        if (known && type != "fixed")
             in.diagnostics.warning(
                 e.where, fmt::format("joint '{}' does not turn here", name_of(e)),
                 type == "revolute" ? "give it an <axis>" : "only joints of type=\"revolute\" do, about z");
