@@ -1,5 +1,6 @@
 #include "core/engine/target_frame.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 
@@ -12,28 +13,57 @@ constexpr Index lanes = TargetFrame::lanes;
 typedef double Lanes __attribute__((vector_size(lanes * sizeof(double))));        // NOLINT: no `using` for this
 typedef std::int64_t Mask __attribute__((vector_size(lanes * sizeof(double))));  // NOLINT
 
-FORAGE_SIMD void gather_runs(const Run* run, const Run* last, const double* cells, double* places) {
-    for (; run != last; ++run) {
-        const double* from = cells + run->target;
-        for (Index i = 0; i < run->size; i += lanes, places += lanes)
-            std::memcpy(places, from + i, sizeof(Lanes));
+[[gnu::always_inline]] inline Index blocks_of(const Run& run) { return (run.size + lanes - 1) / lanes; }
+
+// Runs of one connection are mostly of one length: loops over those of `blocks` vectors.
+
+template <int blocks>
+[[gnu::always_inline]] inline void gather_alike(const Run*& run, const Run* last, const double* cells,
+                                                double*& places) {
+    for (; run != last && blocks_of(*run) == blocks; ++run, places += blocks * lanes)
+        std::memcpy(places, cells + run->target, blocks * sizeof(Lanes));
+}
+
+/// `add`: cells += places, else cells = places.
+template <bool add, int blocks>
+[[gnu::always_inline]] inline void write_alike(const Run*& run, const Run* last, const double*& places,
+                                               double* cells) {
+    for (; run != last && blocks_of(*run) == blocks; ++run, places += blocks * lanes) {
+        double* to = cells + run->target;
+        const Index left = run->size - (blocks - 1) * lanes;  // in the last block
+        for (int b = 0; b < blocks; ++b) {
+            Lanes cell, place;
+            std::memcpy(&cell, to + b * lanes, sizeof cell);
+            std::memcpy(&place, places + b * lanes, sizeof place);
+            if (add) place += cell;
+            if (b == blocks - 1) place = Mask{0, 1, 2, 3} < Mask{left, left, left, left} ? place : cell;
+            std::memcpy(to + b * lanes, &place, sizeof place);
+        }
     }
 }
 
-/// Writes places to the cells of runs, or adds them.
+FORAGE_SIMD void gather_runs(const Run* run, const Run* last, const double* cells, double* places) {
+    while (run != last) {
+        gather_alike<1>(run, last, cells, places);
+        gather_alike<2>(run, last, cells, places);
+        gather_alike<3>(run, last, cells, places);
+        gather_alike<4>(run, last, cells, places);
+        for (; run != last && blocks_of(*run) > 4; places += blocks_of(*run) * lanes, ++run)
+            std::copy_n(cells + run->target, run->size, places);
+    }
+}
+
 template <bool add>
 [[gnu::always_inline]] inline void write_runs(const Run* run, const Run* last, const double* places,
                                               double* cells) {
-    const Mask lane = {0, 1, 2, 3};
-    for (; run != last; ++run) {
-        double* to = cells + run->target;
-        for (Index left = run->size; left > 0; left -= lanes, to += lanes, places += lanes) {
-            Lanes cell, place;
-            std::memcpy(&cell, to, sizeof cell);
-            std::memcpy(&place, places, sizeof place);
-            if (add) place += cell;
-            if (left < lanes) place = lane < Mask{left, left, left, left} ? place : cell;
-            std::memcpy(to, &place, sizeof place);
+    while (run != last) {
+        write_alike<add, 1>(run, last, places, cells);
+        write_alike<add, 2>(run, last, places, cells);
+        write_alike<add, 3>(run, last, places, cells);
+        write_alike<add, 4>(run, last, places, cells);
+        for (; run != last && blocks_of(*run) > 4; places += blocks_of(*run) * lanes, ++run) {
+            double* to = cells + run->target;
+            for (int i = 0; i < run->size; ++i) to[i] = add ? to[i] + places[i] : places[i];
         }
     }
 }
