@@ -13,8 +13,8 @@ namespace forage::engine {
 namespace {
 
 FORAGE_SIMD void add_to(const double* from, Index n, double* to) {
-    // As wide as the parts of frames that begin at the same place: what one source has stored goes to the next
-    // without a detour through the cache.
+    // As wide as the parts of frames that begin at the same place: what one source has stored goes to the
+    // next without a detour through the cache.
     constexpr Index lanes = TargetFrame::lanes;
     typedef double Lanes __attribute__((vector_size(lanes * sizeof(double))));  // NOLINT: no `using` for this
     Index i = 0;
@@ -60,9 +60,12 @@ PlasticBySource::PlasticBySource(connectivity::Synapses s, const SourceOrder& or
       place_(s.size()) {
     for (const auto& source : order.sources) cell_.push_back(source.cell);
     first_.push_back(0);
-    for (const auto& source : targets_.sources()) first_.push_back(first_.back() + source.size);
+    for (const auto& source : targets_.sources())  // each begins with a line of the cache
+        first_.push_back(first_.back() + Arena::stride(source.size));
     factor_.assign(static_cast<std::size_t>(first_.back()), 1.0);
-    auto synapse_at = [ids = sorted(s, cell_, source_cells), k = std::size_t{0}]() mutable { return ids[k++]; };
+    auto synapse_at = [ids = sorted(s, cell_, source_cells), k = std::size_t{0}]() mutable {
+        return ids[k++];
+    };
     for (std::size_t n = 0; n < cell_.size(); ++n)
         targets_.each(n, [&](Index place, int) {
             const std::size_t i = synapse_at();
@@ -186,7 +189,8 @@ void PlasticBySource::update_frame(const std::size_t* first, const std::size_t* 
     if (sums && !one) targets_.scatter(part, frame_sums_, sums);
 }
 
-/// All synapses of the n-th source, whose feedback begins at `place` of what is gathered; gives their outputs.
+/// All synapses of the n-th source, whose feedback begins at `place` of what is gathered; gives their
+/// outputs.
 const double* PlasticBySource::update_source(std::size_t n, Index place) {
     const Index size = look_at(n);
     for (std::size_t f = 0; f < feedback_.size(); ++f)

@@ -131,8 +131,8 @@ class Sorter {
         const auto at = std::lower_bound(begin, out_.runs.end(), runs.front(),
                                          [](const Run& a, const Run& b) { return a.target < b.target; });
         const auto known = static_cast<std::size_t>(out_.runs.end() - at);
-        if (known == 0 || !std::equal(at, at + static_cast<std::ptrdiff_t>(std::min(known, runs.size())),
-                                      runs.begin()))
+        if (known == 0 ||
+            !std::equal(at, at + static_cast<std::ptrdiff_t>(std::min(known, runs.size())), runs.begin()))
             return none;
         return static_cast<std::size_t>(at - out_.runs.begin());
     }

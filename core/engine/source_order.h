@@ -16,7 +16,8 @@ struct Run {
 
 /// The sources of a connection in an order in which every target can sum its synapses in synapse order: one
 /// source after the other. Sources that follow each other share a frame where they can: runs of target cells,
-/// of which each has a part that hangs together. The sources of a column, for instance, whose windows overlap.
+/// of which each has a part that hangs together. The sources of a column, for instance, whose windows
+/// overlap.
 struct SourceOrder {
     struct Source {
         int cell;
@@ -28,7 +29,7 @@ struct SourceOrder {
     };
     std::vector<Source> sources;  ///< those that have synapses
     std::vector<Frame> frames;
-    std::vector<Run> runs;        ///< of one frame after the other; in ascending order of targets in each
+    std::vector<Run> runs;  ///< of one frame after the other; in ascending order of targets in each
 };
 
 /// Without sources when there is no such order, when there are delays, or when the sources have too few

@@ -10,7 +10,7 @@ namespace forage::engine {
 namespace {
 
 constexpr Index lanes = TargetFrame::lanes;
-typedef double Lanes __attribute__((vector_size(lanes * sizeof(double))));        // NOLINT: no `using` for this
+typedef double Lanes __attribute__((vector_size(lanes * sizeof(double))));  // NOLINT: no `using` for this
 typedef std::int64_t Mask __attribute__((vector_size(lanes * sizeof(double))));  // NOLINT
 
 [[gnu::always_inline]] inline Index blocks_of(const Run& run) { return (run.size + lanes - 1) / lanes; }
@@ -103,17 +103,20 @@ TargetFrame::TargetFrame(const SourceOrder& order) {
 }
 
 void TargetFrame::gather(Part part, const double* cells, double* places) const {
-    if (!runs_.empty()) return gather_runs(&runs_[part.first], &runs_[part.first] + (part.last - part.first), cells, places);
+    if (!runs_.empty())
+        return gather_runs(&runs_[part.first], &runs_[part.first] + (part.last - part.first), cells, places);
     for (std::size_t i = part.first; i < part.last; ++i) *places++ = cells[cells_[i]];
 }
 
 void TargetFrame::scatter(Part part, const double* places, double* cells) const {
-    if (!runs_.empty()) return scatter_runs(&runs_[part.first], &runs_[part.first] + (part.last - part.first), places, cells);
+    if (!runs_.empty())
+        return scatter_runs(&runs_[part.first], &runs_[part.first] + (part.last - part.first), places, cells);
     for (std::size_t i = part.first; i < part.last; ++i) cells[cells_[i]] = *places++;
 }
 
 void TargetFrame::add(Part part, const double* places, double* cells) const {
-    if (!runs_.empty()) return add_runs(&runs_[part.first], &runs_[part.first] + (part.last - part.first), places, cells);
+    if (!runs_.empty())
+        return add_runs(&runs_[part.first], &runs_[part.first] + (part.last - part.first), places, cells);
     for (std::size_t i = part.first; i < part.last; ++i) cells[cells_[i]] += *places++;
 }
 

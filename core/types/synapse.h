@@ -4,7 +4,8 @@
 //     static void describe(SynapseSpec<T>&);
 //     void check(Problems&) const;               // optional: warns of parameters that do not fit together
 //     void update(SynapseColumns&) const;        // one cycle, for some synapses at a time
-//     void output(SynapseColumns&) const;        // optional: writes the output state, and nothing else, as the
+//     void output(SynapseColumns&) const;        // optional: writes the output state, and nothing else, as
+//     the
 //                                                // last update() did, from pre and the other states alone.
 //                                                // Outputs need not be kept then: less memory to move.
 //
@@ -69,7 +70,7 @@ class SynapseInstance {
     virtual ~SynapseInstance() = default;
     virtual void* parameters() = 0;
     virtual void update(SynapseColumns&) const = 0;
-    virtual double gain() const = 0;  ///< psp = gain * pre, for types that declare one
+    virtual double gain() const = 0;                 ///< psp = gain * pre, for types that declare one
     virtual void output(SynapseColumns&) const = 0;  ///< for types that have it; without feedback
 };
 
@@ -114,8 +115,8 @@ class SynapseSpec {
         return type_.feedback.push_back({std::move(name), std::move(label), required}), *this;
     }
     /// Promises that update() leaves the states of a synapse as they are and makes its output 0 when its
-    /// source is silent (pre is 0) and all other numbers are finite. Such synapses are then passed over, which
-    /// is many times faster where activity is sparse.
+    /// source is silent (pre is 0) and all other numbers are finite. Such synapses are then passed over,
+    /// which is many times faster where activity is sparse.
     SynapseSpec& rests_when_silent() { return type_.rests_when_silent = true, *this; }
 
   private:

@@ -45,6 +45,21 @@ model::System window(const char* probability) {
     return system;
 }
 
+/// Learns like a Hebbian synapse, and does not tell its output.
+struct Mute {
+    static void describe(SynapseSpec<Mute>& s) {
+        s.name("mute", "Mute")
+            .state("weight", "Weight")
+            .output("psp", "Potential")
+            .feedback("post", "Activity");
+        s.rests_when_silent();
+    }
+    void update(SynapseColumns& c) const {
+        c.state(0) += 0.001 * c.pre() * c.feedback(0);
+        c.state(1) = c.state(0) * c.pre();
+    }
+};
+
 constexpr int weight = 0, synpot = 1;  // states of a Hebbian synapse
 
 }  // namespace
@@ -149,13 +164,29 @@ TEST_CASE("An apical synapse passes pre * 1 / (1 - mod) of its target, attenuate
 }
 
 TEST_CASE("Synapses of silent sources are passed over, and all is as if they were not") {
-    const Registry types = registry();
+    Registry types = registry();
+    types.add(synapse_type<Mute>());
     auto system = window("0.2");
-    const bool projective = GENERATE(false, true);
-    if (projective)
-        model::find_connection(system, "learn")->arborization.direction = model::Direction::projective;
+    auto& learn = *model::find_connection(system, "learn");
+    // Windows whose sources share frames of targets, runs of targets, single targets, all targets.
+    switch (GENERATE(0, 1, 2, 3)) {
+        case 0:
+            break;
+        case 1:
+            learn.arborization.direction = model::Direction::projective;
+            break;
+        case 2:
+            learn.arborization.probability = 0.4;
+            break;
+        default:
+            learn.pattern = model::ForeachPattern{};
+            learn.arborization.shape = model::RectArbor{1, 1};
+    }
+    if (GENERATE(false, true))
+        learn.synapse->type = "mute", learn.synapse->settings.clear(),
+        learn.synapse->feedback[0].name = "post";
     if (GENERATE(false, true))  // unheard: a kind that the target does not read
-        model::find_connection(system, "learn")->kind = InputKind::modulatory;
+        learn.kind = InputKind::modulatory;
     auto fast = run(system, types), plain = run(system, types, {.general_forms = true});
     REQUIRE(fast.connection_form(0) == "plastic by source");
     REQUIRE(plain.connection_form(0) == "plastic");
