@@ -27,9 +27,9 @@ template <Index lanes>
     std::copy_n(total, lanes, sum);
 }
 
-FORAGE_SIMD void add_block(const float* cells, const Index* named, std::size_t count, const double* present,
+FORAGE_SIMD void add_sixteen(const float* cells, const Index* named, std::size_t count, const double* present,
                              double share, double* sum) {
-    add_distances<32>(cells, named, count, present, share, sum);
+    add_distances<16>(cells, named, count, present, share, sum);
 }
 
 }  // namespace
@@ -113,8 +113,8 @@ PrototypeStore::Lanes PrototypeStore::distances_of(Index block) {
         count += used[i] | (present_[i] != 0);
     }
     Lanes sum = Lanes::Zero();  // of single-precision numbers
-    static_assert(lanes == 32);
-    add_block(blocks_.data() + block * cells_ * lanes, worth_.data(), count, present_.data(),
+    static_assert(lanes == 16);
+    add_sixteen(blocks_.data() + block * cells_ * lanes, worth_.data(), count, present_.data(),
                 1.0F / static_cast<float>(cells_), sum.data());
     return sum;
 }

@@ -35,7 +35,7 @@ class PrototypeStore {
     }
 
   private:
-    static constexpr Index lanes = 32;  ///< prototypes per block: as many sums as hide how long an addition takes
+    static constexpr Index lanes = 16;  ///< prototypes per block
     using Lanes = Eigen::Array<double, lanes, 1>;
 
     float* cells_of(Index slot) { return blocks_.data() + slot / lanes * cells_ * lanes + slot % lanes; }
