@@ -1,7 +1,9 @@
 #include "core/engine/plastic_by_source.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
+#include <cstdint>
+#include <cstring>
 #include <numeric>
 
 #include "core/engine/finite.h"
@@ -10,173 +12,230 @@
 namespace forage::engine {
 namespace {
 
-constexpr std::size_t least_synapses = 8;  ///< per source: below, an update for each costs more than it saves
+FORAGE_SIMD void add_to(const double* from, Index n, double* to) {
+    // As wide as the parts of frames that begin at the same place: what one source has stored goes to the
+    // next without a detour through the cache.
+    constexpr Index lanes = TargetFrame::lanes;
+    typedef double Lanes __attribute__((vector_size(lanes * sizeof(double))));  // NOLINT: no `using` for this
+    Index i = 0;
+    for (; i + lanes <= n; i += lanes) {
+        Lanes sums, more;
+        std::memcpy(&sums, to + i, sizeof sums);
+        std::memcpy(&more, from + i, sizeof more);
+        sums += more;
+        std::memcpy(to + i, &sums, sizeof sums);
+    }
+    for (; i < n; ++i) to[i] += from[i];
+}
 
-FORAGE_SIMD void gather(const double* row, const int* cells, Index n, double* out) {
-    for (Index i = 0; i < n; ++i) out[i] = row[cells[i]];
+/// Synapses by the source's rank, and by target.
+std::vector<std::size_t> sorted(const connectivity::Synapses& s, const std::vector<int>& cell,
+                                int source_cells) {
+    std::vector<std::size_t> rank(static_cast<std::size_t>(source_cells)), out(s.size());
+    for (std::size_t n = 0; n < cell.size(); ++n) rank[static_cast<std::size_t>(cell[n])] = n;
+    std::vector<std::size_t> begin(cell.size() + 1, 0);
+    for (const int pre : s.pre) ++begin[rank[static_cast<std::size_t>(pre)] + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    auto next = begin;
+    for (std::size_t i = 0; i < s.size(); ++i) out[next[rank[static_cast<std::size_t>(s.pre[i])]]++] = i;
+    const auto by_target = [&](std::size_t a, std::size_t b) { return s.post[a] < s.post[b]; };
+    for (std::size_t n = 0; n < cell.size(); ++n) {
+        const auto first = out.begin() + static_cast<std::ptrdiff_t>(begin[n]),
+                   last = out.begin() + static_cast<std::ptrdiff_t>(begin[n + 1]);
+        if (!std::is_sorted(first, last, by_target)) std::sort(first, last, by_target);
+    }
+    return out;
 }
 
 }  // namespace
 
-/// Synapses that follow each other at a target say which source comes before which (Kahn 1962, "Topological
-/// sorting of large networks").
-std::vector<int> order_of_sources(const connectivity::Synapses& s, int source_cells, int target_cells) {
-    const auto sources = static_cast<std::size_t>(source_cells);
-    if (s.size() < least_synapses * sources ||
-        std::any_of(s.delay.begin(), s.delay.end(), [](int delay) { return delay != 0; }))
-        return {};
-    // Edges from each source to the next one at some target, listed by where they begin.
-    std::vector<int> last(static_cast<std::size_t>(target_cells), -1), from(s.size(), -1);
-    std::vector<std::size_t> begin(sources + 1, 0);
-    for (std::size_t i = 0; i < s.size(); ++i) {
-        int& before = last[static_cast<std::size_t>(s.post[i])];
-        from[i] = before;
-        if (before >= 0) ++begin[static_cast<std::size_t>(before) + 1];
-        before = s.pre[i];
-    }
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    std::vector<int> next(begin.back()), waits_for(sources, 0);
-    auto free = begin;
-    for (std::size_t i = 0; i < s.size(); ++i)
-        if (from[i] >= 0) {
-            next[free[static_cast<std::size_t>(from[i])]++] = s.pre[i];
-            ++waits_for[static_cast<std::size_t>(s.pre[i])];
-        }
-    std::vector<int> order;
-    for (int source = 0; source < source_cells; ++source)
-        if (waits_for[static_cast<std::size_t>(source)] == 0) order.push_back(source);
-    for (std::size_t done = 0; done < order.size(); ++done) {
-        const auto source = static_cast<std::size_t>(order[done]);
-        for (std::size_t e = begin[source]; e < begin[source + 1]; ++e)
-            if (--waits_for[static_cast<std::size_t>(next[e])] == 0) order.push_back(next[e]);
-    }
-    if (order.size() < sources) order.clear();  // they go round in a circle
-    return order;
-}
-
-PlasticBySource::PlasticBySource(connectivity::Synapses s, std::vector<int> order, int target_cells,
-                                 const SynapseType& type, const SynapseInstance& synapse, Arena& arena)
+PlasticBySource::PlasticBySource(connectivity::Synapses s, const SourceOrder& order, int source_cells,
+                                 int target_cells, const SynapseType& type, const SynapseInstance& synapse,
+                                 Arena& arena)
     : synapse_(synapse),
       output_(static_cast<std::size_t>(type.output())),
-      size_(static_cast<Index>(s.size())),
+      keeps_outputs_(!type.tells_output),
       target_cells_(target_cells),
-      order_(std::move(order)),
-      post_(s.size()),
-      factor_(s.size()),
+      targets_(order),
       place_(s.size()) {
-    std::vector<Index> count(order_.size(), 0);
-    for (const int pre : s.pre) ++count[static_cast<std::size_t>(pre)];
-    std::erase_if(order_, [&](int source) { return count[static_cast<std::size_t>(source)] == 0; });
-    start_.push_back(0);
-    std::vector<Index> next(count.size());
-    for (const int source : order_) {
-        next[static_cast<std::size_t>(source)] = start_.back();
-        start_.push_back(start_.back() + count[static_cast<std::size_t>(source)]);
-    }
-    for (std::size_t i = 0; i < s.size(); ++i) {
-        const Index at = place_[i] = next[static_cast<std::size_t>(s.pre[i])]++;
-        post_[static_cast<std::size_t>(at)] = s.post[i];
-        factor_[static_cast<std::size_t>(at)] = s.reference - s.attenuation[i];
-    }
-    const Index most = *std::max_element(count.begin(), count.end());
-    for (const auto& state : type.states) {
-        state_offsets_.push_back(arena.reserve(size_));
-        initial_.push_back(state.initial);
-    }
-    for (std::size_t i = 0; i < type.feedback.size(); ++i) feedback_offsets_.push_back(arena.reserve(most));
-    pre_offset_ = arena.reserve(most);
-    sum_offset_ = arena.reserve(target_cells_);
-    quiet_offset_ = arena.reserve(static_cast<Index>(order_.size()) + 1);
-    active_.reserve(order_.size());
+    for (const auto& source : order.sources) cell_.push_back(source.cell);
+    first_.push_back(0);
+    for (const auto& source : targets_.sources())  // each begins with a line of the cache
+        first_.push_back(first_.back() + Arena::stride(source.size));
+    factor_.assign(static_cast<std::size_t>(first_.back()), 1.0);
+    auto synapse_at = [ids = sorted(s, cell_, source_cells), k = std::size_t{0}]() mutable {
+        return ids[k++];
+    };
+    for (std::size_t n = 0; n < cell_.size(); ++n)
+        targets_.each(n, [&](Index place, int) {
+            const std::size_t i = synapse_at();
+            place_[i] = first_[n] + place;
+            factor_[static_cast<std::size_t>(place_[i])] = s.reference - s.attenuation[i];
+        });
     if (std::all_of(factor_.begin(), factor_.end(), [](double f) { return f == 1; }))
         factor_ = std::vector<double>();
-    feedback_rows_.resize(type.feedback.size());
+
+    Index largest_frame = 0;
+    for (const auto& frame : order.frames) {
+        frames_.push_back({frame.first_source, frame.last_source});
+        for (std::size_t n = frame.first_source; n < frame.last_source; ++n) {
+            const auto& source = targets_.sources()[n];
+            largest_source_ = std::max(largest_source_, source.size);
+            largest_frame = std::max(largest_frame, source.place + source.size);
+        }
+    }
+    for (std::size_t i = 0; i < type.states.size(); ++i) {
+        state_offsets_.push_back(arena.reserve(kept(i) ? first_.back() : largest_source_));
+        initial_.push_back(type.states[i].initial);
+    }
+    for (std::size_t i = 0; i < type.feedback.size(); ++i) {
+        cell_offsets_.push_back(arena.reserve(target_cells_ + TargetFrame::lanes));
+        gathered_offsets_.push_back(arena.reserve(largest_frame));
+    }
+    pre_offset_ = arena.reserve(largest_source_);
+    sum_offset_ = arena.reserve(target_cells_ + TargetFrame::lanes);
+    frame_sum_offset_ = arena.reserve(largest_frame);
+    activity_offset_ = arena.reserve(static_cast<Index>(cell_.size()) + 1);
+    active_.resize(cell_.size());
 }
 
 void PlasticBySource::place(Arena& arena, std::vector<Ring> feedback) {
     feedback_ = std::move(feedback);
     for (std::size_t i = 0; i < state_offsets_.size(); ++i) {
-        states_.emplace_back(arena.at(state_offsets_[i]), size_);
-        if (initial_[i] != 0) states_[i].setConstant(initial_[i]);
+        states_.push_back(arena.at(state_offsets_[i]));
+        if (initial_[i] != 0) std::fill_n(states_[i], first_.back(), initial_[i]);
     }
-    for (const auto offset : feedback_offsets_) {
-        gathered_.push_back(arena.at(offset));
-        feedback_columns_.emplace_back(arena.at(offset), 0);
+    for (std::size_t f = 0; f < feedback_.size(); ++f) {
+        cells_.push_back(arena.at(cell_offsets_[f]));
+        gathered_.push_back(arena.at(gathered_offsets_[f]));
+        feedback_columns_.emplace_back(gathered_[f], 0);
     }
-    for (Column& s : states_) source_states_.emplace_back(s.data(), s.size());
+    for (double* s : states_) source_states_.emplace_back(s, 0);
     pre_ = arena.at(pre_offset_);
     sums_ = arena.at(sum_offset_);
-    quiet_ = arena.at(quiet_offset_);
-    diverged_ = quiet_ + order_.size();
+    frame_sums_ = arena.at(frame_sum_offset_);
+    activity_ = arena.at(activity_offset_);
+    diverged_ = activity_ + cell_.size();
 }
 
 void PlasticBySource::deliver(const History& source, double* target) {
     std::fill_n(sums_, target_cells_, 0.0);
     update(source, sums_);
-    Column(target, target_cells_) += ConstColumn(sums_, target_cells_);
+    add_to(sums_, target_cells_, target);
 }
 
-/// 0 times infinity is NaN: once a number was not finite nobody rests any more.
-bool PlasticBySource::may_rest() {
-    for (std::size_t f = 0; f < feedback_.size() && *diverged_ == 0; ++f)
-        if (feedback_rows_[f] && !all_finite(feedback_rows_[f], Arena::stride(target_cells_))) *diverged_ = 1;
+/// Whether synapses may rest. 0 times infinity is NaN: once a number was not finite nobody rests any more.
+bool PlasticBySource::read_feedback(std::uint64_t cycle) {
+    for (std::size_t f = 0; f < feedback_.size(); ++f) {
+        if (!feedback_[f].rows) continue;  // reads 0
+        const double* row = feedback_[f].ago(cycle, 0);
+        if (*diverged_ == 0 && !all_finite(row, Arena::stride(target_cells_))) *diverged_ = 1;
+        std::copy_n(row, target_cells_, cells_[f]);
+    }
     return *diverged_ == 0;
 }
 
+/// The sources whose synapses are updated, by frame; outputs of others become 0.
+void PlasticBySource::find_active(const double* source, bool may_rest) {
+    std::size_t count = 0;
+    std::size_t* const active = active_.data();
+    const int* const cell = cell_.data();
+    for (std::size_t n = 0; n < cell_.size(); ++n) {
+        const double activity = source[cell[n]];
+        if (keeps_outputs_ && activity == 0 && activity_[n] != 0)
+            std::fill(states_[output_] + first_[n], states_[output_] + first_[n + 1], 0.0);
+        activity_[n] = activity;
+        active[count] = n;
+        count += activity != 0 || !may_rest;
+    }
+    active_count_ = count;
+}
+
 void PlasticBySource::update(const History& source, double* sums) {
+    find_active(source.now, read_feedback(source.cycle));
+    const std::size_t* next = active_.data();
+    const std::size_t* const last = next + active_count_;
+    for (const Frame& frame : frames_) {
+        const std::size_t* first = next;
+        while (next != last && *next < frame.last_source) ++next;
+        if (next != first) update_frame(first, next, sums);
+    }
+}
+
+/// Updates some sources of a frame.
+void PlasticBySource::update_frame(const std::size_t* first, const std::size_t* last, double* sums) {
+    // What they reach of it.
+    const auto& begin = targets_.sources()[*first];
+    TargetFrame::Part part = begin.part;
+    Index place = begin.place;
+    for (const std::size_t* n = first + 1; n != last; ++n) {
+        const auto& source = targets_.sources()[*n];
+        part = {std::min(part.first, source.part.first), std::max(part.last, source.part.last)};
+        place = std::min(place, source.place);
+    }
     for (std::size_t f = 0; f < feedback_.size(); ++f)
-        feedback_rows_[f] = feedback_[f].rows ? feedback_[f].ago(source.cycle, 0) : nullptr;
-    const bool may_rest = this->may_rest();
-    active_.clear();
-    for (std::size_t n = 0; n < order_.size(); ++n) {
-        if (source.now[order_[n]] != 0 || !may_rest) {
-            quiet_[n] = 0;
-            active_.push_back(n);
-        } else if (quiet_[n] == 0) {
-            states_[output_].segment(start_[n], start_[n + 1] - start_[n]).setZero();
-            quiet_[n] = 1;
-        }
-    }
-    for (std::size_t i = 0; i < active_.size(); ++i) {
-        if (i + 2 < active_.size()) fetch(active_[i + 2]);
-        const std::size_t n = active_[i];
-        update_source(n, source.now[order_[n]]);
+        if (feedback_[f].rows) targets_.gather(part, cells_[f], gathered_[f]);
+    const bool one = last - first == 1;
+    if (sums && !one) targets_.gather(part, sums, frame_sums_);
+    for (const std::size_t* n = first; n != last; ++n) {
+        const auto& source = targets_.sources()[*n];
+        const double* psp = update_source(*n, source.place - place);
         if (!sums) continue;
-        const int* post = &post_[static_cast<std::size_t>(start_[n])];
-        const double* psp = states_[output_].data() + start_[n];
-        const Index size = start_[n + 1] - start_[n];
-        for (Index k = 0; k < size; ++k) sums[post[k]] += psp[k];
+        if (one)
+            targets_.add(part, psp, sums);
+        else
+            add_to(psp, source.size, frame_sums_ + (source.place - place));
     }
+    if (sums && !one) targets_.scatter(part, frame_sums_, sums);
 }
 
-/// Active sources lie apart: the processor does not guess which is next.
-void PlasticBySource::fetch(std::size_t n) const {
-    constexpr Index line = 8;  // numbers
-    for (const Column& state : states_)
-        for (Index i = start_[n]; i < start_[n + 1]; i += line) __builtin_prefetch(state.data() + i);
-    for (Index i = start_[n]; i < start_[n + 1]; i += 2 * line)
-        __builtin_prefetch(&post_[static_cast<std::size_t>(i)]);
-}
-
-void PlasticBySource::update_source(std::size_t n, double activity) {
-    const Index first = start_[n], size = start_[n + 1] - first;
-    std::fill_n(pre_, size, activity);
-    for (std::size_t f = 0; f < feedback_.size(); ++f) {
-        new (&feedback_columns_[f]) ConstColumn(gathered_[f], size);
-        if (feedback_rows_[f])
-            gather(feedback_rows_[f], &post_[static_cast<std::size_t>(first)], size, gathered_[f]);
-    }
-    for (std::size_t s = 0; s < states_.size(); ++s)
-        new (&source_states_[s]) Column(states_[s].data() + first, size);
+/// All synapses of the n-th source, whose feedback begins at `place` of what is gathered; gives their
+/// outputs.
+const double* PlasticBySource::update_source(std::size_t n, Index place) {
+    const Index size = look_at(n);
+    for (std::size_t f = 0; f < feedback_.size(); ++f)
+        new (&feedback_columns_[f]) ConstColumn(gathered_[f] + place, size);
     SynapseColumns columns(ConstColumn(pre_, size), source_states_, feedback_columns_);
     synapse_.update(columns);
-    if (!factor_.empty()) source_states_[output_] *= ConstColumn(factor_.data() + first, size);
+    return attenuated(n);
+}
+
+/// Lets `pre_` and `source_states_` be those of the n-th source; gives its number of places.
+Index PlasticBySource::look_at(std::size_t n) const {
+    const Index size = targets_.sources()[n].size;
+    if (std::bit_cast<std::uint64_t>(pre_[0]) != std::bit_cast<std::uint64_t>(activity_[n]))
+        std::fill_n(pre_, largest_source_, activity_[n]);  // spikes are alike
+    for (std::size_t s = 0; s < states_.size(); ++s)
+        new (&source_states_[s]) Column(states_[s] + (kept(s) ? first_[n] : 0), size);
+    return size;
+}
+
+const double* PlasticBySource::attenuated(std::size_t n) const {
+    Column& output = source_states_[output_];
+    if (!factor_.empty()) output *= ConstColumn(&factor_[static_cast<std::size_t>(first_[n])], output.size());
+    return output.data();
+}
+
+/// Tells outputs that are not kept.
+std::vector<double> PlasticBySource::outputs() const {
+    const std::vector<ConstColumn> no_feedback;
+    std::vector<double> out(static_cast<std::size_t>(first_.back()), 0.0);
+    for (std::size_t n = 0; n < cell_.size(); ++n) {
+        if (activity_[n] == 0 && *diverged_ == 0) continue;
+        const Index size = look_at(n);
+        SynapseColumns columns(ConstColumn(pre_, size), source_states_, no_feedback);
+        synapse_.output(columns);
+        std::copy_n(attenuated(n), size, out.begin() + first_[n]);
+    }
+    return out;
 }
 
 ConstColumn PlasticBySource::state(std::size_t i) const {
-    shown_.resize(static_cast<std::size_t>(size_));
-    for (std::size_t k = 0; k < shown_.size(); ++k) shown_[k] = states_[i][place_[k]];
-    return {shown_.data(), size_};
+    const auto told = kept(i) ? std::vector<double>() : outputs();
+    const double* all = kept(i) ? states_[i] : told.data();
+    shown_.resize(place_.size());
+    for (std::size_t k = 0; k < shown_.size(); ++k) shown_[k] = all[place_[k]];
+    return {shown_.data(), static_cast<Index>(shown_.size())};
 }
 
 }  // namespace forage::engine

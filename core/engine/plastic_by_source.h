@@ -4,55 +4,66 @@
 #include <vector>
 
 #include "core/engine/plastic_kernel.h"
+#include "core/engine/source_order.h"
+#include "core/engine/target_frame.h"
 
 namespace forage::engine {
 
-/// The source cells of a connection in an order in which every target can sum its synapses in synapse order:
-/// one source after the other. Empty when there is none, when there are delays, or when the sources have too
-/// few synapses each for an update of their own (below 8 on average).
-std::vector<int> order_of_sources(const connectivity::Synapses& synapses, int source_cells, int target_cells);
-
 /// A cycle updates and delivers the synapses of active sources only. The type has promised that the others
-/// would change nothing: SynapseSpec::rests_when_silent().
+/// would change nothing: SynapseSpec::rests_when_silent(). Feedback and sums are copied once per frame of
+/// targets; an update sees a stretch of them. Outputs are kept only where the type cannot tell them again.
 class PlasticBySource final : public PlasticKernel {
   public:
-    /// `order`: as order_of_sources() gives it.
-    PlasticBySource(connectivity::Synapses synapses, std::vector<int> order, int target_cells,
-                    const SynapseType& type, const SynapseInstance& synapse, Arena& arena);
+    PlasticBySource(connectivity::Synapses synapses, const SourceOrder& order, int source_cells,
+                    int target_cells, const SynapseType& type, const SynapseInstance& synapse, Arena& arena);
     void place(Arena& arena, std::vector<Ring> feedback) override;
     void learn(const History& source) override { update(source, nullptr); }
     void deliver(const History& source, double* target) override;
     ConstColumn state(std::size_t i) const override;
     std::string_view form() const override { return "plastic by source"; }
-    double cost() const override { return static_cast<double>(size_); }
+    double cost() const override { return 0.3 * static_cast<double>(place_.size()); }
 
   private:
-    bool may_rest();
+    struct Frame {
+        std::size_t first_source, last_source;
+    };
+    bool kept(std::size_t state) const { return keeps_outputs_ || state != output_; }
+    bool read_feedback(std::uint64_t cycle);
+    void find_active(const double* source, bool may_rest);
     void update(const History& source, double* sums);
-    /// All synapses of the `n`-th source.
-    void update_source(std::size_t n, double activity);
-    void fetch(std::size_t n) const;
+    void update_frame(const std::size_t* first, const std::size_t* last, double* sums);
+    const double* update_source(std::size_t n, Index place);
+    Index look_at(std::size_t n) const;
+    const double* attenuated(std::size_t n) const;
+    std::vector<double> outputs() const;
 
     const SynapseInstance& synapse_;
     std::size_t output_;  ///< index of the output state
-    Index size_, target_cells_;
-    std::vector<int> order_;       ///< sources that have synapses
-    std::vector<Index> start_;     ///< of the synapses of the n-th of them; one more than there are
-    std::vector<int> post_;        ///< target cells, by source
-    std::vector<double> factor_;   ///< reference - attenuation, by source; empty when all are 1
-    std::vector<Index> place_;     ///< where the synapses are, in synapse order
+    bool keeps_outputs_;  ///< else the type tells them
+    Index target_cells_;
+    TargetFrame targets_;
+    std::vector<Frame> frames_;
+    std::vector<int> cell_;        ///< of the n-th source
+    std::vector<Index> first_;     ///< place of its first synapse; one more than there are
+    Index largest_source_ = 0;     ///< places
+    std::vector<double> factor_;   ///< reference - attenuation, by place; empty when all are 1
+    std::vector<Index> place_;     ///< of the synapses, in synapse order
     std::vector<double> initial_;  ///< of the states
 
-    Arena::Offset pre_offset_, sum_offset_, quiet_offset_;
-    std::vector<Arena::Offset> state_offsets_, feedback_offsets_;
-    double *pre_ = nullptr, *sums_ = nullptr;
-    double* quiet_ = nullptr;          ///< per source: 1 when its outputs are 0 already
+    Arena::Offset pre_offset_, sum_offset_, frame_sum_offset_, activity_offset_;
+    std::vector<Arena::Offset> state_offsets_, cell_offsets_, gathered_offsets_;
+    double *sums_ = nullptr, *frame_sums_ = nullptr;  ///< per target cell, and per place of a frame
+    double* activity_ = nullptr;                      ///< of the sources, at the last update
     double* diverged_ = nullptr;       ///< 1 once a number that the synapses read was not finite
-    std::vector<std::size_t> active_;  ///< of this cycle
-    std::vector<double*> gathered_;    ///< feedback, per synapse of a source
+    std::vector<std::size_t> active_;  ///< of this cycle: the first `active_count_`
+    std::size_t active_count_ = 0;
     std::vector<Ring> feedback_;
-    std::vector<const double*> feedback_rows_;    ///< of this cycle; null for an unset one
-    std::vector<Column> states_, source_states_;  ///< of all synapses, and of a source
+    std::vector<double*> cells_, gathered_;  ///< feedback, per target cell and per place of a frame
+    std::vector<double*> states_;            ///< of all synapses; of one source, when it is not kept
+
+    // What an update is shown, of one source.
+    double* pre_ = nullptr;
+    mutable std::vector<Column> source_states_;
     std::vector<ConstColumn> feedback_columns_;
     mutable std::vector<double> shown_;  ///< what state() gave last
 };

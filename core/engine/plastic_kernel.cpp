@@ -9,8 +9,8 @@ std::unique_ptr<PlasticKernel> make_plastic(connectivity::Synapses synapses, int
                                             int target_cells, const SynapseType& type,
                                             const SynapseInstance& synapse, Arena& arena, Forms forms) {
     if (forms == Forms::fastest && type.rests_when_silent)
-        if (auto order = order_of_sources(synapses, source_cells, target_cells); !order.empty())
-            return std::make_unique<PlasticBySource>(std::move(synapses), std::move(order), target_cells,
+        if (const auto order = order_of_sources(synapses, source_cells, target_cells); !order.sources.empty())
+            return std::make_unique<PlasticBySource>(std::move(synapses), order, source_cells, target_cells,
                                                      type, synapse, arena);
     return std::make_unique<PlasticList>(std::move(synapses), target_cells, type, synapse, arena);
 }

@@ -64,8 +64,16 @@ FORAGE_SIMD void add_windows(const WindowKernel::Tap* taps, std::size_t count, I
     for (; y < last_row; ++y) add_rows<1>(taps, count, y * stride, stride, width, target + y * width);
 }
 
-FORAGE_SIMD void scale(const double* from, double gain, Index n, double* to) {
-    for (Index i = 0; i < n; ++i) to[i] = from[i] * gain;
+/// Rows of `width` numbers, `stride` apart. The second factor is 1 for windows whose taps have their own.
+FORAGE_SIMD void scale(const double* from, double gain, double factor, Index width, Index rows, Index stride,
+                       double* to) {
+    constexpr Index step = 4;
+    for (Index y = 0; y < rows; ++y, from += width, to += stride) {
+        Index x = 0;
+        for (; x + step <= width; x += step)
+            for (Index i = x; i < x + step; ++i) to[i] = from[i] * gain * factor;
+        for (; x < width; ++x) to[x] = from[x] * gain * factor;
+    }
 }
 
 }  // namespace
@@ -88,7 +96,21 @@ WindowKernel::WindowKernel(const connectivity::Regular& r, const SynapseInstance
             static_cast<std::size_t>(std::find(delays_.begin(), delays_.end(), tap.delay) - delays_.begin());
         taps_.push_back(
             {framed_[d].data() + (top_ + tap.dy) * stride_ + left_ + tap.dx, r.reference - tap.attenuation});
+        factors_.push_back(taps_.back().factor);
     }
+    find_columns();
+}
+
+void WindowKernel::find_columns() {
+    for (std::size_t i = 0; i < taps_.size(); ++i)
+        if (i > 0 && taps_[i].source == taps_[i - 1].source + stride_)
+            ++columns_.back().taps;
+        else
+            columns_.push_back({taps_[i].source, &factors_[i], 1});
+    if (std::any_of(columns_.begin(), columns_.end(), [](auto& c) { return c.taps < TapColumn::least; }))
+        return columns_.clear();
+    same_factor_ =
+        std::all_of(factors_.begin(), factors_.end(), [&](double f) { return f == factors_.front(); });
 }
 
 void WindowKernel::deliver(const History& source, double* target) {
@@ -97,20 +119,21 @@ void WindowKernel::deliver(const History& source, double* target) {
 }
 
 void WindowKernel::prepare(const History& source, int part, int parts) {
-    const double gain = synapse_.gain();
+    const double gain = synapse_.gain(), factor = same_factor_ ? factors_.front() : 1;
     const Range rows(static_cast<std::size_t>(height_), part, parts);
-    for (std::size_t d = 0; d < delays_.size(); ++d) {
-        const double* from = source.ago(delays_[d]);
-        double* to = framed_[d].data() + top_ * stride_ + left_;
-        for (auto y = static_cast<Index>(rows.first); y < static_cast<Index>(rows.last); ++y)
-            scale(from + y * width_, gain, width_, to + y * stride_);
-    }
+    const auto first = static_cast<Index>(rows.first), count = static_cast<Index>(rows.last) - first;
+    for (std::size_t d = 0; d < delays_.size(); ++d)
+        scale(source.ago(delays_[d]) + first * width_, gain, factor, width_, count, stride_,
+              framed_[d].data() + (top_ + first) * stride_ + left_);
 }
 
 void WindowKernel::add(const History&, double* target, int part, int parts) {
     const Range rows(static_cast<std::size_t>(height_), part, parts);
-    add_windows(taps_.data(), taps_.size(), width_, static_cast<Index>(rows.first),
-                static_cast<Index>(rows.last), stride_, target);
+    const auto first = static_cast<Index>(rows.first), last = static_cast<Index>(rows.last);
+    if (columns_.empty())
+        add_windows(taps_.data(), taps_.size(), width_, first, last, stride_, target);
+    else
+        add_columns(columns_.data(), columns_.size(), same_factor_, width_, first, last, stride_, target);
 }
 
 }  // namespace forage::engine

@@ -3,6 +3,7 @@
 
 #include "core/connectivity/regular.h"
 #include "core/engine/kernel.h"
+#include "core/engine/window_columns.h"
 
 namespace forage::engine {
 
@@ -27,11 +28,16 @@ class WindowKernel final : public Kernel {
     };
 
   private:
+    void find_columns();
+
     const SynapseInstance& synapse_;
     Index width_, height_, left_, top_, stride_;
     std::vector<int> delays_;                  ///< those that occur
-    std::vector<std::vector<double>> framed_;  ///< by delay: gain times activity, in a frame
+    std::vector<std::vector<double>> framed_;  ///< by delay: gain times activity in a frame
     std::vector<Tap> taps_;
+    std::vector<TapColumn> columns_;  ///< the same taps; empty when few of them follow each other downwards
+    std::vector<double> factors_;     ///< of the taps
+    bool same_factor_ = false;        ///< `framed_` holds the products with it
 };
 
 }  // namespace forage::engine

@@ -55,14 +55,20 @@ std::string watch(const std::deque<Fenced>& stage, Update update) {
     return all_whole(stage) ? "" : "it writes beside its columns: it takes them for longer than they are";
 }
 
-/// Whether synapses of silent sources rest, as the type promises, whatever their states and their target.
-std::string watch_rest(const SynapseType& type) try {
+/// A column for each state and feedback of a type, of numbers from -1 to 1.
+std::vector<Eigen::ArrayXd> random_numbers(const SynapseType& type) {
     const RandomStream random(1, "rest");
     std::vector<Eigen::ArrayXd> numbers(type.states.size() + type.feedback.size(), Eigen::ArrayXd(cells));
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         random.uniform(i, {numbers[i].data(), static_cast<std::size_t>(cells)});
         numbers[i] = 2 * numbers[i] - 1;
     }
+    return numbers;
+}
+
+/// Whether synapses of silent sources rest, as the type promises, whatever their states and their target.
+std::string watch_rest(const SynapseType& type) try {
+    auto numbers = random_numbers(type);
     const auto before = numbers;
     const Eigen::ArrayXd silence = Eigen::ArrayXd::Zero(cells);
     std::vector<Column> states;
@@ -84,6 +90,37 @@ std::string watch_rest(const SynapseType& type) try {
                              "' while its source is silent";
     }
     return {};
+} catch (...) {
+    return {};  // a run will say so
+}
+
+/// Whether output() tells what update() has put out, and touches nothing else.
+std::string watch_output(const SynapseType& type) try {
+    auto numbers = random_numbers(type);
+    const Eigen::ArrayXd pre = Eigen::ArrayXd::LinSpaced(cells, 0.5, 2);
+    std::vector<Column> states;
+    std::vector<ConstColumn> feedback;
+    const std::vector<ConstColumn> no_feedback;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (i < type.states.size())
+            states.emplace_back(numbers[i].data(), cells);
+        else
+            feedback.emplace_back(numbers[i].data(), cells);
+    const auto synapse = type.make();
+    SynapseColumns columns(ConstColumn(pre.data(), cells), states, feedback);
+    synapse->update(columns);
+    const auto updated = numbers;
+    states[static_cast<std::size_t>(type.output())].setConstant(0.25);
+    SynapseColumns told(ConstColumn(pre.data(), cells), states, no_feedback);
+    synapse->output(told);
+    for (std::size_t i = 0; i < states.size(); ++i)
+        if (!(states[i] == updated[i]).all())
+            return static_cast<int>(i) == type.output()
+                       ? "its output() tells something else than its update() puts out"
+                       : "its output() changes state '" + type.states[i].name + "'";
+    return {};
+} catch (const TypeError& e) {
+    return e.what();
 } catch (...) {
     return {};  // a run will say so
 }
@@ -125,7 +162,9 @@ std::string rehearse(const SynapseType& type) {
         SynapseColumns columns(pre, states, feedback);
         for (int i = 0; i < updates; ++i) synapse->update(columns);
     });
-    return fault.empty() && type.rests_when_silent ? watch_rest(type) : fault;
+    if (!fault.empty()) return fault;
+    const std::string restless = type.rests_when_silent ? watch_rest(type) : "";
+    return restless.empty() && type.tells_output ? watch_output(type) : restless;
 }
 
 }  // namespace forage::plugin

@@ -4,6 +4,10 @@
 //     static void describe(SynapseSpec<T>&);
 //     void check(Problems&) const;               // optional: warns of parameters that do not fit together
 //     void update(SynapseColumns&) const;        // one cycle, for some synapses at a time
+//     void output(SynapseColumns&) const;        // optional: writes the output state, and nothing else, as
+//     the
+//                                                // last update() did, from pre and the other states alone.
+//                                                // Outputs need not be kept then: less memory to move.
 //
 // A type that only multiplies its input by a constant declares that constant with `gain` and needs no
 // update(). The engine then attenuates and delays what the type puts out; synapses/fixed_weight.h is the
@@ -66,7 +70,8 @@ class SynapseInstance {
     virtual ~SynapseInstance() = default;
     virtual void* parameters() = 0;
     virtual void update(SynapseColumns&) const = 0;
-    virtual double gain() const = 0;  ///< psp = gain * pre, for types that declare one
+    virtual double gain() const = 0;                 ///< psp = gain * pre, for types that declare one
+    virtual void output(SynapseColumns&) const = 0;  ///< for types that have it; without feedback
 };
 
 struct SynapseType {
@@ -76,6 +81,7 @@ struct SynapseType {
     std::vector<FeedbackInfo> feedback;
     bool has_gain = false;
     bool rests_when_silent = false;  ///< see SynapseSpec
+    bool tells_output = false;       ///< has an output()
     std::function<std::unique_ptr<SynapseInstance>()> make;
     std::function<void(const void*, Problems&)> check;  ///< of an object's parameters; may be empty
 
@@ -109,8 +115,8 @@ class SynapseSpec {
         return type_.feedback.push_back({std::move(name), std::move(label), required}), *this;
     }
     /// Promises that update() leaves the states of a synapse as they are and makes its output 0 when its
-    /// source is silent (pre is 0) and all other numbers are finite. Such synapses are then passed over, which
-    /// is many times faster where activity is sparse.
+    /// source is silent (pre is 0) and all other numbers are finite. Such synapses are then passed over,
+    /// which is many times faster where activity is sparse.
     SynapseSpec& rests_when_silent() { return type_.rests_when_silent = true, *this; }
 
   private:
@@ -125,6 +131,9 @@ class SynapseModel final : public SynapseInstance {
     void* parameters() override { return &value_; }
     void update(SynapseColumns& columns) const override {
         if constexpr (requires { value_.update(columns); }) value_.update(columns);
+    }
+    void output(SynapseColumns& columns) const override {
+        if constexpr (requires { value_.output(columns); }) value_.output(columns);
     }
     double gain() const override {
         if constexpr (requires { value_.gain(); })
@@ -148,6 +157,7 @@ SynapseType synapse_type() {
     SynapseSpec<T> spec(type);
     T::describe(spec);
     type.has_gain = requires(const T t) { t.gain(); };
+    type.tells_output = requires(const T t, SynapseColumns& c) { t.output(c); };
     type.make = [] { return std::make_unique<detail::SynapseModel<T>>(); };
     if constexpr (requires(const T t, Problems p) { t.check(p); })
         type.check = [](const void* object, Problems& problems) {

@@ -1,5 +1,7 @@
 #include "modules/contextual_layer/module.h"
 
+#include <cstring>
+
 #include <fmt/format.h>
 
 #include "modules/contextual_layer/display.h"
@@ -102,6 +104,7 @@ void ContextualLayerModule::start(const ModulePorts& ports) {
     layer_ = ContextualLayer(static_cast<Index>(height), static_cast<Index>(width),
                              ports.inputs[prototype].shape.cells, ports.inputs[action_in].shape.cells);
     displayed_ = false;
+    for (auto& numbers : shown_) numbers = layer_.memory().distance();
 }
 
 void ContextualLayerModule::update(ModuleFrame& frame) {
@@ -112,10 +115,18 @@ void ContextualLayerModule::update(ModuleFrame& frame) {
         return;
     Column action = frame.output(action_out);
     action = layer_.action().head(action.size()).cast<double>();
+    // A picture that stays as it is is not asked for: the group that shows it then rests.
     const auto picture = [&](Out port, const SegmentArray& numbers) {
-        if (frame.output_size(port) > 0) show(layer_, numbers, !displayed_, frame.output(port));
+        SegmentArray& shown = shown_[port - collector];
+        const auto bytes = static_cast<std::size_t>(numbers.size()) * sizeof(float);
+        if (frame.output_size(port) == 0 ||
+            (displayed_ && std::memcmp(shown.data(), numbers.data(), bytes) == 0))
+            return;
+        show(layer_, numbers, !displayed_, frame.output(port));
+        shown = numbers;
     };
-    if (frame.output_size(empty) > 0) show_empty(layer_, !displayed_, frame.output(empty));
+    if (frame.output_size(empty) > 0 && (!displayed_ || layer_.stored_row() >= 0))
+        show_empty(layer_, !displayed_, frame.output(empty));
     picture(collector, layer_.memory().collector());
     picture(distance, layer_.memory().distance());
     picture(selected, layer_.memory().selected());

@@ -1,6 +1,8 @@
 // moduleCL: the contextual layer between groups.
 #pragma once
 
+#include <array>
+
 #include "core/types/module.h"
 #include "modules/contextual_layer/contextual_layer.h"
 
@@ -18,13 +20,16 @@ class ContextualLayerModule {
     void check(const ModulePorts& ports, Problems& problems) const;
     void start(const ModulePorts& ports);
     void update(ModuleFrame& frame);
-    void checkpoint(Archive& archive) { archive(layer_, displayed_); }
+    void checkpoint(Archive& archive) {
+        archive(layer_, displayed_, shown_[0], shown_[1], shown_[2], shown_[3]);
+    }
 
     const ContextualLayer& layer() const { return layer_; }
 
   private:
     ContextualLayer layer_;
-    bool displayed_ = false;  ///< the displays have been written once
+    bool displayed_ = false;             ///< the displays have been written once
+    std::array<SegmentArray, 4> shown_;  ///< what collector, distance, selected and trigger show
 };
 
 }  // namespace forage::contextual

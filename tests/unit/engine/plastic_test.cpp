@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/engine/plastic_by_source.h"
+#include "core/engine/source_order.h"
 #include "tests/unit/engine/simulations.h"
 
 using namespace forage;
@@ -44,6 +44,21 @@ model::System window(const char* probability) {
     learn.attenuation = {model::GaussianFunction{0, 1, 2}, {}};
     return system;
 }
+
+/// Learns like a Hebbian synapse, and does not tell its output.
+struct Mute {
+    static void describe(SynapseSpec<Mute>& s) {
+        s.name("mute", "Mute")
+            .state("weight", "Weight")
+            .output("psp", "Potential")
+            .feedback("post", "Activity");
+        s.rests_when_silent();
+    }
+    void update(SynapseColumns& c) const {
+        c.state(0) += 0.001 * c.pre() * c.feedback(0);
+        c.state(1) = c.state(0) * c.pre();
+    }
+};
 
 constexpr int weight = 0, synpot = 1;  // states of a Hebbian synapse
 
@@ -149,13 +164,29 @@ TEST_CASE("An apical synapse passes pre * 1 / (1 - mod) of its target, attenuate
 }
 
 TEST_CASE("Synapses of silent sources are passed over, and all is as if they were not") {
-    const Registry types = registry();
+    Registry types = registry();
+    types.add(synapse_type<Mute>());
     auto system = window("0.2");
-    const bool projective = GENERATE(false, true);
-    if (projective)
-        model::find_connection(system, "learn")->arborization.direction = model::Direction::projective;
+    auto& learn = *model::find_connection(system, "learn");
+    // Windows whose sources share frames of targets, runs of targets, single targets, all targets.
+    switch (GENERATE(0, 1, 2, 3)) {
+        case 0:
+            break;
+        case 1:
+            learn.arborization.direction = model::Direction::projective;
+            break;
+        case 2:
+            learn.arborization.probability = 0.4;
+            break;
+        default:
+            learn.pattern = model::ForeachPattern{};
+            learn.arborization.shape = model::RectArbor{1, 1};
+    }
+    if (GENERATE(false, true))
+        learn.synapse->type = "mute", learn.synapse->settings.clear(),
+        learn.synapse->feedback[0].name = "post";
     if (GENERATE(false, true))  // unheard: a kind that the target does not read
-        model::find_connection(system, "learn")->kind = InputKind::modulatory;
+        learn.kind = InputKind::modulatory;
     auto fast = run(system, types), plain = run(system, types, {.general_forms = true});
     REQUIRE(fast.connection_form(0) == "plastic by source");
     REQUIRE(plain.connection_form(0) == "plastic");
@@ -184,9 +215,14 @@ TEST_CASE("Sources that targets hear in orders that contradict each other are no
         for (const int source : target % 2 ? std::array{0, 1} : std::array{1, 0})
             s.pre.push_back(source), s.post.push_back(target), s.delay.push_back(0),
                 s.attenuation.push_back(0);
-    CHECK(engine::order_of_sources(s, 2, 8).empty());
+    const auto order = [&] {
+        std::vector<int> cells;
+        for (const auto& source : engine::order_of_sources(s, 2, 8).sources) cells.push_back(source.cell);
+        return cells;
+    };
+    CHECK(order().empty());
     for (std::size_t i = 0; i < s.pre.size(); ++i) s.pre[i] = 1 - static_cast<int>(i % 2);
-    CHECK(engine::order_of_sources(s, 2, 8) == std::vector{1, 0});
+    CHECK(order() == std::vector{1, 0});
     s.delay.back() = 1;
-    CHECK(engine::order_of_sources(s, 2, 8).empty());
+    CHECK(order().empty());
 }

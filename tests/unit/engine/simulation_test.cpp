@@ -178,6 +178,26 @@ TEST_CASE("Every form of a connection gives the same bits as the list of synapse
     }
 }
 
+TEST_CASE("Windows of every size give the same bits as the list of synapses") {
+    const auto [width, height] = GENERATE(table<int, int>({{10, 10}, {13, 9}, {5, 4}, {33, 7}, {4, 21}}));
+    const auto [across, down] = GENERATE(table<int, int>({{3, 3}, {5, 5}, {4, 7}, {11, 11}, {7, 2}}));
+    const bool gaussian = GENERATE(false, true), projective = GENERATE(false, true);
+    model::System s;
+    const auto p = model::add_process(s, "P");
+    const auto a = model::add_group(s, p, "A", width, height, "neuronRandomSpike"),
+               b = model::add_group(s, p, "B", width, height, "neuronLinearThreshold");
+    auto& c = connect(s, a, b, InputKind::excitatory, "synapseFixedWeight");
+    model::set_parameter(*c.synapse, "weight", "0.3");
+    c.arborization.shape = model::RectArbor{across, down};
+    if (projective) c.arborization.direction = model::Direction::projective;
+    c.attenuation = gaussian ? model::DistanceFunction{model::GaussianFunction{0, 1, 2.5}, {}} : uniform(0.1);
+    INFO(across << " x " << down << " on " << width << " x " << height);
+    const Registry types = registry();
+    CHECK(run(s, types).connection_form(0) == "window");
+    REQUIRE(trace(s, {}, 5) == trace(s, {.general_forms = true}, 5));
+    REQUIRE(trace(s, {.threads = 3, .worth_sharing = 0}, 5) == trace(s, {}, 5));
+}
+
 TEST_CASE("What rests is not computed again, and changes no bit") {
     const Registry types = registry();
     for (unsigned seed = 1; seed <= 20; ++seed) {
