@@ -1,6 +1,7 @@
 #include "core/observe/npz.h"
 
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
@@ -9,8 +10,26 @@
 #include <zip.h>
 
 namespace forage::observe {
+namespace {
+
+/// libzip writes beside the archive, with a dot and six letters more, until it is whole. Who was killed
+/// meanwhile left that.
+void remove_leftovers(const std::filesystem::path& archive) {
+    const std::string start = archive.filename().string() + ".";
+    const auto folder = archive.has_parent_path() ? archive.parent_path() : ".";
+    std::error_code ignored;
+    std::vector<std::filesystem::path> leftovers;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+        const std::string name = entry.path().filename().string();
+        if (name.size() == start.size() + 6 && name.starts_with(start)) leftovers.push_back(entry.path());
+    }
+    for (const auto& path : leftovers) std::filesystem::remove(path, ignored);
+}
+
+}  // namespace
 
 void join_npz(const std::string& path, const std::vector<std::pair<std::string, std::string>>& arrays) {
+    remove_leftovers(path);
     int error = 0;
     zip_t* archive = zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &error);
     bool fine = archive != nullptr;

@@ -104,6 +104,7 @@ class Resume(Stopped):
         self.through()
         process = self.start(*self.arguments, "--checkpoint-every", 100, "-o", "killed")
         self.until_there_is("killed/checkpoint.previous.forage")
+        self.until_there_is("killed/checkpoint.forage")  # it took the other's place a moment later
         self.assertIsNone(self.stop(process, 0))
         for damage in ("bit", "short", "empty", "other"):
             shutil.copytree(self.here / "killed", self.here / damage)

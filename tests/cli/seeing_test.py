@@ -211,7 +211,7 @@ class Mistakes(Cli):
         self.assertIn("time_Bug_Light.png", [p.name for p in (self.here / "out").iterdir()])
 
     def test_nothing_to_plot(self):
-        self.assertIn("there is no 'absent'", self.forage("plot", "absent", status=2).stderr)
+        self.assertIn("absent: error: there is no such file", self.forage("plot", "absent", status=2).stderr)
         (self.here / "empty").mkdir()
         self.assertIn("there is no such recording", self.forage("plot", "empty", "time:Bug/Light", status=2).stderr)
         self.assertIn("which system?", self.forage("plot", "empty", "diagram", status=2).stderr)

@@ -42,7 +42,8 @@ def run(name, more, out):
     state = re.search(r"state +(\w{16})", text)[1]
     trials = int(re.search(r"trials +(\d+)", text)[1])
     seen = [m for m in seen if m]
-    early, late = seen[len(seen) // 4], max(seen[len(seen) // 4:-len(seen) // 10])  # without the pictures at the end
+    pictures = max(len(seen) // 10, min(10, len(seen) // 2))  # samples while they are drawn, at the end
+    early, late = seen[len(seen) // 4], max(seen[len(seen) // 4:-pictures])
     print(f"{name}: {CYCLES} cycles, {trials} trials, {time.monotonic() - begun:.0f} s, state {state}, "
           f"{early:.1f} MB after a quarter, {late:.1f} MB at most", flush=True)
     # What is known of each trial is kept; where there are results, the path too, up to a million points.
