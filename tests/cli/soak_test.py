@@ -5,6 +5,7 @@
 
 import pathlib
 import re
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -42,10 +43,12 @@ def run(name, more, out):
     state = re.search(r"state +(\w{16})", text)[1]
     trials = int(re.search(r"trials +(\d+)", text)[1])
     seen = [m for m in seen if m]
-    pictures = max(len(seen) // 10, min(10, len(seen) // 2))  # samples while they are drawn, at the end
-    early, late = seen[len(seen) // 4], max(seen[len(seen) // 4:-pictures])
+    seen = seen[:-max(len(seen) // 10, min(10, len(seen) // 2))]  # without the pictures at the end
+    quarter = len(seen) // 4
+    # Medians: for a moment, a checkpoint that is written is in memory too.
+    early, late = statistics.median(seen[quarter:2 * quarter]), statistics.median(seen[-quarter:])
     print(f"{name}: {CYCLES} cycles, {trials} trials, {time.monotonic() - begun:.0f} s, state {state}, "
-          f"{early:.1f} MB after a quarter, {late:.1f} MB at most", flush=True)
+          f"{early:.1f} MB in the second quarter, {late:.1f} MB in the last, {max(seen):.1f} MB at most", flush=True)
     # What is known of each trial is kept; where there are results, the path too, up to a million points.
     bound = 1 + 1e-3 * trials + (min(100, CYCLES * 100e-6) if out else 0)
     assert late - early < bound, f"{name}: the memory grows by {late - early:.1f} MB, more than {bound:.1f}"
