@@ -114,13 +114,7 @@ std::string converted(const ConvertOptions& o, Diagnostics& diagnostics) {
 int convert(const ConvertOptions& options) {
     Diagnostics diagnostics;
     diagnostics.lenient = options.lenient;
-    const fs::path directory = fs::path(options.output).parent_path();
-    if (std::error_code none; !directory.empty() && !fs::is_directory(directory, none))
-        diagnostics.error(
-            {}, fmt::format("there is no directory '{}' for '{}'", directory.string(), options.output));
-    if (std::error_code none; fs::exists(options.output, none) && !fs::is_regular_file(options.output, none))
-        diagnostics.error({}, fmt::format("cannot write '{}': it is no file", options.output),
-                          "name a file, such as copy.iqr");
+    check_output(options.output, "copy.iqr", diagnostics);
     const std::string text = converted(options, diagnostics);
     fmt::print(stderr, "{}", format(diagnostics));
     if (diagnostics.failed()) return bad_input;

@@ -20,6 +20,21 @@ void refuse_no_file(const std::string& path) {
         throw std::runtime_error(fmt::format("cannot write '{}': it is no file", path));
 }
 
+void check_output(const std::string& path, const std::string& example, Diagnostics& diagnostics) {
+    namespace fs = std::filesystem;
+    const std::string directory = fs::path(path).parent_path().string();
+    std::error_code none;
+    if (!directory.empty() && !fs::is_directory(directory, none))
+        diagnostics.error({}, fmt::format("there is no directory '{}' for '{}'", directory, path),
+                          "make it first, or name another");
+    else if (access(directory.empty() ? "." : directory.c_str(), W_OK | X_OK) != 0)
+        diagnostics.error({}, fmt::format("cannot write '{}': {}", path, std::strerror(errno)),
+                          "name a file in a directory that you may write to");
+    else if (fs::exists(path, none) && !fs::is_regular_file(path, none))
+        diagnostics.error({}, fmt::format("cannot write '{}': it is no file", path),
+                          fmt::format("name a file, such as {}", example));
+}
+
 std::string partial(const std::string& path) { return path + ".part"; }
 
 void finish(const std::string& path) {

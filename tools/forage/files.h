@@ -5,11 +5,16 @@
 #include <string_view>
 #include <utility>
 
+#include "core/model/diagnostic.h"
+
 namespace forage::tool {
 
 /// Throws std::runtime_error when what stands at `path` is no file, but a directory or a device: a file would
 /// take its place, or could not.
 void refuse_no_file(const std::string& path);
+/// Tells, before any work is done, what keeps a file from being written at `path`: its directory is missing
+/// or may not be written, or what stands there is no file. `example`: a name, for the hint.
+void check_output(const std::string& path, const std::string& example, Diagnostics& diagnostics);
 /// The name under which a file grows; rename it with finish().
 std::string partial(const std::string& path);
 /// Gives a file that was written as partial(path) its name. Throws std::runtime_error.

@@ -73,6 +73,8 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
     if (!o.video.empty() && !plot::Film::is_name(o.video))
         diagnostics.error({}, fmt::format("--video: '{}' is no name of a film", o.video),
                           "it ends with .gif or .png");
+    else if (!o.video.empty())
+        check_output(o.video, "film.gif", diagnostics);
     if (loaded->drive) check_drive(*loaded->drive, loaded->system, diagnostics);
     auto simulation = engine::Simulation::build(loaded->system, loaded->registry,
                                                 {.seed = o.input.seed, .threads = o.threads}, diagnostics);

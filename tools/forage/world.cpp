@@ -18,6 +18,7 @@ int world(const WorldCommand& o) {
     if (!format_of_picture)
         diagnostics.error({}, fmt::format("-o: '{}' is no name of a picture", picture),
                           "it ends with .png, .svg or .pdf");
+    check_output(picture, "map.png", diagnostics);
     const auto description = bug::read_world(o.file, diagnostics);
     bug::WorldOptions options;
     options.game = o.game;

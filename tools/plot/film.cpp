@@ -118,11 +118,11 @@ std::string Film::frame_name(const std::string& name, std::size_t frame) {
 
 void Film::add() {
     screen_->draw();
-    ++frames_;
     if (gif_)
         gif_->add(screen_->pixels());
     else
-        screen_->write_png(frame_name(name_, frames_));
+        screen_->write_png(frame_name(name_, frames_ + 1));
+    ++frames_;  // that are there
 }
 
 std::size_t Film::finish() {
