@@ -66,18 +66,27 @@ std::vector<Eigen::ArrayXd> random_numbers(const SynapseType& type) {
     return numbers;
 }
 
+/// What synapses see of such numbers.
+struct SeenColumns {
+    std::vector<Column> states;
+    std::vector<ConstColumn> feedback;
+};
+SeenColumns columns_over(std::vector<Eigen::ArrayXd>& numbers, const SynapseType& type) {
+    SeenColumns out;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (i < type.states.size())
+            out.states.emplace_back(numbers[i].data(), cells);
+        else
+            out.feedback.emplace_back(numbers[i].data(), cells);
+    return out;
+}
+
 /// Whether synapses of silent sources rest, as the type promises, whatever their states and their target.
 std::string watch_rest(const SynapseType& type) try {
     auto numbers = random_numbers(type);
     const auto before = numbers;
     const Eigen::ArrayXd silence = Eigen::ArrayXd::Zero(cells);
-    std::vector<Column> states;
-    std::vector<ConstColumn> feedback;
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-        if (i < type.states.size())
-            states.emplace_back(numbers[i].data(), cells);
-        else
-            feedback.emplace_back(numbers[i].data(), cells);
+    auto [states, feedback] = columns_over(numbers, type);
     const auto synapse = type.make();
     SynapseColumns columns(ConstColumn(silence.data(), cells), states, feedback);
     synapse->update(columns);
@@ -98,14 +107,8 @@ std::string watch_rest(const SynapseType& type) try {
 std::string watch_output(const SynapseType& type) try {
     auto numbers = random_numbers(type);
     const Eigen::ArrayXd pre = Eigen::ArrayXd::LinSpaced(cells, 0.5, 2);
-    std::vector<Column> states;
-    std::vector<ConstColumn> feedback;
+    auto [states, feedback] = columns_over(numbers, type);
     const std::vector<ConstColumn> no_feedback;
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-        if (i < type.states.size())
-            states.emplace_back(numbers[i].data(), cells);
-        else
-            feedback.emplace_back(numbers[i].data(), cells);
     const auto synapse = type.make();
     SynapseColumns columns(ConstColumn(pre.data(), cells), states, feedback);
     synapse->update(columns);
