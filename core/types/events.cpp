@@ -88,16 +88,17 @@ auto best_batch() {
 }  // namespace
 
 void RandomStream::events(std::uint64_t cycle, double probability, std::span<double> out, double value,
-                          std::uint32_t draw) const {
+                          std::uint32_t draw, std::size_t first) const {
+    static_assert(grain == batch);
     static const auto fill = best_batch();
     const Draw d = philox::draw_of(key_, cycle, draw);
     const Threshold threshold(probability);
-    const std::size_t whole = out.size() / batch;
+    const std::size_t whole = out.size() / batch, before = first / batch;
     for (std::size_t number = 0; number < whole; ++number)
-        fill(d, number, threshold, value, &out[number * batch]);
+        fill(d, before + number, threshold, value, &out[number * batch]);
     if (const std::size_t left = out.size() % batch) {
         std::array<double, batch> last;
-        fill(d, whole, threshold, value, last.data());
+        fill(d, before + whole, threshold, value, last.data());
         std::copy_n(last.begin(), left, out.end() - static_cast<std::ptrdiff_t>(left));
     }
 }

@@ -51,11 +51,14 @@ class NeuronColumns {
     /// Columns of `stride` cells that `scratch` must hold.
     static constexpr Index scratch_columns = 2 * draws_kept;
 
+    /// The cells from `first`, a multiple of RandomStream::grain, to `first` + `size` - 1 of a group whose
+    /// rows are `stride` apart. `inputs` and `states` are those of cell 0.
     NeuronColumns(Index size, Index stride, std::uint64_t cycle, std::array<double*, input_kinds> inputs,
                   std::span<const State> states, const RandomStream* random, double* scratch,
-                  std::array<bool, input_kinds> silent = {})
+                  std::array<bool, input_kinds> silent = {}, Index first = 0)
         : size_(size),
           stride_(stride),
+          first_(first),
           cycle_(cycle),
           inputs_(inputs),
           states_(states),
@@ -96,14 +99,16 @@ class NeuronColumns {
     Column uniform(std::uint32_t draw = 0) const {
         timeless_ = false;
         double* out = scratch_ + draw % draws_kept * stride_;
-        random_->uniform(cycle_, {out, static_cast<std::size_t>(size_)}, draw);
+        random_->uniform(cycle_, {out, static_cast<std::size_t>(size_)}, draw,
+                         static_cast<std::size_t>(first_));
         return {out, size_};
     }
     /// out[i] = `value` with this probability, independent in each cell and cycle, else 0. Many times faster
     /// than to compare uniform().
     void events(double probability, Column out, double value = 1, std::uint32_t draw = 0) const {
         timeless_ = false;
-        random_->events(cycle_, probability, {out.data(), static_cast<std::size_t>(out.size())}, value, draw);
+        random_->events(cycle_, probability, {out.data(), static_cast<std::size_t>(out.size())}, value, draw,
+                        static_cast<std::size_t>(first_));
     }
     /// The same in a column of the draw's own, as for uniform().
     Column events(double probability, std::uint32_t draw = 0) const {
@@ -116,17 +121,17 @@ class NeuronColumns {
     bool timeless() const { return timeless_; }
 
   private:
-    Column input(InputKind kind) const { return {inputs_[static_cast<std::size_t>(kind)], size_}; }
+    Column input(InputKind kind) const { return {inputs_[static_cast<std::size_t>(kind)] + first_, size_}; }
     double* row(int i, int ago) const {
         const auto index = static_cast<std::size_t>(i);  // of a negative one: very large
         if (index >= states_.size()) detail::not_declared("state", i, states_.size());
         const State& s = states_[index];
         if (ago < 0 || ago > s.depth) detail::not_kept(i, ago, s.depth);
         const auto now = static_cast<std::int64_t>(cycle_ % static_cast<std::uint64_t>(s.depth));
-        return s.ring + ((now - ago + s.depth) % s.depth) * stride_;
+        return s.ring + ((now - ago + s.depth) % s.depth) * stride_ + first_;
     }
 
-    Index size_, stride_;
+    Index size_, stride_, first_;
     std::uint64_t cycle_;
     std::array<double*, input_kinds> inputs_;
     std::span<const State> states_;
@@ -149,6 +154,7 @@ struct NeuronType {
     std::vector<Parameter> parameters;
     std::vector<StateInfo> states;
     std::array<bool, input_kinds> reads{};  ///< which kinds of input the type uses; the others stay 0
+    bool cells_independent = false;         ///< see NeuronSpec
     std::function<std::unique_ptr<NeuronInstance>()> make;
     std::function<void(const void*, Problems&)> check;  ///< of an object's parameters; may be empty
 
@@ -172,6 +178,10 @@ class NeuronSpec {
     NeuronSpec& reads(Kinds... kinds) {
         return ((type_.reads[static_cast<std::size_t>(kinds)] = true), ..., *this);
     }
+    /// Promises that what update() makes of a cell depends on this cell's inputs, states and random numbers
+    /// only, not on other cells and not on their number. Then several threads may update parts of a large
+    /// group at the same time.
+    NeuronSpec& cells_independent() { return type_.cells_independent = true, *this; }
     template <class M>
     ParameterBuilder param(std::string name, M T::*member) {
         type_.parameters.push_back(detail::make_parameter(std::move(name), member));

@@ -79,9 +79,10 @@ void RandomStream::bits(std::uint64_t cycle, std::span<std::uint64_t> out) const
     }
 }
 
-void RandomStream::uniform(std::uint64_t cycle, std::span<double> out, std::uint32_t draw) const {
+void RandomStream::uniform(std::uint64_t cycle, std::span<double> out, std::uint32_t draw,
+                           std::size_t first) const {
     for (std::size_t i = 0; i < out.size(); i += 2) {
-        const auto [a, b] = words(key_, cycle, static_cast<std::uint32_t>(i / 2), draw);
+        const auto [a, b] = words(key_, cycle, static_cast<std::uint32_t>((first + i) / 2), draw);
         out[i] = to_unit(a);
         if (i + 1 < out.size()) out[i + 1] = to_unit(b);
     }

@@ -1,6 +1,7 @@
 // Random numbers that depend on nothing but what they are for.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -19,12 +20,14 @@ class RandomStream {
 
     /// Uniform in [0, 1), 53 bits.
     double uniform(std::uint64_t cycle, std::uint32_t index, std::uint32_t draw = 0) const;
-    /// out[i] = uniform(cycle, i, draw), faster.
-    void uniform(std::uint64_t cycle, std::span<double> out, std::uint32_t draw = 0) const;
+    /// out[i] = uniform(cycle, first + i, draw), faster. `first` is a multiple of `grain`.
+    void uniform(std::uint64_t cycle, std::span<double> out, std::uint32_t draw = 0,
+                 std::size_t first = 0) const;
     /// out[i] = `value` with this probability (exact to 53 bits), else 0: many times faster than comparing
-    /// uniform numbers.
+    /// uniform numbers. Of the events of a whole column those from `first` on, a multiple of `grain`.
     void events(std::uint64_t cycle, double probability, std::span<double> out, double value = 1,
-                std::uint32_t draw = 0) const;
+                std::uint32_t draw = 0, std::size_t first = 0) const;
+    static constexpr std::size_t grain = 64;  ///< a column of numbers may be made in parts of so many
     /// Standard normal numbers (Box-Muller on uniforms), mean 0, variance 1.
     void normal(std::uint64_t cycle, std::span<double> out) const;
     /// Raw 64-bit words, uniform.

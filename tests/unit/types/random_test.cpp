@@ -97,3 +97,18 @@ TEST_CASE("A cell that is active at a probability is active at every higher one"
     }
     CHECK(switched == 64);
 }
+
+TEST_CASE("A column of random numbers made in parts is the one made whole") {
+    const RandomStream stream(9, "group");
+    constexpr std::size_t size = 333;
+    std::vector<double> uniform(size), events(size), part(size);
+    stream.uniform(5, uniform, 2);
+    stream.events(5, 0.4, events, 2.5, 1);
+    for (const std::size_t first : {64, 128, 320}) {
+        part.resize(size - first);
+        stream.uniform(5, part, 2, first);
+        CHECK(std::equal(part.begin(), part.end(), uniform.begin() + static_cast<std::ptrdiff_t>(first)));
+        stream.events(5, 0.4, part, 2.5, 1, first);
+        CHECK(std::equal(part.begin(), part.end(), events.begin() + static_cast<std::ptrdiff_t>(first)));
+    }
+}

@@ -1,59 +1,10 @@
-#include "core/plugin/rehearsal.h"
-
-#include <algorithm>
-#include <bit>
-#include <cstdint>
 #include <deque>
 
-#include "core/types/reason.h"
+#include "core/plugin/rehearsal.h"
+#include "core/plugin/stage.h"
 
 namespace forage::plugin {
 namespace {
-
-constexpr Index cells = 5;
-constexpr Index margin = 64;  ///< numbers on both sides of what a type may write
-constexpr int updates = 3;
-constexpr int longest_history = 10'000;  ///< nobody waits for more
-
-/// A number that no type writes by chance.
-constexpr std::uint64_t untouched = 0x7ff8'f0a6'e0b5'1d37;
-
-/// Numbers with a margin that shows whether somebody wrote beside them.
-class Fenced {
-  public:
-    explicit Fenced(Index size)
-        : all_(static_cast<std::size_t>(size + 2 * margin), std::bit_cast<double>(untouched)), size_(size) {
-        std::fill_n(data(), size, 0.0);
-    }
-    double* data() { return all_.data() + margin; }
-    Column column() { return {data(), size_}; }
-    bool whole() const {
-        const auto same = [](double v) { return std::bit_cast<std::uint64_t>(v) == untouched; };
-        return std::all_of(all_.begin(), all_.begin() + margin, same) &&
-               std::all_of(all_.end() - margin, all_.end(), same);
-    }
-
-  private:
-    std::vector<double> all_;
-    Index size_;
-};
-
-bool all_whole(const std::deque<Fenced>& all) {
-    return std::all_of(all.begin(), all.end(), [](const Fenced& f) { return f.whole(); });
-}
-
-/// What `update` does against the declaration, given that it may write to `stage` only.
-template <class Update>
-std::string watch(const std::deque<Fenced>& stage, Update update) {
-    try {
-        update();
-    } catch (const TypeError& e) {
-        return e.what();
-    } catch (...) {
-        return {};
-    }
-    return all_whole(stage) ? "" : "it writes beside its columns: it takes them for longer than they are";
-}
 
 /// A column for each state and feedback of a type, of numbers from -1 to 1.
 std::vector<Eigen::ArrayXd> random_numbers(const SynapseType& type) {
@@ -129,27 +80,6 @@ std::string watch_output(const SynapseType& type) try {
 }
 
 }  // namespace
-
-std::string rehearse(const NeuronType& type) {
-    std::deque<Fenced> stage;
-    std::vector<NeuronColumns::State> states;
-    for (const auto& s : type.states) {
-        if (s.history > longest_history) return {};
-        stage.emplace_back(cells * s.history);
-        states.push_back({stage.back().data(), s.history});
-    }
-    std::array<double*, input_kinds> inputs{};
-    for (auto& input : inputs) input = stage.emplace_back(cells).data();
-    double* scratch = stage.emplace_back(cells * NeuronColumns::scratch_columns).data();
-    const RandomStream random(1, "rehearsal");
-    return watch(stage, [&] {
-        const auto neuron = type.make();
-        for (std::uint64_t cycle = 0; cycle < updates; ++cycle) {
-            NeuronColumns columns(cells, cells, cycle, inputs, states, &random, scratch);
-            neuron->update(columns);
-        }
-    });
-}
 
 std::string rehearse(const SynapseType& type) {
     if (type.has_gain) return {};
