@@ -80,29 +80,97 @@ bool receives_the_same(Plan& plan, const GroupPlan& g, std::uint64_t cycle) {
     return true;
 }
 
-void deliver_in_parts(Kernel& kernel, const History& history, double* target, ThreadPool& pool) {
-    const int parts = 2 * pool.threads();
-    auto prepare = [&](int part, int) { kernel.prepare(history, part, parts); };
-    pool.run(parts, prepare);
-    auto add = [&](int part, int) { kernel.add(history, target, part, parts); };
-    pool.run(parts, add);
-}
-
-void run(Plan& plan, ConnectionPlan& c, std::uint64_t cycle, double* target, ThreadPool* pool) {
+/// Calls `work` with the activity that a connection reads.
+template <class Work>
+void run(Plan& plan, const ConnectionPlan& c, std::uint64_t cycle, Work work) {
     const auto& source = at(plan.groups, c.source);
     const History history{
         activity_row(source, cycle), {source.history_ring, source.history + 1, source.stride}, cycle};
     try {
-        if (target && pool && c.kernel->divides())
-            deliver_in_parts(*c.kernel, history, target, *pool);
-        else if (target)
-            c.kernel->deliver(history, target);
-        else
-            c.plastic->learn(history);
+        work(history);
     } catch (...) {
         throw RunError(fmt::format("{} of connection '{}' failed in cycle {}: {}", c.type.name, c.name, cycle,
                                    reason()));
     }
+}
+
+/// What a connection adds to, for the next cycle.
+double* target_row(const GroupPlan& g, const ConnectionPlan& c) {
+    return g.inputs[static_cast<std::size_t>(c.kind)][g.row ^ 1];
+}
+
+/// The cells of a part: whole grains of random numbers, and of lines of the cache.
+Range cells_of_part(const GroupPlan& g, int part) {
+    constexpr auto grain = RandomStream::grain;
+    const auto cells = static_cast<std::size_t>(g.cells);
+    Range out((cells + grain - 1) / grain, part, static_cast<int>(g.parts.size()));
+    out.first *= grain;
+    out.last = std::min(out.last * grain, cells);
+    return out;
+}
+
+/// Puts into the rows that receive what modules have written, for a range of cells.
+void receive(Plan& plan, GroupPlan& g, Index first, Index count) {
+    for (std::size_t k = 0; k < input_kinds; ++k)
+        if (g.fed[k] && !(k == excitatory && !g.module_inputs.empty()))
+            std::fill_n(g.inputs[k][g.row ^ 1] + first, count, 0.0);
+    double* row = g.inputs[excitatory][g.row ^ 1] + first;
+    bool sum = false;
+    for (const auto& [module, port] : g.module_inputs) {
+        const double* out = at(plan.modules, module).out[static_cast<std::size_t>(port)].data() + first;
+        if (std::exchange(sum, true))
+            Column(row, count) += ConstColumn(out, count);
+        else
+            begin_sum(out, count, row);
+    }
+}
+
+/// From here on `g.row` is the row of this update. Whether there is anything to do.
+bool begin(GroupPlan& g) {
+    if (g.rests) return false;
+    if (g.delivered) g.row ^= 1;
+    g.delivered = false;
+    // Looking for rest costs about as much as an update: after 1, 2, 4, 8... cycles with the same input.
+    g.same_for = g.same_input ? g.same_for + 1 : 0;
+    g.looks = std::has_single_bit(g.same_for) && state_numbers(g) <= compared_states;
+    return true;
+}
+
+/// Lets the type update a range of cells. Whether it was timeless.
+bool update_cells(const GroupPlan& g, Index first, Index count, const UpdateFrame& f) {
+    NeuronColumns columns(count, g.stride, f.cycle,
+                          {g.inputs[0][g.row], g.inputs[1][g.row], g.inputs[2][g.row]}, g.states, &g.random,
+                          f.scratch, {!g.fed[0], !g.fed[1], !g.fed[2]}, first);
+    try {
+        g.neuron->update(columns);
+    } catch (...) {
+        throw RunError(
+            fmt::format("{} of group '{}' failed in cycle {}: {}", g.type.name, g.path, f.cycle, reason()));
+    }
+    return columns.timeless();
+}
+
+/// Of a large group.
+void note_silence(GroupPlan& g, bool silent, std::uint64_t cycle) {
+    const bool was_silent = std::exchange(g.silent, silent);
+    if (!(was_silent && silent)) g.changed = static_cast<std::int64_t>(cycle);
+}
+
+void update_whole(GroupPlan& g, const UpdateFrame& f) {
+    double* old = f.before;
+    if (g.looks) each_row(g, [&](const double* row) { old = std::copy_n(row, g.stride, old); });
+    const bool small = g.cells <= compared_activity;
+    if (small && f.cycle > 0) std::copy_n(activity_row(g, f.cycle - 1), g.cells, old);
+    const bool timeless = update_cells(g, 0, g.cells, f);
+    // All rows follow each other, filled up with zeros; an older one that is not finite was found before.
+    if (f.watched) g.finite = all_finite(g.states.front().ring, static_cast<Index>(state_numbers(g)));
+    g.rests = g.looks && timeless && at_rest(g, f.before);
+    if (g.rests) return;
+    const double* now = activity_row(g, f.cycle);
+    if (!small)
+        note_silence(g, all_zero(now, g.cells), f.cycle);
+    else if (f.cycle == 0 || !equal(now, old, g.cells))
+        g.changed = static_cast<std::int64_t>(f.cycle);
 }
 
 }  // namespace
@@ -122,38 +190,33 @@ std::size_t compared_numbers(const GroupPlan& g) {
     return (numbers <= compared_states ? numbers : 0) + static_cast<std::size_t>(g.stride);
 }
 
-void update(GroupPlan& g, std::uint64_t cycle, double* scratch, double* before, bool watched) {
-    if (g.rests) return;
-    if (g.delivered) g.row ^= 1;
-    g.delivered = false;
-    // Looking for rest costs about as much as an update: after 1, 2, 4, 8... cycles with the same input.
-    g.same_for = g.same_input ? g.same_for + 1 : 0;
-    const bool look = std::has_single_bit(g.same_for) && state_numbers(g) <= compared_states;
-    double* old = before;
-    if (look) each_row(g, [&](const double* row) { old = std::copy_n(row, g.stride, old); });
-    const bool small = g.cells <= compared_activity;
-    if (small && cycle > 0) std::copy_n(activity_row(g, cycle - 1), g.cells, old);
+void update(GroupPlan& g, const UpdateFrame& f) {
+    if (begin(g)) update_whole(g, f);
+}
 
-    NeuronColumns columns(g.cells, g.stride, cycle,
-                          {g.inputs[0][g.row], g.inputs[1][g.row], g.inputs[2][g.row]}, g.states, &g.random,
-                          scratch, {!g.fed[0], !g.fed[1], !g.fed[2]});
-    try {
-        g.neuron->update(columns);
-    } catch (...) {
-        throw RunError(
-            fmt::format("{} of group '{}' failed in cycle {}: {}", g.type.name, g.path, cycle, reason()));
-    }
-    // All rows follow each other, filled up with zeros; an older one that is not finite was found before.
-    if (watched) g.finite = all_finite(g.states.front().ring, static_cast<Index>(state_numbers(g)));
-    g.rests = look && columns.timeless() && at_rest(g, before);
-    if (g.rests) return;
-    const double* now = activity_row(g, cycle);
-    if (small) {
-        if (cycle == 0 || !equal(now, old, g.cells)) g.changed = static_cast<std::int64_t>(cycle);
-    } else {
-        const bool was_silent = std::exchange(g.silent, all_zero(now, g.cells));
-        if (!(was_silent && g.silent)) g.changed = static_cast<std::int64_t>(cycle);
-    }
+void begin_update(GroupPlan& g, const UpdateFrame& f) {
+    g.in_parts = begin(g) && !g.looks;
+    if (g.looks && !g.rests) update_whole(g, f);
+}
+
+void update_part(GroupPlan& g, int part, const UpdateFrame& f) {
+    const Range cells = cells_of_part(g, part);
+    const auto first = static_cast<Index>(cells.first), count = static_cast<Index>(cells.last) - first;
+    if (count <= 0) return;
+    update_cells(g, first, count, f);
+    auto& found = at(g.parts, part);
+    found.finite = true;
+    if (f.watched) each_row(g, [&](const double* row) { found.finite &= all_finite(row + first, count); });
+    found.silent = all_zero(activity_row(g, f.cycle) + first, count);
+}
+
+void end_update(GroupPlan& g, const UpdateFrame& f) {
+    if (!g.in_parts) return;
+    const auto all = [&](bool GroupPlan::Part::*flag) {
+        return std::all_of(g.parts.begin(), g.parts.end(), [&](const auto& p) { return p.*flag; });
+    };
+    g.finite = all(&GroupPlan::Part::finite);
+    note_silence(g, all(&GroupPlan::Part::silent), f.cycle);
 }
 
 void note_changes(ModulePlan& m) {
@@ -178,34 +241,49 @@ void remember(const GroupPlan& g, std::uint64_t cycle) {
 
 void receive_from_modules(Plan& plan, GroupPlan& g) {
     g.delivered = true;
-    bool first = true;
-    for (const auto& [module, port] : g.module_inputs) {
-        double* row = g.inputs[excitatory][g.row ^ 1];
-        const double* out = at(plan.modules, module).out[static_cast<std::size_t>(port)].data();
-        if (std::exchange(first, false))
-            begin_sum(out, g.cells, row);
-        else
-            Column(row, g.cells) += ConstColumn(out, g.cells);
-    }
+    receive(plan, g, 0, g.cells);
 }
 
-void deliver_to(Plan& plan, GroupPlan& g, std::uint64_t cycle, ThreadPool* pool) {
+void begin_delivery(Plan& plan, GroupPlan& g, std::uint64_t cycle) {
     g.same_input = receives_the_same(plan, g, cycle);
     if (!g.same_input) g.rests = false;
-    const bool skip = g.rests && g.delivered;
-    const std::size_t next = g.row ^ 1;
-    if (!skip) {
-        for (std::size_t k = 0; k < input_kinds; ++k)
-            if (g.fed[k] && !(k == excitatory && !g.module_inputs.empty()))
-                std::fill_n(g.inputs[k][next], g.cells, 0.0);
-        receive_from_modules(plan, g);
-    }
+    g.receives = !(g.rests && g.delivered);
+    g.delivered = true;
+}
+
+bool divides(const GroupPlan& g, const ConnectionPlan& c) {
+    return g.receives && c.effective && c.kernel->divides();
+}
+
+void prepare_part(Plan& plan, GroupPlan& g, int part, std::uint64_t cycle) {
+    const Range cells = cells_of_part(g, part);
+    if (cells.first < cells.last)
+        receive(plan, g, static_cast<Index>(cells.first), static_cast<Index>(cells.last - cells.first));
+    for (const int i : g.incoming)
+        if (auto& c = at(plan.connections, i); divides(g, c))
+            run(plan, c, cycle,
+                [&](const History& h) { c.kernel->prepare(h, part, static_cast<int>(g.parts.size())); });
+}
+
+void add_part(Plan& plan, GroupPlan& g, ConnectionPlan& c, int part, std::uint64_t cycle) {
+    run(plan, c, cycle, [&](const History& h) {
+        c.kernel->add(h, target_row(g, c), part, static_cast<int>(g.parts.size()));
+    });
+}
+
+void deliver_through(Plan& plan, GroupPlan& g, ConnectionPlan& c, std::uint64_t cycle) {
+    if (c.effective && g.receives)
+        run(plan, c, cycle, [&](const History& h) { c.kernel->deliver(h, target_row(g, c)); });
+    else if (c.plastic)
+        run(plan, c, cycle, [&](const History& h) { c.plastic->learn(h); });
+}
+
+void deliver_to(Plan& plan, GroupPlan& g, std::uint64_t cycle) {
+    begin_delivery(plan, g, cycle);
+    if (g.receives) receive(plan, g, 0, g.cells);
     for (const int i : g.incoming) {
         auto& c = at(plan.connections, i);
-        if (c.effective && !skip)
-            run(plan, c, cycle, g.inputs[static_cast<std::size_t>(c.kind)][next], pool);
-        else if (c.plastic)
-            run(plan, c, cycle, nullptr, nullptr);
+        deliver_through(plan, g, c, cycle);
         c.changed = false;
     }
 }

@@ -13,7 +13,6 @@
 #pragma once
 
 #include "core/engine/plan.h"
-#include "core/engine/thread_pool.h"
 
 namespace forage::engine {
 
@@ -22,9 +21,21 @@ double* state_row(const GroupPlan& group, std::size_t state, std::uint64_t cycle
 /// A group's activity in `cycle`.
 double* activity_row(const GroupPlan& group, std::uint64_t cycle);
 
-/// Updates the states, unless the group rests. `scratch` and `before` are one thread's.
-/// `watched`: notes whether they are finite.
-void update(GroupPlan& group, std::uint64_t cycle, double* scratch, double* before, bool watched);
+/// What an update works with besides the group.
+struct UpdateFrame {
+    std::uint64_t cycle;
+    double *scratch, *before;  ///< the thread's
+    bool watched;              ///< notes whether the states are finite
+};
+
+/// Updates the states, unless the group rests.
+void update(GroupPlan& group, const UpdateFrame& frame);
+
+/// The same in parts: begin_update(); when `in_parts` is set after it, update_part() for each of
+/// `group.parts`, by several threads at once; end_update().
+void begin_update(GroupPlan& group, const UpdateFrame& frame);
+void update_part(GroupPlan& group, int part, const UpdateFrame& frame);
+void end_update(GroupPlan& group, const UpdateFrame& frame);
 
 /// How many numbers `before` must hold for a group.
 std::size_t compared_numbers(const GroupPlan& group);
@@ -38,9 +49,17 @@ void receive_from_modules(Plan& plan, GroupPlan& group);
 /// Keeps a group's activity of `cycle` for the connections with a delay.
 void remember(const GroupPlan& group, std::uint64_t cycle);
 
-/// Delivers all that the group receives in the cycle after `cycle`; lets its synapses learn. With a pool, the
-/// threads share connections that divide.
-void deliver_to(Plan& plan, GroupPlan& group, std::uint64_t cycle, ThreadPool* pool = nullptr);
+/// Delivers all that the group receives in the cycle after `cycle`; lets its synapses learn.
+void deliver_to(Plan& plan, GroupPlan& group, std::uint64_t cycle);
+
+/// The same in parts: begin_delivery(); when `receives` is set after it, prepare_part() for each of
+/// `group.parts`, by several threads at once; then the incoming connections one after the other, by
+/// add_part() for each part of one that divides(), by deliver_through() for others.
+void begin_delivery(Plan& plan, GroupPlan& group, std::uint64_t cycle);
+void prepare_part(Plan& plan, GroupPlan& group, int part, std::uint64_t cycle);
+bool divides(const GroupPlan& group, const ConnectionPlan& connection);
+void add_part(Plan& plan, GroupPlan& group, ConnectionPlan& connection, int part, std::uint64_t cycle);
+void deliver_through(Plan& plan, GroupPlan& group, ConnectionPlan& connection, std::uint64_t cycle);
 
 /// About how long the phases of the next cycle take on one thread, ns.
 double update_cost(const Plan& plan);

@@ -25,7 +25,9 @@ struct GroupPlan {
     bool same_input = false;              ///< ... which is what the last update read
     bool silent = false;                  ///< the activity is 0; noticed for large groups only
     bool finite = true;                   ///< no update that was watched gave a state NaN or an infinity
-    bool divided = false;                 ///< an incoming connection is so large that all threads share it
+    bool looks = false;                   ///< this update looks whether the group rests
+    bool in_parts = false;                ///< this update is done in parts
+    bool receives = false;                ///< this cycle's delivery is not what the group has already
     std::array<bool, input_kinds> fed{};  ///< the type reads this kind, and somebody delivers it
     int output = 0;                       ///< the state that is the activity
     std::size_t row = 0;         ///< the row of `inputs` that the last update read; the other one receives
@@ -39,7 +41,13 @@ struct GroupPlan {
     std::vector<std::pair<int, int>> module_inputs;  ///< modules and ports that write to this group, in order
     std::array<std::array<double*, 2>, input_kinds> inputs{};  ///< of this and of the next cycle, in turns
     double delivery_cost = 0;                                  ///< of all incoming connections, ns
-    int history = 0;  ///< longest delay of outgoing connections; 0: no ring of past activity is kept
+    bool update_divides = false, delivery_divides = false;     ///< threads share it, part by part
+    /// What the update of a part has found.
+    struct Part {
+        bool finite = true, silent = false;
+    };
+    std::vector<Part> parts;  ///< of an update that divides
+    int history = 0;          ///< longest delay of outgoing connections; 0: no ring of past activity is kept
     double* history_ring = nullptr;  ///< row t % (history + 1) is the activity of cycle t
     RandomStream random;
 

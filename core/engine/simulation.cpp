@@ -7,7 +7,7 @@
 
 #include "core/engine/group_cycle.h"
 #include "core/engine/plan.h"
-#include "core/engine/thread_pool.h"
+#include "core/engine/shared_cycle.h"
 #include "core/model/validate.h"
 #include "core/types/reason.h"
 
@@ -50,20 +50,14 @@ Simulation::Simulation(std::unique_ptr<Plan> plan, const Options& options)
     for (auto& g : plan_->groups) {
         widest = std::max(widest, static_cast<std::size_t>(g.stride));
         most_compared = std::max(most_compared, compared_numbers(g));
-        for (const int i : g.incoming) {
-            const Kernel& kernel = *at(plan_->connections, i).kernel;
-            g.delivery_cost += kernel.cost();
-            g.divided |= kernel.divides() && kernel.cost() >= worth_sharing_;
-        }
+        for (const int i : g.incoming) g.delivery_cost += at(plan_->connections, i).kernel->cost();
     }
-    const bool worth = std::max(update_cost(*plan_), delivery_cost(*plan_)) >= worth_sharing_;
-    pool_ = std::make_unique<ThreadPool>(worth ? options.threads : 1);
-    const auto threads = static_cast<std::size_t>(pool_->threads());
-    for (std::size_t t = 0; t < threads;
-         ++t)  // not touched, and so not in memory, until a type draws numbers
+    if (options.threads > 1 && update_cost(*plan_) + delivery_cost(*plan_) >= worth_sharing_)
+        shared_cycle_ = std::make_unique<SharedCycle>(*plan_, options.threads, worth_sharing_ / 16);
+    for (int t = 0; t < threads(); ++t)  // not touched, and so not in memory, until a type draws numbers
         plan_->scratch.push_back(
             std::make_unique_for_overwrite<double[]>(widest * std::size_t{NeuronColumns::scratch_columns}));
-    plan_->before.assign(threads, std::vector<double>(most_compared));
+    plan_->before.assign(static_cast<std::size_t>(threads()), std::vector<double>(most_compared));
 }
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
@@ -91,23 +85,22 @@ void Simulation::step() {
     update_connections();
 }
 
-/// Where there are threads, for one long loop, they are at hand for shorter ones too.
-template <class Run>
-void Simulation::try_sharing(double cost, SharingTrial& trial, Run run) {
-    if (pool_->threads() == 1 || cost < worth_sharing_ / 4) return run(false);
-    if (worth_sharing_ == 0) return run(true);
-    run(trial.begin());
-    trial.end();
+/// Whether threads share the cycle that begins.
+bool Simulation::begin_sharing() {
+    if (!shared_cycle_) return false;
+    if (worth_sharing_ == 0) return true;
+    return trial_.begin([&] { return update_cost(*plan_) + delivery_cost(*plan_) >= worth_sharing_; });
 }
 
 void Simulation::update_groups() {
     if (!started_) throw RunError("the simulation is not started");
     shown_ = cycle_;
-    auto work = [this](int group, int thread) {
-        update(at(plan_->groups, group), cycle_, at(plan_->scratch, thread).get(),
-               at(plan_->before, thread).data(), plan_->watched);
-    };
-    try_sharing(update_cost(*plan_), updates_, [&](bool shared) { pool_->run(groups(), work, shared); });
+    shared_ = begin_sharing();
+    if (shared_)
+        shared_cycle_->update_groups(cycle_);
+    else
+        for (auto& g : plan_->groups)
+            update(g, {cycle_, plan_->scratch[0].get(), plan_->before[0].data(), plan_->watched});
     if (!plan_->watched) return;
     for (int i = 0; i < groups() && plan_->watched; ++i)
         if (!at(plan_->groups, i).finite) {
@@ -141,16 +134,11 @@ void Simulation::update_modules() {
 
 void Simulation::update_connections() {
     for (const auto& g : plan_->groups) remember(g, cycle_);
-    try_sharing(delivery_cost(*plan_), deliveries_, [&](bool shared) {
-        auto work = [&](int group, int) {
-            auto& g = at(plan_->groups, group);
-            if (!(shared && g.divided)) deliver_to(*plan_, g, cycle_);
-        };
-        pool_->run(groups(), work, shared);
-        if (shared)
-            for (auto& g : plan_->groups)
-                if (g.divided) deliver_to(*plan_, g, cycle_, pool_.get());
-    });
+    if (shared_)
+        shared_cycle_->deliver(cycle_);
+    else
+        for (auto& g : plan_->groups) deliver_to(*plan_, g, cycle_);
+    trial_.end();
     ++cycle_;
 }
 
@@ -158,7 +146,7 @@ void Simulation::watch(bool wanted) { plan_->watched = wanted; }
 
 void Simulation::group_changed(int group) { touch(at(plan_->groups, group), cycle_); }
 
-int Simulation::threads() const { return pool_->threads(); }
+int Simulation::threads() const { return shared_cycle_ ? shared_cycle_->threads() : 1; }
 int Simulation::groups() const { return static_cast<int>(plan_->groups.size()); }
 const std::string& Simulation::path(int group) const { return at(plan_->groups, group).path; }
 const std::string& Simulation::id(int group) const { return at(plan_->groups, group).id; }

@@ -19,7 +19,7 @@ namespace forage::engine {
 
 struct ModulePlan;
 struct Plan;
-class ThreadPool;
+class SharedCycle;
 
 /// A type's update or a module's start failed; the message names the type, its place in the system and the
 /// cycle.
@@ -50,8 +50,9 @@ class Simulation {
     struct Options {
         std::uint64_t seed = 1;
         int threads = 1;  ///< at most, for a cycle's loops; the numbers do not depend on it
-        double worth_sharing =
-            40'000;  ///< ns that a loop takes on one thread; shorter ones stay there. 0: all are shared
+        /// ns that a cycle's updates and deliveries take on one thread; shorter ones stay there. 0: all are
+        /// shared.
+        double worth_sharing = 20'000;
         bool general_forms =
             false;  ///< compile every connection to a list of synapses (slower, same numbers)
     };
@@ -136,13 +137,12 @@ class Simulation {
     void bind_inputs(ModulePlan& module);
 
     std::unique_ptr<Plan> plan_;
-    /// Runs a loop with `run(shared)`, shared if it is worth it.
-    template <class Run>
-    void try_sharing(double cost, SharingTrial& trial, Run run);
+    bool begin_sharing();
 
     double worth_sharing_;
-    SharingTrial updates_, deliveries_;
-    std::unique_ptr<ThreadPool> pool_;
+    SharingTrial trial_;
+    std::unique_ptr<SharedCycle> shared_cycle_;  ///< null when one thread does all
+    bool shared_ = false;                        ///< the running cycle
     bool started_ = false;
     std::uint64_t cycle_ = 0;
     std::optional<NotFinite> not_finite_;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <exception>
+#include <span>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -31,23 +32,48 @@ class ThreadPool {
             for (int i = 0; i < items; ++i) work(i, 0);
             return;
         }
-        call_ = [](void* w, int item, int thread) { (*static_cast<Work*>(w))(item, thread); };
-        work_ = &work;
-        share(items);
+        const int n = threads();
+        for (int t = 0; t < n; ++t) own(t, items * t / n, items * (t + 1) / n);
+        share(work);
+    }
+    /// The same for items of which thread t takes `shares`[t] to `shares`[t + 1] - 1 first, and others' only
+    /// when it is done with these: so it finds what it left in its cache in the loop before.
+    template <class Work>
+    void run(std::span<const int> shares, Work& work) {
+        for (int t = 0; t < threads(); ++t)
+            own(t, shares[static_cast<std::size_t>(t)], shares[static_cast<std::size_t>(t) + 1]);
+        share(work);
     }
 
   private:
+    /// Items that one thread takes first. Each in a line of the cache of its own.
+    struct alignas(64) Share {
+        std::atomic<int> next{0};
+        int end = 0;
+    };
+
+    void own(int thread, int first, int end) {
+        Share& share = shares_[static_cast<std::size_t>(thread)];
+        share.next.store(first, std::memory_order_relaxed);
+        share.end = end;
+    }
+    template <class Work>
+    void share(Work& work) {
+        call_ = [](void* w, int item, int thread) { (*static_cast<Work*>(w))(item, thread); };
+        work_ = &work;
+        share();
+    }
+    void share();
     void stop();
-    void share(int items);
     void serve(int thread);
     void take_items(int thread);
 
     std::vector<std::thread> workers_;
     void (*call_)(void*, int, int) = nullptr;
     void* work_ = nullptr;
-    int items_ = 0;
-    std::atomic<int> next_{0}, busy_{0};
-    std::atomic<std::uint32_t> round_{0};
+    std::vector<Share> shares_;  ///< one per thread
+    alignas(64) std::atomic<std::uint32_t> round_{0};
+    alignas(64) std::atomic<int> busy_{0};
     std::atomic<bool> stop_{false};
     std::vector<std::pair<int, std::exception_ptr>> failures_;  ///< one per thread: item and exception
 };

@@ -128,8 +128,10 @@ void WindowKernel::prepare(const History& source, int part, int parts) {
 }
 
 void WindowKernel::add(const History&, double* target, int part, int parts) {
-    const Range rows(static_cast<std::size_t>(height_), part, parts);
-    const auto first = static_cast<Index>(rows.first), last = static_cast<Index>(rows.last);
+    // Pairs of rows: a single one costs more than half a pair.
+    const Range pairs(static_cast<std::size_t>(height_ + 1) / 2, part, parts);
+    const auto first = static_cast<Index>(2 * pairs.first),
+               last = std::min(static_cast<Index>(2 * pairs.last), height_);
     if (columns_.empty())
         add_windows(taps_.data(), taps_.size(), width_, first, last, stride_, target);
     else

@@ -1,0 +1,156 @@
+// Cycles that threads share, with groups so large that they are divided.
+#include <bit>
+#include <cmath>
+
+#include "tests/unit/engine/simulations.h"
+
+using namespace forage;
+using namespace forage::test;
+
+namespace {
+
+/// Every state of every group; one NaN is like another.
+std::vector<std::uint64_t> states(const engine::Simulation& s) {
+    std::vector<std::uint64_t> out;
+    for (int g = 0; g < s.groups(); ++g)
+        for (int i = 0; i < static_cast<int>(s.type(g).states.size()); ++i)
+            for (const double v : s.state(g, i))
+                out.push_back(std::isnan(v) ? ~0ull : std::bit_cast<std::uint64_t>(v));
+    return out;
+}
+
+/// Sums all cells in the first one: its cells are not independent.
+struct Total {
+    static void describe(NeuronSpec<Total>& s) {
+        s.name("total", "Total").reads(InputKind::excitatory).output("act", "Activity");
+    }
+    void update(NeuronColumns& c) const {
+        auto [act] = c.states<1>();
+        act = c.excitation();
+        double sum = 0;
+        for (const double v : act) sum += v;
+        act[0] = sum;
+    }
+};
+
+Registry types() {
+    Registry r = registry();
+    r.add(neuron_type<Total>());
+    return r;
+}
+
+/// A group of every type, 23 x 19 cells and more, that excite each other in many ways.
+struct Large {
+    model::System system;
+    std::string process = model::add_process(system, "P");
+    std::vector<std::string> groups;
+
+    Large() {
+        for (const char* type :
+             {"neuronRandomSpike", "neuronLinearThreshold", "neuronIntegrateFire", "neuronSigmoid",
+              "neuronNumeric", "neuronPyramidApicalShunt", "neuronTDValue", "total"}) {
+            groups.push_back(model::add_group(system, process, type, 23, 19, type));
+            auto& neuron = model::find_group(system, groups.back())->neuron;
+            if (groups.size() > 1 && groups.size() < 5) {
+                model::set_parameter(neuron, "vmPrs", "0.7");
+                if (groups.size() < 4) model::set_parameter(neuron, "probability", "0.6");
+            }
+        }
+        for (std::size_t i = 1; i < groups.size(); ++i) {
+            auto& window = fixed(groups[i - 1], groups[i], InputKind::excitatory);
+            window.arborization.shape = model::RectArbor{5, 7};
+            window.attenuation = {model::GaussianFunction{0, 1, 2.5}, {}};
+            auto& random = fixed(groups[0], groups[i], InputKind::excitatory);
+            random.arborization.shape = model::RandomArbor{30};
+            random.attenuation = {model::RandomFunction{0.5}, {}};
+        }
+        auto& delayed = fixed(groups[2], groups[1], InputKind::inhibitory);
+        delayed.delay = {model::RandomFunction{40}, {}};  // a list, which one thread does
+        auto& plastic = connect(system, groups[0], groups[2], InputKind::excitatory, "synapseHebbian");
+        model::set_parameter(*plastic.synapse, "lrate", "0.01");
+        plastic.synapse->feedback.push_back({"postact", "act", {}});
+    }
+
+    model::Connection& fixed(const std::string& from, const std::string& to, InputKind kind) {
+        auto& c = connect(system, from, to, kind, "synapseFixedWeight");
+        model::set_parameter(*c.synapse, "weight", "0.07");
+        return c;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("Groups and connections divided between threads have the bits of whole ones") {
+    Large large;
+    model::ModuleUse echo;
+    echo.type = "moduleEcho";
+    echo.inputs.push_back({"in", large.groups[0], {}}), echo.outputs.push_back({"out", large.groups[1], {}});
+    model::find_process(large.system, large.process)->module = echo;
+    const Registry registry = types();
+    auto one = run(large.system, registry),
+         many = run(large.system, registry, {.threads = GENERATE(2, 3, 5), .worth_sharing = 0});
+    REQUIRE(many.threads() > 1);
+    std::size_t active = 0;
+    for (int cycle = 0; cycle < 30; ++cycle) {
+        one.step(), many.step();
+        REQUIRE(states(one) == states(many));
+        for (const auto& id : large.groups)
+            for (int g = 0; g < one.groups(); ++g)
+                active += one.id(g) == id && (activity(one, one.path(g)) != 0).any();
+    }
+    CHECK(active > 25 * large.groups.size());
+}
+
+TEST_CASE("A divided group that comes to rest wakes when its input changes") {
+    model::System s;
+    const auto p = model::add_process(s, "P");
+    const auto a = model::add_group(s, p, "A", 20, 20, "one"),
+               b = model::add_group(s, p, "B", 20, 20, "neuronLinearThreshold");
+    connect(s, a, b, InputKind::excitatory, "synapseFixedWeight").arborization.shape = model::RectArbor{3, 3};
+    const Registry registry = types();
+    auto two = run(s, registry, {.threads = 2, .worth_sharing = 0});
+    for (int cycle = 0; cycle < 40; ++cycle) two.step();
+    CHECK(activity(two, "P/B")[21] == 9);
+    two.update_groups();
+    two.output(group(two, "P/A")).setZero();
+    two.update_modules(), two.update_connections();
+    two.step();
+    CHECK((activity(two, "P/B") == 0).all());
+    two.step();
+    CHECK(activity(two, "P/B")[21] == 9);
+}
+
+TEST_CASE("What is not finite is found in every part of a divided group") {
+    model::System s;
+    const auto p = model::add_process(s, "P");
+    model::add_group(s, p, "A", 20, 20, "neuronLinearThreshold");
+    const Registry registry = types();
+    const Index cell = GENERATE(0, 63, 64, 250, 399);
+    auto two = run(s, registry, {.threads = 2, .worth_sharing = 0});
+    two.watch(true);
+    for (int cycle = 0; cycle < 3; ++cycle) two.step();
+    two.writable_state(0, 0)[cell] = std::numeric_limits<double>::infinity();
+    two.step();
+    REQUIRE(two.not_finite());
+    CHECK(two.not_finite()->cell == cell);
+    CHECK(two.not_finite()->cycle == 3);
+}
+
+TEST_CASE("An exception in a part of a divided group names the type, the group and the cycle") {
+    struct Failing {
+        static void describe(NeuronSpec<Failing>& s) {
+            s.name("failing", "Failing").cells_independent().output("act", "Activity");
+        }
+        void update(NeuronColumns& c) const {
+            if (c.cycle() == 3) throw std::runtime_error("out of luck");
+            c.state(0) += 1;
+        }
+    };
+    model::System s;
+    model::add_group(s, model::add_process(s, "Brain"), "Weak", 30, 30, "failing");
+    Registry registry = types();
+    registry.add(neuron_type<Failing>());
+    auto two = run(s, registry, {.threads = 2, .worth_sharing = 0});
+    for (int t = 0; t < 3; ++t) two.step();
+    CHECK_THROWS_WITH(two.step(), "failing of group 'Brain/Weak' failed in cycle 3: out of luck");
+}
