@@ -76,13 +76,50 @@ FORAGE_AVX2 void batch_by_lanes(const Draw& d, std::size_t number, const Thresho
     if (!_mm256_testz_si256(ties, ties)) batch_by_cell(d, number, t, value, out - batch);
 }
 
+/// The same for `many` batches.
+template <int many>
+FORAGE_AVX512 void batches_by_wide_lanes(const Draw& d, const philox::WideKeys& keys, std::size_t number,
+                                         const Threshold& t, double value, double* out) {
+    __m512i words[many][4];
+    philox::blocks(d, keys, static_cast<std::uint32_t>(number * lanes), events_stream, words);
+    const __m512i top = _mm512_set1_epi64(t.top), half = _mm512_set1_epi64(0xffff);
+    const __m512d active = _mm512_set1_pd(value);
+    for (const auto& batch_words : words) {
+        unsigned ties = 0;
+        for (int part = 0; part < 8; ++part, out += lanes) {
+            const __m512i word = batch_words[part / 2];
+            const __m512i bits = _mm512_and_epi64(
+                part % 2 ? _mm512_maskz_srli_epi64(philox::all_lanes, word, 16) : word, half);
+            ties |= _mm512_cmpeq_epi64_mask(bits, top);
+            _mm512_storeu_pd(out, _mm512_maskz_mov_pd(_mm512_cmpgt_epi64_mask(bits, top), active));
+        }
+        if (ties) batch_by_cell(d, number, t, value, out - batch);
+        ++number;
+    }
+}
+
 #endif
 
-auto best_batch() {
+/// `count` batches from the `number`-th on.
+void batches(philox::Way way, const Draw& d, std::size_t number, std::size_t count, const Threshold& t,
+             double value, double* out) {
 #ifdef FORAGE_AVX2
-    if (philox::eight_at_a_time()) return &batch_by_lanes;
+    if (way == philox::Way::avx512) {
+        const philox::WideKeys keys(d);
+        constexpr std::size_t together = 2;
+        for (; count >= together; number += together, count -= together, out += together * batch)
+            batches_by_wide_lanes<together>(d, keys, number, t, value, out);
+        for (; count > 0; ++number, --count, out += batch)
+            batches_by_wide_lanes<1>(d, keys, number, t, value, out);
+        return;
+    }
+    if (way == philox::Way::avx2) {
+        for (; count > 0; ++number, --count, out += batch) batch_by_lanes(d, number, t, value, out);
+        return;
+    }
 #endif
-    return &batch_by_cell;
+    static_cast<void>(way);
+    for (; count > 0; ++number, --count, out += batch) batch_by_cell(d, number, t, value, out);
 }
 
 }  // namespace
@@ -90,15 +127,18 @@ auto best_batch() {
 void RandomStream::events(std::uint64_t cycle, double probability, std::span<double> out, double value,
                           std::uint32_t draw, std::size_t first) const {
     static_assert(grain == batch);
-    static const auto fill = best_batch();
-    const Draw d = philox::draw_of(key_, cycle, draw);
+    static const auto way = philox::fastest_way();
+    philox::events(way, philox::draw_of(key_, cycle, draw), probability, out, value, first);
+}
+
+void philox::events(Way way, const Draw& d, double probability, std::span<double> out, double value,
+                    std::size_t first) {
     const Threshold threshold(probability);
     const std::size_t whole = out.size() / batch, before = first / batch;
-    for (std::size_t number = 0; number < whole; ++number)
-        fill(d, before + number, threshold, value, &out[number * batch]);
+    batches(way, d, before, whole, threshold, value, out.data());
     if (const std::size_t left = out.size() % batch) {
         std::array<double, batch> last;
-        fill(d, before + whole, threshold, value, last.data());
+        batches(way, d, before + whole, 1, threshold, value, last.data());
         std::copy_n(last.begin(), left, out.end() - static_cast<std::ptrdiff_t>(left));
     }
 }

@@ -1,5 +1,7 @@
 #include "core/types/random.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -20,20 +22,22 @@ std::uint64_t fnv1a(std::string_view text) {
     return h;
 }
 
-/// Two 64-bit words: numbers 2*pair and 2*pair+1 of this cycle.
-std::pair<std::uint64_t, std::uint64_t> words(std::uint64_t key, std::uint64_t cycle, std::uint32_t pair,
-                                              std::uint32_t draw = 0) {
-    const auto r = philox::block(philox::draw_of(key, cycle, draw), pair, 0);
+using philox::Draw;
+
+/// Two 64-bit words: numbers 2*pair and 2*pair+1.
+std::pair<std::uint64_t, std::uint64_t> words(const Draw& d, std::uint32_t pair) {
+    const auto r = philox::block(d, pair, 0);
     return {std::uint64_t{r[0]} << 32 | r[1], std::uint64_t{r[2]} << 32 | r[3]};
 }
 
 #ifdef FORAGE_AVX2
-/// As many of the first words as come in sixteens; returns how many.
-FORAGE_AVX2 std::size_t words_by_lanes(const philox::Draw& d, std::uint64_t* out, std::size_t count) {
+/// As many words from pair `first` on as come in sixteens; returns how many.
+FORAGE_AVX2 std::size_t words_by_lanes(const Draw& d, std::uint32_t first, std::uint64_t* out,
+                                       std::size_t count) {
     std::size_t i = 0;
     for (; i + 2 * philox::lanes <= count; i += 2 * philox::lanes) {
         __m256i w[4];
-        philox::blocks(d, static_cast<std::uint32_t>(i / 2), 0, w);
+        philox::blocks(d, first + static_cast<std::uint32_t>(i / 2), 0, w);
         // a: the first word of a block, b: the second; of blocks 0 1 4 5, then of 2 3 6 7.
         const __m256i a[2] = {_mm256_unpacklo_epi32(w[1], w[0]), _mm256_unpackhi_epi32(w[1], w[0])};
         const __m256i b[2] = {_mm256_unpacklo_epi32(w[3], w[2]), _mm256_unpackhi_epi32(w[3], w[2])};
@@ -52,6 +56,28 @@ FORAGE_AVX2 std::size_t words_by_lanes(const philox::Draw& d, std::uint64_t* out
     }
     return i;
 }
+
+/// The same.
+FORAGE_AVX512 std::size_t words_by_wide_lanes(const Draw& d, std::uint32_t first, std::uint64_t* out,
+                                              std::size_t count) {
+    const __m512i low = _mm512_set1_epi64(0xffffffff);
+    const __m512i front = _mm512_setr_epi64(0, 8, 1, 9, 2, 10, 3, 11),
+                  back = _mm512_setr_epi64(4, 12, 5, 13, 6, 14, 7, 15);
+    const philox::WideKeys keys(d);
+    std::size_t i = 0;
+    for (; i + 2 * philox::lanes <= count; i += 2 * philox::lanes) {
+        __m512i words[1][4];
+        philox::blocks(d, keys, first + static_cast<std::uint32_t>(i / 2), 0, words);
+        const auto& w = words[0];
+        const __m512i a = _mm512_or_epi64(_mm512_maskz_slli_epi64(philox::all_lanes, w[0], 32),
+                                          _mm512_and_epi64(w[1], low));
+        const __m512i b = _mm512_or_epi64(_mm512_maskz_slli_epi64(philox::all_lanes, w[2], 32),
+                                          _mm512_and_epi64(w[3], low));
+        _mm512_storeu_si512(out + i, _mm512_permutex2var_epi64(a, front, b));
+        _mm512_storeu_si512(out + i + 8, _mm512_permutex2var_epi64(a, back, b));
+    }
+    return i;
+}
 #endif
 
 double to_unit(std::uint64_t word) { return static_cast<double>(word >> 11) * 0x1p-53; }
@@ -62,35 +88,56 @@ RandomStream::RandomStream(std::uint64_t seed, std::string_view item, std::uint3
     : key_(mix(mix(seed + 0x9e3779b97f4a7c15u) ^ fnv1a(item)) + mix(stream + 0x9e3779b97f4a7c15u)) {}
 
 double RandomStream::uniform(std::uint64_t cycle, std::uint32_t index, std::uint32_t draw) const {
-    const auto [a, b] = words(key_, cycle, index / 2, draw);
+    const auto [a, b] = words(philox::draw_of(key_, cycle, draw), index / 2);
     return to_unit(index % 2 ? b : a);
 }
 
-void RandomStream::bits(std::uint64_t cycle, std::span<std::uint64_t> out) const {
+philox::Way philox::fastest_way() {
+#ifdef FORAGE_AVX2
+    if (__builtin_cpu_supports("avx512f")) return Way::avx512;
+    if (__builtin_cpu_supports("avx2")) return Way::avx2;
+#endif
+    return Way::one_by_one;
+}
+
+void philox::bits(Way way, const Draw& d, std::span<std::uint64_t> out, std::size_t first) {
+    const auto pair = static_cast<std::uint32_t>(first / 2);
     std::size_t i = 0;
 #ifdef FORAGE_AVX2
-    if (philox::eight_at_a_time())
-        i = words_by_lanes(philox::draw_of(key_, cycle, 0), out.data(), out.size());
+    if (way == Way::avx512)
+        i = words_by_wide_lanes(d, pair, out.data(), out.size());
+    else if (way == Way::avx2)
+        i = words_by_lanes(d, pair, out.data(), out.size());
+#else
+    static_cast<void>(way);
 #endif
     for (; i < out.size(); i += 2) {
-        const auto [a, b] = words(key_, cycle, static_cast<std::uint32_t>(i / 2));
+        const auto [a, b] = words(d, pair + static_cast<std::uint32_t>(i / 2));
         out[i] = a;
         if (i + 1 < out.size()) out[i + 1] = b;
     }
 }
 
+void RandomStream::bits(std::uint64_t cycle, std::span<std::uint64_t> out) const {
+    static const auto way = philox::fastest_way();
+    philox::bits(way, philox::draw_of(key_, cycle, 0), out);
+}
+
 void RandomStream::uniform(std::uint64_t cycle, std::span<double> out, std::uint32_t draw,
                            std::size_t first) const {
-    for (std::size_t i = 0; i < out.size(); i += 2) {
-        const auto [a, b] = words(key_, cycle, static_cast<std::uint32_t>((first + i) / 2), draw);
-        out[i] = to_unit(a);
-        if (i + 1 < out.size()) out[i + 1] = to_unit(b);
+    static const auto way = philox::fastest_way();
+    const Draw d = philox::draw_of(key_, cycle, draw);
+    std::array<std::uint64_t, 256> words;
+    for (std::size_t i = 0; i < out.size(); i += words.size()) {
+        const std::size_t count = std::min(words.size(), out.size() - i);
+        philox::bits(way, d, {words.data(), count}, first + i);
+        for (std::size_t k = 0; k < count; ++k) out[i + k] = to_unit(words[k]);
     }
 }
 
 void RandomStream::normal(std::uint64_t cycle, std::span<double> out) const {
     for (std::size_t i = 0; i < out.size(); i += 2) {
-        const auto [a, b] = words(key_, cycle, static_cast<std::uint32_t>(i / 2));
+        const auto [a, b] = words(philox::draw_of(key_, cycle, 0), static_cast<std::uint32_t>(i / 2));
         const double radius = std::sqrt(-2 * std::log(1 - to_unit(a)));  // 1 - u is in (0, 1]
         const double angle = 2 * std::numbers::pi * to_unit(b);
         out[i] = radius * std::cos(angle);

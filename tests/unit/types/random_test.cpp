@@ -1,8 +1,10 @@
 #include "core/types/random.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "core/types/philox.h"
 #include "tests/support/catch.h"
 
 using forage::RandomStream;
@@ -110,5 +112,29 @@ TEST_CASE("A column of random numbers made in parts is the one made whole") {
         CHECK(std::equal(part.begin(), part.end(), uniform.begin() + static_cast<std::ptrdiff_t>(first)));
         stream.events(5, 0.4, part, 2.5, 1, first);
         CHECK(std::equal(part.begin(), part.end(), events.begin() + static_cast<std::ptrdiff_t>(first)));
+    }
+}
+
+TEST_CASE("Every way to compute random numbers gives the same") {
+    using namespace forage::philox;
+    const auto ways = {Way::avx2, Way::avx512};
+    const Draw draw = draw_of(0x123456789abcdef0u, 77, 2);
+    for (const Way way : ways) {
+        if (way > fastest_way()) {
+            WARN("not tested: this processor cannot go way " << static_cast<int>(way));
+            continue;
+        }
+        for (const std::size_t size : {1, 15, 16, 17, 64, 65, 1000, 70'000}) {
+            std::vector<std::uint64_t> plain_bits(size), bits(size);
+            forage::philox::bits(Way::one_by_one, draw, plain_bits, 6);
+            forage::philox::bits(way, draw, bits, 6);
+            REQUIRE(bits == plain_bits);
+            for (const double probability : {0.0, 0.3, 0x1p-16, 1.0}) {  // 70,000 cells have ties
+                std::vector<double> plain(size), fast(size);
+                events(Way::one_by_one, draw, probability, plain, 3, 64);
+                events(way, draw, probability, fast, 3, 64);
+                REQUIRE(fast == plain);
+            }
+        }
     }
 }
