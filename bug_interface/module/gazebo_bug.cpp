@@ -208,7 +208,7 @@ void GazeboBug::check(const ModulePorts& ports, Problems& problems) {
         scanner(gripper_scan, world_->snapshot(*bug).gripper.size(), "laser_gripper");
 }
 
-void GazeboBug::start(const ModulePorts& ports) {
+void GazeboBug::start(const ModulePorts& ports, ModuleFrame& frame) {
     if (!world_)
         throw std::runtime_error(
             "this system drives a robot and needs a world to run in: give one with --world FILE");
@@ -226,11 +226,11 @@ void GazeboBug::start(const ModulePorts& ports) {
     place_ = ports.outputs[place].shape;
     image_ = {};
     for (const std::size_t port : {image_first, image_second, image_third})
-        if (ports.outputs[port].shape.cells > 0) image_ = ports.outputs[port].shape;
+        if (frame.is_read(port)) image_ = ports.outputs[port].shape;
     if (world_->snapshot(bug_).image_width == 0) image_ = {};
     unused_.assign(static_cast<std::size_t>(image_.cells), 0);
     world_->need_image(bug_, image_.cells > 0);
-    world_->need_gripper_scan(bug_, gripper && ports.outputs[gripper_scan].shape.cells > 0);
+    world_->need_gripper_scan(bug_, gripper && frame.is_read(gripper_scan));
 }
 
 void GazeboBug::update(ModuleFrame& frame) {
@@ -251,27 +251,27 @@ void GazeboBug::copy_scans(ModuleFrame& frame) const {
     const auto copy = [](const std::vector<double>& from, Column to) {
         std::copy_n(from.begin(), std::min(from.size(), static_cast<std::size_t>(to.size())), to.data());
     };
-    copy(seen.proximity, frame.output(proximity));
-    copy(seen.target, frame.output(target));
-    if (gripper && frame.output_size(gripper_scan) > 0) copy(seen.gripper, frame.output(gripper_scan));
-    if (frame.output_size(audio_in) > 0)
+    if (frame.is_read(proximity)) copy(seen.proximity, frame.output(proximity));
+    if (frame.is_read(target)) copy(seen.target, frame.output(target));
+    if (gripper && frame.is_read(gripper_scan)) copy(seen.gripper, frame.output(gripper_scan));
+    if (frame.is_read(audio_in))
         std::copy(seen.heard.begin(), seen.heard.end(), frame.output(audio_in).data());
 }
 
 void GazeboBug::copy_pose(ModuleFrame& frame) const {
     const Pose2& at = world_->snapshot(bug_).pose;
-    if (frame.output_size(gps) == 3) {
+    if (frame.is_read(gps) && frame.output_size(gps) == 3) {
         Column out = frame.output(gps);
         out[0] = at.x + place_x_max;
         out[1] = at.y + place_y_max;
         out[2] = at.yaw + std::numbers::pi;
     }
-    if (frame.output_size(place) > 0) {
+    if (frame.is_read(place)) {
         Column out = frame.output(place);
         place_cells(at.x, at.y, place_.width, place_.height,
                     {place_x_offset, place_y_offset, place_x_max, place_y_max, place_sigma}, cells_of(out));
     }
-    if (frame.output_size(head) > 0) {
+    if (frame.is_read(head)) {
         Column out = frame.output(head);
         head_direction_cells(at.yaw, head_sigma, cells_of(out));
     }
@@ -280,8 +280,9 @@ void GazeboBug::copy_pose(ModuleFrame& frame) const {
 void GazeboBug::copy_image(ModuleFrame& frame) {
     const BugSnapshot& seen = world_->snapshot(bug_);
     const auto channel = [&](std::size_t port) {
+        if (!frame.is_read(port)) return std::span<double>(unused_);
         Column out = frame.output(port);
-        return out.size() > 0 ? cells_of(out) : std::span<double>(unused_);
+        return cells_of(out);
     };
     const ColourSpace space = grayscale ? ColourSpace::grey : hsv ? ColourSpace::hsv : ColourSpace::rgb;
     image_cells(seen.image, seen.image_width, seen.image_height, space, image_.width, image_.height,

@@ -44,7 +44,7 @@ class GazeboBug {
     static void describe(ModuleSpec<GazeboBug>& spec);
     void check(const ModulePorts& ports, Problems& problems);
     /// Throws std::runtime_error without a world or robot, or when another module has the robot.
-    void start(const ModulePorts& ports);
+    void start(const ModulePorts& ports, ModuleFrame& frame);
     void update(ModuleFrame& frame);
     void checkpoint(Archive&) {}  // the robot is a part of its world
 

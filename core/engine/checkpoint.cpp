@@ -24,6 +24,7 @@ void keep(Archive& archive, GroupPlan& g) {
     g.random.bits(0, {&drawn, 1});
     archive.same(drawn, "the seed");
     keep(archive, g.type.parameters, g.neuron->parameters());
+    archive.same(g.left_out, "what is left out");
     archive(g.row, g.delivered, g.same_input, g.same_for, g.rests, g.changed, g.silent);
 }
 
@@ -36,7 +37,8 @@ void keep(Archive& archive, ModulePlan& m) {
     archive.same(m.process_id, "a process");
     archive.same(m.type.name, m.process);
     keep(archive, m.type.parameters, m.module->parameters());
-    archive(m.written, m.changed, m.last);
+    archive.same(m.read, "what is left out");
+    archive(m.written, m.changed, m.ever_written, m.last);
     try {
         m.module->checkpoint(archive);
     } catch (const ArchiveError&) {
@@ -51,6 +53,7 @@ void keep(Archive& archive, ConnectionPlan& c) {
     archive.same(c.id, "a connection");
     archive.same(c.synapses, c.name);
     keep(archive, c.type.parameters, c.synapse->parameters());
+    archive.same(c.left_out, "what is left out");
     archive(c.changed);
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 #include <new>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -69,6 +70,8 @@ class Compiler {
             if (budget_.exceeded()) budget_.report(diagnostics_);
             if (diagnostics_.errors() > errors_before) return nullptr;
             lay_out();
+            plan_->updated.resize(plan_->groups.size());
+            std::iota(plan_->updated.begin(), plan_->updated.end(), 0);
         } catch (const std::bad_alloc&) {
             budget_.report_exhausted(diagnostics_);
             return nullptr;
@@ -321,6 +324,8 @@ class Compiler {
                 m.in.emplace_back(nullptr, g < 0 ? 0 : plan_->groups[static_cast<std::size_t>(g)].cells);
             m.written.resize(m.output_groups.size());
             m.changed.resize(m.output_groups.size());
+            m.ever_written.resize(m.output_groups.size());
+            m.read.assign(m.output_groups.size(), true);
             for (std::size_t i = 0; i < m.output_groups.size(); ++i) {
                 const int g = m.output_groups[i];
                 const Index cells = g < 0 ? 0 : plan_->groups[static_cast<std::size_t>(g)].cells;

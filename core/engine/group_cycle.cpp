@@ -19,10 +19,7 @@ constexpr auto excitatory = static_cast<std::size_t>(InputKind::excitatory);
 constexpr Index compared_activity = 96;           ///< cells; of larger groups only silence is noticed
 constexpr std::size_t compared_states = 1 << 20;  ///< numbers; a group with more of them is always updated
 
-template <class T>
-auto& at(std::vector<T>& all, int index) {
-    return all[static_cast<std::size_t>(index)];
-}
+auto& at(auto& all, int index) { return all[static_cast<std::size_t>(index)]; }
 
 bool equal(const double* a, const double* b, Index n) {  // bit by bit
     return std::memcmp(a, b, static_cast<std::size_t>(n) * sizeof *a) == 0;
@@ -222,6 +219,7 @@ void end_update(GroupPlan& g, const UpdateFrame& f) {
 void note_changes(ModulePlan& m) {
     for (std::size_t i = 0; i < m.out.size(); ++i) {
         m.changed[i] = m.written[i];
+        m.ever_written[i] |= m.written[i];
         m.written[i] = 0;
         const Column& out = m.out[i];
         if (!m.changed[i] || out.size() > ModulePlan::compared_output) continue;
@@ -290,15 +288,15 @@ void deliver_to(Plan& plan, GroupPlan& g, std::uint64_t cycle) {
 
 double update_cost(const Plan& plan) {
     double cost = 0;
-    for (const auto& g : plan.groups)
-        if (!g.rests) cost += static_cast<double>(g.cells);
+    for (const int i : plan.updated)
+        if (const auto& g = at(plan.groups, i); !g.rests) cost += static_cast<double>(g.cells);
     return cost;
 }
 
 double delivery_cost(const Plan& plan) {
     double cost = 0;
-    for (const auto& g : plan.groups)
-        if (!g.rests) cost += g.delivery_cost;
+    for (const int i : plan.updated)
+        if (const auto& g = at(plan.groups, i); !g.rests) cost += g.delivery_cost;
     return cost;
 }
 

@@ -28,6 +28,7 @@ struct GroupPlan {
     bool looks = false;                   ///< this update looks whether the group rests
     bool in_parts = false;                ///< this update is done in parts
     bool receives = false;                ///< this cycle's delivery is not what the group has already
+    bool left_out = false;                ///< nobody reads it
     std::array<bool, input_kinds> fed{};  ///< the type reads this kind, and somebody delivers it
     int output = 0;                       ///< the state that is the activity
     std::size_t row = 0;         ///< the row of `inputs` that the last update read; the other one receives
@@ -70,6 +71,8 @@ struct ModulePlan {
     std::vector<Column> out;
     std::vector<char> written,
         changed;  ///< per output: in this cycle; changed: and with something else than before
+    std::vector<char> ever_written;    ///< per output: since the start
+    std::vector<char> read;            ///< per output: somebody reads it
     std::vector<Eigen::ArrayXd> last;  ///< what small outputs held before
     static constexpr Index compared_output =
         1024;  ///< cells; of larger outputs only whether they are written
@@ -83,6 +86,7 @@ struct ConnectionPlan {
     InputKind kind = InputKind::excitatory;
     bool effective = true;  ///< the target's type reads this kind of input
     bool changed = false;   ///< from outside, since it delivered
+    bool left_out = false;  ///< nobody reads what it leads to
 
     std::string id, name;
     std::unique_ptr<SynapseInstance> synapse;
@@ -97,6 +101,7 @@ struct Plan {
     std::vector<GroupPlan> groups;
     std::vector<ModulePlan> modules;
     std::vector<ConnectionPlan> connections;
+    std::vector<int> updated;                        ///< groups that are not left out, in order
     std::vector<std::unique_ptr<double[]>> scratch;  ///< per thread, for NeuronColumns of the widest group
     std::vector<std::vector<double>> before;         ///< per thread: states to compare with
     Arena arena;

@@ -39,21 +39,25 @@ void SharedCycle::divide(double least) {
 /// Whole groups in order, about the same cost for each thread; parts evenly.
 void SharedCycle::share_out() {
     double whole = 0, before = 0;
-    for (const auto& g : plan_.groups)
-        if (g.parts.empty()) whole += cost(g);
+    for (const int i : plan_.updated)
+        if (const auto& g = at(plan_.groups, i); g.parts.empty()) whole += cost(g);
     std::vector<int> thread_of;
-    for (const auto& g : plan_.groups) {
+    for (const int i : plan_.updated) {
+        const auto& g = at(plan_.groups, i);
         const double middle = g.parts.empty() ? before + cost(g) / 2 : 0;
         if (g.parts.empty()) before += cost(g);
-        thread_of.push_back(std::min(static_cast<int>(middle / whole * threads()), threads() - 1));
+        const double share = whole > 0 ? middle / whole : 0;
+        thread_of.push_back(std::min(static_cast<int>(share * threads()), threads() - 1));
     }
+    items_.clear();
     shares_ = {0};
     for (int t = 0; t < threads(); ++t) {
-        for (int g = 0; g < static_cast<int>(plan_.groups.size()); ++g) {
+        for (std::size_t n = 0; n < plan_.updated.size(); ++n) {
+            const int g = plan_.updated[n];
             const int parts = static_cast<int>(at(plan_.groups, g).parts.size());
             for (int p = parts * t / threads(); p < parts * (t + 1) / threads(); ++p)
                 items_.push_back({g, p});
-            if (parts == 0 && at(thread_of, g) == t) items_.push_back({g, 0});
+            if (parts == 0 && thread_of[n] == t) items_.push_back({g, 0});
         }
         shares_.push_back(static_cast<int>(items_.size()));
     }
@@ -64,8 +68,8 @@ void SharedCycle::update_groups(std::uint64_t cycle) {
         return UpdateFrame{cycle, at(plan_.scratch, thread).get(), at(plan_.before, thread).data(),
                            plan_.watched};
     };
-    for (auto& g : plan_.groups)
-        if (g.update_divides) begin_update(g, frame(0));
+    for (const int i : plan_.updated)
+        if (auto& g = at(plan_.groups, i); g.update_divides) begin_update(g, frame(0));
     auto work = [&](int item, int thread) {
         const auto [group, part] = at(items_, item);
         auto& g = at(plan_.groups, group);
@@ -75,13 +79,13 @@ void SharedCycle::update_groups(std::uint64_t cycle) {
             update_part(g, part, frame(thread));
     };
     pool_.run(shares_, work);
-    for (auto& g : plan_.groups)
-        if (g.update_divides) end_update(g, frame(0));
+    for (const int i : plan_.updated)
+        if (auto& g = at(plan_.groups, i); g.update_divides) end_update(g, frame(0));
 }
 
 void SharedCycle::deliver(std::uint64_t cycle) {
-    for (auto& g : plan_.groups)
-        if (g.delivery_divides) begin_delivery(plan_, g, cycle);
+    for (const int i : plan_.updated)
+        if (auto& g = at(plan_.groups, i); g.delivery_divides) begin_delivery(plan_, g, cycle);
     auto work = [&](int item, int) {
         const auto [group, part] = at(items_, item);
         auto& g = at(plan_.groups, group);
@@ -91,10 +95,11 @@ void SharedCycle::deliver(std::uint64_t cycle) {
             prepare_part(plan_, g, part, cycle);
     };
     pool_.run(shares_, work);
-    for (auto& g : plan_.groups) {
+    for (const int i : plan_.updated) {
+        auto& g = at(plan_.groups, i);
         if (!g.delivery_divides) continue;
-        for (const int i : g.incoming) {
-            auto& c = at(plan_.connections, i);
+        for (const int connection : g.incoming) {
+            auto& c = at(plan_.connections, connection);
             auto add = [&](int part, int) { add_part(plan_, g, c, part, cycle); };
             if (divides(g, c))
                 pool_.run(parts_, add);

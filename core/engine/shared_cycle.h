@@ -19,6 +19,9 @@ class SharedCycle {
     /// Throws std::system_error when the threads cannot be started.
     SharedCycle(Plan& plan, int threads, double least);
 
+    /// Gives the groups that are updated to the threads: to be called again when some were left out.
+    void share_out();
+
     int threads() const { return pool_.threads(); }
     void update_groups(std::uint64_t cycle);
     void deliver(std::uint64_t cycle);
@@ -29,7 +32,6 @@ class SharedCycle {
     };
 
     void divide(double least);
-    void share_out();
 
     Plan& plan_;
     ThreadPool pool_;

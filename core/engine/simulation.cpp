@@ -31,6 +31,20 @@ std::optional<NotFinite> find_not_finite(const GroupPlan& g, int group, std::uin
     return std::nullopt;
 }
 
+[[noreturn]] void nobody_reads(const std::string& what) {
+    throw std::logic_error(
+        fmt::format("{} was left out of the run, as nobody was to read it: it has no numbers "
+                    "(Simulation::leave_out_unread())",
+                    what));
+}
+
+/// A group to look at. Throws std::logic_error when it is left out.
+GroupPlan& seen(std::vector<GroupPlan>& groups, int group) {
+    auto& g = at(groups, group);
+    if (g.left_out) nobody_reads(fmt::format("group '{}'", g.path));
+    return g;
+}
+
 }  // namespace
 
 std::optional<Simulation> Simulation::build(const model::System& system, const Registry& registry,
@@ -67,7 +81,7 @@ void Simulation::start() {
     for (auto& m : plan_->modules) {
         try {
             bind_inputs(m);
-            ModuleFrame frame(0, m.in, m.out, &m.written);
+            ModuleFrame frame(0, m.in, m.out, &m.written, &m.read);
             m.module->start(m.ports, frame);
         } catch (...) {
             throw RunError(
@@ -75,7 +89,7 @@ void Simulation::start() {
         }
         note_changes(m);
     }
-    for (auto& g : plan_->groups) receive_from_modules(*plan_, g);
+    for (const int i : plan_->updated) receive_from_modules(*plan_, at(plan_->groups, i));
     started_ = true;
 }
 
@@ -99,13 +113,15 @@ void Simulation::update_groups() {
     if (shared_)
         shared_cycle_->update_groups(cycle_);
     else
-        for (auto& g : plan_->groups)
-            update(g, {cycle_, plan_->scratch[0].get(), plan_->before[0].data(), plan_->watched});
+        for (const int i : plan_->updated)
+            update(at(plan_->groups, i),
+                   {cycle_, plan_->scratch[0].get(), plan_->before[0].data(), plan_->watched});
     if (!plan_->watched) return;
-    for (int i = 0; i < groups() && plan_->watched; ++i)
+    for (const int i : plan_->updated)
         if (!at(plan_->groups, i).finite) {
             not_finite_ = find_not_finite(at(plan_->groups, i), i, cycle_);
             plan_->watched = !not_finite_;
+            if (not_finite_) return;
         }
 }
 
@@ -122,7 +138,7 @@ void Simulation::update_modules() {
     for (auto& m : plan_->modules) {
         try {
             bind_inputs(m);
-            ModuleFrame frame(cycle_, m.in, m.out, &m.written);
+            ModuleFrame frame(cycle_, m.in, m.out, &m.written, &m.read);
             m.module->update(frame);
         } catch (...) {
             throw RunError(fmt::format("{} of process '{}' failed in cycle {}: {}", m.type.name, m.process,
@@ -133,11 +149,11 @@ void Simulation::update_modules() {
 }
 
 void Simulation::update_connections() {
-    for (const auto& g : plan_->groups) remember(g, cycle_);
+    for (const int i : plan_->updated) remember(at(plan_->groups, i), cycle_);
     if (shared_)
         shared_cycle_->deliver(cycle_);
     else
-        for (auto& g : plan_->groups) deliver_to(*plan_, g, cycle_);
+        for (const int i : plan_->updated) deliver_to(*plan_, at(plan_->groups, i), cycle_);
     trial_.end();
     ++cycle_;
 }
@@ -154,23 +170,23 @@ GroupShape Simulation::shape(int group) const { return at(plan_->groups, group).
 const NeuronType& Simulation::type(int group) const { return at(plan_->groups, group).type; }
 
 ConstColumn Simulation::input(int group, InputKind kind) const {
-    const auto& g = at(plan_->groups, group);
+    const auto& g = seen(plan_->groups, group);
     return {g.inputs[static_cast<std::size_t>(kind)][g.row], g.cells};
 }
 
 ConstColumn Simulation::state(int group, int state) const {
-    const auto& g = at(plan_->groups, group);
+    const auto& g = seen(plan_->groups, group);
     return {state_row(g, static_cast<std::size_t>(state), shown_), g.cells};
 }
 
 Column Simulation::output(int group) {
-    auto& g = at(plan_->groups, group);
+    auto& g = seen(plan_->groups, group);
     touch(g, cycle_);
     return {activity_row(g, shown_), g.cells};
 }
 
 Column Simulation::writable_state(int group, int state) {
-    auto& g = at(plan_->groups, group);
+    auto& g = seen(plan_->groups, group);
     touch(g, cycle_);
     return {state_row(g, static_cast<std::size_t>(state), shown_), g.cells};
 }
@@ -180,8 +196,14 @@ const std::string& Simulation::module_process(int module) const { return at(plan
 const std::string& Simulation::module_type(int module) const { return at(plan_->modules, module).type.name; }
 const ModulePorts& Simulation::module_ports(int module) const { return at(plan_->modules, module).ports; }
 ConstColumn Simulation::module_output(int module, int port) const {
-    const auto& out = at(plan_->modules, module).out[static_cast<std::size_t>(port)];
-    return {out.data(), out.size()};
+    const auto& m = at(plan_->modules, module);
+    const auto i = static_cast<std::size_t>(port);
+    if (m.out[i].size() > 0 && !m.read[i])
+        nobody_reads(fmt::format("output '{}' of process '{}'", m.ports.outputs[i].port, m.process));
+    return {m.out[i].data(), m.out[i].size()};
+}
+bool Simulation::has_written(int module, int port) const {
+    return at(plan_->modules, module).ever_written[static_cast<std::size_t>(port)];
 }
 
 int Simulation::connections() const { return static_cast<int>(plan_->connections.size()); }
@@ -200,6 +222,7 @@ const SynapseType& Simulation::synapse_type(int connection) const {
 }
 ConstColumn Simulation::synapse_state(int connection, int state) const {
     const auto& c = at(plan_->connections, connection);
+    if (c.plastic && c.left_out) nobody_reads(fmt::format("connection '{}'", c.name));
     return c.plastic ? c.plastic->state(static_cast<std::size_t>(state)) : ConstColumn(nullptr, 0);
 }
 

@@ -35,6 +35,16 @@ struct NotFinite {
     double value = 0;
 };
 
+/// What somebody will look at in a run, beside its modules.
+struct Observed {
+    std::vector<int> groups{};
+    std::vector<int> connections{};  ///< for the states of their synapses
+    struct Output {
+        int module, port;
+    };
+    std::vector<Output> outputs{};  ///< of modules, whoever reads their groups
+};
+
 /// Runs a system cycle by cycle. A cycle is
 ///
 ///     update_groups()       each group reads what was delivered at the end of the last cycle
@@ -62,6 +72,13 @@ class Simulation {
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
     ~Simulation();
+
+    /// Leaves out, from now on, all groups that nobody reads: those that are not observed, that no module
+    /// takes as an input, and from which no connection leads, directly or by way of others, to one that is.
+    /// They are not updated and nothing is delivered to them; plastic connections to them do not learn.
+    /// What is read has the same bits as ever. To be called before start(), at most once; without it
+    /// everything is updated. Who then looks at what is left out gets a std::logic_error.
+    void leave_out_unread(const Observed& observed);
 
     /// Starts the modules; once, before the first cycle. Throws RunError.
     void start();
@@ -104,6 +121,7 @@ class Simulation {
     const std::string& id(int group) const;
     GroupShape shape(int group) const;
     const NeuronType& type(int group) const;
+    bool left_out(int group) const;  ///< nobody reads it: leave_out_unread()
     /// Input as the neuron read it, with the gain that its type applies.
     ConstColumn input(int group, InputKind kind) const;
     ConstColumn state(int group, int state) const;
@@ -121,6 +139,7 @@ class Simulation {
     const std::string& module_type(int module) const;  ///< name of the type
     const ModulePorts& module_ports(int module) const;
     ConstColumn module_output(int module, int port) const;
+    bool has_written(int module, int port) const;  ///< the module has taken the output at least once
 
     // Connections, in order of update.
     int connections() const;

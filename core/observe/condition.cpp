@@ -28,6 +28,14 @@ double Quantity::in(const engine::Simulation& simulation, const Moment& now) con
     return 0;
 }
 
+void Quantity::note_observed(engine::Observed& out) const {
+    if (kind >= cell) out.groups.push_back(column.group);
+}
+
+void Condition::note_observed(engine::Observed& out) const {
+    for (const Node& n : nodes_) n.left.note_observed(out), n.right.note_observed(out);
+}
+
 bool Condition::sees_cells() const {
     return std::any_of(nodes_.begin(), nodes_.end(), [](const Node& n) {
         return n.left.kind >= Quantity::cell || n.right.kind >= Quantity::cell;

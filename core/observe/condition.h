@@ -25,6 +25,8 @@ struct Quantity {
     Index index = 0;  ///< of the cell
 
     double in(const engine::Simulation& simulation, const Moment& now) const;
+    /// Adds the group that it looks at, if it does.
+    void note_observed(engine::Observed& out) const;
 };
 
 /// A comparison of numbers, or several of them, joined by && and ||, or by `and` and `or`.
@@ -48,6 +50,8 @@ class Condition {
 
     /// Whether it looks at cells, which are all 0 before the first cycle.
     bool sees_cells() const;
+    /// Adds the groups that it looks at.
+    void note_observed(engine::Observed& out) const;
 
   private:
     friend class ConditionParser;

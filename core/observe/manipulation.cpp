@@ -32,4 +32,10 @@ void Manipulation::apply(engine::Simulation& simulation) {
     over_ = s_.times && ++played_ == *s_.times;
 }
 
+void Manipulation::note_observed(engine::Observed& out) const {
+    out.groups.push_back(s_.group);
+    if (s_.from) s_.from->note_observed(out);
+    if (s_.until) s_.until->note_observed(out);
+}
+
 }  // namespace forage::observe

@@ -35,6 +35,9 @@ class Manipulation {
     /// Between update_groups() and update_modules() of each cycle.
     void apply(engine::Simulation& simulation);
 
+    /// Adds the group that it overwrites, and those that its conditions look at.
+    void note_observed(engine::Observed& out) const;
+
     /// How far it is.
     void checkpoint(Archive& archive) { archive(begun_, over_, waited_, next_, played_); }
 

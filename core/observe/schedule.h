@@ -29,6 +29,10 @@ class Schedule {
     void apply(engine::Simulation& simulation, const Moment& now);
 
     const std::vector<Entry>& entries() const { return entries_; }
+    /// Adds the groups that its conditions look at.
+    void note_observed(engine::Observed& out) const {
+        for (const auto& e : entries_) e.when.note_observed(out);
+    }
 
     /// What has acted.
     void checkpoint(Archive& archive) {

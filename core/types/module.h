@@ -56,10 +56,11 @@ struct ModulePorts {
 /// What a module sees in one cycle.
 class ModuleFrame {
   public:
-    /// `written[port]` becomes true when output `port` is taken.
+    /// `written[port]` becomes true when output `port` is taken. `read[port]`: somebody reads that output;
+    /// without the list, all of them.
     ModuleFrame(std::uint64_t cycle, const std::vector<ConstColumn>& in, const std::vector<Column>& out,
-                std::vector<char>* written = nullptr)
-        : cycle_(cycle), in_(in), out_(out), written_(written) {}
+                std::vector<char>* written = nullptr, const std::vector<char>* read = nullptr)
+        : cycle_(cycle), in_(in), out_(out), written_(written), read_(read) {}
     std::uint64_t cycle() const { return cycle_; }
     const ConstColumn& input(std::size_t port) const {  ///< activity of this cycle
         return in_[declared("input", port, in_.size())];
@@ -74,6 +75,10 @@ class ModuleFrame {
     Index output_size(std::size_t port) const {  ///< 0: unset
         return out_[declared("output", port, out_.size())].size();
     }
+    /// Whether what is written into an output reaches anybody: false for one that is unset, and for one whose
+    /// group nobody reads in this run. The same from start() to the last update. A module may ask to save
+    /// itself a costly output; writing one that is not read is harmless.
+    bool is_read(std::size_t port) const { return output_size(port) > 0 && (!read_ || (*read_)[port]); }
     std::size_t inputs() const { return in_.size(); }
     std::size_t outputs() const { return out_.size(); }
 
@@ -87,6 +92,7 @@ class ModuleFrame {
     const std::vector<ConstColumn>& in_;
     const std::vector<Column>& out_;
     std::vector<char>* written_;
+    const std::vector<char>* read_;
 };
 
 /// A module of a running system.

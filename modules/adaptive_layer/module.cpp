@@ -120,10 +120,10 @@ void AdaptiveLayerModule::start(const ModulePorts& ports) {
 
 void AdaptiveLayerModule::update(ModuleFrame& frame) {
     display_old_ |= layer_.update(frame.input(input), frame.input(condition), {eta, zeta, rho, disc_time});
-    frame.output(prototype) = layer_.prototype();
+    if (frame.is_read(prototype)) frame.output(prototype) = layer_.prototype();
     frame.output(output) = layer_.response();
     frame.output(discrepancy)[0] = layer_.discrepancy();
-    if (display_old_ && frame.output_size(display) > 0) {
+    if (display_old_ && frame.is_read(display)) {
         show_weights(frame.output(display));
         display_old_ = false;
     }

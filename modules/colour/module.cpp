@@ -47,6 +47,7 @@ void ColourModule::start(const ModulePorts& ports) {
 }
 
 void ColourModule::update(ModuleFrame& frame) {
+    if (!frame.is_read(0)) return;
     const auto& hue = frame.input(0);
     const auto value = frame.input(1).head(hue.size());
     if (shown_ && same(hue.data(), hue_) && same(value.data(), value_))

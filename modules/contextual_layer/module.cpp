@@ -119,13 +119,12 @@ void ContextualLayerModule::update(ModuleFrame& frame) {
     const auto picture = [&](Out port, const SegmentArray& numbers) {
         SegmentArray& shown = shown_[port - collector];
         const auto bytes = static_cast<std::size_t>(numbers.size()) * sizeof(float);
-        if (frame.output_size(port) == 0 ||
-            (displayed_ && std::memcmp(shown.data(), numbers.data(), bytes) == 0))
+        if (!frame.is_read(port) || (displayed_ && std::memcmp(shown.data(), numbers.data(), bytes) == 0))
             return;
         show(layer_, numbers, !displayed_, frame.output(port));
         shown = numbers;
     };
-    if (frame.output_size(empty) > 0 && (!displayed_ || layer_.stored_row() >= 0))
+    if (frame.is_read(empty) && (!displayed_ || layer_.stored_row() >= 0))
         show_empty(layer_, !displayed_, frame.output(empty));
     picture(collector, layer_.memory().collector());
     picture(distance, layer_.memory().distance());

@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
+#include <numeric>
 
 #include "core/engine/simulation.h"
 #include "core/xml/reader.h"
@@ -20,9 +21,11 @@ std::uint64_t models() {
     return given ? std::strtoull(given, nullptr, 10) : 300;
 }
 
-/// Every state of every group over some cycles, as bytes: NaN counts like any other.
+/// Every state of every group over some cycles, as bytes: NaN counts like any other. With `observed`, of
+/// these groups; they are then the only ones that are asked for.
 std::string trace(const model::System& system, const Registry& registry, int threads,
-                  bool general_forms = false) {
+                  bool general_forms = false, const std::vector<int>* observed = nullptr,
+                  bool leave_out = false) {
     Diagnostics diagnostics;
     auto s = engine::Simulation::build(system, registry,
                                        {.seed = test::RandomModel::connection_seed,
@@ -32,11 +35,15 @@ std::string trace(const model::System& system, const Registry& registry, int thr
                                        diagnostics);
     INFO(format(diagnostics));
     REQUIRE(s);
+    std::vector<int> groups(static_cast<std::size_t>(s->groups()));
+    std::iota(groups.begin(), groups.end(), 0);
+    if (observed) groups = *observed;
+    if (leave_out) s->leave_out_unread({.groups = groups});
     s->start();
     std::string out;
     for (int t = 0; t < 8; ++t) {
         s->step();
-        for (int g = 0; g < s->groups(); ++g)
+        for (const int g : groups)
             for (int i = 0; i < static_cast<int>(s->type(g).states.size()); ++i) {
                 const ConstColumn column = s->state(g, i);
                 out.append(reinterpret_cast<const char*>(column.data()),
@@ -77,6 +84,39 @@ TEST_CASE("Neither the number of threads nor the form of the connections changes
         REQUIRE(one == trace(system, registry, 4));
         REQUIRE(one == trace(system, registry, 1, true));
     }
+}
+
+TEST_CASE("Groups that nobody reads can be left out, and those that are read have the same bits") {
+    Registry registry;
+    add_neurons(registry);
+    add_synapses(registry);
+    std::size_t left_out = 0, delivered = 0;
+    for (std::uint64_t seed = 1; seed <= models(); ++seed) {
+        const model::System system = test::RandomModel(seed).make();
+        INFO("seed " << seed << "\n" << xml::write_system(system));
+        Diagnostics diagnostics;
+        const auto built = [&] {
+            auto s = engine::Simulation::build(system, registry, {.seed = test::RandomModel::connection_seed},
+                                               diagnostics);
+            REQUIRE(s);
+            return std::move(*s);
+        };
+        std::vector<int> observed;
+        const int groups = built().groups();
+        for (int g = 0; g < groups; ++g)
+            if ((seed + static_cast<std::uint64_t>(g)) % 3 == 0) observed.push_back(g);
+        auto s = built();
+        s.leave_out_unread({.groups = observed});
+        for (int g = 0; g < groups; ++g) left_out += s.left_out(g);
+        for (int g = 0; g < groups; ++g) delivered += !s.left_out(g);
+        delivered -= observed.size();
+        const std::string all = trace(system, registry, 1, false, &observed);
+        REQUIRE(all == trace(system, registry, 1, false, &observed, true));
+        REQUIRE(all == trace(system, registry, 4, false, &observed, true));
+        REQUIRE(all == trace(system, registry, 1, true, &observed, true));
+    }
+    CHECK(left_out > models() / 4);    // some are left out,
+    CHECK(delivered > models() / 20);  // and some are not, only because another is observed
 }
 
 TEST_CASE("A simulation stopped in any cycle and resumed is the one that ran through, to the last bit") {

@@ -53,8 +53,8 @@ struct RunOptions {
     bool paths = true;  ///< follow the robots
     std::string video;  ///< .gif or .png file to film the world to; none when empty
     std::optional<CheckpointInterval> checkpoint_every;  ///< none without
-    OnNan on_nan = OnNan::warn;
-    bool hash = false;  ///< give a digest of the state at the end
+    std::optional<OnNan> on_nan;                         ///< empty: warn, of what the run updates anyway
+    bool hash = false;                                   ///< give a digest of the state at the end
     bool real_time = false, quiet = false;
 };
 

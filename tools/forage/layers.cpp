@@ -1,6 +1,7 @@
 #include "tools/forage/layers.h"
 
 #include <string_view>
+#include <utility>
 
 namespace forage::tool {
 namespace {
@@ -26,8 +27,7 @@ Layers::Layers(const engine::Simulation& simulation)
       contextual_(find_module(simulation, "moduleCL")),
       discrepancy_(find_output(simulation, adaptive_, "descripancy")),
       prototype_(find_output(simulation, adaptive_, "prototype")),
-      empty_(find_output(simulation, contextual_, "empty")),
-      distance_(find_output(simulation, contextual_, "distance")) {}
+      empty_(find_output(simulation, contextual_, "empty")) {}
 
 double Layers::discrepancy(const engine::Simulation& simulation) const {
     return simulation.module_output(adaptive_, discrepancy_)[0];
@@ -38,19 +38,23 @@ double Layers::prototype_peak(const engine::Simulation& simulation) const {
 }
 
 MemoryFill Layers::memory(const engine::Simulation& simulation) const {
-    if (empty_ < 0 || distance_ < 0) return {};
+    if (empty_ < 0) return {};
     const auto& shape = simulation.module_ports(contextual_).outputs[static_cast<std::size_t>(empty_)].shape;
     MemoryFill out{0, 0, static_cast<std::size_t>(shape.height), static_cast<std::size_t>(shape.cells)};
+    if (!simulation.has_written(contextual_, empty_)) return out;  // the layer is not open yet
     const ConstColumn empty = simulation.module_output(contextual_, empty_);
-    // Before the layer opens it writes nothing: both displays are 0 then. Later one of them is 1 in an unused
-    // segment, and the distance in a used one is 0 only where the robot sees the very same again.
-    if ((empty == 0).all() && (simulation.module_output(contextual_, distance_) == 0).all()) return out;
     for (int row = 0; row < shape.height; ++row) {
         const auto line = empty.segment(row * shape.width, shape.width);
         out.sequences += line[0] == 0;
         out.segments += static_cast<std::size_t>((line == 0).count());
     }
     return out;
+}
+
+void Layers::note_observed(engine::Observed& out) const {
+    for (const auto& [module, port] : {std::pair(adaptive_, discrepancy_), std::pair(adaptive_, prototype_),
+                                       std::pair(contextual_, empty_)})
+        if (port >= 0) out.outputs.push_back({module, port});
 }
 
 }  // namespace forage::tool

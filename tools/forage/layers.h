@@ -31,13 +31,15 @@ class Layers {
         const engine::Simulation&) const;  ///< activity of the strongest cell of the prototype
 
     bool contextual() const { return contextual_ >= 0; }
-    /// Counted on its displays of empty segments and of distances, without which nothing is known (all 0): a
-    /// row is a sequence.
+    /// Counted on its display of empty segments, without which nothing is known (all 0): a row is a sequence.
     MemoryFill memory(const engine::Simulation&) const;
 
+    /// Adds the modules' outputs that are looked at.
+    void note_observed(engine::Observed& out) const;
+
   private:
-    int adaptive_ = -1, contextual_ = -1;                                 ///< modules
-    int discrepancy_ = -1, prototype_ = -1, empty_ = -1, distance_ = -1;  ///< their outputs
+    int adaptive_ = -1, contextual_ = -1;                 ///< modules
+    int discrepancy_ = -1, prototype_ = -1, empty_ = -1;  ///< their outputs
 };
 
 }  // namespace forage::tool

@@ -55,6 +55,11 @@ class Measures {
     /// "cyan > red": what came into view, by colour.
     std::string route(const TrialMeasures& trial) const;
 
+    /// Adds what it looks at.
+    void note_observed(engine::Observed& out) const {
+        if (layers_) layers_->note_observed(out);
+    }
+
     void checkpoint(Archive& archive) { archive(finished_, seen_); }
 
   private:

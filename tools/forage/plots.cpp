@@ -102,6 +102,11 @@ LivePlots LivePlots::make(const std::vector<model::Wish>& wishes, const model::S
         }
         if (!wish->of_cells()) {
             check_structure(*wish, system, option, diagnostics, at);
+            Diagnostics told;  // by check_structure()
+            if (wish->kind == PlotWish::Kind::connection)
+                if (const auto* c = find_connection(system, wish->what, option, told))
+                    for (int i = 0; i < simulation.connections(); ++i)
+                        if (simulation.connection_id(i) == c->id) out.connections_.push_back(i);
             out.others_.push_back(std::move(*wish));
             continue;
         }
@@ -119,6 +124,11 @@ void LivePlots::follow(const engine::Simulation& simulation) {
         sources_[i].read(simulation, row_);
         plots_[i].add(simulation.cycle() - 1, row_);
     }
+}
+
+void LivePlots::note_observed(engine::Observed& out) const {
+    for (const auto& s : sources_) s.note_observed(out);
+    out.connections.insert(out.connections.end(), connections_.begin(), connections_.end());
 }
 
 }  // namespace forage::tool

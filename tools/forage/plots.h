@@ -58,6 +58,8 @@ class LivePlots {
                           const engine::Simulation& simulation, Diagnostics& diagnostics);
     /// After each cycle.
     void follow(const engine::Simulation& simulation);
+    /// Adds what they look at.
+    void note_observed(engine::Observed& out) const;
 
     void checkpoint(Archive& archive) {
         for (auto& p : plots_) archive(p);
@@ -72,6 +74,7 @@ class LivePlots {
     std::vector<observe::Source> sources_;  ///< one for each of plots_
     std::vector<double> row_;
     std::vector<PlotWish> others_;
+    std::vector<int> connections_;  ///< those that others_ show
     bool paths_ = false;
 };
 

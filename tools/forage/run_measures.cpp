@@ -79,4 +79,11 @@ std::vector<std::optional<double>> RunMeasures::values(const Loaded& loaded,
     return out;
 }
 
+void RunMeasures::note_observed(engine::Observed& out) const {
+    for (const auto& e : entries_) {
+        if (e.condition) e.condition->note_observed(out);
+        if (e.quantity) e.quantity->note_observed(out);
+    }
+}
+
 }  // namespace forage::tool

@@ -28,6 +28,9 @@ class RunMeasures {
     std::vector<std::optional<double>> values(const Loaded& loaded, const engine::Simulation& simulation,
                                               const observe::Moment& now) const;
 
+    /// Adds the groups that they look at.
+    void note_observed(engine::Observed& out) const;
+
     void checkpoint(Archive& archive) {
         for (auto& e : entries_) archive(e.first);
         archive(waiting_);

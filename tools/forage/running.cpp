@@ -26,6 +26,13 @@ std::string describe(const engine::NotFinite& what, const engine::Simulation& si
                        simulation.path(what.group), what.value, place);
 }
 
+/// Leaves out what nobody asked for. A digest is of everything, and so is a question for numbers that are not
+/// finite.
+void leave_out_unread(const RunOptions& o, engine::Simulation& simulation, const engine::Observed& observed) {
+    const bool seek_everywhere = o.on_nan && *o.on_nan != OnNan::ignore;
+    if (!o.hash && !seek_everywhere) simulation.leave_out_unread(observed);
+}
+
 }  // namespace
 
 observe::Moment Running::now() const {
@@ -95,6 +102,21 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
     RunMeasures run_measures(o.measures, *loaded, *simulation, diagnostics);
     if (diagnostics.failed()) return std::nullopt;
     try {
+        std::vector<Measures> measures;
+        if (loaded->world)
+            for (std::size_t i = 0; i < loaded->world->bugs(); ++i)
+                measures.emplace_back(*loaded->world, i, *simulation);
+        engine::Observed observed;
+        scheduled.note_observed(observed);
+        if (until) until->note_observed(observed);
+        clamped.note_observed(observed);
+        for (const auto& m : manipulated) m.note_observed(observed);
+        for (const auto& f : files)
+            for (const auto& s : f.sources) s.note_observed(observed);
+        plots.note_observed(observed);
+        run_measures.note_observed(observed);
+        for (const auto& m : measures) m.note_observed(observed);
+        leave_out_unread(o, *simulation, observed);
         simulation->start();
         simulation->watch(o.on_nan != OnNan::ignore);
         const double seconds_per_cycle =
@@ -108,15 +130,12 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
                     std::move(clamped),
                     std::move(manipulated),
                     std::move(run_measures),
-                    {},
+                    std::move(measures),
                     std::move(plots),
                     std::nullopt,
                     {},
                     {},
                     nullptr};
-        if (out.loaded.world)
-            for (std::size_t i = 0; i < out.loaded.world->bugs(); ++i)
-                out.measures.emplace_back(*out.loaded.world, i, out.simulation);
         if (!o.directory.empty()) {
             try {
                 make_directory(o.directory);
@@ -182,6 +201,8 @@ void note(const Running& running, Outcome& outcome) {
     outcome.cycles = running.simulation.cycle();
     outcome.seconds = running.seconds();
     outcome.diverged = running.diverged;
+    outcome.groups = running.simulation.groups();
+    for (int g = 0; g < outcome.groups; ++g) outcome.left_out += running.simulation.left_out(g);
     for (const auto& e : running.schedule.entries()) outcome.changes.push_back({e.text, e.cycle});
     for (std::size_t i = 0; i < running.measures.size(); ++i)
         outcome.trials.push_back(

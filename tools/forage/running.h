@@ -54,8 +54,9 @@ struct Running {
     bool done() const { return until && until->holds(simulation, now()); }
 };
 
-/// Builds and starts everything but the recordings. Whatever is wrong with what a person gave is found here,
-/// before the first cycle and before anything is written; empty when `diagnostics` got an error.
+/// Builds and starts everything but the recordings. Groups that nobody reads are left out. Whatever is wrong
+/// with what a person gave is found here, before the first cycle and before anything is written; empty when
+/// `diagnostics` got an error.
 std::optional<Running> prepare(const Sources& sources, const RunOptions& options, Diagnostics& diagnostics);
 
 /// Runs from where it is to its end, or until something stops it, and writes what a run leaves behind.

@@ -1,0 +1,85 @@
+// Which groups nobody reads.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/engine/plan.h"
+#include "core/engine/shared_cycle.h"
+#include "core/engine/simulation.h"
+
+namespace forage::engine {
+namespace {
+
+/// Finds all that is read: what somebody wants, and whatever that is made of.
+class Readers {
+  public:
+    explicit Readers(const Plan& plan)
+        : plan_(plan), group_(plan.groups.size()), connection_(plan.connections.size()) {}
+
+    void want_group(int group) {
+        if (group < 0 || group_[index(group)]) return;
+        group_[index(group)] = true;
+        waiting_.push_back(group);
+    }
+    /// Its synapses learn from both ends.
+    void want_connection(int connection) {
+        connection_[index(connection)] = true;
+        want_group(plan_.connections[index(connection)].source);
+        want_group(plan_.connections[index(connection)].target);
+    }
+    void follow() {
+        while (!waiting_.empty()) {
+            const int group = waiting_.back();
+            waiting_.pop_back();
+            for (const int c : plan_.groups[index(group)].incoming)
+                if (plan_.connections[index(c)].effective) want_connection(c);
+        }
+    }
+
+    bool reads_group(int group) const { return group_[index(group)]; }
+    bool reads_connection(int connection) const { return connection_[index(connection)]; }
+
+  private:
+    static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+    const Plan& plan_;
+    std::vector<bool> group_, connection_;
+    std::vector<int> waiting_;  ///< groups whose sources are not yet wanted
+};
+
+}  // namespace
+
+void Simulation::leave_out_unread(const Observed& observed) {
+    if (started_) throw std::logic_error("groups are left out before the start, or not at all");
+    Readers readers(*plan_);
+    for (const int g : observed.groups) readers.want_group(g);
+    for (const int c : observed.connections) readers.want_connection(c);
+    for (const auto& m : plan_->modules)
+        for (const int g : m.input_groups) readers.want_group(g);
+    readers.follow();
+
+    auto& groups = plan_->groups;
+    for (std::size_t c = 0; c < plan_->connections.size(); ++c)
+        plan_->connections[c].left_out = !readers.reads_connection(static_cast<int>(c));
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        groups[i].left_out = !readers.reads_group(static_cast<int>(i));
+        groups[i].history = 0;
+        std::erase_if(groups[i].incoming,
+                      [&](int c) { return plan_->connections[static_cast<std::size_t>(c)].left_out; });
+    }
+    for (const auto& c : plan_->connections) {
+        int& history = groups[static_cast<std::size_t>(c.source)].history;
+        if (!c.left_out && !c.plastic) history = std::max(history, c.longest_delay);
+    }
+    std::erase_if(plan_->updated, [&](int g) { return left_out(g); });
+    if (shared_cycle_) shared_cycle_->share_out();
+    for (auto& m : plan_->modules)
+        for (std::size_t port = 0; port < m.read.size(); ++port)
+            m.read[port] = m.output_groups[port] >= 0 && !left_out(m.output_groups[port]);
+    for (const auto& [module, port] : observed.outputs)
+        plan_->modules[static_cast<std::size_t>(module)].read[static_cast<std::size_t>(port)] = true;
+}
+
+bool Simulation::left_out(int group) const { return plan_->groups[static_cast<std::size_t>(group)].left_out; }
+
+}  // namespace forage::engine
