@@ -5,7 +5,8 @@
 Runs each case of instructions.json twice under valgrind, for some cycles and for more, and counts what the further cycles
 took. More than 5 % above the record fails; more than 5 % below asks for a new one: --record writes it. valgrind shows
 programs a processor with AVX2, whatever there is, so that the numbers are those of any machine; another compiler than the
-recorded one makes other code, and the test is skipped.
+recorded one makes other code, and the test is skipped. The systems of the engine alone have --hash, which asks for everything:
+otherwise nobody would read them, and all would be left out.
 """
 import json
 import os

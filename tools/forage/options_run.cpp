@@ -209,7 +209,8 @@ void add_run(CLI::App& app, RunOptions& o) {
            [&o](const std::string& text) {
                o.on_nan = text == "warn" ? OnNan::warn : text == "stop" ? OnNan::stop : OnNan::ignore;
            },
-           "When a number becomes NaN or infinite: 'warn' once and go on, 'stop', or 'ignore' it [warn]")
+           "When a number becomes NaN or infinite: 'warn' once and go on, 'stop', or 'ignore' it [warn, of "
+           "groups that are read]")
         ->check(one_of({"warn", "stop", "ignore"}))
         ->option_text("HOW");
     run.add_flag("--hash", o.hash, "Give a digest of the state at the end: equal runs have the same one");
