@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 
 #include "core/types/column.h"
+#include "core/types/huge_pages.h"
 
 namespace forage::engine {
 
@@ -15,20 +15,21 @@ class Arena {
     using Offset = std::size_t;
 
     /// Room for `rows` rows of `cells` numbers each, stride(cells) apart.
-    Offset reserve(Index cells, Index rows = 1);
-    void allocate();
-    double* at(Offset offset) { return block_.get() + offset; }
-    double* data() { return block_.get(); }     ///< all of it
+    Offset reserve(Index cells, Index rows = 1) {
+        const Offset offset = size_;
+        size_ += static_cast<std::size_t>(stride(cells) * rows);
+        return offset;
+    }
+    void allocate() { block_.resize(size_); }
+    double* at(Offset offset) { return block_.data() + offset; }
+    double* data() { return block_.data(); }    ///< all of it
     std::size_t size() const { return size_; }  ///< in doubles
 
     /// Distance between two rows of `cells` numbers.
     static Index stride(Index cells) { return (cells + 7) / 8 * 8; }
 
   private:
-    struct Free {
-        void operator()(double* p) const;
-    };
-    std::unique_ptr<double[], Free> block_;
+    HugeVector<double> block_;
     std::size_t size_ = 0;
 };
 

@@ -11,7 +11,7 @@
 namespace forage {
 
 /// An allocator that asks the system for large pages for large blocks: fewer of them have to be made, and
-/// looked up. Where there are none it is an ordinary one.
+/// looked up. Where there are none it is an ordinary one. Blocks begin with a line of the cache.
 template <class T>
 class HugePages {
   public:
@@ -22,7 +22,7 @@ class HugePages {
 
     T* allocate(std::size_t count) {
         const std::size_t size = count * sizeof(T), whole = (size + page - 1) / page * page;
-        if (size < large) return static_cast<T*>(::operator new(size));
+        if (size < large) return static_cast<T*>(::operator new(size, line));
         void* memory = std::aligned_alloc(page, whole);
         if (!memory) throw std::bad_alloc();
         madvise(memory, whole, MADV_HUGEPAGE);
@@ -30,7 +30,7 @@ class HugePages {
     }
     void deallocate(T* memory, std::size_t count) {
         if (count * sizeof(T) < large)
-            ::operator delete(memory);
+            ::operator delete(memory, line);
         else
             std::free(memory);
     }
@@ -38,6 +38,7 @@ class HugePages {
 
   private:
     static constexpr std::size_t page = std::size_t{2} << 20, large = page / 4;  ///< bytes
+    static constexpr std::align_val_t line{64};
 };
 
 template <class T>
