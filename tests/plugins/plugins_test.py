@@ -29,7 +29,7 @@ CORPUS = {
     "other_layout": (r"was built with other compiler settings than this program", "build the plugin again"),
     "other_output": (r"'synapseOtherOutput' that does not work: its output\(\) tells something else than its update\(\)", ""),
     "other_size": (r"'neuronOtherSize' that does not work: it computes with columns of different sizes", ""),
-    "other_version": (r"was built with version 4 of the SDK, this program has version 3", "build the plugin again"),
+    "other_version": (r"was built with version 5 of the SDK, this program has version 4", "build the plugin again"),
     "shipped_name": (r"has a neuron type 'neuronLinearThreshold', and so has Forage itself", "another name"),
     "restless": (r"'synapseRestless' that does not work: it promises rests_when_silent\(\), and changes state 'weight'", ""),
     "synapse_feedback": (r"'synapseBlind' that does not work: it uses feedback 0, but declares 0", ""),
