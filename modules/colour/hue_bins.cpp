@@ -1,5 +1,8 @@
 #include "modules/colour/hue_bins.h"
 
+#include <bit>
+#include <cstdint>
+
 namespace forage::colour {
 
 HueBins::HueBins(Index bins) {
@@ -26,6 +29,7 @@ void HueBins::separate(const Eigen::Ref<const Eigen::ArrayXd>& hue,
     const double near = 1e-6 * count;  // of a limit, in bins: more than the limits' own rounding
     planes.setZero();
     for (Index i = 0; i < pixels; ++i) {
+        if (std::bit_cast<std::uint64_t>(value[i]) == 0) continue;  // as most pixels are without colour
         if (hue[i] >= 0 && hue[i] <= 1) {
             const double place = hue[i] * count + 0.5;  // bin b is b..b+1, but for the rounding of its limits
             const auto bin = static_cast<Index>(place);
