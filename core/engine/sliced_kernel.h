@@ -5,40 +5,36 @@
 
 #include "core/engine/by_target.h"
 #include "core/engine/kernel.h"
+#include "core/engine/slices.h"
 #include "core/types/huge_pages.h"
 
 namespace forage::engine {
 
-/// A list in slices ("sliced ELLPACK"; Kreutzer et al., "A unified sparse matrix data format...", SIAM J.
-/// Sci. Comput. 36, 2014): eight targets of about the same number of synapses are summed at the same time,
-/// each in synapse order, so that no sum waits for its own last addition. Missing synapses of a slice read a
-/// source cell that is always 0. `Cell` is the narrowest number that names all source cells.
+/// A list in slices: eight targets with the same number of synapses are summed at the same time, each in
+/// synapse order, so that no sum waits for its own last addition. Missing synapses of a slice read a source
+/// cell that is always 0. `Cell` is the narrowest number that names all source cells of a block.
 template <class Cell>
 class SlicedKernel final : public Kernel {
   public:
-    SlicedKernel(ByTarget synapses, std::vector<int> delays, int source_cells,
+    SlicedKernel(ByTarget synapses, Slices slices, std::vector<int> delays, std::size_t source_cells,
                  const SynapseInstance& synapse);
     void deliver(const History& source, double* target) override;
     std::string_view form() const override { return "sliced"; }
-    double cost() const override { return (weight_.empty() ? 0.4 : 0.7) * static_cast<double>(pre_.size()); }
+    double cost() const override { return (weight_.empty() ? 0.4 : 0.6) * static_cast<double>(pre_.size()); }
     bool divides() const override { return true; }
     void prepare(const History& source, int part, int parts) override;
     void add(const History& source, double* target, int part, int parts) override;
 
   private:
-    struct Slice {
-        std::size_t first;  ///< of its synapses: synapse k of lane l is first + 8 k + l
-        std::size_t length;
-    };
+    void fill(const ByTarget& synapses);
 
     const SynapseInstance& synapse_;
-    std::size_t source_cells_, targets_;
-    std::vector<int> delays_;    ///< those that occur
-    HugeVector<double> scaled_;  ///< by delay: gain times activity; then a 0
+    Slices slices_;
+    std::vector<int> delays_;  ///< those that occur
+    std::size_t source_cells_, targets_, stride_;
+    HugeVector<double> scaled_;  ///< by block: by delay: gain times activity; then a 0. A block every stride_
     double factor_;              ///< of every synapse, when it is the same
-    std::vector<Slice> slices_;
-    std::vector<int> target_;    ///< of lane l of slice s: target_[8 s + l]; -1 for none
-    HugeVector<Cell> pre_;       ///< places in scaled_
+    HugeVector<Cell> pre_;       ///< places in a block
     HugeVector<double> weight_;  ///< factors; empty when all are the same
 };
 

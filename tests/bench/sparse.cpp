@@ -4,7 +4,8 @@
 //     bench_sparse
 //
 // A triad, a[i] = b[i] + s c[i], shows what one core moves (24 bytes per step, as STREAM counts). The list
-// moves a weight (8 bytes) and a cell number (2 or 4) per synapse. Last result: docs/design/performance.md.
+// moves a weight (8 bytes) and the number of a source cell in its block (2) per synapse; the numbers of
+// target cells, 2 bytes for several synapses, are not counted. Last result: docs/design/performance.md.
 #include <vector>
 
 #include <fmt/format.h>
@@ -47,7 +48,7 @@ int main() {
         simulation->start();
         simulation->step();
         const double synapses = static_cast<double>(simulation->synapses(0));
-        const double bytes = synapses * (8 + (cells < 65'535 ? 2 : 4));
+        const double bytes = synapses * (8 + 2);
         std::vector<double> shares, speeds;
         for (int i = 0; i < rounds; ++i) {
             const double peak = triad.bytes() * bench::rate(bench::thread_seconds, std::ref(triad));

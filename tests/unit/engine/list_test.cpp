@@ -1,0 +1,147 @@
+// Lists of synapses in slices, panels and blocks: the same bits as the plain list.
+#include <algorithm>
+#include <cstring>
+#include <random>
+
+#include "core/engine/kernel.h"
+#include "core/engine/slices.h"
+#include "tests/support/catch.h"
+
+using namespace forage;
+using namespace forage::engine;
+
+namespace {
+
+struct Gain final : SynapseInstance {
+    void* parameters() override { return nullptr; }
+    void update(SynapseColumns&) const override {}
+    double gain() const override { return 1.3; }
+    void output(SynapseColumns&) const override {}
+};
+
+enum class Order { ascending, shuffled };
+
+struct Shape {
+    int sources, targets, most;  ///< synapses of a target
+};
+
+/// Targets with none to `most` synapses, some of them from the same source.
+connectivity::Synapses random_list(const Shape& shape, Order order, int delays, bool same) {
+    std::mt19937 random(1);
+    const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    connectivity::Synapses out;
+    for (int t = 0; t < shape.targets; ++t) {
+        std::vector<int> sources(static_cast<std::size_t>(below(8) == 0 ? 0 : below(shape.most + 1)));
+        for (int& s : sources) s = below(shape.sources);
+        if (sources.size() > 2) sources[1] = sources[0];
+        if (order == Order::ascending) std::sort(sources.begin(), sources.end());
+        for (const int s : sources) {
+            out.pre.push_back(s), out.post.push_back(t), out.distance.push_back(0);
+            out.delay.push_back(3 * below(delays));
+            out.attenuation.push_back(same ? 0.3 : 1e-3 * below(1000));
+        }
+    }
+    return out;
+}
+
+struct Activity {
+    static constexpr int depth = 10;
+    std::vector<double> rows;
+    int cells;
+    explicit Activity(int n) : rows(static_cast<std::size_t>(n * depth)), cells(n) {
+        std::mt19937 random(2);
+        for (double& v : rows) v = std::uniform_real_distribution(-1.0, 1.0)(random);
+    }
+    History at(std::uint64_t cycle) const {
+        const Ring ring{rows.data(), depth, cells};
+        return {ring.ago(cycle, 0), ring, cycle};
+    }
+};
+
+/// What cells that begin with these receive.
+std::vector<double> begin(int targets) {
+    std::vector<double> out(static_cast<std::size_t>(targets), -0.0);
+    for (std::size_t i = 0; i < out.size(); i += 3) out[i] = 0.1;
+    return out;
+}
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+void compare(const Shape& shape, Order order, int delays, bool same) {
+    const Gain synapse;
+    const auto list = random_list(shape, order, delays, same);
+    const auto general = make_kernel(list, shape.sources, shape.targets, synapse, Forms::general),
+               fastest = make_kernel(list, shape.sources, shape.targets, synapse, Forms::fastest);
+    REQUIRE(general->form() == "list");
+    REQUIRE(fastest->form() == "sliced");
+    REQUIRE(fastest->divides());
+    const Activity activity(shape.sources);
+    for (const std::uint64_t cycle : {11, 14}) {
+        const History source = activity.at(cycle);
+        auto expected = begin(shape.targets), whole = expected;
+        general->deliver(source, expected.data());
+        CHECK_FALSE(same_bits(expected, whole));
+        fastest->deliver(source, whole.data());
+        CHECK(same_bits(whole, expected));
+        for (const int parts : {2, 3, 13}) {
+            auto divided = begin(shape.targets);
+            for (int part = parts; part-- > 0;) fastest->prepare(source, part, parts);
+            for (int part = parts; part-- > 0;) fastest->add(source, divided.data(), part, parts);
+            CHECK(same_bits(divided, expected));
+        }
+    }
+}
+
+ByTarget by_target(const connectivity::Synapses& s, int targets) {
+    ByTarget out{std::vector<int>(static_cast<std::size_t>(targets) + 1), s.pre, s.delay, s.attenuation};
+    for (const int t : s.post) ++out.start[static_cast<std::size_t>(t) + 1];
+    for (std::size_t t = 1; t < out.start.size(); ++t) out.start[t] += out.start[t - 1];
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("Lists of any shape, order, delays and factors give the bits of the plain list") {
+    const auto order = GENERATE(Order::ascending, Order::shuffled);
+    const int delays = GENERATE(1, 3);
+    const bool same = GENERATE(false, true);
+    // One block of sources; several, and panels; one panel that is not full; cells that need 32 bits when all
+    // sources are one block.
+    const auto shape = GENERATE(Shape{50, 100, 30}, Shape{7000, 700, 60}, Shape{3073, 300, 90},
+                                Shape{10'000, 40, 1000}, Shape{40'000, 1500, 120});
+    INFO(shape.sources << " sources, " << shape.targets << " targets");
+    compare(shape, order, delays, same);
+}
+
+TEST_CASE("A list is arranged in blocks only when its targets read them one after the other") {
+    const Shape shape{1000, 600, 40};
+    const auto ascending = by_target(random_list(shape, Order::ascending, 1, true), shape.targets),
+               shuffled = by_target(random_list(shape, Order::shuffled, 1, true), shape.targets);
+    const auto slices = arrange(ascending, 1000, 300);
+    REQUIRE(slices);
+    CHECK(slices->panels.size() == 4);  // of 256 targets, and the end
+    std::uint32_t last = 0;
+    std::size_t entries = 0;
+    for (const auto& run : slices->runs) {
+        last = std::max(last, run.block);
+        entries += std::size_t{run.slices} * run.length * Slices::lanes;
+    }
+    CHECK(last == 3);
+    CHECK(slices->entries() == entries);
+    CHECK(entries >= ascending.pre.size());
+    CHECK(entries < ascending.pre.size() + ascending.pre.size() / 10);
+    CHECK_FALSE(arrange(shuffled, 1000, 300));
+    CHECK(arrange(shuffled, 1000, 1000));
+}
+
+TEST_CASE("Targets of very different numbers of synapses stay a plain list") {
+    const Gain synapse;
+    connectivity::Synapses s;
+    for (int i = 0; i < 3000; ++i) {
+        s.pre.push_back(i % 100), s.post.push_back(i < 2990 ? 5 : i % 10), s.delay.push_back(0);
+        s.distance.push_back(0), s.attenuation.push_back(0);
+    }
+    CHECK(make_kernel(s, 100, 10, synapse, Forms::fastest)->form() == "list");
+}
