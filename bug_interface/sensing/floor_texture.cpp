@@ -1,20 +1,33 @@
 #include "bug_interface/sensing/floor_texture.h"
 
 #include <algorithm>
+#include <cstring>
 #include <functional>
 #include <numeric>
 #include <utility>
+
+#include "core/types/simd.h"
 
 namespace forage::bug {
 namespace {
 
 /// Texels of a row that differ from a neighbour to the right or below are no longer opaque.
-void mark_flat(std::uint32_t* __restrict here, const std::uint32_t* __restrict below, std::size_t count) {
+FORAGE_SIMD void mark_flat(std::uint32_t* __restrict here, const std::uint32_t* __restrict below,
+                           std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t differ =
             (here[i] ^ here[i + 1]) | (here[i] ^ below[i]) | (here[i] ^ below[i + 1]);
         here[i] &= differ ? 0x00ffffffu : ~0u;
     }
+}
+
+/// All bits that some texels, mostly 8 of them, have in common.
+std::uint32_t common_bits(const std::uint32_t* texels, std::size_t count) {
+    if (count != 8) return std::accumulate(texels, texels + count, ~0u, std::bit_and());
+    std::uint64_t pairs[4];
+    std::memcpy(pairs, texels, sizeof pairs);
+    const std::uint64_t all = (pairs[0] & pairs[1]) & (pairs[2] & pairs[3]);
+    return static_cast<std::uint32_t>(all & all >> 32);
 }
 
 }  // namespace
@@ -34,9 +47,8 @@ FloorTexture::FloorTexture(Image image, const Colour& gain)
         mark_flat(&texels_[row * stride], &texels_[(row + 1) * stride], stride - 1);
     uneven_ = MarkedCells(stride, rows, [&](std::size_t column, std::size_t row, std::size_t count) {
         const std::uint32_t* here = &texels_[row * stride + column];
-        const std::uint32_t all = std::accumulate(here, here + count, ~0u, std::bit_and());
         unsigned bits = 0;
-        if (!flat(all))  // mostly all are
+        if (!flat(common_bits(here, count)))  // mostly all are
             for (std::size_t i = 0; i < count; ++i) bits |= (flat(here[i]) ? 0u : 1u) << i;
         return bits;
     });

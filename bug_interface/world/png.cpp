@@ -9,6 +9,8 @@
 
 #include <png.h>
 
+#include "bug_interface/world/plain_png.h"
+
 namespace forage::bug {
 
 namespace {
@@ -29,11 +31,18 @@ void fill_border(Image& image) {
 }  // namespace
 
 Image read_png(const std::string& path, int border) {
+    Image image;
+    image.border = border;
+    if (read_plain_png(path, image)) {
+        fill_border(image);
+        return image;
+    }
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
     if (!png_image_begin_read_from_file(&png, path.c_str()))
         throw std::runtime_error(path + ": " + png.message);
-    Image image{static_cast<int>(png.width), static_cast<int>(png.height), border, {}};
+    image.width = static_cast<int>(png.width);
+    image.height = static_cast<int>(png.height);
     image.pixels.resize(image.stride() * (png.height + 2 * static_cast<std::size_t>(border)));
     const bool opaque = !(png.format & PNG_FORMAT_FLAG_ALPHA);
     png.format = opaque ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;

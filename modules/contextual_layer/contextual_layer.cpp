@@ -16,8 +16,8 @@ bool ContextualLayer::update(const Inputs& in, const Settings& settings) {
     if (discrepancy > 1e-6 && discrepancy < static_cast<float>(settings.discrepancy_threshold)) open_ = true;
     if (!open_) return false;
     acquire(in);
-    memory_.decay_triggers(static_cast<float>(settings.trigger_decay));
     memory_.compare(in.prototype);
+    memory_.collect(static_cast<float>(settings.trigger_decay));
     select(memory_, static_cast<float>(settings.memory_threshold), static_cast<float>(settings.winner_share),
            static_cast<float>(settings.trigger_reset));
     sum_actions(memory_, action_);

@@ -1,8 +1,28 @@
 #include "modules/contextual_layer/long_term_memory.h"
 
 #include <algorithm>
+#include <bit>
+
+#include "core/types/simd.h"
 
 namespace forage::contextual {
+namespace {
+
+/// See LongTermMemory::collect; returns the largest collector, 0 if none is above 0.
+FORAGE_SIMD float collect_row(const float* distance, Index n, float decay, float* trigger, float* collector) {
+    const float kept = 1 - decay;
+    for (Index i = 0; i < n; ++i) {
+        const float t = trigger[i] > 1.0F ? kept * trigger[i] + decay : 1.0F;
+        trigger[i] = t;
+        collector[i] = (1.0F - distance[i]) * t;
+    }
+    std::int32_t largest = 0;  // bits of positive numbers are in their order
+    for (Index i = 0; i < n; ++i)
+        largest = std::max(largest, collector[i] > 0.0F ? std::bit_cast<std::int32_t>(collector[i]) : 0);
+    return std::bit_cast<float>(largest);
+}
+
+}  // namespace
 
 LongTermMemory::LongTermMemory(Index sequences, Index segments, Index prototype_cells, Index action_cells)
     : longest_(std::min(sequences, segments)),
@@ -12,7 +32,9 @@ LongTermMemory::LongTermMemory(Index sequences, Index segments, Index prototype_
       distance_(SegmentArray::Ones(sequences, segments)),
       collector_(SegmentArray::Zero(sequences, segments)),
       trigger_(SegmentArray::Zero(sequences, segments)),
-      selected_(SegmentArray::Zero(sequences, segments)) {}
+      selected_(SegmentArray::Zero(sequences, segments)),
+      peaks_(static_cast<std::size_t>(sequences), 0),
+      speaks_(static_cast<std::size_t>(sequences), 0) {}
 
 void LongTermMemory::store(const ShortTermMemory& memory) {
     const Index row = next_, length = std::min(memory.size(), longest_);
@@ -26,24 +48,21 @@ void LongTermMemory::store(const ShortTermMemory& memory) {
     distance_.row(row).setOnes();
     collector_.row(row).setZero();
     selected_.row(row).setZero();
+    speaks(row) = false;
     trigger_.row(row).setZero();
     trigger_.row(row).head(length).setOnes();
     next_ = (row + 1) % sequences();
 }
 
-void LongTermMemory::decay_triggers(float decay) {
-    const float kept = 1 - decay;
-    for (Index row = 0; row < sequences(); ++row) {
-        auto t = trigger_.row(row).head(length(row));
-        t = (t > 1.0F).select(kept * t + decay, 1.0F);
-    }
-}
-
 void LongTermMemory::compare(const Eigen::Ref<const Eigen::ArrayXd>& prototype) {
     prototypes_.compare(prototype, distance_.data());
+}
+
+void LongTermMemory::collect(float decay) {
     for (Index row = 0; row < sequences(); ++row) {
-        const Index n = length(row);
-        collector_.row(row).head(n) = (1.0F - distance_.row(row).head(n)) * trigger_.row(row).head(n);
+        const Index first = row * segments();
+        peaks_[static_cast<std::size_t>(row)] = collect_row(
+            distance_.data() + first, length(row), decay, trigger_.data() + first, collector_.data() + first);
     }
 }
 

@@ -1,6 +1,7 @@
 // Sequences that led to a goal, and how much each of their segments is like the present.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -33,11 +34,11 @@ class LongTermMemory {
     /// The sequence that the next store() overwrites.
     Index next_row() const { return next_; }
 
-    /// Compares every live segment's prototype with the present one: distance d (see PrototypeStore) and
-    /// collector c = (1 - d) t, t being the segment's trigger.
+    /// Compares every live segment's prototype with the present one: distance d (see PrototypeStore).
     void compare(const Eigen::Ref<const Eigen::ArrayXd>& prototype);
-    /// t <- (1 - decay) t + decay where a live segment's trigger t is above 1, else t <- 1.
-    void decay_triggers(float decay);
+    /// A live segment's trigger t <- (1 - decay) t + decay where it is above 1, else t <- 1; then its
+    /// collector c = (1 - d) t.
+    void collect(float decay);
 
     const SegmentArray& distance() const { return distance_; }
     const SegmentArray& collector() const { return collector_; }
@@ -45,11 +46,17 @@ class LongTermMemory {
     const SegmentArray& trigger() const { return trigger_; }
     SegmentArray& selected() { return selected_; }  ///< 1 or 0
     const SegmentArray& selected() const { return selected_; }
+    /// The largest collector of a row's live segments, 0 if none is above 0.
+    float peak(Index row) const { return peaks_[static_cast<std::size_t>(row)]; }
+    /// Whether a segment of the row is selected; to be kept by whoever selects.
+    std::uint8_t& speaks(Index row) { return speaks_[static_cast<std::size_t>(row)]; }
+    bool speaks(Index row) const { return speaks_[static_cast<std::size_t>(row)]; }
     /// Action of a live segment, M cells.
     auto action(Index row, Index column) const { return actions_.col(row * longest_ + column); }
 
     void checkpoint(Archive& archive) {
-        archive(prototypes_, actions_, lengths_, distance_, collector_, trigger_, selected_, next_);
+        archive(prototypes_, actions_, lengths_, distance_, collector_, trigger_, selected_, peaks_, speaks_,
+                next_);
     }
 
   private:
@@ -58,6 +65,8 @@ class LongTermMemory {
     Eigen::ArrayXXf actions_;    ///< M x (sequences longest)
     std::vector<Index> lengths_;
     SegmentArray distance_, collector_, trigger_, selected_;
+    std::vector<float> peaks_;          ///< per row
+    std::vector<std::uint8_t> speaks_;  ///< per row
     Index next_ = 0;
 };
 

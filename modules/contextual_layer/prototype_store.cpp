@@ -1,6 +1,7 @@
 #include "modules/contextual_layer/prototype_store.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/types/simd.h"
@@ -8,40 +9,70 @@
 namespace forage::contextual {
 namespace {
 
-template <Index lanes>
-using CellsOf = Eigen::Map<Eigen::ArrayXf, 0, Eigen::InnerStride<lanes>>;  ///< of one prototype in its block
+constexpr Index lanes = 16, bits = 64;
 
-/// sum[l] += |cells[i][l] - present[i]| share for the `count` cells i that are named, in order, rounded to
-/// single precision each time.
-template <Index lanes>
-[[gnu::always_inline]] inline void add_distances(const float* cells, const Index* named, std::size_t count,
-                                                 const double* present, double share, double* sum) {
-    double total[lanes];
-    std::copy_n(sum, lanes, total);
-    for (std::size_t j = 0; j < count; ++j) {
-        const float* stored = cells + named[j] * lanes;
-        const double here = present[named[j]];
-        for (Index l = 0; l < lanes; ++l)
-            total[l] = static_cast<float>(total[l] + std::abs(static_cast<double>(stored[l]) - here) * share);
-    }
-    std::copy_n(total, lanes, sum);
+using CellsOf = Eigen::Map<Eigen::ArrayXd, 0, Eigen::InnerStride<lanes>>;  ///< of one prototype in its block
+
+/// Prototypes side by side, the cells of them that count, in order, and their sums of single-precision
+/// numbers.
+struct Block {
+    const double* cells;  ///< [cell][lane]
+    const Index* counted;
+    Index count;
+    double sums[lanes];
+};
+
+/// sums[l] += |cells[i][l] - present[i]| share for the cells i that count from the `from`-th to before the
+/// `to`-th of each block, rounded to single precision each time. Such a sum takes its time: while that of one
+/// block is rounded, others are computed. (Cells are listed, not looked for here: when there is more than
+/// this in the loop GCC 12 takes the lanes apart and leaves some unrounded.)
+template <std::size_t blocks>
+[[gnu::always_inline]] inline void add_cells(Block* block, Index from, Index to, const double* present,
+                                             double share) {
+    double total[blocks * lanes];
+    for (std::size_t b = 0; b < blocks; ++b) std::copy_n(block[b].sums, lanes, total + b * lanes);
+    for (Index k = from; k < to; ++k)
+#pragma GCC unroll 2
+        for (std::size_t b = 0; b < blocks; ++b) {
+            const Index cell = block[b].counted[k];
+            const double* stored = block[b].cells + cell * lanes;
+            const double here = present[cell];
+            for (Index l = 0; l < lanes; ++l)
+                total[b * lanes + l] =
+                    static_cast<float>(total[b * lanes + l] + std::abs(stored[l] - here) * share);
+        }
+    for (std::size_t b = 0; b < blocks; ++b) std::copy_n(total + b * lanes, lanes, block[b].sums);
 }
 
-FORAGE_SIMD void add_sixteen(const float* cells, const Index* named, std::size_t count, const double* present,
-                             double share, double* sum) {
-    add_distances<16>(cells, named, count, present, share, sum);
+FORAGE_SIMD void add_one(Block& block, Index from, const double* present, double share) {
+    add_cells<1>(&block, from, block.count, present, share);
+}
+
+FORAGE_SIMD void add_two(Block* blocks, Index count, const double* present, double share) {
+    add_cells<2>(blocks, 0, count, present, share);
+}
+
+/// Lists the cells of which a bit is set in a or b; returns how many there are.
+Index list_cells(const std::uint64_t* a, const std::uint64_t* b, Index words, Index* out) {
+    Index count = 0;
+    for (Index w = 0; w < words; ++w)
+        for (std::uint64_t left = a[w] | b[w]; left; left &= left - 1)
+            out[count++] = w * bits + std::countr_zero(left);
+    return count;
 }
 
 }  // namespace
 
 PrototypeStore::PrototypeStore(Index keys, Index capacity, Index cells)
     : cells_(cells),
+      words_((cells + bits - 1) / bits),
       compared_(Eigen::ArrayXd::Zero(cells)),
       present_(Eigen::ArrayXd::Zero(cells)),
-      worth_(static_cast<std::size_t>(cells) + 1) {
+      active_(static_cast<std::size_t>(words_)),
+      counted_(2 * static_cast<std::size_t>(cells)) {
     const Index blocks = (capacity + lanes - 1) / lanes;
     blocks_.setZero(blocks * cells * lanes);
-    used_.resize(static_cast<std::size_t>(blocks * cells), 0);
+    used_.resize(static_cast<std::size_t>(blocks * words_), 0);
     silent_.resize(static_cast<std::size_t>(capacity), 0);
     keys_.reserve(static_cast<std::size_t>(capacity));
     slots_.resize(static_cast<std::size_t>(keys), 0);
@@ -54,9 +85,9 @@ void PrototypeStore::add(Index key, const Eigen::Ref<const Eigen::ArrayXf>& prot
     keys_.push_back(key);
     slots_[static_cast<std::size_t>(key)] = slot;
     silent_[static_cast<std::size_t>(slot)] = !(peak > 0);
-    CellsOf<lanes> cells(cells_of(slot), cells_);
+    CellsOf cells(cells_of(slot), cells_);
     if (peak > 0)
-        cells = prototype / peak;
+        cells = (prototype / peak).cast<double>();
     else
         cells.setZero();
     note_use(slot / lanes);
@@ -65,24 +96,24 @@ void PrototypeStore::add(Index key, const Eigen::Ref<const Eigen::ArrayXf>& prot
 void PrototypeStore::remove(Index key) {
     current_ = false;
     const Index slot = slots_[static_cast<std::size_t>(key)], last = size() - 1;
-    using Cells = CellsOf<lanes>;
     if (slot != last) {  // the last one moves into the gap
-        Cells(cells_of(slot), cells_) = Cells(cells_of(last), cells_);
+        CellsOf(cells_of(slot), cells_) = CellsOf(cells_of(last), cells_);
         silent_[static_cast<std::size_t>(slot)] = silent_[static_cast<std::size_t>(last)];
         keys_[static_cast<std::size_t>(slot)] = keys_.back();
         slots_[static_cast<std::size_t>(keys_.back())] = slot;
         note_use(slot / lanes);
     }
-    Cells(cells_of(last), cells_).setZero();
+    CellsOf(cells_of(last), cells_).setZero();
     note_use(last / lanes);
     keys_.pop_back();
 }
 
 void PrototypeStore::note_use(Index block) {
-    for (Index i = 0; i < cells_; ++i) {
-        const Index cell = block * cells_ + i;
-        used_[static_cast<std::size_t>(cell)] = (blocks_.segment<lanes>(cell * lanes) != 0.0F).any();
-    }
+    std::uint64_t* used = &used_[static_cast<std::size_t>(block * words_)];
+    std::fill_n(used, words_, 0);
+    for (Index i = 0; i < cells_; ++i)
+        if ((blocks_.segment<lanes>((block * cells_ + i) * lanes) != 0.0).any())
+            used[i / bits] |= std::uint64_t{1} << (i % bits);
 }
 
 void PrototypeStore::compare(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances) {
@@ -95,28 +126,36 @@ void PrototypeStore::compare(const Eigen::Ref<const Eigen::ArrayXd>& present, fl
         return;
     }
     present_ = present / peak;
-    for (Index first = 0; first < size(); first += lanes) {
-        const Lanes sums = distances_of(first / lanes);
-        const Index end = std::min(first + lanes, size());
-        for (Index slot = first; slot < end; ++slot)
-            distances[keys_[static_cast<std::size_t>(slot)]] =
-                silent_[static_cast<std::size_t>(slot)] ? 1.0F : static_cast<float>(sums[slot - first]);
-    }
+    std::fill(active_.begin(), active_.end(), 0);
+    for (Index i = 0; i < cells_; ++i)
+        if (present_[i] != 0) active_[static_cast<std::size_t>(i / bits)] |= std::uint64_t{1} << (i % bits);
+    const Index blocks = (size() + lanes - 1) / lanes;
+    for (Index first = 0; first < blocks; first += 2)
+        compare_blocks(first, std::min<Index>(2, blocks - first), distances);
 }
 
-PrototypeStore::Lanes PrototypeStore::distances_of(Index block) {
-    // Cells that are 0 on both sides add nothing.
-    const std::uint8_t* used = used_.data() + block * cells_;
-    std::size_t count = 0;
-    for (Index i = 0; i < cells_; ++i) {
-        worth_[count] = i;
-        count += used[i] | (present_[i] != 0);
+void PrototypeStore::compare_blocks(Index first, Index count, float* distances) {
+    const double share = 1.0F / static_cast<float>(cells_);
+    Block pair[2];
+    for (Index b = 0; b < count; ++b) {
+        Index* counted = &counted_[static_cast<std::size_t>(b * cells_)];
+        // Cells that are 0 on both sides add nothing.
+        pair[b] = {blocks_.data() + (first + b) * cells_ * lanes,
+                   counted,
+                   list_cells(&used_[static_cast<std::size_t>((first + b) * words_)], active_.data(), words_,
+                              counted),
+                   {}};
     }
-    Lanes sum = Lanes::Zero();  // of single-precision numbers
-    static_assert(lanes == 16);
-    add_sixteen(blocks_.data() + block * cells_ * lanes, worth_.data(), count, present_.data(),
-                1.0F / static_cast<float>(cells_), sum.data());
-    return sum;
+    const Index together = count == 2 ? std::min(pair[0].count, pair[1].count) : 0;
+    if (together > 0) add_two(pair, together, present_.data(), share);
+    for (Index b = 0; b < count; ++b) {
+        if (pair[b].count > together) add_one(pair[b], together, present_.data(), share);
+        const Index begin = (first + b) * lanes, end = std::min(begin + lanes, size());
+        for (Index slot = begin; slot < end; ++slot)
+            distances[keys_[static_cast<std::size_t>(slot)]] =
+                silent_[static_cast<std::size_t>(slot)] ? 1.0F
+                                                        : static_cast<float>(pair[b].sums[slot - begin]);
+    }
 }
 
 }  // namespace forage::contextual

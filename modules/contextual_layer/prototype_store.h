@@ -12,8 +12,8 @@ namespace forage::contextual {
 
 using Eigen::Index;
 
-/// Up to `keys` prototypes of N cells in single precision, each under a number below `keys`. They lie
-/// densely, in blocks of which cell i of all lies side by side, so that what is not there costs nothing.
+/// Up to `keys` prototypes of N cells, each under a number below `keys`. They lie densely, in blocks of which
+/// cell i of all lies side by side, so that what is not there costs nothing.
 class PrototypeStore {
   public:
     PrototypeStore() = default;
@@ -31,27 +31,27 @@ class PrototypeStore {
     void compare(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances);
 
     void checkpoint(Archive& archive) {
-        archive(blocks_, used_, silent_, keys_, slots_, compared_, current_, present_);
+        archive(blocks_, used_, silent_, keys_, slots_, compared_, current_, present_, active_);
     }
 
   private:
     static constexpr Index lanes = 16;  ///< prototypes per block
-    using Lanes = Eigen::Array<double, lanes, 1>;
 
-    float* cells_of(Index slot) { return blocks_.data() + slot / lanes * cells_ * lanes + slot % lanes; }
+    double* cells_of(Index slot) { return blocks_.data() + slot / lanes * cells_ * lanes + slot % lanes; }
     void note_use(Index block);
-    Lanes distances_of(Index block);
+    void compare_blocks(Index first, Index count, float* distances);
 
-    Index cells_ = 0;
-    Eigen::ArrayXf blocks_;             ///< P / max P; [block][cell][lane], unused lanes are 0
-    std::vector<std::uint8_t> used_;    ///< [block][cell]: some lane is not 0
-    std::vector<std::uint8_t> silent_;  ///< per slot: max P is 0
-    std::vector<Index> keys_;           ///< of the slots in use
-    std::vector<Index> slots_;          ///< by key
-    Eigen::ArrayXd compared_;           ///< p of the last comparison
-    bool current_ = false;              ///< the distances of the last comparison hold for compared_
-    Eigen::ArrayXd present_;            ///< p / max p
-    std::vector<Index> worth_;          ///< scratch: cells that count in a block
+    Index cells_ = 0, words_ = 0;        ///< words_: of a bit per cell
+    Eigen::ArrayXd blocks_;              ///< P / max P, of single precision; [block][cell][lane], 0 if unused
+    std::vector<std::uint64_t> used_;    ///< [block][word]: cells of which some lane is not 0
+    std::vector<std::uint8_t> silent_;   ///< per slot: max P is 0
+    std::vector<Index> keys_;            ///< of the slots in use
+    std::vector<Index> slots_;           ///< by key
+    Eigen::ArrayXd compared_;            ///< p of the last comparison
+    bool current_ = false;               ///< the distances of the last comparison hold for compared_
+    Eigen::ArrayXd present_;             ///< p / max p
+    std::vector<std::uint64_t> active_;  ///< cells of present_ that are not 0
+    std::vector<Index> counted_;         ///< scratch: cells that count, of two blocks
 };
 
 }  // namespace forage::contextual

@@ -2,33 +2,52 @@
 
 #include <algorithm>
 
+#include "core/types/simd.h"
+
 namespace forage::contextual {
+namespace {
+
+struct Rule {
+    float threshold, least, trigger_reset;
+};
+
+/// Selects among the n segments of a row; returns whether there is one to select.
+FORAGE_SIMD bool select_row(const float* collector, Index n, Rule rule, float* selected, float* trigger) {
+    int any = 0;
+    for (Index i = 0; i < n; ++i) {
+        const int chosen = (collector[i] > rule.threshold) & (collector[i] >= rule.least);
+        selected[i] = static_cast<float>(chosen);
+        any |= chosen;
+    }
+    if (!any) return false;
+    for (Index i = 0; i < n; ++i) trigger[i] = selected[i] > 0.0F ? 1.0F : trigger[i];
+    for (Index i = 0; i + 1 < n; ++i) trigger[i] = selected[i + 1] > 0.0F ? rule.trigger_reset : trigger[i];
+    return true;
+}
+
+}  // namespace
 
 void select(LongTermMemory& memory, float threshold, float share, float trigger_reset) {
     float largest = 0;
-    for (Index row = 0; row < memory.sequences(); ++row)
-        if (const Index n = memory.length(row); n > 0)
-            largest = std::max(largest, memory.collector().row(row).head(n).maxCoeff());
-    const float least = share * largest;
+    for (Index row = 0; row < memory.sequences(); ++row) largest = std::max(largest, memory.peak(row));
+    const Rule rule{threshold, share * largest, trigger_reset};
     for (Index row = 0; row < memory.sequences(); ++row) {
-        const Index n = memory.length(row);
-        if (n == 0) continue;
-        const auto c = memory.collector().row(row).head(n);
-        auto selected = memory.selected().row(row).head(n);
-        auto trigger = memory.trigger().row(row).head(n);
-        selected = (c > threshold && c >= least).cast<float>();
-        trigger = (selected > 0.0F).select(1.0F, trigger);
-        trigger.head(n - 1) = (selected.tail(n - 1) > 0.0F).select(trigger_reset, trigger.head(n - 1));
+        const bool may_speak = memory.peak(row) > rule.threshold && memory.peak(row) >= rule.least;
+        if (!may_speak && !memory.speaks(row)) continue;  // as most do in most updates
+        memory.speaks(row) = select_row(&memory.collector()(row, 0), memory.length(row), rule,
+                                        &memory.selected()(row, 0), &memory.trigger()(row, 0));
     }
 }
 
 void sum_actions(const LongTermMemory& memory, Eigen::Ref<Eigen::ArrayXf> out) {
     out.setZero();
-    for (Index row = 0; row < memory.sequences(); ++row)
+    for (Index row = 0; row < memory.sequences(); ++row) {
+        if (!memory.speaks(row)) continue;
         for (Index column = 0; column < memory.length(row); ++column)
             if (memory.selected()(row, column) > 0.0F)
                 out += memory.action(row, column) * memory.collector()(row, column) /
                        static_cast<float>(column + 1);
+    }
 }
 
 }  // namespace forage::contextual

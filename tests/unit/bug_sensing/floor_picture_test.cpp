@@ -68,6 +68,62 @@ TEST_CASE("Pictures of all kinds become red, green and blue; what is transparent
     CHECK(pixels(picture(transparent, 0)) == Colours{0xff3c3228, 0xff000000});
 }
 
+TEST_CASE("Pixels of any size, in rows of any kind; what a picture says of its own brightness is heeded") {
+    using Colours = std::vector<std::uint32_t>;
+    const auto pixels = [](const Image& image) { return Colours(image.pixels.begin(), image.pixels.end()); };
+    const std::string four_bits =  // three pixels of 4 bits; there is no colour 9 in the palette
+        "89504e470d0a1a0a0000000d4948445200000003000000010403000000e9ce098700000009504c5445010203"
+        "28323c070809d97cefee0000000b4944415478da63109a000000b700a3bdd82d8b0000000049454e44ae4260"
+        "82";
+    CHECK(pixels(picture(four_bits, 0)) == Colours{0xff3c3228, 0xff090807, 0xff000000});
+    const std::string two_bits =  // five pixels of 2 bits, grey
+        "89504e470d0a1a0a0000000d49484452000000050000000102000000007925238e0000000b4944415478da63"
+        "907600000079005c9cd030f50000000049454e44ae426082";
+    CHECK(pixels(picture(two_bits, 0)) ==
+          Colours{0xff000000, 0xff555555, 0xffaaaaaa, 0xffffffff, 0xff555555});
+    const std::string one_bit =  // nine pixels of 1 bit
+        "89504e470d0a1a0a0000000d4948445200000009000000010103000000360c163e00000009504c5445010203"
+        "28323c070809d97cefee0000000b4944415478da6358d0000001c301215632aa400000000049454e44ae4260"
+        "82";
+    CHECK(pixels(picture(one_bit, 0)) == Colours{0xff3c3228, 0xff030201, 0xff3c3228, 0xff030201, 0xff030201,
+                                                 0xff030201, 0xff030201, 0xff030201, 0xff3c3228});
+    const std::string differences =  // two rows, as differences to the one above
+        "89504e470d0a1a0a0000000d4948445200000002000000020802000000fdd49a73000000114944415478da63"
+        "62646266616563825000013b002f415415240000000049454e44ae426082";
+    CHECK(pixels(picture(differences, 0)) == Colours{0xff030201, 0xff060504, 0xff060402, 0xff0c0a08});
+    const std::string linear =  // its numbers are proportional to the light
+        "89504e470d0a1a0a0000000d49484452000000010000000108000000003a7e9b550000000467414d41000186"
+        "a031e8965f0000000a4944415478da6368000000820081da45083b0000000049454e44ae426082";
+    CHECK(pixels(picture(linear, 0)) == Colours{0xffbababa});
+    const std::string deep =  // 16 bits
+        "89504e470d0a1a0a0000000d49484452000000010000000110000000006aee47160000000b4944415478da63"
+        "6810020001150093e75a6dde0000000049454e44ae426082";
+    CHECK(pixels(picture(deep, 0)) == Colours{0xffbababa});
+    const std::string interlaced =  // interlaced
+        "89504e470d0a1a0a0000000d4948445200000001000000010802000001e77063480000000c4944415478da63"
+        "e0e4600700003600195048f9860000000049454e44ae426082";
+    CHECK(pixels(picture(interlaced, 0)) == Colours{0xff070809});
+}
+
+TEST_CASE("What is wrong with a picture is said as libpng says it") {
+    const std::string filter =  // there is no filter 7
+        "89504e470d0a1a0a0000000d49484452000000020000000108020000007b40e8dd0000000b4944415478da63"
+        "67000300003800087d0cc8030000000049454e44ae426082";
+    CHECK_THROWS_WITH(picture(filter, 0), Catch::Contains("bad adaptive filter value"));
+    const std::string checksum =  // of the pixels
+        "89504e470d0a1a0a0000000d49484452000000020000000108020000007b40e8dd0000000b4944415478da63"
+        "60000300000700012122db160000000049454e44ae426082";
+    CHECK_THROWS_WITH(picture(checksum, 0), Catch::Contains("IDAT: CRC error"));
+    const std::string palette =  // is missing
+        "89504e470d0a1a0a0000000d4948445200000002000000010803000000c3fc8fb80000000b4944415478da63"
+        "60600000000300012b094d840000000049454e44ae426082";
+    CHECK_THROWS_WITH(picture(palette, 0), Catch::Contains("IDAT: Missing PLTE before IDAT"));
+    const std::string cut =  // in the pixels
+        "89504e470d0a1a0a0000000d49484452000000090000000908020000006ff39147000000274944415478da63"
+        "6060646266616563e7e0e4e2e6e1e5e3171014121611";
+    CHECK_THROWS_WITH(picture(cut, 0), Catch::Contains("Read Error"));
+}
+
 TEST_CASE("The border of a picture repeats its outermost pixels") {
     const std::string column =
         "89504e470d0a1a0a0000000d494844520000000100000002080200000016e32170000000104944415478da63e0"

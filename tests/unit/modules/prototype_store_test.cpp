@@ -1,7 +1,9 @@
 #include "modules/contextual_layer/prototype_store.h"
 
+#include <cmath>
 #include <map>
 #include <random>
+#include <vector>
 
 #include "tests/support/catch.h"
 
@@ -57,6 +59,37 @@ TEST_CASE("Distances are the definition's to the last bit, whatever was added an
             if (distances[static_cast<std::size_t>(k)] != distance(prototype, present))
                 FAIL("step " << step << ", key " << k);
     }
+}
+
+TEST_CASE(
+    "Distances are the definition's for any number of prototypes and cells, also the smallest numbers") {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> uniform;
+    const auto drawn = [&](Index cells) {
+        const bool silent = random() % 8 == 0;
+        const auto present = random() % 4 + 1;  // of 4 cells
+        ArrayXf out = ArrayXf::Zero(cells);
+        for (auto& v : out)
+            if (!silent && random() % 4 < present)
+                v = std::ldexp(uniform(random), random() % 3 ? 0 : -static_cast<int>(random() % 150));
+        return out;
+    };
+    for (const Index cells : {1, 2, 48, 63, 64, 65, 130})
+        for (const Index count : {1, 15, 16, 17, 31, 32, 33, 100}) {
+            PrototypeStore store(count, count, cells);
+            std::vector<ArrayXf> stored;
+            std::vector<float> distances(static_cast<std::size_t>(count));
+            for (Index key = 0; key < count; ++key) store.add(key, stored.emplace_back(drawn(cells)));
+            int wrong = 0;
+            for (int i = 0; i < 8; ++i) {
+                const ArrayXd present = drawn(cells).cast<double>() * (i % 2 ? 1 : 1.1);
+                store.compare(present, distances.data());
+                for (std::size_t key = 0; key < stored.size(); ++key)
+                    wrong += distances[key] != distance(stored[key], present);
+            }
+            INFO(count << " prototypes of " << cells << " cells");
+            CHECK(wrong == 0);
+        }
 }
 
 TEST_CASE("A prototype is next to nothing from itself, at any strength, and at most 1 from any other") {

@@ -1,0 +1,124 @@
+#include "bug_interface/world/plain_png.h"
+
+#include <algorithm>
+#include <csetjmp>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include <png.h>
+
+namespace forage::bug {
+namespace {
+
+constexpr std::uint32_t opaque = 0xff000000u;
+
+std::uint32_t pixel(std::uint32_t red, std::uint32_t green, std::uint32_t blue) {
+    return opaque | blue << 16 | green << 8 | red;
+}
+
+/// What a row is made of, and what its bytes stand for.
+struct Rows {
+    int pixels_per_byte = 0;            ///< 0: three bytes per pixel
+    std::vector<std::uint32_t> colour;  ///< of the pixels of a byte, [byte][pixel]
+    std::vector<std::uint8_t> bytes;    ///< of one row, and one more
+};
+
+template <int pixels_per_byte>
+void look_up(const Rows& rows, int width, std::uint32_t* out) {
+    const std::uint8_t* byte = rows.bytes.data();
+    const std::uint32_t* colour = rows.colour.data();
+    const std::uint32_t* end = out + width;
+    for (; end - out >= pixels_per_byte; out += pixels_per_byte)
+        std::memcpy(out, colour + *byte++ * pixels_per_byte, pixels_per_byte * sizeof *out);
+    if (out < end) std::copy_n(colour + *byte * pixels_per_byte, end - out, out);
+}
+
+void expand(const Rows& rows, int width, std::uint32_t* out) {
+    switch (rows.pixels_per_byte) {
+        case 1:
+            return look_up<1>(rows, width, out);
+        case 2:
+            return look_up<2>(rows, width, out);
+        case 4:
+            return look_up<4>(rows, width, out);
+        case 8:
+            return look_up<8>(rows, width, out);
+        default:
+            break;
+    }
+    for (int i = 0; i < width; ++i) {
+        std::uint32_t four;  // the fourth is of the next pixel
+        std::memcpy(&four, &rows.bytes[3 * static_cast<std::size_t>(i)], sizeof four);
+        out[i] = four | opaque;
+    }
+}
+
+/// Colours of all bytes, of a palette or of grey; a palette's missing ones are black.
+void list_colours(png_structp png, png_infop info, Rows& rows) {
+    const int bits = png_get_bit_depth(png, info), values = 1 << bits;
+    png_colorp palette = nullptr;
+    int count = 0;
+    const bool mapped = png_get_PLTE(png, info, &palette, &count) != 0 &&
+                        png_get_color_type(png, info) == PNG_COLOR_TYPE_PALETTE;
+    rows.pixels_per_byte = 8 / bits;
+    rows.colour.clear();
+    for (int byte = 0; byte < 256; ++byte)
+        for (int shift = 8 - bits; shift >= 0; shift -= bits) {
+            const int value = byte >> shift & (values - 1);
+            const auto level = static_cast<std::uint32_t>(value * 255 / (values - 1));
+            if (!mapped)
+                rows.colour.push_back(pixel(level, level, level));
+            else if (value < count)
+                rows.colour.push_back(pixel(palette[value].red, palette[value].green, palette[value].blue));
+            else
+                rows.colour.push_back(pixel(0, 0, 0));
+        }
+}
+
+bool plain(png_structp png, png_infop info) {
+    const auto has = [&](png_uint_32 chunk) { return png_get_valid(png, info, chunk) != 0; };
+    const int type = png_get_color_type(png, info);
+    return png_get_bit_depth(png, info) <= 8 && png_get_interlace_type(png, info) == PNG_INTERLACE_NONE &&
+           (type == PNG_COLOR_TYPE_RGB || type == PNG_COLOR_TYPE_PALETTE || type == PNG_COLOR_TYPE_GRAY) &&
+           !has(PNG_INFO_tRNS) && !has(PNG_INFO_iCCP) && (!has(PNG_INFO_gAMA) || has(PNG_INFO_sRGB));
+}
+
+/// libpng leaves this function by a jump when something is wrong: nothing in it has a destructor.
+bool read_rows(png_structp png, png_infop info, std::FILE* file, Image& image, Rows& rows) {
+    if (setjmp(png_jmpbuf(png))) return false;
+    png_init_io(png, file);
+    png_read_info(png, info);
+    if (!plain(png, info)) return false;
+    image.width = static_cast<int>(png_get_image_width(png, info));
+    image.height = static_cast<int>(png_get_image_height(png, info));
+    image.pixels.resize(image.stride() * static_cast<std::size_t>(image.height + 2 * image.border));
+    rows.bytes.resize(png_get_rowbytes(png, info) + 1);
+    if (png_get_color_type(png, info) != PNG_COLOR_TYPE_RGB) list_colours(png, info, rows);
+    for (int r = 0; r < image.height; ++r) {
+        png_read_row(png, rows.bytes.data(), nullptr);
+        expand(rows, image.width, image.row(r));
+    }
+    png_read_end(png, nullptr);
+    return true;
+}
+
+}  // namespace
+
+bool read_plain_png(const std::string& path, Image& image) {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+    if (!file) return false;
+    png_structp png = png_create_read_struct(
+        PNG_LIBPNG_VER_STRING, nullptr, [](png_structp failed, png_const_charp) { png_longjmp(failed, 1); },
+        [](png_structp, png_const_charp) {});
+    if (!png) return false;
+    const auto destroy = [](png_structp p) { png_destroy_read_struct(&p, nullptr, nullptr); };
+    const std::unique_ptr<png_struct, void (*)(png_structp)> owner(png, destroy);
+    png_infop info = png_create_info_struct(png);
+    Rows rows;
+    const bool good = info && read_rows(png, info, file.get(), image, rows);
+    png_destroy_info_struct(png, &info);
+    return good;
+}
+
+}  // namespace forage::bug
