@@ -9,7 +9,9 @@ namespace {
 template <bool Exc, bool Inh>
 [[gnu::always_inline]] inline void loop(const Potential& p, const double* previous, double* vm) {
     const Potential q = p;  // lets the compiler see that no cell changes it
+#ifndef __clang__
 #pragma GCC ivdep
+#endif
     for (Index i = 0; i < q.cells; ++i) {
         double v = previous[i] * q.persistence + (Exc ? q.exc[i] *= q.exc_gain : 0.0);
         v -= Inh ? q.inh[i] *= q.inh_gain : 0.0;

@@ -313,7 +313,8 @@ class Compiler {
             for (std::size_t s = 0; s < g.states.size(); ++s) {
                 g.states[s].ring = arena.at(g.state_offsets[s]);
                 if (const double initial = g.type.states[s].initial; initial != 0)
-                    std::fill_n(g.states[s].ring, g.states[s].depth * g.stride, initial);
+                    for (std::int64_t row = 0; row < g.states[s].depth; ++row)
+                        std::fill_n(g.states[s].ring + row * g.stride, g.cells, initial);
             }
             for (std::size_t k = 0; k < g.inputs.size(); ++k)
                 for (std::size_t i = 0; i < 2; ++i) g.inputs[k][i] = arena.at(g.input_offsets[k][i]);

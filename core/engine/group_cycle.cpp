@@ -122,15 +122,19 @@ void receive(Plan& plan, GroupPlan& g, Index first, Index count) {
     }
 }
 
-/// From here on `g.row` is the row of this update. Whether there is anything to do.
-bool begin(GroupPlan& g) {
-    if (g.rests) return false;
+std::uint64_t same_for_now(const GroupPlan& g) { return g.same_input ? g.same_for + 1 : 0; }
+
+/// Whether this update looks if the group rests, which costs about as much as an update: after 1, 2, 4, 8...
+/// cycles with the same input.
+bool looks(const GroupPlan& g) {
+    return std::has_single_bit(same_for_now(g)) && state_numbers(g) <= compared_states;
+}
+
+/// From here on `g.row` is the row of this update.
+void begin(GroupPlan& g) {
     if (g.delivered) g.row ^= 1;
     g.delivered = false;
-    // Looking for rest costs about as much as an update: after 1, 2, 4, 8... cycles with the same input.
-    g.same_for = g.same_input ? g.same_for + 1 : 0;
-    g.looks = std::has_single_bit(g.same_for) && state_numbers(g) <= compared_states;
-    return true;
+    g.same_for = same_for_now(g);
 }
 
 /// Lets the type update a range of cells. Whether it was timeless.
@@ -153,15 +157,15 @@ void note_silence(GroupPlan& g, bool silent, std::uint64_t cycle) {
     if (!(was_silent && silent)) g.changed = static_cast<std::int64_t>(cycle);
 }
 
-void update_whole(GroupPlan& g, const UpdateFrame& f) {
+void update_whole(GroupPlan& g, const UpdateFrame& f, bool look) {
     double* old = f.before;
-    if (g.looks) each_row(g, [&](const double* row) { old = std::copy_n(row, g.stride, old); });
+    if (look) each_row(g, [&](const double* row) { old = std::copy_n(row, g.stride, old); });
     const bool small = g.cells <= compared_activity;
     if (small && f.cycle > 0) std::copy_n(activity_row(g, f.cycle - 1), g.cells, old);
     const bool timeless = update_cells(g, 0, g.cells, f);
     // All rows follow each other, filled up with zeros; an older one that is not finite was found before.
     if (f.watched) g.finite = all_finite(g.states.front().ring, static_cast<Index>(state_numbers(g)));
-    g.rests = g.looks && timeless && at_rest(g, f.before);
+    g.rests = look && timeless && at_rest(g, f.before);
     if (g.rests) return;
     const double* now = activity_row(g, f.cycle);
     if (!small)
@@ -188,21 +192,24 @@ std::size_t compared_numbers(const GroupPlan& g) {
 }
 
 void update(GroupPlan& g, const UpdateFrame& f) {
-    if (begin(g)) update_whole(g, f);
+    if (g.rests) return;
+    const bool look = looks(g);
+    begin(g);
+    update_whole(g, f, look);
 }
 
-void begin_update(GroupPlan& g, const UpdateFrame& f) {
-    g.in_parts = begin(g) && !g.looks;
-    if (g.looks && !g.rests) update_whole(g, f);
+void begin_update(GroupPlan& g) {
+    g.in_parts = !g.rests && !looks(g);
+    if (g.in_parts) begin(g);
 }
 
 void update_part(GroupPlan& g, int part, const UpdateFrame& f) {
     const Range cells = cells_of_part(g, part);
     const auto first = static_cast<Index>(cells.first), count = static_cast<Index>(cells.last) - first;
+    auto& found = at(g.parts, part);
+    found = {true, true};
     if (count <= 0) return;
     update_cells(g, first, count, f);
-    auto& found = at(g.parts, part);
-    found.finite = true;
     if (f.watched) each_row(g, [&](const double* row) { found.finite &= all_finite(row + first, count); });
     found.silent = all_zero(activity_row(g, f.cycle) + first, count);
 }
@@ -283,6 +290,13 @@ void deliver_to(Plan& plan, GroupPlan& g, std::uint64_t cycle) {
         auto& c = at(plan.connections, i);
         deliver_through(plan, g, c, cycle);
         c.changed = false;
+    }
+}
+
+void estimate_deliveries(Plan& plan) {
+    for (auto& g : plan.groups) {
+        g.delivery_cost = 0;
+        for (const int i : g.incoming) g.delivery_cost += at(plan.connections, i).kernel->cost();
     }
 }
 

@@ -32,8 +32,8 @@ struct UpdateFrame {
 void update(GroupPlan& group, const UpdateFrame& frame);
 
 /// The same in parts: begin_update(); when `in_parts` is set after it, update_part() for each of
-/// `group.parts`, by several threads at once; end_update().
-void begin_update(GroupPlan& group, const UpdateFrame& frame);
+/// `group.parts`, by several threads at once, and end_update(); otherwise update().
+void begin_update(GroupPlan& group);
 void update_part(GroupPlan& group, int part, const UpdateFrame& frame);
 void end_update(GroupPlan& group, const UpdateFrame& frame);
 
@@ -60,6 +60,9 @@ void prepare_part(Plan& plan, GroupPlan& group, int part, std::uint64_t cycle);
 bool divides(const GroupPlan& group, const ConnectionPlan& connection);
 void add_part(Plan& plan, GroupPlan& group, ConnectionPlan& connection, int part, std::uint64_t cycle);
 void deliver_through(Plan& plan, GroupPlan& group, ConnectionPlan& connection, std::uint64_t cycle);
+
+/// Sets `delivery_cost` of all groups.
+void estimate_deliveries(Plan& plan);
 
 /// About how long the phases of the next cycle take on one thread, ns.
 double update_cost(const Plan& plan);

@@ -25,7 +25,6 @@ struct GroupPlan {
     bool same_input = false;              ///< ... which is what the last update read
     bool silent = false;                  ///< the activity is 0; noticed for large groups only
     bool finite = true;                   ///< no update that was watched gave a state NaN or an infinity
-    bool looks = false;                   ///< this update looks whether the group rests
     bool in_parts = false;                ///< this update is done in parts
     bool receives = false;                ///< this cycle's delivery is not what the group has already
     bool left_out = false;                ///< nobody reads it
@@ -47,7 +46,7 @@ struct GroupPlan {
     struct Part {
         bool finite = true, silent = false;
     };
-    std::vector<Part> parts;  ///< of an update that divides
+    std::vector<Part> parts;  ///< of a group that divides
     int history = 0;          ///< longest delay of outgoing connections; 0: no ring of past activity is kept
     double* history_ring = nullptr;  ///< row t % (history + 1) is the activity of cycle t
     RandomStream random;

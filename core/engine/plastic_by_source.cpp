@@ -103,7 +103,7 @@ void PlasticBySource::place(Arena& arena, std::vector<Ring> feedback) {
     feedback_ = std::move(feedback);
     for (std::size_t i = 0; i < state_offsets_.size(); ++i) {
         states_.push_back(arena.at(state_offsets_[i]));
-        if (initial_[i] != 0) std::fill_n(states_[i], first_.back(), initial_[i]);
+        if (initial_[i] != 0) std::fill_n(states_[i], kept(i) ? first_.back() : largest_source_, initial_[i]);
     }
     for (std::size_t f = 0; f < feedback_.size(); ++f) {
         cells_.push_back(arena.at(cell_offsets_[f]));
@@ -138,6 +138,7 @@ bool PlasticBySource::read_feedback(std::uint64_t cycle) {
 /// The sources whose synapses are updated, by frame; outputs of others become 0.
 void PlasticBySource::find_active(const double* source, bool may_rest) {
     std::size_t count = 0;
+    double odd = 0;  // x - x is not 0 when x is not finite
     std::size_t* const active = active_.data();
     const int* const cell = cell_.data();
     for (std::size_t n = 0; n < cell_.size(); ++n) {
@@ -145,10 +146,12 @@ void PlasticBySource::find_active(const double* source, bool may_rest) {
         if (keeps_outputs_ && activity == 0 && activity_[n] != 0)
             std::fill(states_[output_] + first_[n], states_[output_] + first_[n + 1], 0.0);
         activity_[n] = activity;
+        odd += activity - activity;
         active[count] = n;
         count += activity != 0 || !may_rest;
     }
     active_count_ = count;
+    if (odd != 0) *diverged_ = 1;  // what the synapses learn from it stays when their source falls silent
 }
 
 void PlasticBySource::update(const History& source, double* sums) {

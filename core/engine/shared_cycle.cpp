@@ -1,16 +1,17 @@
 #include "core/engine/shared_cycle.h"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "core/engine/group_cycle.h"
 
 namespace forage::engine {
 namespace {
 
-template <class T>
-auto& at(std::vector<T>& all, int index) {
-    return all[static_cast<std::size_t>(index)];
-}
+constexpr int no_group = std::numeric_limits<int>::max();
+
+auto& at(auto& all, int index) { return all[static_cast<std::size_t>(index)]; }
 
 /// About, ns.
 double cost(const GroupPlan& g) { return static_cast<double>(g.cells) + g.delivery_cost; }
@@ -18,36 +19,43 @@ double cost(const GroupPlan& g) { return static_cast<double>(g.cells) + g.delive
 }  // namespace
 
 SharedCycle::SharedCycle(Plan& plan, int threads, double least)
-    : plan_(plan), pool_(threads), parts_(2 * pool_.threads()) {
-    divide(least);
+    : plan_(plan),
+      pool_(threads),
+      parts_(2 * pool_.threads()),
+      least_(least),
+      failures_(static_cast<std::size_t>(pool_.threads()), {no_group, nullptr}) {
     share_out();
 }
 
-void SharedCycle::divide(double least) {
+void SharedCycle::divide() {
     for (auto& g : plan_.groups) {
-        const auto worth = [&](double cost) { return cost >= parts_ * least; };
+        const auto worth = [&](double cost) { return cost >= parts_ * least_; };
         const auto cells = static_cast<std::size_t>(g.cells);
         g.update_divides =
             g.type.cells_independent && cells > 2 * RandomStream::grain && worth(static_cast<double>(cells));
         g.delivery_divides = worth(g.delivery_cost) &&
                              std::any_of(g.incoming.begin(), g.incoming.end(),
                                          [&](int i) { return at(plan_.connections, i).kernel->divides(); });
-        if (g.update_divides || g.delivery_divides) g.parts.resize(static_cast<std::size_t>(parts_));
+        g.parts.resize(g.update_divides || g.delivery_divides ? static_cast<std::size_t>(parts_) : 0);
     }
 }
 
 /// Whole groups in order, about the same cost for each thread; parts evenly.
 void SharedCycle::share_out() {
+    divide();
     double whole = 0, before = 0;
     for (const int i : plan_.updated)
         if (const auto& g = at(plan_.groups, i); g.parts.empty()) whole += cost(g);
-    std::vector<int> thread_of;
-    for (const int i : plan_.updated) {
+    std::vector<int> owner;  // of a whole group: its thread; of another one: the part that does what is whole
+    for (int divided = 0; const int i : plan_.updated) {
         const auto& g = at(plan_.groups, i);
-        const double middle = g.parts.empty() ? before + cost(g) / 2 : 0;
-        if (g.parts.empty()) before += cost(g);
-        const double share = whole > 0 ? middle / whole : 0;
-        thread_of.push_back(std::min(static_cast<int>(share * threads()), threads() - 1));
+        if (!g.parts.empty()) {
+            owner.push_back(divided++ * 2 % parts_);  // in turns, another thread's
+            continue;
+        }
+        const double share = whole > 0 ? (before + cost(g) / 2) / whole : 0;
+        before += cost(g);
+        owner.push_back(std::min(static_cast<int>(share * threads()), threads() - 1));
     }
     items_.clear();
     shares_ = {0};
@@ -56,11 +64,42 @@ void SharedCycle::share_out() {
             const int g = plan_.updated[n];
             const int parts = static_cast<int>(at(plan_.groups, g).parts.size());
             for (int p = parts * t / threads(); p < parts * (t + 1) / threads(); ++p)
-                items_.push_back({g, p});
-            if (parts == 0 && thread_of[n] == t) items_.push_back({g, 0});
+                items_.push_back({g, p, p == owner[n]});
+            if (parts == 0 && owner[n] == t) items_.push_back({g, 0, true});
         }
         shares_.push_back(static_cast<int>(items_.size()));
     }
+}
+
+template <class Work>
+void SharedCycle::guard(int group, int thread, Work work) {
+    try {
+        work();
+    } catch (...) {
+        auto& failure = at(failures_, thread);
+        if (group < failure.group) failure = {group, std::current_exception()};
+    }
+}
+
+template <class Work>
+void SharedCycle::for_items(Work work) {
+    auto guarded = [&](int i, int thread) {
+        const Item& item = at(items_, i);
+        guard(item.group, thread, [&] { work(at(plan_.groups, item.group), item, thread); });
+    };
+    pool_.run(shares_, guarded);
+}
+
+const SharedCycle::Failure& SharedCycle::first_failure() const {
+    return *std::min_element(failures_.begin(), failures_.end(),
+                             [](const Failure& a, const Failure& b) { return a.group < b.group; });
+}
+
+void SharedCycle::throw_failure() {
+    if (first_failure().group == no_group) return;
+    const auto reason = first_failure().reason;
+    std::fill(failures_.begin(), failures_.end(), Failure{no_group, nullptr});
+    std::rethrow_exception(reason);
 }
 
 void SharedCycle::update_groups(std::uint64_t cycle) {
@@ -69,16 +108,14 @@ void SharedCycle::update_groups(std::uint64_t cycle) {
                            plan_.watched};
     };
     for (const int i : plan_.updated)
-        if (auto& g = at(plan_.groups, i); g.update_divides) begin_update(g, frame(0));
-    auto work = [&](int item, int thread) {
-        const auto [group, part] = at(items_, item);
-        auto& g = at(plan_.groups, group);
-        if (!g.update_divides && part == 0)
+        if (auto& g = at(plan_.groups, i); g.update_divides) begin_update(g);
+    for_items([&](GroupPlan& g, const Item& item, int thread) {
+        if (g.update_divides && g.in_parts)
+            update_part(g, item.part, frame(thread));
+        else if (item.whole)
             update(g, frame(thread));
-        else if (g.update_divides && g.in_parts)
-            update_part(g, part, frame(thread));
-    };
-    pool_.run(shares_, work);
+    });
+    throw_failure();
     for (const int i : plan_.updated)
         if (auto& g = at(plan_.groups, i); g.update_divides) end_update(g, frame(0));
 }
@@ -86,28 +123,29 @@ void SharedCycle::update_groups(std::uint64_t cycle) {
 void SharedCycle::deliver(std::uint64_t cycle) {
     for (const int i : plan_.updated)
         if (auto& g = at(plan_.groups, i); g.delivery_divides) begin_delivery(plan_, g, cycle);
-    auto work = [&](int item, int) {
-        const auto [group, part] = at(items_, item);
-        auto& g = at(plan_.groups, group);
-        if (!g.delivery_divides && part == 0)
+    for_items([&](GroupPlan& g, const Item& item, int) {
+        if (g.delivery_divides && g.receives)
+            prepare_part(plan_, g, item.part, cycle);
+        else if (!g.delivery_divides && item.whole)
             deliver_to(plan_, g, cycle);
-        else if (g.delivery_divides && g.receives)
-            prepare_part(plan_, g, part, cycle);
-    };
-    pool_.run(shares_, work);
+    });
     for (const int i : plan_.updated) {
         auto& g = at(plan_.groups, i);
         if (!g.delivery_divides) continue;
-        for (const int connection : g.incoming) {
-            auto& c = at(plan_.connections, connection);
-            auto add = [&](int part, int) { add_part(plan_, g, c, part, cycle); };
-            if (divides(g, c))
-                pool_.run(parts_, add);
-            else
-                deliver_through(plan_, g, c, cycle);
-            c.changed = false;
-        }
+        if (first_failure().group <= i) break;
+        guard(i, 0, [&] {
+            for (const int connection : g.incoming) {
+                auto& c = at(plan_.connections, connection);
+                auto add = [&](int part, int) { add_part(plan_, g, c, part, cycle); };
+                if (divides(g, c))
+                    pool_.run(parts_, add);
+                else
+                    deliver_through(plan_, g, c, cycle);
+                c.changed = false;
+            }
+        });
     }
+    throw_failure();
 }
 
 }  // namespace forage::engine

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <vector>
 
 #include "core/engine/plan.h"
@@ -15,28 +16,44 @@ namespace forage::engine {
 /// loop it finds in its own cache in the next. The numbers are those of update() and deliver_to().
 class SharedCycle {
   public:
-    /// Notes in the groups how they are divided: no part takes less than about `least` ns on one thread.
-    /// Throws std::system_error when the threads cannot be started.
+    /// No part of a group takes less than about `least` ns on one thread. Throws std::system_error when the
+    /// threads cannot be started.
     SharedCycle(Plan& plan, int threads, double least);
 
-    /// Gives the groups that are updated to the threads: to be called again when some were left out.
+    /// Divides groups and gives them to the threads: to be called again when some were left out.
     void share_out();
 
     int threads() const { return pool_.threads(); }
+    // Where several groups fail, the exception of the first one comes out, as with one thread.
     void update_groups(std::uint64_t cycle);
     void deliver(std::uint64_t cycle);
 
   private:
     struct Item {
         int group, part;
+        bool whole;  ///< who has this part does what is not divided
+    };
+    struct Failure {
+        int group;
+        std::exception_ptr reason;
     };
 
-    void divide(double least);
+    void divide();
+    /// Calls work(group, item, thread) for all items, and notes who fails.
+    template <class Work>
+    void for_items(Work work);
+    /// Calls work(), and notes when it fails.
+    template <class Work>
+    void guard(int group, int thread, Work work);
+    const Failure& first_failure() const;
+    void throw_failure();
 
     Plan& plan_;
     ThreadPool pool_;
     int parts_;
-    std::vector<Item> items_;  ///< whole groups are part 0
+    double least_;
+    std::vector<Failure> failures_;  ///< of each thread, of its first group that failed
+    std::vector<Item> items_;
     std::vector<int> shares_;  ///< see ThreadPool
 };
 

@@ -64,8 +64,8 @@ Simulation::Simulation(std::unique_ptr<Plan> plan, const Options& options)
     for (auto& g : plan_->groups) {
         widest = std::max(widest, static_cast<std::size_t>(g.stride));
         most_compared = std::max(most_compared, compared_numbers(g));
-        for (const int i : g.incoming) g.delivery_cost += at(plan_->connections, i).kernel->cost();
     }
+    estimate_deliveries(*plan_);
     if (options.threads > 1 && update_cost(*plan_) + delivery_cost(*plan_) >= worth_sharing_)
         shared_cycle_ = std::make_unique<SharedCycle>(*plan_, options.threads, worth_sharing_ / 16);
     for (int t = 0; t < threads(); ++t)  // not touched, and so not in memory, until a type draws numbers

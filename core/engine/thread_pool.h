@@ -25,10 +25,10 @@ class ThreadPool {
 
     /// Calls work(item, thread) for each item from 0 to `items` - 1, on any thread (0: the caller's), and
     /// waits for all. Allocates nothing. When several items throw, the exception of the lowest one is thrown
-    /// again. Unless it is `worth` to share the loop, the caller does all.
+    /// again.
     template <class Work>
-    void run(int items, Work& work, bool worth = true) {
-        if (workers_.empty() || items < 2 || !worth) {
+    void run(int items, Work& work) {
+        if (workers_.empty() || items < 2) {
             for (int i = 0; i < items; ++i) work(i, 0);
             return;
         }

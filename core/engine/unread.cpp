@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/engine/group_cycle.h"
 #include "core/engine/plan.h"
 #include "core/engine/shared_cycle.h"
 #include "core/engine/simulation.h"
@@ -51,6 +52,8 @@ class Readers {
 
 void Simulation::leave_out_unread(const Observed& observed) {
     if (started_) throw std::logic_error("groups are left out before the start, or not at all");
+    if (plan_->updated.size() != plan_->groups.size())
+        throw std::logic_error("groups are left out once, for all who observe");
     Readers readers(*plan_);
     for (const int g : observed.groups) readers.want_group(g);
     for (const int c : observed.connections) readers.want_connection(c);
@@ -72,6 +75,7 @@ void Simulation::leave_out_unread(const Observed& observed) {
         if (!c.left_out && !c.plastic) history = std::max(history, c.longest_delay);
     }
     std::erase_if(plan_->updated, [&](int g) { return left_out(g); });
+    estimate_deliveries(*plan_);
     if (shared_cycle_) shared_cycle_->share_out();
     for (auto& m : plan_->modules)
         for (std::size_t port = 0; port < m.read.size(); ++port)

@@ -25,7 +25,9 @@ class HugePages {
         if (size < large) return static_cast<T*>(::operator new(size, line));
         void* memory = std::aligned_alloc(page, whole);
         if (!memory) throw std::bad_alloc();
+#ifdef MADV_HUGEPAGE
         madvise(memory, whole, MADV_HUGEPAGE);
+#endif
         return static_cast<T*>(memory);
     }
     void deallocate(T* memory, std::size_t count) {

@@ -179,8 +179,8 @@ class NeuronSpec {
         return ((type_.reads[static_cast<std::size_t>(kinds)] = true), ..., *this);
     }
     /// Promises that what update() makes of a cell depends on this cell's inputs, states and random numbers
-    /// only, not on other cells and not on their number. Then several threads may update parts of a large
-    /// group at the same time.
+    /// only, not on other cells and not on their number, and that update() changes nothing but its columns.
+    /// Then several threads may update parts of a large group at the same time, with one object.
     NeuronSpec& cells_independent() { return type_.cells_independent = true, *this; }
     template <class M>
     ParameterBuilder param(std::string name, M T::*member) {

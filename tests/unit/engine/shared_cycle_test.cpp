@@ -1,4 +1,5 @@
 // Cycles that threads share, with groups so large that they are divided.
+#include <atomic>
 #include <bit>
 #include <cmath>
 
@@ -30,6 +31,25 @@ struct Total {
         double sum = 0;
         for (const double v : act) sum += v;
         act[0] = sum;
+    }
+};
+
+std::atomic<Index> smallest_part;  ///< that a Failing<true> was asked to update
+
+/// Throws in cycle 3.
+template <bool in_parts>
+struct Failing {
+    static void describe(NeuronSpec<Failing>& s) {
+        s.name(in_parts ? "failing in parts" : "failing", "Failing").output("act", "Activity");
+        if (in_parts) s.cells_independent();
+    }
+    void update(NeuronColumns& c) const {
+        if (in_parts)
+            for (Index seen = smallest_part;
+                 c.size() < seen && !smallest_part.compare_exchange_weak(seen, c.size());) {
+            }
+        if (c.cycle() == 3) throw std::runtime_error("out of luck");
+        c.state(0) += 1;
     }
 };
 
@@ -136,21 +156,26 @@ TEST_CASE("What is not finite is found in every part of a divided group") {
     CHECK(two.not_finite()->cycle == 3);
 }
 
-TEST_CASE("An exception in a part of a divided group names the type, the group and the cycle") {
-    struct Failing {
-        static void describe(NeuronSpec<Failing>& s) {
-            s.name("failing", "Failing").cells_independent().output("act", "Activity");
-        }
-        void update(NeuronColumns& c) const {
-            if (c.cycle() == 3) throw std::runtime_error("out of luck");
-            c.state(0) += 1;
-        }
-    };
+TEST_CASE("When several groups fail, whole ones and parts, the first one is told") {
     model::System s;
-    model::add_group(s, model::add_process(s, "Brain"), "Weak", 30, 30, "failing");
+    const auto p = model::add_process(s, "Brain");
+    const int threads = GENERATE(1, 2, 3);
+    const bool small_first = GENERATE(false, true);
+    model::add_group(s, p, "Fine", 1, 1, "one");
+    const auto small = [&] { model::add_group(s, p, "Small", 3, 3, "failing"); };
+    const auto large = [&] { model::add_group(s, p, "Large", 30, 30, "failing in parts"); };
+    if (small_first)
+        small(), large();
+    else
+        large(), small();
     Registry registry = types();
-    registry.add(neuron_type<Failing>());
-    auto two = run(s, registry, {.threads = 2, .worth_sharing = 0});
-    for (int t = 0; t < 3; ++t) two.step();
-    CHECK_THROWS_WITH(two.step(), "failing of group 'Brain/Weak' failed in cycle 3: out of luck");
+    registry.add(neuron_type<Failing<false>>());
+    registry.add(neuron_type<Failing<true>>());
+    auto simulation = run(s, registry, {.threads = threads, .worth_sharing = 0});
+    smallest_part = 30 * 30;
+    for (int t = 0; t < 3; ++t) simulation.step();
+    CHECK((smallest_part < 30 * 30) == (threads > 1));  // it was divided
+    CHECK_THROWS_WITH(simulation.step(),
+                      small_first ? "failing of group 'Brain/Small' failed in cycle 3: out of luck"
+                                  : "failing in parts of group 'Brain/Large' failed in cycle 3: out of luck");
 }

@@ -24,6 +24,22 @@ TEST_CASE("Every item is done once, whatever the number of threads") {
     }
 }
 
+TEST_CASE("Shares of items, of any size, are all done, whoever takes them") {
+    ThreadPool pool(GENERATE(1, 2, 4));
+    std::vector<int> shares{0};
+    for (int t = 0; t < pool.threads(); ++t) shares.push_back(shares.back() + (t == 1 ? 0 : 7 * t + 1));
+    std::vector<std::atomic<int>> done(static_cast<std::size_t>(shares.back()));
+    auto work = [&](int item, int) { ++done[static_cast<std::size_t>(item)]; };
+    for (int round = 0; round < 50; ++round) pool.run(shares, work);
+    for (const auto& n : done) REQUIRE(n == 50);
+    auto failing = [&](int item, int) {
+        if (item >= shares.back() - 1) throw std::runtime_error("the last");
+    };
+    CHECK_THROWS_WITH(pool.run(shares, failing), "the last");
+    pool.run(shares, work);
+    for (const auto& n : done) REQUIRE(n == 51);
+}
+
 TEST_CASE("The exception of the lowest item that fails comes out, and the pool goes on") {
     ThreadPool pool(GENERATE(1, 4));
     auto work = [](int item, int) {

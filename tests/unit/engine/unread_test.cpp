@@ -93,6 +93,13 @@ TEST_CASE("A group is read when it is observed, or leads to one that is, by way 
     CHECK(observing({"E", "G"}) == "B C D F");
 }
 
+TEST_CASE("What is left out stays out: there is no second choice") {
+    const Chain chain;
+    auto s = build(chain.system, chain.types);
+    s.leave_out_unread({{group(s, "P/A")}, {}, {}});
+    CHECK_THROWS_AS(s.leave_out_unread({{group(s, "P/B")}, {}, {}}), std::logic_error);
+}
+
 TEST_CASE("Groups that read each other, and that nobody else reads, are left out together") {
     Chain chain;
     connect(chain.system, chain.c, chain.b, InputKind::inhibitory, "synapseFixedWeight", "5");
