@@ -26,12 +26,13 @@ struct Rows {
 
 template <int pixels_per_byte>
 void look_up(const Rows& rows, int width, std::uint32_t* out) {
-    const std::uint8_t* byte = rows.bytes.data();
+    const std::uint8_t* bytes = rows.bytes.data();
     const std::uint32_t* colour = rows.colour.data();
-    const std::uint32_t* end = out + width;
-    for (; end - out >= pixels_per_byte; out += pixels_per_byte)
-        std::memcpy(out, colour + *byte++ * pixels_per_byte, pixels_per_byte * sizeof *out);
-    if (out < end) std::copy_n(colour + *byte * pixels_per_byte, end - out, out);
+    const int whole = width / pixels_per_byte, rest = width % pixels_per_byte;
+    for (int i = 0; i < whole; ++i)
+        std::memcpy(out + i * pixels_per_byte, colour + bytes[i] * pixels_per_byte,
+                    pixels_per_byte * sizeof *out);
+    if (rest > 0) std::copy_n(colour + bytes[whole] * pixels_per_byte, rest, out + whole * pixels_per_byte);
 }
 
 void expand(const Rows& rows, int width, std::uint32_t* out) {
@@ -47,9 +48,10 @@ void expand(const Rows& rows, int width, std::uint32_t* out) {
         default:
             break;
     }
-    for (int i = 0; i < width; ++i) {
+    const std::uint8_t* bytes = rows.bytes.data();
+    for (int i = 0; i < width; ++i, bytes += 3) {
         std::uint32_t four;  // the fourth is of the next pixel
-        std::memcpy(&four, &rows.bytes[3 * static_cast<std::size_t>(i)], sizeof four);
+        std::memcpy(&four, bytes, sizeof four);
         out[i] = four | opaque;
     }
 }
