@@ -50,7 +50,7 @@ void SharedCycle::share_out() {
     for (int divided = 0; const int i : plan_.updated) {
         const auto& g = at(plan_.groups, i);
         if (!g.parts.empty()) {
-            owner.push_back(divided++ * parts_ / threads() % parts_);  // in turns, another thread's
+            owner.push_back(divided++ * 2 % parts_);  // in turns, another thread's
             continue;
         }
         const double share = whole > 0 ? (before + cost(g) / 2) / whole : 0;
