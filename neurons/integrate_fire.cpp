@@ -33,7 +33,7 @@ void IntegrateFire::check(Problems& problems) const {
 
 void IntegrateFire::update(NeuronColumns& c) const {
     auto [vm, act] = c.states<2>();
-    membrane::integrate(membrane::potential(*this, c), vm.data(), vm.data());
+    membrane::integrate(membrane::potential(*this, c), 0, c.size(), vm.data(), vm.data());
     act = (vm >= threshold).select(Eigen::ArrayXd::Ones(c.size()), 0.0);  // NaN is silent
     if (const double* mask = membrane::mask(c, probability)) act *= ConstColumn(mask, c.size());
     if (amplitude != 0) vm -= reset * act / amplitude;

@@ -32,12 +32,12 @@ FORAGE_SIMD void activate(const double* vm, const double* mask, double threshold
 void LinearThreshold::update(NeuronColumns& c) const {
     auto [vm, act] = c.states<2>();
     const double* mask = membrane::mask(c, probability);
-    const auto whole = membrane::potential(*this, c);
+    const auto potential = membrane::potential(*this, c);
     constexpr Index block =
         1024;  // cells; what the first loop writes is still near when the second one reads it
-    for (Index i = 0; i < c.size(); i += block) {
-        const Index cells = std::min(block, c.size() - i);
-        membrane::integrate(whole.part(i, cells), vm.data() + i, vm.data() + i);
+    for (Index i = 0, end = c.size(); i < end; i += block) {
+        const Index cells = std::min(block, end - i);
+        membrane::integrate(potential, i, cells, vm.data(), vm.data());
         activate(vm.data() + i, mask ? mask + i : nullptr, threshold, cells, act.data() + i);
     }
 }

@@ -57,17 +57,7 @@ void check_bounds(const T& p, Problems& problems) {
 struct Potential {
     double exc_gain, inh_gain, persistence;
     double minimum, maximum;  ///< infinite: not clipped
-    double *exc, *inh;        ///< null: silent
-    Index cells;
-
-    /// Of the cells from `first` on.
-    Potential part(Index first, Index count) const {
-        Potential out = *this;
-        if (exc) out.exc += first;
-        if (inh) out.inh += first;
-        out.cells = count;
-        return out;
-    }
+    double *exc, *inh;        ///< of all cells; null: silent
 };
 
 template <class T>
@@ -79,13 +69,13 @@ Potential potential(const T& p, const NeuronColumns& c) {
             p.clip ? p.minimum : -infinity,
             p.clip ? p.maximum : infinity,
             c.silent(InputKind::excitatory) ? nullptr : c.excitation().data(),
-            c.silent(InputKind::inhibitory) ? nullptr : c.inhibition().data(),
-            c.size()};
+            c.silent(InputKind::inhibitory) ? nullptr : c.inhibition().data()};
 }
 
-/// vm = ((vm * vmPrs) + exc * excGain) - inh * inhGain, then clipped from below and from above if asked;
-/// `previous` is the potential that persists. NaN passes. Leaves the inputs with the gains applied.
-void integrate(const Potential& p, const double* previous, double* vm);
+/// vm = ((vm * vmPrs) + exc * excGain) - inh * inhGain, then clipped from below and from above if asked, for
+/// `cells` cells from `first` on; `previous` is the potential that persists. The columns are those of all
+/// cells. NaN passes. Leaves the inputs with the gains applied.
+void integrate(const Potential& p, Index first, Index cells, const double* previous, double* vm);
 
 /// The chance of a cell to be active, from the parameter: the original compares u * 0.99999999 with 1 -
 /// probability.

@@ -18,7 +18,7 @@ void Sigmoid::check(Problems& problems) const { membrane::check_bounds(*this, pr
 
 void Sigmoid::update(NeuronColumns& c) const {
     auto [vm, act] = c.states<2>();
-    membrane::integrate(membrane::potential(*this, c), c.past(0, 1).data(), vm.data());
+    membrane::integrate(membrane::potential(*this, c), 0, c.size(), c.past(0, 1).data(), vm.data());
     act = 0.5 * (1 + (2 * slope * (vm - midpoint)).unaryExpr([](double x) { return std::tanh(x); }));
 }
 

@@ -176,16 +176,6 @@ void update_whole(GroupPlan& g, const UpdateFrame& f, bool look) {
 
 }  // namespace
 
-double* state_row(const GroupPlan& g, std::size_t state, std::uint64_t cycle) {
-    const auto& s = g.states[state];
-    if (s.depth == 1) return s.ring;  // saves a division for every connection
-    return s.ring + static_cast<Index>(cycle % static_cast<std::uint64_t>(s.depth)) * g.stride;
-}
-
-double* activity_row(const GroupPlan& g, std::uint64_t cycle) {
-    return state_row(g, static_cast<std::size_t>(g.output), cycle);
-}
-
 std::size_t compared_numbers(const GroupPlan& g) {
     const std::size_t numbers = state_numbers(g);
     return (numbers <= compared_states ? numbers : 0) + static_cast<std::size_t>(g.stride);

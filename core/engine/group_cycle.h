@@ -17,9 +17,16 @@
 namespace forage::engine {
 
 /// A group's state in `cycle`.
-double* state_row(const GroupPlan& group, std::size_t state, std::uint64_t cycle);
+inline double* state_row(const GroupPlan& g, std::size_t state, std::uint64_t cycle) {
+    const auto& s = g.states[state];
+    if (s.depth == 1) return s.ring;  // saves a division for every connection
+    return s.ring + static_cast<Index>(cycle % static_cast<std::uint64_t>(s.depth)) * g.stride;
+}
+
 /// A group's activity in `cycle`.
-double* activity_row(const GroupPlan& group, std::uint64_t cycle);
+inline double* activity_row(const GroupPlan& g, std::uint64_t cycle) {
+    return state_row(g, static_cast<std::size_t>(g.output), cycle);
+}
 
 /// What an update works with besides the group.
 struct UpdateFrame {

@@ -106,6 +106,11 @@ bool Simulation::begin_sharing() {
     return trial_.begin([&] { return update_cost(*plan_) + delivery_cost(*plan_) >= worth_sharing_; });
 }
 
+void Simulation::update_alone() {
+    const UpdateFrame frame{cycle_, plan_->scratch[0].get(), plan_->before[0].data(), plan_->watched};
+    for (const int i : plan_->updated) update(at(plan_->groups, i), frame);
+}
+
 void Simulation::update_groups() {
     if (!started_) throw RunError("the simulation is not started");
     shown_ = cycle_;
@@ -113,9 +118,7 @@ void Simulation::update_groups() {
     if (shared_)
         shared_cycle_->update_groups(cycle_);
     else
-        for (const int i : plan_->updated)
-            update(at(plan_->groups, i),
-                   {cycle_, plan_->scratch[0].get(), plan_->before[0].data(), plan_->watched});
+        update_alone();
     if (!plan_->watched) return;
     for (const int i : plan_->updated)
         if (!at(plan_->groups, i).finite) {

@@ -157,6 +157,7 @@ class Simulation {
 
     std::unique_ptr<Plan> plan_;
     bool begin_sharing();
+    void update_alone();
 
     double worth_sharing_;
     SharingTrial trial_;

@@ -127,6 +127,7 @@ class NeuronColumns {
         if (index >= states_.size()) detail::not_declared("state", i, states_.size());
         const State& s = states_[index];
         if (ago < 0 || ago > s.depth) detail::not_kept(i, ago, s.depth);
+        if (s.depth == 1) return s.ring + first_;  // two divisions less, of every small group's update
         const auto now = static_cast<std::int64_t>(cycle_ % static_cast<std::uint64_t>(s.depth));
         return s.ring + ((now - ago + s.depth) % s.depth) * stride_ + first_;
     }
