@@ -9,46 +9,62 @@
 namespace forage::engine {
 
 /// Work that threads can share is faster for it when it takes long and a processor is free, which nobody can
-/// tell beforehand. So it is done both ways for a while, and then in the faster one until the next trial. The
-/// numbers are the same either way.
+/// tell beforehand, and which changes. So it is done both ways for a while, and then in the faster one until
+/// the next trial, which comes at once when sharing has become slower than it was without. The numbers are
+/// the same either way.
+template <class Clock = std::chrono::steady_clock>
 class SharingTrial {
   public:
     /// Begins a run; whether to share it. `worth()` is asked before a trial: without it there is none.
     template <class Worth>
     bool begin(Worth worth) {
+        if (count_ == 0 && !worth()) settle(false);
         running_ = true;
-        if (count_ == 0 && !worth()) count_ = 2 * each, pays_ = false;
-        if (count_ >= 2 * each) return pays_;
-        start_ = Clock::now();
-        return shared();
+        shared_ = count_ < each ? false : count_ < 2 * each || pays_;
+        timed_ = shared_ || count_ < each;
+        if (timed_) start_ = Clock::now();
+        return shared_;
     }
     /// Ends the run, if one was begun.
     void end() {
         if (!std::exchange(running_, false)) return;
-        if (count_ < 2 * each) {
-            seconds_[shared()][static_cast<std::size_t>(count_ % each)] =
-                std::chrono::duration<double>(Clock::now() - start_).count();
-            if (count_ == 2 * each - 1) pays_ = median(seconds_[true]) < clearly * median(seconds_[false]);
-        }
-        if (++count_ == period) count_ = 0;
+        if (timed_) note(std::chrono::duration<double>(Clock::now() - start_).count());
+        if (++count_ >= period) count_ = 0;
     }
 
   private:
-    using Clock = std::chrono::steady_clock;
     static constexpr int each = 16, period = 4096;  // runs
     static constexpr double clearly = 0.93;  // what is gained by less may be chance, and takes a processor
+    static constexpr double enough = 2;      // so much longer than without: then the trial is over
     using Times = std::array<double, each>;
 
-    bool shared() const { return count_ < each; }  ///< in a trial
-    static double median(Times times) {            // the first runs wake threads up, some are interrupted
+    void settle(bool pays) {
+        pays_ = pays;
+        count_ = 2 * each;
+    }
+    void note(double seconds) {
+        const int i = count_ % each;
+        (shared_ ? with_ : without_)[static_cast<std::size_t>(i)] = seconds;
+        if (!shared_) return;
+        spent_ = i == 0 ? seconds : spent_ + seconds;
+        const bool trying = count_ < 2 * each, whole = i == each - 1;
+        if (trying && spent_ > enough * each * median(without_))
+            settle(false);
+        else if (whole && trying)
+            pays_ = median(with_) < clearly * median(without_);
+        else if (whole && median(with_) > median(without_))
+            count_ = period;
+    }
+    static double median(Times times) {  // the first runs wake threads up, some are interrupted
         std::nth_element(times.begin(), times.begin() + each / 2, times.end());
         return times[each / 2];
     }
 
-    int count_ = 0;
-    bool running_ = false, pays_ = true;
-    std::array<Times, 2> seconds_{};
-    Clock::time_point start_;
+    int count_ = 0;  ///< of this period: at first without sharing, then with it, then as it pays
+    bool running_ = false, shared_ = false, timed_ = false, pays_ = true;
+    double spent_ = 0;  ///< by the last runs that were shared, of `each`
+    Times with_{}, without_{};
+    typename Clock::time_point start_;
 };
 
 }  // namespace forage::engine

@@ -160,7 +160,7 @@ class Simulation {
     void update_alone();
 
     double worth_sharing_;
-    SharingTrial trial_;
+    SharingTrial<> trial_;
     std::unique_ptr<SharedCycle> shared_cycle_;  ///< null when one thread does all
     bool shared_ = false;                        ///< the running cycle
     bool started_ = false;

@@ -7,13 +7,26 @@
 namespace forage::engine {
 
 constexpr int no_item = std::numeric_limits<int>::max();
-constexpr int spins = 4000;  // about 100 us: the next loop of a cycle usually comes within that
-
 /// Leaves the processor to the thread beside it for a moment.
 void pause() {
 #if defined(__x86_64__)
     __builtin_ia32_pause();
 #endif
+}
+
+/// Waits until `number` is not `value`: awake, as the next loop of a cycle usually comes within microseconds;
+/// then letting others run, as the one that is waited for may be one of them, on the same processor; and
+/// asleep after some 100 us.
+template <class T>
+void wait_while(std::atomic<T>& number, T value) {
+    constexpr int awake = 400, giving_way = 400;
+    for (int looked = 0; number.load(std::memory_order_acquire) == value; ++looked)
+        if (looked < awake)
+            pause();
+        else if (looked < awake + giving_way)
+            std::this_thread::yield();
+        else
+            number.wait(value, std::memory_order_acquire);
 }
 
 ThreadPool::ThreadPool(int threads) {
@@ -42,9 +55,7 @@ void ThreadPool::share() {
     round_.fetch_add(1, std::memory_order_release);
     round_.notify_all();
     take_items(0);
-    for (int n = busy_.load(std::memory_order_acquire), spun = 0; n != 0;
-         n = busy_.load(std::memory_order_acquire))
-        if (pause(); ++spun > spins) busy_.wait(n, std::memory_order_acquire);
+    for (int n; (n = busy_.load(std::memory_order_acquire)) != 0;) wait_while(busy_, n);
 
     std::pair<int, std::exception_ptr> first{no_item, nullptr};
     for (auto& f : failures_) {
@@ -56,8 +67,7 @@ void ThreadPool::share() {
 
 void ThreadPool::serve(int thread) {
     for (std::uint32_t seen = 0;;) {
-        for (int spun = 0; round_.load(std::memory_order_acquire) == seen;)
-            if (pause(); ++spun > spins) round_.wait(seen, std::memory_order_acquire);
+        wait_while(round_, seen);
         seen = round_.load(std::memory_order_acquire);
         if (stop_) return;
         take_items(thread);

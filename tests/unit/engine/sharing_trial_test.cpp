@@ -1,0 +1,78 @@
+// Whether threads share a cycle is decided by trying, on a clock that the test sets.
+#include "core/engine/sharing_trial.h"
+
+#include "tests/support/catch.h"
+
+namespace {
+
+using namespace forage;
+
+struct TestClock {
+    using duration = std::chrono::duration<double>;
+    using time_point = std::chrono::time_point<TestClock, duration>;
+    static inline duration passed{0};
+    static time_point now() { return time_point(passed); }
+};
+
+/// Cycles that take so many seconds without and with sharing.
+struct Machine {
+    double without, with;
+    engine::SharingTrial<TestClock> trial;
+    int shared = 0;      ///< of the cycles that were run last
+    double seconds = 0;  ///< they took
+
+    void run(int cycles, bool worth = true) {
+        shared = 0, seconds = 0;
+        for (int i = 0; i < cycles; ++i) {
+            const bool now = trial.begin([&] { return worth; });
+            shared += now;
+            seconds += now ? with : without;
+            TestClock::passed += TestClock::duration(now ? with : without);
+            trial.end();
+        }
+    }
+};
+
+constexpr int period = 4096;
+
+TEST_CASE("What sharing makes faster is shared, but for a few cycles of each trial") {
+    Machine m{.without = 1, .with = 0.55, .trial = {}};
+    m.run(period);
+    CHECK(m.shared >= period - 32);
+    m.run(100 * period);
+    CHECK(m.shared >= 100 * (period - 32));
+}
+
+TEST_CASE("What sharing does not clearly make faster stays with one thread") {
+    Machine m{.without = 1, .with = 0.95, .trial = {}};
+    m.run(10 * period);
+    CHECK(m.shared <= 10 * 32);
+}
+
+TEST_CASE("However slow sharing is, trying it costs next to nothing") {
+    for (const double with : {1.5, 20.0, 100.0}) {
+        Machine m{.without = 1, .with = with, .trial = {}};
+        m.run(10 * period);
+        CHECK(m.shared >= 10);  // it was tried
+        CHECK(m.seconds < 1.04 * 10 * period);
+    }
+}
+
+TEST_CASE("When sharing becomes slow it ends soon, and comes back when it is fast again") {
+    Machine m{.without = 1, .with = 0.55, .trial = {}};
+    m.run(period);
+    m.with = 30;  // a processor is taken away
+    m.run(period / 2);
+    CHECK(m.shared < 64);
+    m.with = 0.55;
+    m.run(2 * period);
+    CHECK(m.shared > period / 2);
+}
+
+TEST_CASE("What is not worth a trial is not tried") {
+    Machine m{.without = 1, .with = 0.55, .trial = {}};
+    m.run(period, false);
+    CHECK(m.shared == 0);
+}
+
+}  // namespace
