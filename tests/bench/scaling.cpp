@@ -51,7 +51,7 @@ Cost measure(const model::System& system) {
     simulation->start();
     simulation->step();
     cost.bytes = resident() - before;
-    cost.seconds = 1 / bench::rate(bench::thread_seconds, [&] { simulation->step(); });
+    cost.seconds = 1 / bench::rates(bench::thread_seconds, [&] { simulation->step(); }).best();
     return cost;
 }
 

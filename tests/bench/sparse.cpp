@@ -15,13 +15,11 @@
 #include "synapses/synapses.h"
 #include "tests/bench/random_lists.h"
 #include "tests/bench/report.h"
+#include "tests/bench/two_threads.h"
 
 using namespace forage;
 
 namespace {
-
-/// The two sides in turns, so that what else the machine does meets both.
-constexpr int rounds = 5;
 
 struct Triad {
     std::vector<double> a, b, c;
@@ -49,32 +47,29 @@ int main() {
         simulation->step();
         const double synapses = static_cast<double>(simulation->synapses(0));
         const double bytes = synapses * (8 + 2);
-        std::vector<double> shares, speeds;
-        for (int i = 0; i < rounds; ++i) {
-            const double peak = triad.bytes() * bench::rate(bench::thread_seconds, std::ref(triad));
-            speeds.push_back(bytes * bench::rate(bench::thread_seconds, [&] {
-                                 simulation->update_groups();
-                                 simulation->update_connections();
-                             }));
-            shares.push_back(speeds.back() / peak);
-        }
-        const double share = bench::median(shares), speed = bench::median(speeds);
-        auto shared = engine::Simulation::build(bench::random_lists(cells, each), registry, {.threads = 2},
-                                                diagnostics);
-        shared->start();
-        std::vector<double> gains;
-        for (int i = 0; i < rounds; ++i) {
-            const double alone = bench::rate(bench::wall_seconds, [&] { simulation->step(); });
-            gains.push_back(bench::rate(bench::wall_seconds, [&] { shared->step(); }) / alone);
-        }
+        const auto [triads, lists] = bench::rates_in_turns(bench::thread_seconds, std::ref(triad), [&] {
+            simulation->update_groups();
+            simulation->update_connections();
+        });
+        const double speed = bytes * lists.best(), share = speed / (triad.bytes() * triads.best());
+        const auto build_another = [&, cells = cells, each = each](int threads) {
+            auto out = engine::Simulation::build(bench::random_lists(cells, each), registry,
+                                                 {.threads = threads}, diagnostics);
+            out->start();
+            return out;
+        };
+        auto two = build_another(2), other = build_another(1);
+        const auto gain = bench::gain_of_two_threads(*simulation, *other, *two);
         fmt::print(
             "{} x {} synapses ({}): {:.1f} GB/s, {:.0f} % of a triad's; {:.2f} times as fast with two "
-            "threads\n",
-            cells, each, simulation->connection_form(0), 1e-9 * speed, 100 * share, bench::median(gains));
+            "threads, of {:.2f} that are possible\n",
+            cells, each, simulation->connection_form(0), 1e-9 * speed, 100 * share, gain.shared,
+            gain.possible);
         const std::string subject = fmt::format("sparse/{} cells x {} synapses", cells, each);
         bench::result(subject, "bandwidth", 1e-9 * speed, "GB/s");
         bench::result(subject, "bandwidth / triad's", share, "");
-        bench::result(subject, "rate with two threads / with one", bench::median(gains), "");
+        bench::result(subject, "rate with two threads / with one", gain.shared, "");
+        bench::result(subject, "rate of two side by side / of one", gain.possible, "");
     }
     return 0;
 }
