@@ -12,6 +12,9 @@
 // outside (an activity, a parameter) must say so: touch().
 #pragma once
 
+#include <algorithm>
+#include <cstring>
+
 #include "core/engine/plan.h"
 
 namespace forage::engine {
@@ -28,54 +31,26 @@ inline double* activity_row(const GroupPlan& g, std::uint64_t cycle) {
     return state_row(g, static_cast<std::size_t>(g.output), cycle);
 }
 
-/// What an update works with besides the group.
-struct UpdateFrame {
-    std::uint64_t cycle;
-    double *scratch, *before;  ///< the thread's
-    bool watched;              ///< notes whether the states are finite
-};
+/// The cells of a part: whole grains of random numbers, and of lines of the cache.
+inline Range cells_of_part(const GroupPlan& g, int part) {
+    constexpr auto grain = RandomStream::grain;
+    const auto cells = static_cast<std::size_t>(g.cells);
+    Range out((cells + grain - 1) / grain, part, static_cast<int>(g.parts.size()));
+    out.first *= grain;
+    out.last = std::min(out.last * grain, cells);
+    return out;
+}
 
-/// Updates the states, unless the group rests.
-void update(GroupPlan& group, const UpdateFrame& frame);
-
-/// The same in parts: begin_update(); when `in_parts` is set after it, update_part() for each of
-/// `group.parts`, by several threads at once, and end_update(); otherwise update().
-void begin_update(GroupPlan& group);
-void update_part(GroupPlan& group, int part, const UpdateFrame& frame);
-void end_update(GroupPlan& group, const UpdateFrame& frame);
-
-/// How many numbers `before` must hold for a group.
-std::size_t compared_numbers(const GroupPlan& group);
-
-/// Notes which outputs of a module differ from what it wrote before.
-void note_changes(ModulePlan& module);
-
-/// Delivers what modules have written; before the first cycle.
-void receive_from_modules(Plan& plan, GroupPlan& group);
-
-/// Keeps a group's activity of `cycle` for the connections with a delay.
-void remember(const GroupPlan& group, std::uint64_t cycle);
-
-/// Delivers all that the group receives in the cycle after `cycle`; lets its synapses learn.
-void deliver_to(Plan& plan, GroupPlan& group, std::uint64_t cycle);
-
-/// The same in parts: begin_delivery(); when `receives` is set after it, prepare_part() for each of
-/// `group.parts`, by several threads at once; then the incoming connections one after the other, by
-/// add_part() for each part of one that divides(), by deliver_through() for others.
-void begin_delivery(Plan& plan, GroupPlan& group, std::uint64_t cycle);
-void prepare_part(Plan& plan, GroupPlan& group, int part, std::uint64_t cycle);
-bool divides(const GroupPlan& group, const ConnectionPlan& connection);
-void add_part(Plan& plan, GroupPlan& group, ConnectionPlan& connection, int part, std::uint64_t cycle);
-void deliver_through(Plan& plan, GroupPlan& group, ConnectionPlan& connection, std::uint64_t cycle);
-
-/// Sets `delivery_cost` of all groups.
-void estimate_deliveries(Plan& plan);
-
-/// About how long the phases of the next cycle take on one thread, ns.
-double update_cost(const Plan& plan);
-double delivery_cost(const Plan& plan);
+/// Bit by bit.
+inline bool same_bits(const double* a, const double* b, Index n) {
+    return std::memcmp(a, b, static_cast<std::size_t>(n) * sizeof *a) == 0;
+}
 
 /// The group was changed from outside: nothing that is known of it holds any longer.
-void touch(GroupPlan& group, std::uint64_t cycle);
+inline void touch(GroupPlan& g, std::uint64_t cycle) {
+    g.rests = g.silent = false;
+    g.same_for = 0;
+    g.changed = static_cast<std::int64_t>(cycle);
+}
 
 }  // namespace forage::engine

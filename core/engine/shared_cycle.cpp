@@ -4,7 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "core/engine/group_cycle.h"
+#include "core/engine/group_delivery.h"
+#include "core/engine/group_update.h"
 
 namespace forage::engine {
 namespace {

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/engine/group_cycle.h"
+#include "core/engine/group_delivery.h"
+#include "core/engine/group_update.h"
 #include "core/engine/plan.h"
 #include "core/engine/shared_cycle.h"
 #include "core/model/validate.h"

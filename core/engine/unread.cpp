@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "core/engine/group_cycle.h"
+#include "core/engine/group_delivery.h"
 #include "core/engine/plan.h"
 #include "core/engine/shared_cycle.h"
 #include "core/engine/simulation.h"
