@@ -62,7 +62,7 @@ class Simulation {
         int threads = 1;  ///< at most, for a cycle's loops; the numbers do not depend on it
         /// ns that a cycle's updates and deliveries take on one thread; shorter ones stay there. 0: all are
         /// shared.
-        double worth_sharing = 20'000;
+        double worth_sharing = 5'000;
         bool general_forms =
             false;  ///< compile every connection to a list of synapses (slower, same numbers)
     };
