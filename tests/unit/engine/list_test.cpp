@@ -136,6 +136,13 @@ TEST_CASE("A list is arranged in blocks only when its targets read them one afte
     CHECK(arrange(shuffled, 1000, 1000));
 }
 
+TEST_CASE("Nothing is arranged when there are no targets") {
+    const auto slices = arrange(by_target({}, 0), 10, 10);
+    REQUIRE(slices);
+    CHECK(slices->entries() == 0);
+    CHECK(slices->runs.empty());
+}
+
 TEST_CASE("Targets of very different numbers of synapses stay a plain list") {
     const Gain synapse;
     connectivity::Synapses s;
