@@ -8,6 +8,8 @@
 
 #include <png.h>
 
+#include "bug_interface/world/png_limits.h"
+
 namespace forage::bug {
 namespace {
 
@@ -78,18 +80,52 @@ void list_colours(png_structp png, png_infop info, Rows& rows) {
         }
 }
 
+constexpr png_byte of_brightness[] = "gAMA\0iCCP";
+
+/// Leaves out all chunks that say nothing of pixels: texts need not be unpacked. Of those that tell what
+/// brightness numbers mean, what is in the file is asked for, as libpng forgets it when another such chunk is
+/// wrong, and still heeds it in its general reader.
+void choose_chunks(png_structp png) {
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, of_brightness, 2);
+}
+
+/// No profile, and no gamma but that of sRGB.
+bool as_srgb(png_structp png, png_infop info) {
+    constexpr png_byte gamma[] = {0, 0, 0xb1, 0x8f};  // 45455
+    png_unknown_chunkp chunk = nullptr;
+    for (int left = png_get_unknown_chunks(png, info, &chunk); left > 0; --left, ++chunk)
+        if (std::memcmp(chunk->name, "gAMA", 4) != 0 || chunk->size != sizeof gamma ||
+            std::memcmp(chunk->data, gamma, sizeof gamma) != 0)
+            return false;
+    return true;
+}
+
 bool plain(png_structp png, png_infop info) {
-    const auto has = [&](png_uint_32 chunk) { return png_get_valid(png, info, chunk) != 0; };
     const int type = png_get_color_type(png, info);
     return png_get_bit_depth(png, info) <= 8 && png_get_interlace_type(png, info) == PNG_INTERLACE_NONE &&
            (type == PNG_COLOR_TYPE_RGB || type == PNG_COLOR_TYPE_PALETTE || type == PNG_COLOR_TYPE_GRAY) &&
-           !has(PNG_INFO_tRNS) && !has(PNG_INFO_iCCP) && (!has(PNG_INFO_gAMA) || has(PNG_INFO_sRGB));
+           png_get_valid(png, info, PNG_INFO_tRNS) == 0 && as_srgb(png, info) &&
+           std::uint64_t{png_get_image_width(png, info)} * png_get_image_height(png, info) <= most_pixels;
 }
+
+/// What libpng knows of a file; null when there is no memory for it.
+struct PlainReader {
+    png_structp png = png_create_read_struct(
+        PNG_LIBPNG_VER_STRING, nullptr, [](png_structp failed, png_const_charp) { png_longjmp(failed, 1); },
+        [](png_structp, png_const_charp) {});
+    png_infop info = png ? png_create_info_struct(png) : nullptr;
+    PlainReader() = default;
+    ~PlainReader() { png_destroy_read_struct(&png, &info, nullptr); }
+    PlainReader(const PlainReader&) = delete;
+    PlainReader& operator=(const PlainReader&) = delete;
+};
 
 /// libpng leaves this function by a jump when something is wrong: nothing in it has a destructor.
 bool read_rows(png_structp png, png_infop info, std::FILE* file, Image& image, Rows& rows) {
     if (setjmp(png_jmpbuf(png))) return false;
     png_init_io(png, file);
+    choose_chunks(png);
     png_read_info(png, info);
     if (!plain(png, info)) return false;
     image.width = static_cast<int>(png_get_image_width(png, info));
@@ -101,7 +137,6 @@ bool read_rows(png_structp png, png_infop info, std::FILE* file, Image& image, R
         png_read_row(png, rows.bytes.data(), nullptr);
         expand(rows, image.width, image.row(r));
     }
-    png_read_end(png, nullptr);
     return true;
 }
 
@@ -110,17 +145,9 @@ bool read_rows(png_structp png, png_infop info, std::FILE* file, Image& image, R
 bool read_plain_png(const std::string& path, Image& image) {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
     if (!file) return false;
-    png_structp png = png_create_read_struct(
-        PNG_LIBPNG_VER_STRING, nullptr, [](png_structp failed, png_const_charp) { png_longjmp(failed, 1); },
-        [](png_structp, png_const_charp) {});
-    if (!png) return false;
-    const auto destroy = [](png_structp p) { png_destroy_read_struct(&p, nullptr, nullptr); };
-    const std::unique_ptr<png_struct, void (*)(png_structp)> owner(png, destroy);
-    png_infop info = png_create_info_struct(png);
+    const PlainReader reader;
     Rows rows;
-    const bool good = info && read_rows(png, info, file.get(), image, rows);
-    png_destroy_info_struct(png, &info);
-    return good;
+    return reader.info && read_rows(reader.png, reader.info, file.get(), image, rows);
 }
 
 }  // namespace forage::bug

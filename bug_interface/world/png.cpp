@@ -9,13 +9,12 @@
 
 #include <png.h>
 
+#include "bug_interface/world/any_png.h"
 #include "bug_interface/world/plain_png.h"
 
 namespace forage::bug {
 
 namespace {
-
-constexpr std::uint64_t most_pixels = 4096 * 4096;  ///< a floor takes 4 bytes for each
 
 void fill_border(Image& image) {
     for (int r = 0; r < image.height; ++r) {
@@ -33,29 +32,7 @@ void fill_border(Image& image) {
 Image read_png(const std::string& path, int border) {
     Image image;
     image.border = border;
-    if (read_plain_png(path, image)) {
-        fill_border(image);
-        return image;
-    }
-    png_image png{};
-    png.version = PNG_IMAGE_VERSION;
-    if (!png_image_begin_read_from_file(&png, path.c_str()))
-        throw std::runtime_error(path + ": " + png.message);
-    image.width = static_cast<int>(png.width);
-    image.height = static_cast<int>(png.height);
-    image.pixels.resize(image.stride() * (png.height + 2 * static_cast<std::size_t>(border)));
-    const bool opaque = !(png.format & PNG_FORMAT_FLAG_ALPHA);
-    png.format = opaque ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
-    const png_color black{0, 0, 0};
-    std::vector<std::uint8_t> rgb(opaque ? 0 : PNG_IMAGE_SIZE(png));
-    void* to = opaque ? static_cast<void*>(image.row(0)) : rgb.data();
-    const auto stride = static_cast<png_int_32>(opaque ? 4 * image.stride() : 0);
-    if (!png_image_finish_read(&png, &black, to, stride, nullptr))
-        throw std::runtime_error(path + ": " + png.message);
-    const std::uint8_t* p = rgb.data();
-    for (int r = 0; r < image.height && !opaque; ++r)
-        for (int c = 0; c < image.width; ++c, p += 3)
-            image.row(r)[c] = 0xff000000u | std::uint32_t{p[2]} << 16 | std::uint32_t{p[1]} << 8 | p[0];
+    if (!read_plain_png(path, image)) read_any_png(path, image);
     fill_border(image);
     return image;
 }
@@ -63,13 +40,7 @@ Image read_png(const std::string& path, int border) {
 std::string png_problem(const std::string& path) {
     if (!std::filesystem::is_regular_file(path))
         return "it is no file";  // reading a pipe would wait for ever
-    png_image png{};
-    png.version = PNG_IMAGE_VERSION;
-    if (!png_image_begin_read_from_file(&png, path.c_str())) return png.message;
-    const std::uint64_t pixels = std::uint64_t{png.width} * png.height;
-    png_image_free(&png);
-    if (pixels > most_pixels)
-        return "it has " + std::to_string(pixels) + " pixels; the most are " + std::to_string(most_pixels);
+    if (std::string problem = any_png_problem(path); !problem.empty()) return problem;
     std::ifstream file(path, std::ios::binary);
     file.seekg(-8, std::ios::end);
     char last[4] = {};

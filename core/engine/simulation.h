@@ -163,7 +163,7 @@ class Simulation {
     SharingTrial<> trial_;
     std::unique_ptr<SharedCycle> shared_cycle_;  ///< null when one thread does all
     bool shared_ = false;                        ///< the running cycle
-    bool started_ = false;
+    bool started_ = false, observers_known_ = false;
     std::uint64_t cycle_ = 0;
     std::optional<NotFinite> not_finite_;
     std::uint64_t shown_ = 0;  ///< the cycle whose numbers are looked at

@@ -17,7 +17,8 @@ std::size_t divided_up(std::size_t n, std::size_t by) { return (n + by - 1) / by
 /// multiple, can be shared among threads.
 std::size_t cells_of_panel(std::size_t targets) {
     constexpr std::size_t least = 256, together = 8;
-    const std::size_t panels = together * divided_up(targets, together * Slices::most_panel_cells);
+    const std::size_t panels =
+        together * std::max<std::size_t>(1, divided_up(targets, together * Slices::most_panel_cells));
     return std::max(least, divided_up(divided_up(targets, panels), Slices::lanes) * Slices::lanes);
 }
 

@@ -52,8 +52,8 @@ class Readers {
 
 void Simulation::leave_out_unread(const Observed& observed) {
     if (started_) throw std::logic_error("groups are left out before the start, or not at all");
-    if (plan_->updated.size() != plan_->groups.size())
-        throw std::logic_error("groups are left out once, for all who observe");
+    if (observers_known_) throw std::logic_error("groups are left out once, for all who observe");
+    observers_known_ = true;
     Readers readers(*plan_);
     for (const int g : observed.groups) readers.want_group(g);
     for (const int c : observed.connections) readers.want_connection(c);

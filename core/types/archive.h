@@ -10,9 +10,11 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <deque>
+#include <limits>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -36,8 +38,11 @@ class __attribute__((visibility("default"))) ArchiveError : public std::runtime_
 /// `checkpoint(Archive&)`. The bytes are those of little-endian memory; equal values give equal bytes.
 class Archive {
   public:
+    /// What is written of numbers that are NaN. Which sign and payload they have may depend on the processor.
+    enum class Nan { as_it_is, all_the_same };
+
     /// Writes.
-    Archive() = default;
+    explicit Archive(Nan nan = Nan::as_it_is) : same_nan_(nan == Nan::all_the_same) {}
     /// Reads `bytes`, which must outlive it.
     explicit Archive(std::string_view bytes) : left_(bytes), loading_(true) {}
 
@@ -56,10 +61,13 @@ class Archive {
     void numbers(T* first, std::size_t count) {
         static_assert(std::is_trivially_copyable_v<T>);
         if (count == 0) return;  // there may be no memory to point to
-        if (loading_)
+        if (loading_) {
             std::memcpy(static_cast<void*>(first), take(count, sizeof(T)), count * sizeof(T));
-        else
-            bytes_.append(reinterpret_cast<const char*>(first), count * sizeof(T));
+            return;
+        }
+        bytes_.append(reinterpret_cast<const char*>(first), count * sizeof(T));
+        if constexpr (std::is_floating_point_v<T>)
+            if (same_nan_) write_same_nan(first, count);
     }
 
     /// Something that cannot change: throws ArchiveError, naming it, when what is read is something else.
@@ -73,6 +81,15 @@ class Archive {
 
   private:
     static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
+
+    /// Over the numbers that were written last.
+    template <class T>
+    void write_same_nan(const T* first, std::size_t count) {
+        constexpr T nan = std::numeric_limits<T>::quiet_NaN();
+        char* written = bytes_.data() + bytes_.size() - count * sizeof(T);
+        for (std::size_t i = 0; i < count; ++i)
+            if (std::isnan(first[i])) std::memcpy(written + i * sizeof(T), &nan, sizeof(T));
+    }
 
     const char* take(std::size_t count, std::size_t size) {
         if (count > left_.size() / size) throw ArchiveError("the checkpoint ends too early");
@@ -174,7 +191,7 @@ class Archive {
 
     std::string bytes_;
     std::string_view left_;
-    bool loading_ = false;
+    bool loading_ = false, same_nan_ = false;
 };
 
 }  // namespace forage

@@ -28,8 +28,8 @@ struct Threshold {
     std::uint64_t rest;
 
     explicit Threshold(double probability) {
-        const double silent = std::ceil((1 - probability) * 0x1p53);
-        const auto bits = static_cast<std::uint64_t>(std::clamp(silent, 0.0, 0x1p53));
+        const double silent = std::ceil((1 - probability) * 0x1p53);  // may be NaN
+        const auto bits = static_cast<std::uint64_t>(silent < 0x1p53 ? std::max(silent, 0.0) : 0x1p53);
         top = static_cast<std::uint32_t>(bits >> 37);
         rest = bits & ((std::uint64_t{1} << 37) - 1);
     }

@@ -11,7 +11,8 @@ namespace forage {
 /// A counter-based random stream (Philox4x32-10; Salmon et al., "Parallel random numbers: as easy as 1, 2,
 /// 3", SC 2011). A number is a function of (seed, item, stream, cycle, index, draw): it does not depend on
 /// what was drawn before, on the number of threads, or on other items of the system. `draw` tells apart
-/// several numbers for one index in one cycle.
+/// several numbers for one index in one cycle; it is below 2^30. normal() and bits() are made of
+/// uniform()'s draw 0: a stream is asked for only one of these in a cycle.
 class RandomStream {
   public:
     RandomStream() = default;
@@ -23,8 +24,9 @@ class RandomStream {
     /// out[i] = uniform(cycle, first + i, draw), faster. `first` is a multiple of `grain`.
     void uniform(std::uint64_t cycle, std::span<double> out, std::uint32_t draw = 0,
                  std::size_t first = 0) const;
-    /// out[i] = `value` with this probability (exact to 53 bits), else 0: many times faster than comparing
-    /// uniform numbers. Of the events of a whole column those from `first` on, a multiple of `grain`.
+    /// out[i] = `value` with this probability (exact to 53 bits; NaN: never), else 0: many times faster than
+    /// comparing uniform numbers. They are independent of uniform()'s. Of the events of a whole column those
+    /// from `first` on, a multiple of `grain`.
     void events(std::uint64_t cycle, double probability, std::span<double> out, double value = 1,
                 std::uint32_t draw = 0, std::size_t first = 0) const;
     static constexpr std::size_t grain = 64;  ///< a column of numbers may be made in parts of so many

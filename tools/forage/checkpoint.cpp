@@ -60,7 +60,7 @@ void check_checkpoints(const RunOptions& o, const Loaded& loaded, const engine::
 }
 
 std::string state_digest(Running& running) {
-    Archive archive;
+    Archive archive(Archive::Nan::all_the_same);
     archive(running.simulation);
     if (running.loaded.world) archive(*running.loaded.world);
     return digest(archive.bytes());

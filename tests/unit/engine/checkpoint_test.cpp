@@ -34,6 +34,16 @@ struct Bursting {
     }
 };
 
+NeuronType bursting(double value) {
+    auto type = neuron_type<Bursting>();
+    type.make = [value, make = type.make] {
+        auto made = make();
+        static_cast<Bursting*>(made->parameters())->value = value;
+        return made;
+    };
+    return type;
+}
+
 template <bool declared>
 struct CountingSystem {
     model::System system;
@@ -97,19 +107,33 @@ TEST_CASE("A checkpoint of another seed is refused") {
     CHECK_THROWS_WITH(other.checkpoint(in), Catch::Matchers::Contains("the seed differs"));
 }
 
+TEST_CASE("A digest of a state is that of its numbers, whatever sign a NaN has") {
+    model::System system;
+    model::add_group(system, model::add_process(system, "P"), "A", 3, 1, "bursting");
+    const auto written = [&](double value, Archive::Nan nan) {
+        Registry types = registry();
+        types.add(bursting(value));
+        auto simulation = run(system, types);
+        for (int t = 0; t < 9; ++t) simulation.step();
+        Archive out(nan);
+        simulation.checkpoint(out);
+        return out.bytes();
+    };
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    using enum Archive::Nan;
+    CHECK(written(nan, all_the_same) == written(-nan, all_the_same));
+    CHECK(written(nan, as_it_is) != written(-nan, as_it_is));  // a run goes on with what was there
+    CHECK(written(0.0, all_the_same) != written(-0.0, all_the_same));
+    CHECK(written(1.5, all_the_same) == written(1.5, as_it_is));
+}
+
 TEST_CASE("The first number that is not finite is found, with any number of threads, when it is looked for") {
     for (const double value :
          {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
           std::numeric_limits<double>::quiet_NaN()})
         for (const int threads : {1, 4}) {
             Registry types = registry();
-            auto type = neuron_type<Bursting>();
-            type.make = [value, make = type.make] {
-                auto made = make();
-                static_cast<Bursting*>(made->parameters())->value = value;
-                return made;
-            };
-            types.add(type);
+            types.add(bursting(value));
             model::System s;
             const auto p = model::add_process(s, "P");
             for (const char* name : {"A", "B", "C"}) model::add_group(s, p, name, 40, 1, "one");

@@ -1,6 +1,8 @@
-// Lists of synapses in slices, panels and blocks: the same bits as the plain list.
+// Lists of synapses in slices, panels and blocks: the same numbers as the plain list, to the bit.
 #include <algorithm>
-#include <cstring>
+#include <bit>
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "core/engine/kernel.h"
@@ -20,13 +22,30 @@ struct Gain final : SynapseInstance {
 };
 
 enum class Order { ascending, shuffled };
+enum class Numbers { ordinary, extreme };
+
+/// Zeros, denormal numbers, some that overflow, infinities and NaN, of both signs; mostly ordinary ones, so
+/// that not every sum is NaN.
+double extreme(std::mt19937& random, double ordinary) {
+    using Limits = std::numeric_limits<double>;
+    const double sign = random() % 2 ? 1 : -1;
+    const auto kind = random() % 600;
+    if (kind > 60) return ordinary;
+    if (kind > 30) return sign * 0.0;
+    if (kind > 3) return sign * static_cast<double>(kind) * Limits::denorm_min();
+    return std::copysign(kind == 0   ? Limits::quiet_NaN()
+                         : kind == 1 ? Limits::infinity()
+                                     : Limits::max(),
+                         sign);
+}
 
 struct Shape {
     int sources, targets, most;  ///< synapses of a target
 };
 
 /// Targets with none to `most` synapses, some of them from the same source.
-connectivity::Synapses random_list(const Shape& shape, Order order, int delays, bool same) {
+connectivity::Synapses random_list(const Shape& shape, Order order, int delays, bool same,
+                                   Numbers numbers = Numbers::ordinary) {
     std::mt19937 random(1);
     const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
     connectivity::Synapses out;
@@ -38,7 +57,9 @@ connectivity::Synapses random_list(const Shape& shape, Order order, int delays, 
         for (const int s : sources) {
             out.pre.push_back(s), out.post.push_back(t), out.distance.push_back(0);
             out.delay.push_back(3 * below(delays));
-            out.attenuation.push_back(same ? 0.3 : 1e-3 * below(1000));
+            const double factor = same ? 0.3 : 1e-3 * below(1000);
+            out.attenuation.push_back(numbers == Numbers::extreme && !same ? extreme(random, factor)
+                                                                           : factor);
         }
     }
     return out;
@@ -48,9 +69,12 @@ struct Activity {
     static constexpr int depth = 10;
     std::vector<double> rows;
     int cells;
-    explicit Activity(int n) : rows(static_cast<std::size_t>(n * depth)), cells(n) {
+    Activity(int n, Numbers numbers) : rows(static_cast<std::size_t>(n * depth)), cells(n) {
         std::mt19937 random(2);
-        for (double& v : rows) v = std::uniform_real_distribution(-1.0, 1.0)(random);
+        for (double& v : rows) {
+            v = std::uniform_real_distribution(-1.0, 1.0)(random);
+            if (numbers == Numbers::extreme) v = extreme(random, v);
+        }
     }
     History at(std::uint64_t cycle) const {
         const Ring ring{rows.data(), depth, cells};
@@ -65,31 +89,42 @@ std::vector<double> begin(int targets) {
     return out;
 }
 
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+/// To the bit; but a NaN is a NaN.
+bool same_numbers(const std::vector<double>& a, const std::vector<double>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double one, double other) {
+        return std::isnan(one) ? std::isnan(other)
+                               : std::bit_cast<std::uint64_t>(one) == std::bit_cast<std::uint64_t>(other);
+    });
 }
 
-void compare(const Shape& shape, Order order, int delays, bool same) {
+bool is_infinite(double v) { return std::isinf(v); }
+bool is_nan(double v) { return std::isnan(v); }
+
+void compare(const Shape& shape, Order order, int delays, bool same, Numbers numbers) {
     const Gain synapse;
-    const auto list = random_list(shape, order, delays, same);
+    const auto list = random_list(shape, order, delays, same, numbers);
     const auto general = make_kernel(list, shape.sources, shape.targets, synapse, Forms::general),
                fastest = make_kernel(list, shape.sources, shape.targets, synapse, Forms::fastest);
     REQUIRE(general->form() == "list");
     REQUIRE(fastest->form() == "sliced");
     REQUIRE(fastest->divides());
-    const Activity activity(shape.sources);
+    const Activity activity(shape.sources, numbers);
     for (const std::uint64_t cycle : {11, 14}) {
         const History source = activity.at(cycle);
         auto expected = begin(shape.targets), whole = expected;
         general->deliver(source, expected.data());
-        CHECK_FALSE(same_bits(expected, whole));
+        CHECK_FALSE(same_numbers(expected, whole));
+        if (numbers == Numbers::extreme && shape.sources > 1000) {
+            CHECK(std::any_of(expected.begin(), expected.end(), is_nan));
+            CHECK(std::any_of(expected.begin(), expected.end(), is_infinite));
+        }
         fastest->deliver(source, whole.data());
-        CHECK(same_bits(whole, expected));
+        CHECK(same_numbers(whole, expected));
         for (const int parts : {2, 3, 13}) {
             auto divided = begin(shape.targets);
             for (int part = parts; part-- > 0;) fastest->prepare(source, part, parts);
             for (int part = parts; part-- > 0;) fastest->add(source, divided.data(), part, parts);
-            CHECK(same_bits(divided, expected));
+            CHECK(same_numbers(divided, expected));
         }
     }
 }
@@ -103,16 +138,17 @@ ByTarget by_target(const connectivity::Synapses& s, int targets) {
 
 }  // namespace
 
-TEST_CASE("Lists of any shape, order, delays and factors give the bits of the plain list") {
+TEST_CASE("Lists of any shape, order, delays, factors and numbers give those of the plain list") {
     const auto order = GENERATE(Order::ascending, Order::shuffled);
     const int delays = GENERATE(1, 3);
     const bool same = GENERATE(false, true);
+    const auto numbers = GENERATE(Numbers::ordinary, Numbers::extreme);
     // One block of sources; several, and panels; one panel that is not full; cells that need 32 bits when all
     // sources are one block.
     const auto shape = GENERATE(Shape{50, 100, 30}, Shape{7000, 700, 60}, Shape{3073, 300, 90},
                                 Shape{10'000, 40, 1000}, Shape{40'000, 1500, 120});
     INFO(shape.sources << " sources, " << shape.targets << " targets");
-    compare(shape, order, delays, same);
+    compare(shape, order, delays, same, numbers);
 }
 
 TEST_CASE("A list is arranged in blocks only when its targets read them one after the other") {
@@ -134,6 +170,13 @@ TEST_CASE("A list is arranged in blocks only when its targets read them one afte
     CHECK(entries < ascending.pre.size() + ascending.pre.size() / 10);
     CHECK_FALSE(arrange(shuffled, 1000, 300));
     CHECK(arrange(shuffled, 1000, 1000));
+}
+
+TEST_CASE("Nothing is arranged when there are no targets") {
+    const auto slices = arrange(by_target({}, 0), 10, 10);
+    REQUIRE(slices);
+    CHECK(slices->entries() == 0);
+    CHECK(slices->runs.empty());
 }
 
 TEST_CASE("Targets of very different numbers of synapses stay a plain list") {

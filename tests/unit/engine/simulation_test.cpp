@@ -96,14 +96,16 @@ model::System random_system(unsigned seed, int groups, int side) {
     return RandomSystem(seed).make(groups, side);
 }
 
-/// All activity over the cycles, exactly; one NaN is like another.
+/// Exactly; but one NaN is like another.
+std::uint64_t bits(double v) { return std::isnan(v) ? ~0ull : std::bit_cast<std::uint64_t>(v); }
+
+/// All activity over the cycles.
 std::vector<std::uint64_t> trace(engine::Simulation s, int cycles) {
     std::vector<std::uint64_t> out;
     for (int t = 0; t < cycles; ++t) {
         s.step();
         for (int g = 0; g < s.groups(); ++g)
-            for (const double v : s.state(g, s.type(g).output()))
-                out.push_back(std::isnan(v) ? ~0ull : std::bit_cast<std::uint64_t>(v));
+            for (const double v : s.state(g, s.type(g).output())) out.push_back(bits(v));
     }
     return out;
 }
@@ -119,7 +121,7 @@ std::vector<std::uint64_t> synapse_states(const engine::Simulation& s) {
     std::vector<std::uint64_t> out;
     for (int c = 0; c < s.connections(); ++c)
         for (int i = 0; i < static_cast<int>(s.synapse_type(c).states.size()); ++i)
-            for (const double v : s.synapse_state(c, i)) out.push_back(std::bit_cast<std::uint64_t>(v));
+            for (const double v : s.synapse_state(c, i)) out.push_back(bits(v));
     return out;
 }
 

@@ -98,6 +98,13 @@ TEST_CASE("What is left out stays out: there is no second choice") {
     auto s = build(chain.system, chain.types);
     s.leave_out_unread({{group(s, "P/A")}, {}, {}});
     CHECK_THROWS_AS(s.leave_out_unread({{group(s, "P/B")}, {}, {}}), std::logic_error);
+
+    auto whole = build(chain.system, chain.types);
+    engine::Observed all;
+    for (int g = 0; g < whole.groups(); ++g) all.groups.push_back(g);
+    whole.leave_out_unread(all);  // nothing, which is a choice as well
+    CHECK_THROWS_AS(whole.leave_out_unread({{group(whole, "P/A")}, {}, {}}), std::logic_error);
+    CHECK(left_out(whole).empty());
 }
 
 TEST_CASE("Groups that read each other, and that nobody else reads, are left out together") {

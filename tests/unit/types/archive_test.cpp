@@ -1,5 +1,6 @@
 #include "core/types/archive.h"
 
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -144,6 +145,26 @@ TEST_CASE("What is written is read back, of every kind") {
     Archive again;
     again(read);
     CHECK(again.bytes() == out.bytes());
+}
+
+TEST_CASE("Every NaN is written the same way when that is asked for, and nothing else is changed") {
+    const double nan = std::numeric_limits<double>::quiet_NaN(),
+                 infinity = std::numeric_limits<double>::infinity();
+    const All random = filled();
+    const auto written = [&](double a, Archive::Nan kind) {
+        All all = random;
+        all.real = a, all.numbers = {1, a, -0.0, -infinity}, all.plain[0] = a, all.matrix(1, 2) = a;
+        all.fixed[1] = static_cast<float>(a), all.array[3] = static_cast<float>(a);
+        Archive out(kind);
+        out(all);
+        return out.bytes();
+    };
+    using enum Archive::Nan;
+    const auto other = std::bit_cast<double>(0xfff8000000000123u);
+    CHECK(written(nan, as_it_is) != written(-nan, as_it_is));
+    for (const double each : {-nan, other}) CHECK(written(each, all_the_same) == written(nan, as_it_is));
+    for (const double each : {0.0, -0.0, 5e-324, -infinity, 1.5})
+        CHECK(written(each, all_the_same) == written(each, as_it_is));
 }
 
 TEST_CASE("Bytes that end anywhere are refused, and so are sizes that there is no memory for") {

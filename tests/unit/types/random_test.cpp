@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "core/types/philox.h"
@@ -83,6 +84,21 @@ TEST_CASE("Events come as often as they should, and a cell's do not depend on ho
     const auto off = [n](double p) { return 4 * std::sqrt(p * (1 - p) / n); };
     CHECK(std::abs(count / n - probability) <= off(probability));
     CHECK(std::abs(both / n - probability * probability) <= off(probability * probability));
+}
+
+TEST_CASE("Events of no probability never come, and those of more than 1 always") {
+    const RandomStream stream(3, "group");
+    const auto active = [&](double probability) {
+        std::vector<double> all(70'000);  // some have ties
+        stream.events(4, probability, all);
+        return std::count(all.begin(), all.end(), 1.0);
+    };
+    using Limits = std::numeric_limits<double>;
+    CHECK(active(Limits::quiet_NaN()) == 0);
+    CHECK(active(-Limits::infinity()) == 0);
+    CHECK(active(-0.5) == 0);
+    CHECK(active(1.5) == 70'000);
+    CHECK(active(Limits::infinity()) == 70'000);
 }
 
 TEST_CASE("A cell that is active at a probability is active at every higher one") {
