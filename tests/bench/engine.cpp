@@ -72,7 +72,7 @@ int measure(const Original& original) {
     const Path drive = shared / "golden" / "systems" / original.name / "drive.csv";
     if (!std::filesystem::exists(file) || (tutorial && !std::filesystem::exists(drive))) {
         fmt::print("{:<42} skipped: no {}\n", original.name,
-                   std::filesystem::exists(file) ? "drive.csv" : "file");
+                   std::filesystem::exists(file) ? "recording of its senses" : "file");
         return 0;
     }
     Registry registry;
@@ -123,7 +123,7 @@ int measure(const Original& original) {
     const double ratio = rate / original.cycles_per_second, memory = megabytes / original.megabytes;
     fmt::print("{:<42} {:>10.0f} {:>10.0f} {:>8.1f} x {:>8.3f} {:>8.0f} {:>8.2f} {}\n", original.name, rate,
                median, ratio, build, megabytes, memory,
-               shared_work ? fmt::format("{:>9.2f} of {:.2f}", gain.shared, gain.possible) : "one thread");
+               shared_work ? fmt::format("{:>9.2f} ({:.2f})", gain.shared, gain.possible) : "not shared");
     const std::string subject = "engine/" + original.name;
     bench::result(subject, "rate", rate, "cycles/s");
     bench::result(subject, "rate, median of blocks", median, "cycles/s");
@@ -144,8 +144,8 @@ int main(int argc, char** argv) {
         fmt::print("SKIPPED: there is no {}\n", (test::shared_dir() / "perf" / "results.tsv").string());
         return 0;
     }
-    fmt::print("{:<42} {:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {}\n", "", "cycles/s", "median", "original",
-               "build s", "MB", "original", "2 threads, of what is possible");
+    fmt::print("{:<42} {:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {}\n", "", "cycles/s", "median", "x original",
+               "build s", "MB", "MB/orig.", "2 threads (of two separate runs)");
     int failed = 0;
     for (const auto& original : originals()) {
         if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), original.name) == wanted.end())

@@ -62,7 +62,7 @@ int main() {
         const auto gain = bench::gain_of_two_threads(*simulation, *other, *two);
         fmt::print(
             "{} x {} synapses ({}): {:.1f} GB/s, {:.0f} % of a triad's; {:.2f} times as fast with two "
-            "threads, of {:.2f} that are possible\n",
+            "threads, two separate runs gain {:.2f}\n",
             cells, each, simulation->connection_form(0), 1e-9 * speed, 100 * share, gain.shared,
             gain.possible);
         const std::string subject = fmt::format("sparse/{} cells x {} synapses", cells, each);

@@ -41,7 +41,7 @@ def main():
         if limit := measured.get((target["subject"], target.get("limit"))):
             target["possible"] = limit["value"]
             if not target["met"]:
-                verdict += f"; {limit['value']:.3g} is what {target['limit']} was"
+                verdict += f": two separate runs, side by side, gained {limit['value']:.3g}"
         print(f"{name:<84} {found['value']:10.4g} {'>=' if least else '<='} {wanted:<9g} {verdict}")
     pathlib.Path(sys.argv[2]).write_text(json.dumps(
         {"commit": commit(), "processor": processor(), "cores": os.cpu_count(), "load": os.getloadavg()[0],

@@ -3,6 +3,7 @@
     unread_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
 """
 
+import json
 import re
 import signal
 import unittest
@@ -112,16 +113,27 @@ class Unread(Stopped):
     def test_synapses_that_are_drawn_learn(self):
         (self.here / "small.iqr").write_text(SMALL)
         arguments = ("run", "small.iqr", "--cycles", 50)
-        self.assertEqual(self.left_out(self.forage(*arguments, "-o", "")), 4)
+        self.assertEqual(self.left_out(self.forage(*arguments, "-r", "P/G", "-o", "")), 3)
         self.assertEqual(self.left_out(self.forage(*arguments, "-p", "connection:toM", "-o", "few")), 2)
         self.forage(*arguments, "-p", "connection:toM", "--hash", "-o", "all")
         name = next(p.name for p in (self.here / "few").glob("*.png"))
         self.assert_equal_files(name, "few", "all")
 
+    def test_a_system_that_nobody_reads_runs_whole(self):
+        (self.here / "small.iqr").write_text(SMALL)
+        done = self.forage("run", "small.iqr", "--cycles", 50, "-o", "out")
+        self.assertEqual(self.left_out(done), 0)
+        self.assertIn("of 'P/H' becomes inf", done.stderr)
+
+    def test_the_record_of_a_run_says_what_was_left_out(self):
+        (self.here / "small.iqr").write_text(SMALL)
+        self.forage("run", "small.iqr", "--cycles", 5, "-r", "P/M", "-o", "out")
+        self.assertEqual(json.loads((self.here / "out/run.json").read_text())["result"]["left_out"], ["P/H", "P/N"])
+
     def test_numbers_that_are_not_finite_are_sought_everywhere_when_that_is_asked_for(self):
         (self.here / "small.iqr").write_text(SMALL)
         arguments = ("run", "small.iqr", "--cycles", 50, "-o", "out")
-        self.assertNotIn("becomes", self.forage(*arguments).stderr)  # nobody reads it
+        self.assertNotIn("becomes", self.forage(*arguments, "-r", "P/G").stderr)  # nobody reads it
         self.assertIn("of 'P/H' becomes inf", self.forage(*arguments, "-r", "P/H").stderr)
         self.assertIn("of 'P/H' becomes inf", self.forage(*arguments, "--hash").stderr)
         self.assertIn("of 'P/H' becomes inf", self.forage(*arguments, "--on-nan", "warn").stderr)

@@ -195,7 +195,10 @@ void add_run(CLI::App& app, RunOptions& o) {
            "Film the world from above, with what the robots see: an animated .gif, or numbered .png files")
         ->option_text("FILE")
         ->needs("--world");
-    run.add_option("--threads", o.threads, "For large systems; the numbers do not depend on it [1]")
+    run.add_option("--threads", o.threads,
+                   "How many may share a cycle, where a trial shows that it pays: cycles of large systems. "
+                   "The numbers "
+                   "do not depend on it [1]")
         ->transform(threads())
         ->option_text("N");
     run.add_option_function<std::string>(
@@ -209,11 +212,14 @@ void add_run(CLI::App& app, RunOptions& o) {
            [&o](const std::string& text) {
                o.on_nan = text == "warn" ? OnNan::warn : text == "stop" ? OnNan::stop : OnNan::ignore;
            },
-           "When a number becomes NaN or infinite: 'warn' once and go on, 'stop', or 'ignore' it [warn, of "
-           "groups that are read]")
+           "When a number becomes NaN or infinite: 'warn' once and go on, 'stop', or 'ignore' it; 'warn' and "
+           "'stop' look at "
+           "all groups, so that none is left out [warn, but only in groups that somebody reads]")
         ->check(one_of({"warn", "stop", "ignore"}))
         ->option_text("HOW");
-    run.add_flag("--hash", o.hash, "Give a digest of the state at the end: equal runs have the same one");
+    run.add_flag(
+        "--hash", o.hash,
+        "Give a digest of the state at the end: equal runs have the same one. No group is left out then");
     run.add_flag("--realtime", o.real_time, "No faster than the clock: one second of the world per second");
     run.add_flag("-q,--quiet", o.quiet, "Print errors only");
 }

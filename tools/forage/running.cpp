@@ -202,7 +202,8 @@ void note(const Running& running, Outcome& outcome) {
     outcome.seconds = running.seconds();
     outcome.diverged = running.diverged;
     outcome.groups = running.simulation.groups();
-    for (int g = 0; g < outcome.groups; ++g) outcome.left_out += running.simulation.left_out(g);
+    for (int g = 0; g < outcome.groups; ++g)
+        if (running.simulation.left_out(g)) outcome.left_out.push_back(running.simulation.path(g));
     for (const auto& e : running.schedule.entries()) outcome.changes.push_back({e.text, e.cycle});
     for (std::size_t i = 0; i < running.measures.size(); ++i)
         outcome.trials.push_back(

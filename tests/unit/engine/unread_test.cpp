@@ -86,7 +86,7 @@ TEST_CASE("A group is read when it is observed, or leads to one that is, by way 
         s.leave_out_unread(observed);
         return left_out(s);
     };
-    CHECK(observing({}) == "A B C D E F G");
+    CHECK(observing({}) == "");  // a run that computes nothing is of no use
     CHECK(observing({"C"}) == "D E F G");
     CHECK(observing({"B"}) == "C D E F G");
     CHECK(observing({"D", "F"}) == "B C E G");
