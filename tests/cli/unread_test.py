@@ -113,7 +113,7 @@ class Unread(Stopped):
     def test_synapses_that_are_drawn_learn(self):
         (self.here / "small.iqr").write_text(SMALL)
         arguments = ("run", "small.iqr", "--cycles", 50)
-        self.assertEqual(self.left_out(self.forage(*arguments, "-r", "P/G", "-o", "")), 3)
+        self.assertEqual(self.left_out(self.forage(*arguments, "-r", "P/G", "-o", "one")), 3)
         self.assertEqual(self.left_out(self.forage(*arguments, "-p", "connection:toM", "-o", "few")), 2)
         self.forage(*arguments, "-p", "connection:toM", "--hash", "-o", "all")
         name = next(p.name for p in (self.here / "few").glob("*.png"))
