@@ -29,11 +29,12 @@ class SharingTrial {
     void end() {
         if (!std::exchange(running_, false)) return;
         if (timed_) note(std::chrono::duration<double>(Clock::now() - start_).count());
-        if (++count_ >= period) count_ = 0;
+        if (++count_ >= period_) count_ = 0;
     }
 
   private:
-    static constexpr int each = 16, period = 4096;  // runs
+    static constexpr int each = 16, shortest = 512, longest = 4096;  // runs
+    static constexpr double often = 2;       // s, from one trial to the next, where runs are long
     static constexpr double clearly = 0.93;  // what is gained by less may be chance, and takes a processor
     static constexpr double enough = 2;      // so much longer than without: then the trial is over
     using Times = std::array<double, each>;
@@ -45,7 +46,10 @@ class SharingTrial {
     void note(double seconds) {
         const int i = count_ % each;
         (shared_ ? with_ : without_)[static_cast<std::size_t>(i)] = seconds;
-        if (!shared_) return;
+        if (!shared_) {
+            period_ = static_cast<int>(std::clamp(often / seconds, double{shortest}, double{longest}));
+            return;
+        }
         spent_ = i == 0 ? seconds : spent_ + seconds;
         const bool trying = count_ < 2 * each, whole = i == each - 1;
         if (trying && spent_ > enough * each * median(without_))
@@ -53,13 +57,14 @@ class SharingTrial {
         else if (whole && trying)
             pays_ = median(with_) < clearly * median(without_);
         else if (whole && median(with_) > median(without_))
-            count_ = period;
+            count_ = period_;
     }
     static double median(Times times) {  // the first runs wake threads up, some are interrupted
         std::nth_element(times.begin(), times.begin() + each / 2, times.end());
         return times[each / 2];
     }
 
+    int period_ = longest;
     int count_ = 0;  ///< of this period: at first without sharing, then with it, then as it pays
     bool running_ = false, shared_ = false, timed_ = false, pays_ = true;
     double spent_ = 0;  ///< by the last runs that were shared, of `each`

@@ -14,20 +14,21 @@ struct TestClock {
     static time_point now() { return time_point(passed); }
 };
 
-/// Cycles that take so many seconds without and with sharing.
+/// Cycles that take so long without and with sharing, in `unit` seconds.
 struct Machine {
     double without, with;
+    double unit = 1e-4;
     engine::SharingTrial<TestClock> trial;
-    int shared = 0;      ///< of the cycles that were run last
-    double seconds = 0;  ///< they took
+    int shared = 0;    ///< of the cycles that were run last
+    double spent = 0;  ///< by them
 
     void run(int cycles, bool worth = true) {
-        shared = 0, seconds = 0;
+        shared = 0, spent = 0;
         for (int i = 0; i < cycles; ++i) {
             const bool now = trial.begin([&] { return worth; });
             shared += now;
-            seconds += now ? with : without;
-            TestClock::passed += TestClock::duration(now ? with : without);
+            spent += now ? with : without;
+            TestClock::passed += TestClock::duration(unit * (now ? with : without));
             trial.end();
         }
     }
@@ -54,7 +55,7 @@ TEST_CASE("However slow sharing is, trying it costs next to nothing") {
         Machine m{.without = 1, .with = with, .trial = {}};
         m.run(10 * period);
         CHECK(m.shared >= 10);  // it was tried
-        CHECK(m.seconds < 1.04 * 10 * period);
+        CHECK(m.spent < 1.04 * 10 * period);
     }
 }
 
@@ -67,6 +68,14 @@ TEST_CASE("When sharing becomes slow it ends soon, and comes back when it is fas
     m.with = 0.55;
     m.run(2 * period);
     CHECK(m.shared > period / 2);
+}
+
+TEST_CASE("Cycles that take long are tried more often: after 2 s, or 512 of them") {
+    Machine m{.without = 1, .with = 30, .unit = 0.004, .trial = {}};
+    m.run(100);
+    m.with = 0.55;
+    m.run(600);
+    CHECK(m.shared > 100);
 }
 
 TEST_CASE("What is not worth a trial is not tried") {
