@@ -30,7 +30,8 @@ struct Image {
 Image read_png(const std::string& path, int border);
 
 /// What keeps a file from being a picture for read_png(), as far as its beginning and end tell; empty when
-/// nothing does.
+/// nothing does. Much text before the pixels is refused in every picture, though read_png() passes over it in
+/// those of the usual kind.
 std::string png_problem(const std::string& path);
 
 /// Throws std::runtime_error with the reason when the file cannot be written.

@@ -17,8 +17,6 @@ namespace {
 constexpr Index compared_activity = 96;           ///< cells; of larger groups only silence is noticed
 constexpr std::size_t compared_states = 1 << 20;  ///< numbers; a group with more of them is always updated
 
-auto& at(auto& all, int index) { return all[static_cast<std::size_t>(index)]; }
-
 /// Of a row that is filled up with zeros to a multiple of eight numbers. An active group shows early.
 bool all_zero(const double* row, Index n) {
     constexpr Index lanes = 8;
@@ -126,7 +124,7 @@ void begin_update(GroupPlan& g) {
 void update_part(GroupPlan& g, int part, const UpdateFrame& f) {
     const Range cells = cells_of_part(g, part);
     const auto first = static_cast<Index>(cells.first), count = static_cast<Index>(cells.last) - first;
-    auto& found = at(g.parts, part);
+    auto& found = g.parts[static_cast<std::size_t>(part)];
     found = {true, true};
     if (count <= 0) return;
     update_cells(g, first, count, f);
@@ -146,7 +144,8 @@ void end_update(GroupPlan& g, const UpdateFrame& f) {
 double update_cost(const Plan& plan) {
     double cost = 0;
     for (const int i : plan.updated)
-        if (const auto& g = at(plan.groups, i); !g.rests) cost += static_cast<double>(g.cells);
+        if (const auto& g = plan.groups[static_cast<std::size_t>(i)]; !g.rests)
+            cost += static_cast<double>(g.cells);
     return cost;
 }
 

@@ -10,8 +10,8 @@ namespace forage::engine {
 
 /// Work that threads can share is faster for it when it takes long and a processor is free, which nobody can
 /// tell beforehand, and which changes. So it is done both ways for a while, and then in the faster one until
-/// the next trial, which comes at once when sharing has become slower than it was without. The numbers are
-/// the same either way.
+/// the next trial, which comes at once when sharing has become clearly slower than it was without. The
+/// numbers are the same either way.
 template <class Clock = std::chrono::steady_clock>
 class SharingTrial {
   public:
@@ -34,9 +34,10 @@ class SharingTrial {
 
   private:
     static constexpr int each = 16, shortest = 512, longest = 4096;  // runs
-    static constexpr double often = 2;       // s, from one trial to the next, where runs are long
+    static constexpr double often = 2;       // s, from one trial to the next, as far as that is so many runs
     static constexpr double clearly = 0.93;  // what is gained by less may be chance, and takes a processor
-    static constexpr double enough = 2;      // so much longer than without: then the trial is over
+    static constexpr double slower = 1.1;    // a few runs scatter
+    static constexpr double enough = 0.02;   // of a period's time: what a trial may take, if that is 32 runs
     using Times = std::array<double, each>;
 
     void settle(bool pays) {
@@ -52,11 +53,11 @@ class SharingTrial {
         }
         spent_ = i == 0 ? seconds : spent_ + seconds;
         const bool trying = count_ < 2 * each, whole = i == each - 1;
-        if (trying && spent_ > enough * each * median(without_))
-            settle(false);
+        if (trying && spent_ > std::max(enough * period_, 2.0 * each) * median(without_))
+            settle(false), period_ = longest;
         else if (whole && trying)
             pays_ = median(with_) < clearly * median(without_);
-        else if (whole && median(with_) > median(without_))
+        else if (whole && median(with_) > slower * median(without_))
             count_ = period_;
     }
     static double median(Times times) {  // the first runs wake threads up, some are interrupted

@@ -72,7 +72,8 @@ Simulation::Simulation(std::unique_ptr<Plan> plan, const Options& options)
     }
     estimate_deliveries(*plan_);
     if (options.threads > 1 && update_cost(*plan_) + delivery_cost(*plan_) >= worth_sharing_)
-        shared_cycle_ = std::make_unique<SharedCycle>(*plan_, options.threads, worth_sharing_ > 0 ? least_part : 0);
+        shared_cycle_ =
+            std::make_unique<SharedCycle>(*plan_, options.threads, worth_sharing_ > 0 ? least_part : 0);
     for (int t = 0; t < threads(); ++t)  // not touched, and so not in memory, until a type draws numbers
         plan_->scratch.push_back(
             std::make_unique_for_overwrite<double[]>(widest * std::size_t{NeuronColumns::scratch_columns}));

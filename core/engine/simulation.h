@@ -76,9 +76,9 @@ class Simulation {
     /// Leaves out, from now on, all groups that nobody reads: those that are not observed, that no module
     /// takes as an input, and from which no connection leads, directly or by way of others, to one that is.
     /// They are not updated and nothing is delivered to them; plastic connections to them do not learn.
-    /// What is read has the same bits as ever. When nothing at all is read, nothing is left out: who runs such
-    /// a system wants to see it run. To be called before start(), at most once; without it
-    /// everything is updated. Who then looks at what is left out gets a std::logic_error.
+    /// What is read has the same bits as ever. When nothing at all is read, nothing is left out: who runs
+    /// such a system wants to see it run. To be called before start(), at most once; without it everything is
+    /// updated. Who then looks at what is left out gets a std::logic_error.
     void leave_out_unread(const Observed& observed);
 
     /// Starts the modules; once, before the first cycle. Throws RunError.

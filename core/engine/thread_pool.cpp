@@ -5,8 +5,10 @@
 #include <utility>
 
 namespace forage::engine {
+namespace {
 
 constexpr int no_item = std::numeric_limits<int>::max();
+
 /// Leaves the processor to the thread beside it for a moment.
 void pause() {
 #if defined(__x86_64__)
@@ -16,7 +18,7 @@ void pause() {
 
 /// Waits until `number` is not `value`: awake, as the next loop of a cycle usually comes within microseconds;
 /// then letting others run, as the one that is waited for may be one of them, on the same processor; and
-/// asleep after some 100 us.
+/// asleep after some 100 us, longer when others do run.
 template <class T>
 void wait_while(std::atomic<T>& number, T value) {
     constexpr int awake = 400, giving_way = 400;
@@ -28,6 +30,8 @@ void wait_while(std::atomic<T>& number, T value) {
         else
             number.wait(value, std::memory_order_acquire);
 }
+
+}  // namespace
 
 ThreadPool::ThreadPool(int threads) {
     const auto count = static_cast<std::size_t>(std::max(threads, 1));

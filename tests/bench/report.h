@@ -45,24 +45,23 @@ inline double wall_seconds() {
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Runs per second, block by block. Where a figure is compared with the original's, or with another one of
-/// the same run, it is the best of blocks that counts, as it is for the original: what a neighbour on the
-/// same processor takes from one block it does not take from all. The median says what a user of this machine
-/// saw.
+/// Runs per second, block by block. Where figures of one run are compared it is the best of blocks that
+/// counts: what a neighbour on the same processor takes from one block it does not take from all. The median
+/// says what a user of this machine saw.
 struct Rates {
     std::vector<double> blocks;
     double best() const { return *std::max_element(blocks.begin(), blocks.end()); }
     double median() const { return bench::median(blocks); }
 };
 
-/// Adds `count` blocks of about a fortieth of a second, by either clock.
+/// Adds `count` blocks that last so many seconds or somewhat longer, by either clock.
 template <class Run>
-void add_rates(Rates& rates, double (*clock)(), int count, Run run) {
+void add_rates(Rates& rates, double (*clock)(), int count, Run run, double seconds_of_block = 0.025) {
     for (long runs = 1; count > 0;) {
         const double begin = clock();
         for (long i = 0; i < runs; ++i) run();
         const double seconds = clock() - begin;
-        if (seconds < 0.025 && runs < 1'000'000)
+        if (seconds < seconds_of_block && runs < 100'000'000)
             runs *= 2;
         else
             rates.blocks.push_back(static_cast<double>(runs) / seconds), --count;

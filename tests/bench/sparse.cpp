@@ -63,13 +63,12 @@ int main() {
         fmt::print(
             "{} x {} synapses ({}): {:.1f} GB/s, {:.0f} % of a triad's; {:.2f} times as fast with two "
             "threads, two separate runs gain {:.2f}\n",
-            cells, each, simulation->connection_form(0), 1e-9 * speed, 100 * share, gain.shared,
-            gain.possible);
+            cells, each, simulation->connection_form(0), 1e-9 * speed, 100 * share, gain.shared, gain.apart);
         const std::string subject = fmt::format("sparse/{} cells x {} synapses", cells, each);
         bench::result(subject, "bandwidth", 1e-9 * speed, "GB/s");
         bench::result(subject, "bandwidth / triad's", share, "");
         bench::result(subject, "rate with two threads / with one", gain.shared, "");
-        bench::result(subject, "rate of two side by side / of one", gain.possible, "");
+        bench::result(subject, "rate of two side by side / of one", gain.apart, "");
     }
     return 0;
 }

@@ -18,13 +18,13 @@ struct Outcome {
     double seconds = 0;             ///< of the world
     double clock = 0;               ///< s of the clock
     std::vector<std::pair<std::string, std::optional<std::uint64_t>>>
-        changes;                   ///< of --at, and the first cycle in which each acted; empty: it never did
-    std::string diverged;          ///< where numbers began to be not finite; empty: they are
-    std::string stopped;           ///< why it ended before its time; empty when it did not
-    std::string state;             ///< a digest of it at the end; empty when it is not wanted
-    bool resumable = false;        ///< there is a checkpoint to go on from
-    std::size_t frames = 0;        ///< of the film
-    int groups = 0;                     ///< of the system
+        changes;             ///< of --at, and the first cycle in which each acted; empty: it never did
+    std::string diverged;    ///< where numbers began to be not finite; empty: they are
+    std::string stopped;     ///< why it ended before its time; empty when it did not
+    std::string state;       ///< a digest of it at the end; empty when it is not wanted
+    bool resumable = false;  ///< there is a checkpoint to go on from
+    std::size_t frames = 0;  ///< of the film
+    int groups = 0;          ///< of the system
     std::vector<std::string> left_out;  ///< those of them that nobody reads
     std::vector<std::string> files;
     std::vector<Recordings::Entry> recordings;

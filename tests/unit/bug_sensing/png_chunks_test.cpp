@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <malloc.h>
+#include <unistd.h>
 
 #include "bug_interface/world/any_png.h"
 #include "bug_interface/world/plain_png.h"
@@ -28,7 +29,8 @@ class File {
     operator const std::string&() const { return path_; }
 
   private:
-    std::string path_ = std::filesystem::temp_directory_path() / "forage_png_chunks.png";
+    std::string path_ =
+        std::filesystem::temp_directory_path() / ("forage_png_chunks_" + std::to_string(getpid()) + ".png");
 };
 
 const std::string grey_rows("\0\x40\x80", 3), rgb_rows("\0\x40\x80\xc0\x10\x20\x30", 7),

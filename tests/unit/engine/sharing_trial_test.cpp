@@ -61,21 +61,37 @@ TEST_CASE("However slow sharing is, trying it costs next to nothing") {
 
 TEST_CASE("When sharing becomes slow it ends soon, and comes back when it is fast again") {
     Machine m{.without = 1, .with = 0.55, .trial = {}};
-    m.run(period);
-    m.with = 30;  // a processor is taken away
     m.run(period / 2);
+    m.with = 30;  // a processor is taken away
+    m.run(period / 4);
     CHECK(m.shared < 64);
     m.with = 0.55;
     m.run(2 * period);
     CHECK(m.shared > period / 2);
 }
 
-TEST_CASE("Cycles that take long are tried more often: after 2 s, or 512 of them") {
-    Machine m{.without = 1, .with = 30, .unit = 0.004, .trial = {}};
+TEST_CASE("Cycles that take long are tried more often, after 512 of them, unless trying costs much") {
+    Machine m{.without = 1, .with = 1.5, .unit = 0.004, .trial = {}};
     m.run(100);
     m.with = 0.55;
     m.run(600);
     CHECK(m.shared > 100);
+    for (const double with : {3.0, 10.0, 30.0}) {
+        Machine slow{.without = 1, .with = with, .unit = 0.004, .trial = {}};
+        slow.run(10 * period);
+        CHECK(slow.shared >= 10);
+        CHECK(slow.spent < 1.04 * 10 * period);
+    }
+}
+
+TEST_CASE("A thread that takes long to wake up does not end a trial") {
+    Machine m{.without = 1, .with = 0.55, .trial = {}};
+    m.run(16);
+    m.with = 40;
+    m.run(1);
+    m.with = 0.55;
+    m.run(period / 2);
+    CHECK(m.shared > period / 4);
 }
 
 TEST_CASE("What is not worth a trial is not tried") {
