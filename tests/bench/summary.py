@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import platform
+import shutil
 import subprocess
 import sys
 
@@ -19,6 +20,8 @@ def processor():
 
 def commit():
     root = pathlib.Path(__file__).parent
+    if not shutil.which("git"):
+        return ""
     run = subprocess.run(["git", "-C", root, "describe", "--always", "--dirty"], capture_output=True, text=True)
     return run.stdout.strip() if run.returncode == 0 else ""
 
