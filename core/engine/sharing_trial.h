@@ -37,7 +37,7 @@ class SharingTrial {
     static constexpr double often = 2;       // s, from one trial to the next, as far as that is so many runs
     static constexpr double clearly = 0.93;  // what is gained by less may be chance, and takes a processor
     static constexpr double slower = 1.1;    // a few runs scatter
-    static constexpr double enough = 0.02;   // of a period's time: what a trial may take, if that is 32 runs
+    static constexpr double enough = 0.02;   // of a period's time, or 32 runs: what a trial may take
     using Times = std::array<double, each>;
 
     void settle(bool pays) {
