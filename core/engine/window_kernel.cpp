@@ -8,10 +8,10 @@
 namespace forage::engine {
 namespace {
 
-constexpr Index lanes = 8;
+constexpr Index lanes = 4;  // GCC takes wider vectors apart where the processor has no AVX-512
 typedef double Lanes __attribute__((vector_size(lanes * sizeof(double))));  // NOLINT: no `using` for this
 
-/// to[y * width + x] += the sum over the taps, from 0 and in order, for `rows` rows and `blocks` * 8 columns
+/// to[y * width + x] += the sum over the taps, from 0 and in order, for `rows` rows and `blocks` * 4 columns
 /// from source cell `at` on, of which the first `columns` exist. Additions wait for each other, so several
 /// sums are made side by side.
 template <int blocks, int rows>
@@ -37,14 +37,16 @@ template <int blocks, int rows>
     }
 }
 
-/// All columns of `rows` rows.
+/// All columns of `rows` rows; at most eight sums side by side, as AVX2 has sixteen registers.
 template <int rows>
 [[gnu::always_inline]] inline void add_rows(const WindowKernel::Tap* taps, std::size_t count, Index at,
                                             Index stride, Index width, double* to) {
     for (Index x = 0; x < width;) {
         const Index left = width - x;
-        if (rows == 1 && left > 3 * lanes)
-            add_taps<4, rows>(taps, count, at + x, stride, left, width, to + x), x += 4 * lanes;
+        if (rows == 1 && left > 4 * lanes)
+            add_taps<8, 1>(taps, count, at + x, stride, left, width, to + x), x += 8 * lanes;
+        else if (rows <= 2 && left > 2 * lanes)
+            add_taps<4, std::min(rows, 2)>(taps, count, at + x, stride, left, width, to + x), x += 4 * lanes;
         else if (left > lanes)
             add_taps<2, rows>(taps, count, at + x, stride, left, width, to + x), x += 2 * lanes;
         else
@@ -55,12 +57,12 @@ template <int rows>
 FORAGE_SIMD void add_windows(const WindowKernel::Tap* taps, std::size_t count, Index width, Index first_row,
                              Index last_row, Index stride, double* target) {
     Index y = first_row;
-    if (width <= 2 * lanes) {
+    if (width <= 2 * lanes)
         for (; y + 4 <= last_row; y += 4)
             add_rows<4>(taps, count, y * stride, stride, width, target + y * width);
+    if (width <= 4 * lanes)
         for (; y + 2 <= last_row; y += 2)
             add_rows<2>(taps, count, y * stride, stride, width, target + y * width);
-    }
     for (; y < last_row; ++y) add_rows<1>(taps, count, y * stride, stride, width, target + y * width);
 }
 
@@ -88,8 +90,8 @@ WindowKernel::WindowKernel(const connectivity::Regular& r, const SynapseInstance
             delays_.push_back(tap.delay);
     }
     stride_ = left_ + width_ + right;
-    // Four blocks are read at a time, past the last cell of a row.
-    const auto cells = static_cast<std::size_t>(stride_ * (top_ + height_ + bottom) + 4 * lanes);
+    // Eight blocks are read at a time, past the last cell of a row.
+    const auto cells = static_cast<std::size_t>(stride_ * (top_ + height_ + bottom) + 8 * lanes);
     framed_.assign(delays_.size(), std::vector<double>(cells));
     for (const auto& tap : r.taps) {
         const auto d =
