@@ -54,34 +54,46 @@ void batch_by_cell(const Draw& d, std::size_t number, const Threshold& t, double
 
 #ifdef FORAGE_AVX2
 
-/// The same numbers as batch_by_cell().
-FORAGE_AVX2 void batch_by_lanes(const Draw& d, std::size_t number, const Threshold& t, double value,
-                                double* out) {
-    __m256i words[4];
-    philox::blocks(d, static_cast<std::uint32_t>(number * lanes), events_stream, words);
-    const __m256i top = philox::all(t.top);
-    const __m256d active = _mm256_set1_pd(value);
-    __m256i ties = _mm256_setzero_si256();
-    for (int part = 0; part < 8; ++part, out += lanes) {
-        const __m256i word = words[part / 2];
-        const __m256i bits =
-            part % 2 ? _mm256_srli_epi32(word, 16) : _mm256_and_si256(word, philox::all(0xffffu));
-        const __m256i above = _mm256_cmpgt_epi32(bits, top);
-        ties = _mm256_or_si256(ties, _mm256_cmpeq_epi32(bits, top));
-        const __m256i low = _mm256_cvtepi32_epi64(_mm256_castsi256_si128(above));
-        const __m256i high = _mm256_cvtepi32_epi64(_mm256_extracti128_si256(above, 1));
-        _mm256_storeu_pd(out, _mm256_and_pd(active, _mm256_castsi256_pd(low)));
-        _mm256_storeu_pd(out + 4, _mm256_and_pd(active, _mm256_castsi256_pd(high)));
+/// `count` batches: the same numbers as batch_by_cell().
+FORAGE_AVX2 void batches_by_lanes(const Draw& d, std::size_t number, std::size_t count, const Threshold& t,
+                                  double value, double* out) {
+    const philox::Rounds rounds(d, events_stream);
+    // 16 cells are compared at a time, as numbers with a sign. No cell is above a `top` of 65536, or equal.
+    const __m256i sign = _mm256_set1_epi16(-0x8000);
+    const __m256i top = _mm256_set1_epi16(static_cast<short>(std::min(t.top, 0xffffu) - 0x8000u));
+    const __m256d active = _mm256_set1_pd(t.top <= 0xffffu ? value : 0.0);
+    // What makes masks of 16 bits ones of 64: of the low and the high halves of blocks 0 to 3, then of 4 to 7.
+    const __m256i lane = _mm256_setr_epi64x(0, 0x0808080808080808, 0, 0x0808080808080808);
+    __m256i picks[4];
+    for (int i = 0; i < 4; ++i)
+        picks[i] = _mm256_or_si256(lane, _mm256_set1_epi16(static_cast<short>(0x0100 + 0x0202 * i)));
+    constexpr std::size_t cells[4] = {0, lanes, 4, lanes + 4};
+
+    for (; count > 0; ++number, --count) {
+        __m256i words[2][4];
+        philox::blocks(rounds, static_cast<std::uint32_t>(number * lanes), words);
+        __m256i ties = _mm256_setzero_si256();
+        for (int word = 0; word < 4; ++word, out += 2 * lanes) {
+            const __m256i both =
+                _mm256_blend_epi32(words[0][word], _mm256_slli_epi64(words[1][word], 32), 0xaa);
+            const __m256i bits = _mm256_xor_si256(both, sign);
+            const __m256i above = _mm256_cmpgt_epi16(bits, top);
+            ties = _mm256_or_si256(ties, _mm256_cmpeq_epi16(bits, top));
+            for (int i = 0; i < 4; ++i) {
+                const __m256i mask = _mm256_shuffle_epi8(above, picks[i]);
+                _mm256_storeu_pd(out + cells[i], _mm256_and_pd(active, _mm256_castsi256_pd(mask)));
+            }
+        }
+        if (!_mm256_testz_si256(ties, ties)) batch_by_cell(d, number, t, value, out - batch);
     }
-    if (!_mm256_testz_si256(ties, ties)) batch_by_cell(d, number, t, value, out - batch);
 }
 
 /// The same for `many` batches.
 template <int many>
-FORAGE_AVX512 void batches_by_wide_lanes(const Draw& d, const philox::WideKeys& keys, std::size_t number,
+FORAGE_AVX512 void batches_by_wide_lanes(const Draw& d, const philox::Rounds& rounds, std::size_t number,
                                          const Threshold& t, double value, double* out) {
     __m512i words[many][4];
-    philox::blocks(d, keys, static_cast<std::uint32_t>(number * lanes), events_stream, words);
+    philox::blocks(rounds, static_cast<std::uint32_t>(number * lanes), words);
     const __m512i top = _mm512_set1_epi64(t.top), half = _mm512_set1_epi64(0xffff);
     const __m512d active = _mm512_set1_pd(value);
     for (const auto& batch_words : words) {
@@ -105,18 +117,15 @@ void batches(philox::Way way, const Draw& d, std::size_t number, std::size_t cou
              double value, double* out) {
 #ifdef FORAGE_AVX2
     if (way == philox::Way::avx512) {
-        const philox::WideKeys keys(d);
+        const philox::Rounds rounds(d, events_stream);
         constexpr std::size_t together = 2;
         for (; count >= together; number += together, count -= together, out += together * batch)
-            batches_by_wide_lanes<together>(d, keys, number, t, value, out);
+            batches_by_wide_lanes<together>(d, rounds, number, t, value, out);
         for (; count > 0; ++number, --count, out += batch)
-            batches_by_wide_lanes<1>(d, keys, number, t, value, out);
+            batches_by_wide_lanes<1>(d, rounds, number, t, value, out);
         return;
     }
-    if (way == philox::Way::avx2) {
-        for (; count > 0; ++number, --count, out += batch) batch_by_lanes(d, number, t, value, out);
-        return;
-    }
+    if (way == philox::Way::avx2) return batches_by_lanes(d, number, count, t, value, out);
 #endif
     static_cast<void>(way);
     for (; count > 0; ++number, --count, out += batch) batch_by_cell(d, number, t, value, out);

@@ -47,71 +47,93 @@ inline r123::Philox4x32::ctr_type block(const Draw& d, std::uint32_t index, std:
 
 #ifdef FORAGE_AVX2
 
-FORAGE_AVX2 inline __m256i all(std::uint32_t v) { return _mm256_set1_epi32(static_cast<int>(v)); }
+inline constexpr std::uint32_t multipliers[] = {0xd2511f53u, 0xcd9e8d57u};
 
-struct Product {
-    __m256i low, high;
+/// What the rounds of many blocks have in common. Their counters differ in the first word, so that half of the
+/// first round and the other half of the second one are the same for all: these are done here, once.
+struct Rounds {
+    static constexpr int left = 8;              ///< after the first two
+    alignas(32) std::uint64_t keys[left][2][4];  ///< each of them four times, as wide as they are read
+    std::uint64_t second, third[2], fourth;
+
+    Rounds(const Draw& d, std::uint32_t stream) {
+        const auto key = [&](int round, int i) {
+            return d.key[i] + static_cast<std::uint32_t>(round) * (i == 0 ? 0x9e3779b9u : 0xbb67ae85u);
+        };
+        const std::uint64_t q = std::uint64_t{d.cycle[1]} * multipliers[1];
+        const std::uint64_t first = (q >> 32) ^ d.cycle[0] ^ key(0, 0);
+        const std::uint64_t p = (first & 0xffffffffu) * multipliers[0];
+        second = (d.draw | stream) ^ key(0, 1);
+        third[0] = (q & 0xffffffffu) ^ key(1, 0);
+        third[1] = (p >> 32) ^ key(1, 1);
+        fourth = p;
+        for (int round = 0; round < left; ++round)
+            for (int i = 0; i < 2; ++i)
+                for (auto& k : keys[round][i]) k = key(round + 2, i);
+    }
 };
 
-FORAGE_AVX2 inline Product multiply(__m256i a, __m256i factor) {
-    const __m256i even = _mm256_mul_epu32(a, factor),
-                  odd = _mm256_mul_epu32(_mm256_srli_epi64(a, 32), factor);
-    return {_mm256_blend_epi32(even, _mm256_slli_epi64(odd, 32), 0xaa),
-            _mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xaa)};
-}
+FORAGE_AVX2 inline __m256i all(std::uint64_t v) { return _mm256_set1_epi64x(static_cast<long long>(v)); }
 
-/// Word j of block `first` + l is lane l of words[j].
-FORAGE_AVX2 inline void blocks(const Draw& d, std::uint32_t first, std::uint32_t stream, __m256i* words) {
-    __m256i c0 = _mm256_add_epi32(all(first), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
-    __m256i c1 = all(d.cycle[0]), c2 = all(d.cycle[1]), c3 = all(d.draw | stream);
-    std::uint32_t k0 = d.key[0], k1 = d.key[1];
-    for (int round = 0; round < 10; ++round, k0 += 0x9e3779b9u, k1 += 0xbb67ae85u) {
-        const Product p = multiply(c0, all(0xd2511f53u)), q = multiply(c2, all(0xcd9e8d57u));
-        c0 = _mm256_xor_si256(_mm256_xor_si256(q.high, c1), all(k0));
-        c2 = _mm256_xor_si256(_mm256_xor_si256(p.high, c3), all(k1));
-        c1 = q.low, c3 = p.low;
+/// The low half of lane l of words[i][j] is word j of block `first` + 4 i + l; the high half is anything: a
+/// product of low halves then needs no blending. Rounds wait for each other, so several are computed side by
+/// side.
+template <int many>
+FORAGE_AVX2 inline void blocks(const Rounds& rounds, std::uint32_t first, __m256i (&words)[many][4]) {
+    const __m256i m0 = all(multipliers[0]), m1 = all(multipliers[1]);
+    for (int i = 0; i < many; ++i) {
+        const __m256i index =
+            _mm256_add_epi64(all(first + 4u * static_cast<std::uint32_t>(i)), _mm256_setr_epi64x(0, 1, 2, 3));
+        const __m256i p = _mm256_mul_epu32(index, m0);
+        const __m256i q =
+            _mm256_mul_epu32(_mm256_xor_si256(_mm256_srli_epi64(p, 32), all(rounds.second)), m1);
+        words[i][0] = _mm256_xor_si256(_mm256_srli_epi64(q, 32), all(rounds.third[0]));
+        words[i][1] = q;
+        words[i][2] = _mm256_xor_si256(p, all(rounds.third[1]));
+        words[i][3] = all(rounds.fourth);
     }
-    words[0] = c0, words[1] = c1, words[2] = c2, words[3] = c3;
+#pragma GCC unroll 8
+    for (const auto& key : rounds.keys) {
+        const auto* k = reinterpret_cast<const __m256i*>(key);
+#pragma GCC unroll 4
+        for (auto& c : words) {
+            const __m256i p = _mm256_mul_epu32(c[0], m0), q = _mm256_mul_epu32(c[2], m1);
+            c[0] = _mm256_xor_si256(_mm256_srli_epi64(q, 32), _mm256_xor_si256(c[1], k[0]));
+            c[2] = _mm256_xor_si256(_mm256_srli_epi64(p, 32), _mm256_xor_si256(c[3], k[1]));
+            c[1] = q, c[3] = p;
+        }
+    }
 }
 
 // The forms with a mask, of all lanes: GCC 12 warns of what the plain ones leave undefined. No mask is left
 // in the code.
 inline constexpr unsigned char all_lanes = 0xff;
-FORAGE_AVX512 inline __m512i wide(std::uint32_t v) { return _mm512_set1_epi64(v); }
+FORAGE_AVX512 inline __m512i wide(std::uint64_t v) {
+    return _mm512_set1_epi64(static_cast<long long>(v));
+}
 FORAGE_AVX512 inline __m512i upper(__m512i v) { return _mm512_maskz_srli_epi64(all_lanes, v, 32); }
 FORAGE_AVX512 inline __m512i product(__m512i a, std::uint32_t factor) {
     return _mm512_maskz_mul_epu32(all_lanes, a, wide(factor));
 }
 
-/// What the rounds add, for many blocks of one draw.
-struct WideKeys {
-    std::uint64_t k0[10], k1[10];
-    explicit WideKeys(const Draw& d) {
-        for (std::uint32_t round = 0; round < 10; ++round) {
-            k0[round] = d.key[0] + round * 0x9e3779b9u;
-            k1[round] = d.key[1] + round * 0xbb67ae85u;
-        }
-    }
-};
-
-/// The low half of lane l of words[i][j] is word j of block `first` + 8 i + l; the high half is anything.
-/// Rounds wait for each other, so several are computed side by side.
+/// The same, eight lanes wide.
 template <int many>
-FORAGE_AVX512 inline void blocks(const Draw& d, const WideKeys& keys, std::uint32_t first,
-                                 std::uint32_t stream, __m512i (&words)[many][4]) {
+FORAGE_AVX512 inline void blocks(const Rounds& rounds, std::uint32_t first, __m512i (&words)[many][4]) {
     constexpr int exclusive_or = 0x96;  // of all three
     for (int i = 0; i < many; ++i) {
-        words[i][0] = _mm512_add_epi64(wide(first + 8u * static_cast<std::uint32_t>(i)),
-                                       _mm512_setr_epi64(0, 1, 2, 3, 4, 5, 6, 7));
-        words[i][1] = wide(d.cycle[0]), words[i][2] = wide(d.cycle[1]), words[i][3] = wide(d.draw | stream);
+        const __m512i index = _mm512_add_epi64(wide(first + 8u * static_cast<std::uint32_t>(i)),
+                                               _mm512_setr_epi64(0, 1, 2, 3, 4, 5, 6, 7));
+        const __m512i p = product(index, multipliers[0]);
+        const __m512i q = product(upper(p) ^ wide(rounds.second), multipliers[1]);
+        words[i][0] = upper(q) ^ wide(rounds.third[0]), words[i][1] = q;
+        words[i][2] = p ^ wide(rounds.third[1]), words[i][3] = wide(rounds.fourth);
     }
-#pragma GCC unroll 10
-    for (int round = 0; round < 10; ++round) {
-        const __m512i k0 = _mm512_set1_epi64(static_cast<long long>(keys.k0[round])),
-                      k1 = _mm512_set1_epi64(static_cast<long long>(keys.k1[round]));
+#pragma GCC unroll 8
+    for (const auto& key : rounds.keys) {
+        const __m512i k0 = wide(key[0][0]), k1 = wide(key[1][0]);
 #pragma GCC unroll 4
         for (auto& c : words) {
-            const __m512i p = product(c[0], 0xd2511f53u), q = product(c[2], 0xcd9e8d57u);
+            const __m512i p = product(c[0], multipliers[0]), q = product(c[2], multipliers[1]);
             c[0] = _mm512_ternarylogic_epi64(upper(q), c[1], k0, exclusive_or);
             c[2] = _mm512_ternarylogic_epi64(upper(p), c[3], k1, exclusive_or);
             c[1] = q, c[3] = p;

@@ -34,24 +34,20 @@ std::pair<std::uint64_t, std::uint64_t> words(const Draw& d, std::uint32_t pair)
 /// As many words from pair `first` on as come in sixteens; returns how many.
 FORAGE_AVX2 std::size_t words_by_lanes(const Draw& d, std::uint32_t first, std::uint64_t* out,
                                        std::size_t count) {
+    const philox::Rounds rounds(d, 0);
+    constexpr int many = 2;
     std::size_t i = 0;
     for (; i + 2 * philox::lanes <= count; i += 2 * philox::lanes) {
-        __m256i w[4];
-        philox::blocks(d, first + static_cast<std::uint32_t>(i / 2), 0, w);
-        // a: the first word of a block, b: the second; of blocks 0 1 4 5, then of 2 3 6 7.
-        const __m256i a[2] = {_mm256_unpacklo_epi32(w[1], w[0]), _mm256_unpackhi_epi32(w[1], w[0])};
-        const __m256i b[2] = {_mm256_unpacklo_epi32(w[3], w[2]), _mm256_unpackhi_epi32(w[3], w[2])};
-        for (int half = 0; half < 2; ++half) {
-            const __m256i even = _mm256_unpacklo_epi64(a[half], b[half]);
-            const __m256i odd = _mm256_unpackhi_epi64(a[half], b[half]);
-            std::uint64_t* to = out + i + 4 * static_cast<std::size_t>(half);
-            const auto store = [](std::uint64_t* at, __m128i v) {
-                _mm_storeu_si128(reinterpret_cast<__m128i*>(at), v);
-            };
-            store(to, _mm256_castsi256_si128(even));
-            store(to + 2, _mm256_castsi256_si128(odd));
-            store(to + 8, _mm256_extracti128_si256(even, 1));
-            store(to + 10, _mm256_extracti128_si256(odd, 1));
+        __m256i words[many][4];
+        philox::blocks(rounds, first + static_cast<std::uint32_t>(i / 2), words);
+        for (int half = 0; half < many; ++half) {
+            const auto& w = words[half];
+            const __m256i a = _mm256_blend_epi32(w[1], _mm256_slli_epi64(w[0], 32), 0xaa);  // of 4 blocks
+            const __m256i b = _mm256_blend_epi32(w[3], _mm256_slli_epi64(w[2], 32), 0xaa);
+            const __m256i even = _mm256_unpacklo_epi64(a, b), odd = _mm256_unpackhi_epi64(a, b);
+            auto* const to = reinterpret_cast<__m256i*>(out + i + 8 * static_cast<std::size_t>(half));
+            _mm256_storeu_si256(to, _mm256_permute2x128_si256(even, odd, 0x20));
+            _mm256_storeu_si256(to + 1, _mm256_permute2x128_si256(even, odd, 0x31));
         }
     }
     return i;
@@ -63,11 +59,11 @@ FORAGE_AVX512 std::size_t words_by_wide_lanes(const Draw& d, std::uint32_t first
     const __m512i low = _mm512_set1_epi64(0xffffffff);
     const __m512i front = _mm512_setr_epi64(0, 8, 1, 9, 2, 10, 3, 11),
                   back = _mm512_setr_epi64(4, 12, 5, 13, 6, 14, 7, 15);
-    const philox::WideKeys keys(d);
+    const philox::Rounds rounds(d, 0);
     std::size_t i = 0;
     for (; i + 2 * philox::lanes <= count; i += 2 * philox::lanes) {
         __m512i words[1][4];
-        philox::blocks(d, keys, first + static_cast<std::uint32_t>(i / 2), 0, words);
+        philox::blocks(rounds, first + static_cast<std::uint32_t>(i / 2), words);
         const auto& w = words[0];
         const __m512i a = _mm512_or_epi64(_mm512_maskz_slli_epi64(philox::all_lanes, w[0], 32),
                                           _mm512_and_epi64(w[1], low));
