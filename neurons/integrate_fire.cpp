@@ -1,5 +1,6 @@
 #include "neurons/integrate_fire.h"
 
+#include "core/types/simd.h"
 #include "neurons/membrane.h"
 
 namespace forage {
@@ -31,12 +32,34 @@ void IntegrateFire::check(Problems& problems) const {
                                 {}});
 }
 
+namespace {
+
+/// What a cell loses that fires, and one that does not.
+struct Reset {
+    double active = 0, silent = 0;
+};
+
+FORAGE_SIMD void update(const membrane::Potential& p, double threshold, Reset reset, const double* mask,
+                        Index cells, double* vm, double* act) {
+    if (mask)
+        membrane::integrate(p, cells, vm, [=](Index i, double v) {
+            act[i] = v >= threshold ? mask[i] : 0.0;  // NaN is silent
+            vm[i] = v - (v >= threshold && mask[i] != 0 ? reset.active : reset.silent);
+        });
+    else
+        membrane::integrate(p, cells, vm, [=](Index i, double v) {
+            act[i] = v >= threshold ? 1.0 : 0.0;
+            vm[i] = v - (v >= threshold ? reset.active : reset.silent);
+        });
+}
+
+}  // namespace
+
 void IntegrateFire::update(NeuronColumns& c) const {
     auto [vm, act] = c.states<2>();
-    membrane::integrate(membrane::potential(*this, c), 0, c.size(), vm.data(), vm.data());
-    act = (vm >= threshold).select(Eigen::ArrayXd::Ones(c.size()), 0.0);  // NaN is silent
-    if (const double* mask = membrane::mask(c, probability)) act *= ConstColumn(mask, c.size());
-    if (amplitude != 0) vm -= reset * act / amplitude;
+    const Reset loss = amplitude == 0 ? Reset() : Reset{reset * 1.0 / amplitude, reset * 0.0 / amplitude};
+    forage::update(membrane::potential(*this, c), threshold, loss, membrane::mask(c, probability), c.size(),
+                   vm.data(), act.data());
 }
 
 }  // namespace forage

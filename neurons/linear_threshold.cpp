@@ -1,7 +1,5 @@
 #include "neurons/linear_threshold.h"
 
-#include <algorithm>
-
 #include "core/types/simd.h"
 #include "neurons/membrane.h"
 
@@ -20,26 +18,26 @@ void LinearThreshold::check(Problems& problems) const { membrane::check_bounds(*
 
 namespace {
 
-FORAGE_SIMD void activate(const double* vm, const double* mask, double threshold, Index cells, double* act) {
+FORAGE_SIMD void update(const membrane::Potential& p, double threshold, const double* mask, Index cells,
+                        double* vm, double* act) {
     if (mask)
-        for (Index i = 0; i < cells; ++i) act[i] = vm[i] < threshold ? 0.0 : vm[i] * mask[i];
+        membrane::integrate(p, cells, vm, [=](Index i, double v) {
+            vm[i] = v;
+            act[i] = v < threshold ? 0.0 : v * mask[i];
+        });
     else
-        for (Index i = 0; i < cells; ++i) act[i] = vm[i] < threshold ? 0.0 : vm[i];
+        membrane::integrate(p, cells, vm, [=](Index i, double v) {
+            vm[i] = v;
+            act[i] = v < threshold ? 0.0 : v;
+        });
 }
 
 }  // namespace
 
 void LinearThreshold::update(NeuronColumns& c) const {
     auto [vm, act] = c.states<2>();
-    const double* mask = membrane::mask(c, probability);
-    const auto potential = membrane::potential(*this, c);
-    constexpr Index block =
-        1024;  // cells; what the first loop writes is still near when the second one reads it
-    for (Index i = 0, end = c.size(); i < end; i += block) {
-        const Index cells = std::min(block, end - i);
-        membrane::integrate(potential, i, cells, vm.data(), vm.data());
-        activate(vm.data() + i, mask ? mask + i : nullptr, threshold, cells, act.data() + i);
-    }
+    forage::update(membrane::potential(*this, c), threshold, membrane::mask(c, probability), c.size(), vm.data(),
+                   act.data());
 }
 
 }  // namespace forage

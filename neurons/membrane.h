@@ -1,4 +1,4 @@
-// What several neuron types share: parameters of the membrane and the random mask.
+// What several neuron types share: parameters of the membrane, its potential and the random mask.
 #pragma once
 
 #include <limits>
@@ -72,10 +72,42 @@ Potential potential(const T& p, const NeuronColumns& c) {
             c.silent(InputKind::inhibitory) ? nullptr : c.inhibition().data()};
 }
 
-/// vm = ((vm * vmPrs) + exc * excGain) - inh * inhGain, then clipped from below and from above if asked, for
-/// `cells` cells from `first` on; `previous` is the potential that persists. The columns are those of all
-/// cells. NaN passes. Leaves the inputs with the gains applied.
-void integrate(const Potential& p, Index first, Index cells, const double* previous, double* vm);
+namespace detail {
+
+template <bool Exc, bool Inh, class Fire>
+[[gnu::always_inline]] inline void integrate(const Potential& p, Index cells, const double* previous, Fire fire) {
+    // One by one: in small groups it is felt when what was just written as numbers is copied as a whole.
+    const double exc_gain = p.exc_gain, inh_gain = p.inh_gain, persistence = p.persistence;
+    const double minimum = p.minimum, maximum = p.maximum;
+    double *const exc = p.exc, *const inh = p.inh;
+#ifndef __clang__
+#pragma GCC ivdep
+#endif
+    for (Index i = 0; i < cells; ++i) {
+        double v = previous[i] * persistence + (Exc ? exc[i] *= exc_gain : 0.0);
+        v -= Inh ? inh[i] *= inh_gain : 0.0;
+        v = v < minimum ? minimum : v;
+        fire(i, v > maximum ? maximum : v);
+    }
+}
+
+}  // namespace detail
+
+/// Calls fire(cell, vm) for the cells in one pass, where
+/// vm = ((vm * vmPrs) + exc * excGain) - inh * inhGain, then clipped from below and from above if asked;
+/// `previous` is the potential that persists. NaN passes. Leaves the inputs with the gains applied. To be
+/// called in a function that is compiled with FORAGE_SIMD.
+template <class Fire>
+[[gnu::always_inline]] inline void integrate(const Potential& p, Index cells, const double* previous, Fire fire) {
+    if (p.exc && p.inh)
+        detail::integrate<true, true>(p, cells, previous, fire);
+    else if (p.exc)
+        detail::integrate<true, false>(p, cells, previous, fire);
+    else if (p.inh)
+        detail::integrate<false, true>(p, cells, previous, fire);
+    else
+        detail::integrate<false, false>(p, cells, previous, fire);
+}
 
 /// The chance of a cell to be active, from the parameter: the original compares u * 0.99999999 with 1 -
 /// probability.

@@ -1,5 +1,6 @@
 #include "neurons/sigmoid.h"
 
+#include "core/types/simd.h"
 #include "neurons/membrane.h"
 
 namespace forage {
@@ -16,9 +17,17 @@ void Sigmoid::describe(NeuronSpec<Sigmoid>& s) {
 
 void Sigmoid::check(Problems& problems) const { membrane::check_bounds(*this, problems); }
 
+namespace {
+
+FORAGE_SIMD void integrate(const membrane::Potential& p, Index cells, const double* previous, double* vm) {
+    membrane::integrate(p, cells, previous, [=](Index i, double v) { vm[i] = v; });
+}
+
+}  // namespace
+
 void Sigmoid::update(NeuronColumns& c) const {
     auto [vm, act] = c.states<2>();
-    membrane::integrate(membrane::potential(*this, c), 0, c.size(), c.past(0, 1).data(), vm.data());
+    integrate(membrane::potential(*this, c), c.size(), c.past(0, 1).data(), vm.data());
     act = 0.5 * (1 + (2 * slope * (vm - midpoint)).unaryExpr([](double x) { return std::tanh(x); }));
 }
 
