@@ -25,6 +25,7 @@ void keep(Archive& archive, GroupPlan& g) {
     archive.same(drawn, "the seed");
     keep(archive, g.type.parameters, g.neuron->parameters());
     archive.same(g.left_out, "what is left out");
+    archive.same(g.keeps_input, "the inputs that are kept");
     archive(g.row, g.delivered, g.same_input, g.same_for, g.rests, g.changed, g.silent);
 }
 

@@ -201,7 +201,9 @@ class Compiler {
                 !make_list(*c, plan))
                 continue;  // reported
             target.incoming.push_back(static_cast<int>(plan_->connections.size()));
-            target.fed[static_cast<std::size_t>(c->kind)] |= plan.effective;
+            bool& fed = target.fed[static_cast<std::size_t>(c->kind)];  // by a module, too
+            plan.first = plan.effective && !fed;
+            fed |= plan.effective;
             plan_->connections.push_back(std::move(plan));
         }
     }
@@ -297,10 +299,17 @@ class Compiler {
 
     void lay_out() {
         Arena& arena = plan_->arena;
+        // What every cycle touches lies together: states and one row of each input that is delivered.
         for (auto& g : plan_->groups) {
             for (auto& s : g.states) g.state_offsets.push_back(arena.reserve(g.cells, s.depth));
-            for (auto& kind : g.input_offsets)
-                for (auto& offset : kind) offset = arena.reserve(g.cells);
+            for (std::size_t k = 0; k < input_kinds; ++k)
+                if (g.fed[k]) g.input_offsets[k][0] = arena.reserve(g.cells);
+        }
+        for (auto& g : plan_->groups) {
+            for (std::size_t k = 0; k < input_kinds; ++k) {
+                if (!g.fed[k]) g.input_offsets[k][0] = arena.reserve(g.cells);
+                g.input_offsets[k][1] = arena.reserve(g.cells);
+            }
             if (g.history > 0) g.history_offset = arena.reserve(g.cells, g.history + 1);
         }
         for (auto& m : plan_->modules)

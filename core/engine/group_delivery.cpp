@@ -55,11 +55,8 @@ double* target_row(const GroupPlan& g, const ConnectionPlan& c) {
     return g.inputs[static_cast<std::size_t>(c.kind)][g.row ^ 1];
 }
 
-/// Puts into the rows that receive what modules have written, for a range of cells.
-void receive(Plan& plan, GroupPlan& g, Index first, Index count) {
-    for (std::size_t k = 0; k < input_kinds; ++k)
-        if (g.fed[k] && !(k == excitatory && !g.module_inputs.empty()))
-            std::fill_n(g.inputs[k][g.row ^ 1] + first, count, 0.0);
+/// Puts into the row that receives what modules have written, for a range of cells.
+void receive_modules(Plan& plan, GroupPlan& g, Index first, Index count) {
     double* row = g.inputs[excitatory][g.row ^ 1] + first;
     bool sum = false;
     for (const auto& [module, port] : g.module_inputs) {
@@ -69,6 +66,14 @@ void receive(Plan& plan, GroupPlan& g, Index first, Index count) {
         else
             begin_sum(out, count, row);
     }
+}
+
+/// The same, and 0 into the rows of other kinds.
+void receive(Plan& plan, GroupPlan& g, Index first, Index count) {
+    for (std::size_t k = 0; k < input_kinds; ++k)
+        if (g.fed[k] && !(k == excitatory && !g.module_inputs.empty()))
+            std::fill_n(g.inputs[k][g.row ^ 1] + first, count, 0.0);
+    receive_modules(plan, g, first, count);
 }
 
 }  // namespace
@@ -135,10 +140,14 @@ void deliver_through(Plan& plan, GroupPlan& g, ConnectionPlan& c, std::uint64_t 
 
 void deliver_to(Plan& plan, GroupPlan& g, std::uint64_t cycle) {
     begin_delivery(plan, g, cycle);
-    if (g.receives) receive(plan, g, 0, g.cells);
+    if (g.receives) receive_modules(plan, g, 0, g.cells);
     for (const int i : g.incoming) {
         auto& c = at(plan.connections, i);
-        deliver_through(plan, g, c, cycle);
+        if (c.first && g.receives)
+            run(plan, c, cycle,
+                [&](const History& h) { c.kernel->deliver_first(h, target_row(g, c), g.cells); });
+        else
+            deliver_through(plan, g, c, cycle);
         c.changed = false;
     }
 }

@@ -47,6 +47,11 @@ FORAGE_SIMD void add_scaled(const double* pre, double gain, double factor, Index
     for (Index i = 0; i < n; ++i) target[i] += (pre[i] * gain) * factor;
 }
 
+/// The same from 0, which turns -0 into 0.
+FORAGE_SIMD void put_scaled(const double* pre, double gain, double factor, Index n, double* target) {
+    for (Index i = 0; i < n; ++i) target[i] = 0.0 + (pre[i] * gain) * factor;
+}
+
 /// Each target cell has one synapse, from the source cell of the same index, and all are alike.
 class OneToOne final : public Kernel {
   public:
@@ -66,6 +71,9 @@ class OneToOne final : public Kernel {
     }
     void deliver(const History& source, double* target) override {
         add_scaled(source.ago(delay_), synapse_.gain(), factor_, cells_, target);
+    }
+    void deliver_first(const History& source, double* target, Index) override {
+        put_scaled(source.ago(delay_), synapse_.gain(), factor_, cells_, target);
     }
     std::string_view form() const override { return "one to one"; }
     double cost() const override { return 0.4 * static_cast<double>(cells_); }
@@ -159,10 +167,9 @@ class Broadcast final : public Kernel {
             if (static_cast<std::size_t>(s.start[t]) != t * each) return false;
         return true;
     }
-    void deliver(const History& source, double* target) override {
-        double total = 0;
-        one_.deliver(source, &total);
-        Column(target, cells_) += total;
+    void deliver(const History& source, double* target) override { Column(target, cells_) += sum(source); }
+    void deliver_first(const History& source, double* target, Index) override {
+        Column(target, cells_) = 0.0 + sum(source);
     }
     std::string_view form() const override { return "broadcast"; }
     double cost() const override { return one_.cost() + 0.3 * static_cast<double>(cells_); }
@@ -174,6 +181,11 @@ class Broadcast final : public Kernel {
                 {s.pre.begin(), s.pre.begin() + n},
                 {s.delay.begin(), s.delay.begin() + n},
                 {s.factor.begin(), s.factor.begin() + n}};
+    }
+    double sum(const History& source) {
+        double total = 0;
+        one_.deliver(source, &total);
+        return total;
     }
     List one_;
     Index cells_;

@@ -1,6 +1,7 @@
 // What a connection does in a cycle, in the cheapest form that gives the same bits.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string_view>
@@ -41,6 +42,11 @@ class Kernel {
     virtual ~Kernel() = default;
     /// Adds to each cell of `target` the sum, from 0 and in synapse order, of what its synapses deliver.
     virtual void deliver(const History& source, double* target) = 0;
+    /// The same for the first that delivers to the `cells` cells of `target`: what they hold counts as 0.
+    virtual void deliver_first(const History& source, double* target, Index cells) {
+        std::fill_n(target, cells, 0.0);
+        deliver(source, target);
+    }
     virtual std::string_view form() const = 0;
 
     /// About how long deliver() takes on one thread, ns: what sharing work between threads is decided by.

@@ -28,6 +28,7 @@ struct GroupPlan {
     bool in_parts = false;                ///< this update is done in parts
     bool receives = false;                ///< this cycle's delivery is not what the group has already
     bool left_out = false;                ///< nobody reads it
+    bool keeps_input = true;              ///< else the two rows of `inputs` are one
     std::array<bool, input_kinds> fed{};  ///< the type reads this kind, and somebody delivers it
     int output = 0;                       ///< the state that is the activity
     std::size_t row = 0;         ///< the row of `inputs` that the last update read; the other one receives
@@ -84,6 +85,7 @@ struct ConnectionPlan {
     int longest_delay = 0;
     InputKind kind = InputKind::excitatory;
     bool effective = true;  ///< the target's type reads this kind of input
+    bool first = false;     ///< nobody delivers this kind of input to the target before
     bool changed = false;   ///< from outside, since it delivered
     bool left_out = false;  ///< nobody reads what it leads to
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/engine/early_delivery.h"
 #include "core/engine/group_cycle.h"
 #include "core/engine/group_delivery.h"
 #include "core/engine/group_update.h"
@@ -71,6 +72,7 @@ Simulation::Simulation(std::unique_ptr<Plan> plan, const Options& options)
         most_compared = std::max(most_compared, compared_numbers(g));
     }
     estimate_deliveries(*plan_);
+    early_ = std::make_unique<EarlyDelivery>(*plan_);
     if (options.threads > 1 && update_cost(*plan_) + delivery_cost(*plan_) >= worth_sharing_)
         shared_cycle_ =
             std::make_unique<SharedCycle>(*plan_, options.threads, worth_sharing_ > 0 ? least_part : 0);
@@ -82,6 +84,15 @@ Simulation::Simulation(std::unique_ptr<Plan> plan, const Options& options)
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
+
+void Simulation::keep_inputs(std::span<const int> groups) {
+    if (started_) throw std::logic_error("inputs are kept from the start, or not at all");
+    for (auto& g : plan_->groups) g.keeps_input = false;
+    for (const int i : groups) at(plan_->groups, i).keeps_input = true;
+    for (auto& g : plan_->groups)
+        if (!g.keeps_input)
+            for (auto& rows : g.inputs) rows[1] = rows[0];
+}
 
 void Simulation::start() {
     for (auto& m : plan_->modules) {
@@ -100,7 +111,7 @@ void Simulation::start() {
 }
 
 void Simulation::step() {
-    update_groups();
+    update_groups(true);
     update_modules();
     update_connections();
 }
@@ -114,13 +125,38 @@ bool Simulation::begin_sharing() {
 
 void Simulation::update_alone() {
     const UpdateFrame frame{cycle_, plan_->scratch[0].get(), plan_->before[0].data(), plan_->watched};
-    for (const int i : plan_->updated) update(at(plan_->groups, i), frame);
+    for (std::size_t k = 0; k < plan_->updated.size(); ++k) {
+        auto& g = at(plan_->groups, plan_->updated[k]);
+        update(g, frame);
+        if (!delivers_early_) continue;
+        remember(g, cycle_);
+        for (const int i : early_->after(k)) deliver_early(i);
+    }
 }
 
-void Simulation::update_groups() {
+/// A failure waits until its turn comes: groups that fail in their updates come first.
+void Simulation::deliver_early(int group) {
+    try {
+        deliver_to(*plan_, at(plan_->groups, group), cycle_);
+    } catch (...) {
+        if (!failure_.reason || group < failure_.group) failure_ = {group, std::current_exception()};
+    }
+}
+
+void Simulation::deliver_late() {
+    for (const int i : early_->late()) {
+        if (failure_.reason && failure_.group < i) break;
+        deliver_to(*plan_, at(plan_->groups, i), cycle_);
+    }
+    if (failure_.reason) std::rethrow_exception(failure_.reason);
+}
+
+void Simulation::update_groups(bool untouched) {
     if (!started_) throw RunError("the simulation is not started");
     shown_ = cycle_;
     shared_ = begin_sharing();
+    delivers_early_ = untouched && !shared_;
+    failure_ = {};
     if (shared_)
         shared_cycle_->update_groups(cycle_);
     else
@@ -158,11 +194,15 @@ void Simulation::update_modules() {
 }
 
 void Simulation::update_connections() {
-    for (const int i : plan_->updated) remember(at(plan_->groups, i), cycle_);
-    if (shared_)
-        shared_cycle_->deliver(cycle_);
-    else
-        for (const int i : plan_->updated) deliver_to(*plan_, at(plan_->groups, i), cycle_);
+    if (delivers_early_) {
+        deliver_late();
+    } else {
+        for (const int i : plan_->updated) remember(at(plan_->groups, i), cycle_);
+        if (shared_)
+            shared_cycle_->deliver(cycle_);
+        else
+            for (const int i : plan_->updated) deliver_to(*plan_, at(plan_->groups, i), cycle_);
+    }
     trial_.end();
     ++cycle_;
 }
@@ -180,6 +220,9 @@ const NeuronType& Simulation::type(int group) const { return at(plan_->groups, g
 
 ConstColumn Simulation::input(int group, InputKind kind) const {
     const auto& g = seen(plan_->groups, group);
+    if (!g.keeps_input)
+        throw std::logic_error(
+            fmt::format("the input of group '{}' is not kept (Simulation::keep_inputs())", g.path));
     return {g.inputs[static_cast<std::size_t>(kind)][g.row], g.cells};
 }
 

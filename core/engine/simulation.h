@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,6 +20,7 @@ namespace forage::engine {
 
 struct ModulePlan;
 struct Plan;
+class EarlyDelivery;
 class SharedCycle;
 
 /// A type's update or a module's start failed; the message names the type, its place in the system and the
@@ -43,6 +45,7 @@ struct Observed {
         int module, port;
     };
     std::vector<Output> outputs{};  ///< of modules, whoever reads their groups
+    std::vector<int> inputs{};      ///< groups of which the inputs are looked at
 };
 
 /// Runs a system cycle by cycle. A cycle is
@@ -81,11 +84,18 @@ class Simulation {
     /// updated. Who then looks at what is left out gets a std::logic_error.
     void leave_out_unread(const Observed& observed);
 
+    /// Keeps, from now on, the inputs of these groups only between cycles: what is delivered to others takes
+    /// the place of what they have read, so that less memory is moved. Who then asks for their input() gets a
+    /// std::logic_error. To be called before start(), at most once; without it all are kept.
+    void keep_inputs(std::span<const int> groups);
+
     /// Starts the modules; once, before the first cycle. Throws RunError.
     void start();
     /// One cycle. Throws RunError, also before start().
     void step();
-    void update_groups();
+    /// `untouched`: nobody overwrites anything before update_connections(), so that what can be delivered
+    /// already is delivered at once, as step() does.
+    void update_groups(bool untouched = false);
     void update_modules();
     void update_connections();  ///< ends the cycle
 
@@ -159,11 +169,20 @@ class Simulation {
     std::unique_ptr<Plan> plan_;
     bool begin_sharing();
     void update_alone();
+    void deliver_early(int group);
+    void deliver_late();
 
     double worth_sharing_;
     SharingTrial<> trial_;
     std::unique_ptr<SharedCycle> shared_cycle_;  ///< null when one thread does all
     bool shared_ = false;                        ///< the running cycle
+    std::unique_ptr<EarlyDelivery> early_;
+    bool delivers_early_ = false;  ///< the running cycle
+    struct Failure {
+        int group = 0;
+        std::exception_ptr reason;  ///< null: none
+    };
+    Failure failure_;  ///< of the first group that was delivered to early and failed, in the running cycle
     bool started_ = false, observers_known_ = false;
     std::uint64_t cycle_ = 0;
     std::optional<NotFinite> not_finite_;

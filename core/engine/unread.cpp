@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/engine/early_delivery.h"
 #include "core/engine/group_delivery.h"
 #include "core/engine/plan.h"
 #include "core/engine/shared_cycle.h"
@@ -78,6 +79,7 @@ void Simulation::leave_out_unread(const Observed& observed) {
     }
     std::erase_if(plan_->updated, [&](int g) { return left_out(g); });
     estimate_deliveries(*plan_);
+    early_ = std::make_unique<EarlyDelivery>(*plan_);
     if (shared_cycle_) shared_cycle_->share_out();
     for (auto& m : plan_->modules)
         for (std::size_t port = 0; port < m.read.size(); ++port)

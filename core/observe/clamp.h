@@ -15,6 +15,8 @@ class Clamp {
     /// replace them. Of values for one cycle the last ones count.
     void add(std::int64_t cycle, int group, std::vector<double> values);
 
+    /// There is nothing to apply, and will not be.
+    bool idle() const { return waiting_.empty() && held_.empty(); }
     /// Between update_groups() and update_modules() of each cycle.
     void apply(engine::Simulation& simulation);
     /// Adds the groups that it overwrites.

@@ -23,6 +23,12 @@ struct ColumnRef {
 std::optional<ColumnRef> find_column(const engine::Simulation& simulation, std::string_view text,
                                      std::string_view what, Diagnostics& diagnostics, Location at = {});
 
+/// Adds what it looks at.
+inline void note_observed(const ColumnRef& c, engine::Observed& out) {
+    out.groups.push_back(c.group);
+    if (c.state < 0) out.inputs.push_back(c.group);
+}
+
 /// Its values in the running cycle, or the last one between cycles.
 inline ConstColumn values(const engine::Simulation& simulation, const ColumnRef& c) {
     return c.state >= 0 ? simulation.state(c.group, c.state) : simulation.input(c.group, c.kind);

@@ -29,7 +29,7 @@ double Quantity::in(const engine::Simulation& simulation, const Moment& now) con
 }
 
 void Quantity::note_observed(engine::Observed& out) const {
-    if (kind >= cell) out.groups.push_back(column.group);
+    if (kind >= cell) observe::note_observed(column, out);
 }
 
 void Condition::note_observed(engine::Observed& out) const {

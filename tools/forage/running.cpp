@@ -27,10 +27,11 @@ std::string describe(const engine::NotFinite& what, const engine::Simulation& si
 }
 
 /// Leaves out what nobody asked for. A digest is of everything, and so is a question for numbers that are not
-/// finite.
+/// finite, but it does without inputs.
 void leave_out_unread(const RunOptions& o, engine::Simulation& simulation, const engine::Observed& observed) {
     const bool seek_everywhere = o.on_nan && *o.on_nan != OnNan::ignore;
     if (!o.hash && !seek_everywhere) simulation.leave_out_unread(observed);
+    if (!o.hash) simulation.keep_inputs(observed.inputs);
 }
 
 }  // namespace
@@ -44,7 +45,7 @@ void Running::cycle() {
     if (schedule.waiting()) schedule.apply(simulation, now());
     if (run_measures.waiting()) run_measures.see(simulation, now());
     for (auto& m : manipulations) m.look(simulation, now());
-    simulation.update_groups();
+    simulation.update_groups(clamp.idle() && manipulations.empty());
     if (simulation.not_finite() && diverged.empty())
         diverged = describe(*simulation.not_finite(), simulation);
     clamp.apply(simulation);
