@@ -36,8 +36,8 @@ FORAGE_SIMD void update(const membrane::Potential& p, double threshold, const do
 
 void LinearThreshold::update(NeuronColumns& c) const {
     auto [vm, act] = c.states<2>();
-    forage::update(membrane::potential(*this, c), threshold, membrane::mask(c, probability), c.size(), vm.data(),
-                   act.data());
+    forage::update(membrane::potential(*this, c), threshold, membrane::mask(c, probability), c.size(),
+                   vm.data(), act.data());
 }
 
 }  // namespace forage

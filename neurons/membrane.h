@@ -75,7 +75,8 @@ Potential potential(const T& p, const NeuronColumns& c) {
 namespace detail {
 
 template <bool Exc, bool Inh, class Fire>
-[[gnu::always_inline]] inline void integrate(const Potential& p, Index cells, const double* previous, Fire fire) {
+[[gnu::always_inline]] inline void integrate(const Potential& p, Index cells, const double* previous,
+                                             Fire fire) {
     // One by one: in small groups it is felt when what was just written as numbers is copied as a whole.
     const double exc_gain = p.exc_gain, inh_gain = p.inh_gain, persistence = p.persistence;
     const double minimum = p.minimum, maximum = p.maximum;
@@ -98,7 +99,8 @@ template <bool Exc, bool Inh, class Fire>
 /// `previous` is the potential that persists. NaN passes. Leaves the inputs with the gains applied. To be
 /// called in a function that is compiled with FORAGE_SIMD.
 template <class Fire>
-[[gnu::always_inline]] inline void integrate(const Potential& p, Index cells, const double* previous, Fire fire) {
+[[gnu::always_inline]] inline void integrate(const Potential& p, Index cells, const double* previous,
+                                             Fire fire) {
     if (p.exc && p.inh)
         detail::integrate<true, true>(p, cells, previous, fire);
     else if (p.exc)

@@ -31,6 +31,7 @@ struct Hebbian {
                 {"decay has no effect: weights do not decay, as in the original", {}, "decay", {}});
     }
     void update(SynapseColumns& c) const;
+    void update_and_add(SynapseColumns& c) const;
     void output(SynapseColumns& c) const { c.state(1) = c.state(0) * c.pre(); }
 };
 

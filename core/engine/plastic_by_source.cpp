@@ -13,9 +13,9 @@ namespace forage::engine {
 namespace {
 
 FORAGE_SIMD void add_to(const double* from, Index n, double* to) {
-    // As wide as the parts of frames that begin at the same place: what one source has stored goes to the
-    // next without a detour through the cache.
-    constexpr Index lanes = TargetFrame::lanes;
+    // As wide as the steps between the stretches of sources: what one has stored goes to the next without a
+    // detour through the cache.
+    constexpr Index lanes = SlidingTargets::lanes;
     typedef double Lanes __attribute__((vector_size(lanes * sizeof(double))));  // NOLINT: no `using` for this
     Index i = 0;
     for (; i + lanes <= n; i += lanes) {
@@ -55,31 +55,33 @@ PlasticBySource::PlasticBySource(connectivity::Synapses s, const SourceOrder& or
     : synapse_(synapse),
       output_(static_cast<std::size_t>(type.output())),
       keeps_outputs_(!type.tells_output),
+      adds_outputs_(type.adds_output),
       target_cells_(target_cells),
-      targets_(order),
+      sliding_(SlidingTargets::make(order, target_cells)),
       place_(s.size()) {
+    if (!sliding_) frame_.emplace(order);
     for (const auto& source : order.sources) cell_.push_back(source.cell);
     first_.push_back(0);
-    for (const auto& source : targets_.sources())  // each begins with a line of the cache
+    for (const Stretch& source : stretches())  // each begins with a line of the cache
         first_.push_back(first_.back() + Arena::stride(source.size));
     factor_.assign(static_cast<std::size_t>(first_.back()), 1.0);
-    auto synapse_at = [ids = sorted(s, cell_, source_cells), k = std::size_t{0}]() mutable {
-        return ids[k++];
-    };
-    for (std::size_t n = 0; n < cell_.size(); ++n)
-        targets_.each(n, [&](Index place, int) {
-            const std::size_t i = synapse_at();
-            place_[i] = first_[n] + place;
+    const auto target_places = sliding_ ? sliding_->take_target_places() : std::vector<int>();
+    const auto by_source = sorted(s, cell_, source_cells);
+    for (std::size_t n = 0, k = 0; n < cell_.size(); ++n)
+        for (const std::size_t begin = k; k < by_source.size() && s.pre[by_source[k]] == cell_[n]; ++k) {
+            const std::size_t i = by_source[k];
+            place_[i] = first_[n] + (sliding_ ? target_places[k] : static_cast<Index>(k - begin));
             factor_[static_cast<std::size_t>(place_[i])] = s.reference - s.attenuation[i];
-        });
+        }
     if (std::all_of(factor_.begin(), factor_.end(), [](double f) { return f == 1; }))
         factor_ = std::vector<double>();
+    adds_outputs_ &= factor_.empty();
 
     Index largest_frame = 0;
     for (const auto& frame : order.frames) {
         frames_.push_back({frame.first_source, frame.last_source});
         for (std::size_t n = frame.first_source; n < frame.last_source; ++n) {
-            const auto& source = targets_.sources()[n];
+            const Stretch source = stretches()[n];
             largest_source_ = std::max(largest_source_, source.size);
             largest_frame = std::max(largest_frame, source.place + source.size);
         }
@@ -88,12 +90,10 @@ PlasticBySource::PlasticBySource(connectivity::Synapses s, const SourceOrder& or
         state_offsets_.push_back(arena.reserve(kept(i) ? first_.back() : largest_source_));
         initial_.push_back(type.states[i].initial);
     }
-    for (std::size_t i = 0; i < type.feedback.size(); ++i) {
-        cell_offsets_.push_back(arena.reserve(target_cells_ + TargetFrame::lanes));
+    for (std::size_t i = 0; i < type.feedback.size(); ++i)
         gathered_offsets_.push_back(arena.reserve(largest_frame));
-    }
     pre_offset_ = arena.reserve(largest_source_);
-    sum_offset_ = arena.reserve(target_cells_ + TargetFrame::lanes);
+    sum_offset_ = arena.reserve(target_cells_);
     frame_sum_offset_ = arena.reserve(largest_frame);
     activity_offset_ = arena.reserve(static_cast<Index>(cell_.size()) + 1);
     active_.resize(cell_.size());
@@ -106,7 +106,7 @@ void PlasticBySource::place(Arena& arena, std::vector<Ring> feedback) {
         if (initial_[i] != 0) std::fill_n(states_[i], kept(i) ? first_.back() : largest_source_, initial_[i]);
     }
     for (std::size_t f = 0; f < feedback_.size(); ++f) {
-        cells_.push_back(arena.at(cell_offsets_[f]));
+        cells_.push_back(nullptr);
         gathered_.push_back(arena.at(gathered_offsets_[f]));
         feedback_columns_.emplace_back(gathered_[f], 0);
     }
@@ -130,7 +130,7 @@ bool PlasticBySource::read_feedback(std::uint64_t cycle) {
         if (!feedback_[f].rows) continue;  // reads 0
         const double* row = feedback_[f].ago(cycle, 0);
         if (*diverged_ == 0 && !all_finite(row, Arena::stride(target_cells_))) *diverged_ = 1;
-        std::copy_n(row, target_cells_, cells_[f]);
+        cells_[f] = row;
     }
     return *diverged_ == 0;
 }
@@ -158,54 +158,93 @@ void PlasticBySource::update(const History& source, double* sums) {
     find_active(source.now, read_feedback(source.cycle));
     const std::size_t* next = active_.data();
     const std::size_t* const last = next + active_count_;
-    for (const Frame& frame : frames_) {
+    for (std::size_t f = 0; f < frames_.size(); ++f) {
         const std::size_t* first = next;
-        while (next != last && *next < frame.last_source) ++next;
-        if (next != first) update_frame(first, next, sums);
+        while (next != last && *next < frames_[f].last_source) ++next;
+        if (sliding_) {
+            slide_into(f, sums);
+            update_sliding(first, next, sums != nullptr);
+        } else if (next != first) {
+            update_frame(f, first, next, sums);
+        }
+    }
+    if (sliding_) slide_into(frames_.size(), sums);
+}
+
+void PlasticBySource::slide_into(std::size_t frame, double* sums) {
+    const auto leaving = sliding_->leaving(frame), entering = sliding_->entering(frame);
+    if (sums) {
+        for (const auto [target, place] : leaving) sums[target] = frame_sums_[place];
+        for (const auto [target, place] : entering) frame_sums_[place] = sums[target];
+    }
+    for (std::size_t f = 0; f < feedback_.size(); ++f)
+        if (const double* cells = cells_[f])
+            for (const auto [target, place] : entering) gathered_[f][place] = cells[target];
+}
+
+/// Updates some sources of the frame that is there.
+void PlasticBySource::update_sliding(const std::size_t* first, const std::size_t* last, bool sums) {
+    for (const std::size_t* n = first; n != last; ++n) {
+        const Stretch stretch = sliding_->sources()[*n];
+        if (sums)
+            update_and_add(*n, stretch.place);
+        else
+            update_source(*n, stretch.place);
     }
 }
 
 /// Updates some sources of a frame.
-void PlasticBySource::update_frame(const std::size_t* first, const std::size_t* last, double* sums) {
-    // What they reach of it.
-    const auto& begin = targets_.sources()[*first];
-    TargetFrame::Part part = begin.part;
-    Index place = begin.place;
+void PlasticBySource::update_frame(std::size_t frame, const std::size_t* first, const std::size_t* last,
+                                   double* sums) {
+    Stretch part = stretches()[*first];  // what they reach of it
     for (const std::size_t* n = first + 1; n != last; ++n) {
-        const auto& source = targets_.sources()[*n];
-        part = {std::min(part.first, source.part.first), std::max(part.last, source.part.last)};
-        place = std::min(place, source.place);
+        const Stretch source = stretches()[*n];
+        const Index end = std::max(part.place + part.size, source.place + source.size);
+        part.place = std::min(part.place, source.place);
+        part.size = end - part.place;
     }
     for (std::size_t f = 0; f < feedback_.size(); ++f)
-        if (feedback_[f].rows) targets_.gather(part, cells_[f], gathered_[f]);
+        if (cells_[f]) frame_->gather(frame, part, cells_[f], gathered_[f]);
     const bool one = last - first == 1;
-    if (sums && !one) targets_.gather(part, sums, frame_sums_);
+    if (sums && !one) frame_->gather(frame, part, sums, frame_sums_);
     for (const std::size_t* n = first; n != last; ++n) {
-        const auto& source = targets_.sources()[*n];
-        const double* psp = update_source(*n, source.place - place);
-        if (!sums) continue;
-        if (one)
-            targets_.add(part, psp, sums);
-        else
-            add_to(psp, source.size, frame_sums_ + (source.place - place));
+        const Stretch source = stretches()[*n];
+        const Index place = source.place - part.place;
+        if (sums && !one)
+            update_and_add(*n, place);
+        else if (const double* psp = update_source(*n, place); sums)
+            frame_->add(frame, part, psp, sums);
     }
-    if (sums && !one) targets_.scatter(part, frame_sums_, sums);
+    if (sums && !one) frame_->scatter(frame, part, frame_sums_, sums);
 }
 
 /// All synapses of the n-th source, whose feedback begins at `place` of what is gathered; gives their
 /// outputs.
 const double* PlasticBySource::update_source(std::size_t n, Index place) {
+    SynapseColumns seen = columns(n, place, nullptr);
+    synapse_.update(seen);
+    return attenuated(n);
+}
+
+/// The same; they are added to the sums there.
+void PlasticBySource::update_and_add(std::size_t n, Index place) {
+    double* const sums = frame_sums_ + place;
+    if (!adds_outputs_) return add_to(update_source(n, place), stretches()[n].size, sums);
+    SynapseColumns seen = columns(n, place, sums);
+    synapse_.update_and_add(seen);
+}
+
+/// What an update of the n-th source sees.
+SynapseColumns PlasticBySource::columns(std::size_t n, Index place, double* sums) {
     const Index size = look_at(n);
     for (std::size_t f = 0; f < feedback_.size(); ++f)
         new (&feedback_columns_[f]) ConstColumn(gathered_[f] + place, size);
-    SynapseColumns columns(ConstColumn(pre_, size), source_states_, feedback_columns_);
-    synapse_.update(columns);
-    return attenuated(n);
+    return {ConstColumn(pre_, size), source_states_, feedback_columns_, sums};
 }
 
 /// Lets `pre_` and `source_states_` be those of the n-th source; gives its number of places.
 Index PlasticBySource::look_at(std::size_t n) const {
-    const Index size = targets_.sources()[n].size;
+    const Index size = stretches()[n].size;
     if (std::bit_cast<std::uint64_t>(pre_[0]) != std::bit_cast<std::uint64_t>(activity_[n]))
         std::fill_n(pre_, largest_source_, activity_[n]);  // spikes are alike
     for (std::size_t s = 0; s < states_.size(); ++s)

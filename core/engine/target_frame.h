@@ -1,4 +1,4 @@
-// The targets of plastic synapses by source, seen as a few columns of numbers.
+// The targets of plastic synapses by source, beside each other.
 #pragma once
 
 #include <vector>
@@ -7,54 +7,35 @@
 
 namespace forage::engine {
 
-/// What lies beside each other in a frame of targets (SourceOrder::Frame) is a place. A run of targets begins
-/// at a multiple of `lanes` places, so that it is copied in whole vectors; the places that fill it up stand
-/// for the targets behind it, and are never written back. Where runs are so short that this would be a waste,
-/// every place is a target.
+/// Consecutive places of a column of numbers.
+struct Stretch {
+    Index place, size;
+};
+
+/// What some targets of a frame (SourceOrder::Frame) hold, copied into a column in their order. A place is a
+/// target.
 class TargetFrame {
   public:
-    static constexpr Index lanes = 4;
-
-    /// Some of a frame's targets.
-    struct Part {
-        std::size_t first, last;  ///< items; last: one past
-    };
-
     explicit TargetFrame(const SourceOrder& order);
 
-    /// Of the sources, in order: its targets, its first place in its frame, and how many places it has.
-    struct Source {
-        Part part;
-        Index place, size;
-    };
-    const std::vector<Source>& sources() const { return sources_; }
-    /// Calls visit(place, target) for all targets of the n-th source, counting places from its first one.
-    template <class Visit>
-    void each(std::size_t n, Visit visit) const {
-        Index place = 0;
-        for (std::size_t i = sources_[n].part.first; i < sources_[n].part.last; ++i) {
-            if (runs_.empty())
-                visit(place++, cells_[i]);
-            else
-                for (int k = 0; k < runs_[i].size; ++k) visit(place + k, runs_[i].target + k);
-            if (!runs_.empty()) place += filled(runs_[i].size);
-        }
-    }
+    /// Of the sources, in order: where their targets are in their frame.
+    const std::vector<Stretch>& sources() const { return sources_; }
 
-    // A row of cells has `lanes` more numbers than there are targets.
+    // `part` is a stretch of frame `frame`, and `places` begin with it.
 
     /// places <- cells
-    void gather(Part part, const double* cells, double* places) const;
+    void gather(std::size_t frame, Stretch part, const double* cells, double* places) const;
     /// cells <- places
-    void scatter(Part part, const double* places, double* cells) const;
+    void scatter(std::size_t frame, Stretch part, const double* places, double* cells) const;
     /// cells += places
-    void add(Part part, const double* places, double* cells) const;
+    void add(std::size_t frame, Stretch part, const double* places, double* cells) const;
 
   private:
-    static Index filled(int size) { return (size + lanes - 1) / lanes * lanes; }
-    std::vector<Run> runs_;   ///< the items, or empty:
-    std::vector<int> cells_;  ///< the items
-    std::vector<Source> sources_;
+    const int* targets(std::size_t frame, Stretch part) const { return &cells_[begin_[frame]] + part.place; }
+
+    std::vector<int> cells_;  ///< target cells, of one frame after the other
+    std::vector<std::size_t> begin_;
+    std::vector<Stretch> sources_;
 };
 
 }  // namespace forage::engine

@@ -79,6 +79,34 @@ std::string watch_output(const SynapseType& type) try {
     return {};  // a run will say so
 }
 
+/// Whether update_and_add() does to the states what update() does, and adds what that puts out.
+std::string watch_sums(const SynapseType& type) try {
+    auto numbers = random_numbers(type), others = numbers;
+    const Eigen::ArrayXd pre = Eigen::ArrayXd::Constant(cells, 0.75);
+    Eigen::ArrayXd sums = Eigen::ArrayXd::LinSpaced(cells, -1, 1);
+    const auto synapse = type.make();
+    const auto update = [&](auto& on, double* to) {
+        auto [states, feedback] = columns_over(on, type);
+        SynapseColumns columns(ConstColumn(pre.data(), cells), states, feedback, to);
+        to ? synapse->update_and_add(columns) : synapse->update(columns);
+    };
+    update(numbers, nullptr);
+    const auto output = static_cast<std::size_t>(type.output());
+    const Eigen::ArrayXd expected = sums + numbers[output];
+    update(others, sums.data());
+    if (!(sums == expected).all())
+        return "its update_and_add() adds something else than its update() puts out";
+    for (std::size_t i = 0; i < type.states.size(); ++i)
+        if (i != output && !(numbers[i] == others[i]).all())
+            return "its update_and_add() makes something else of state '" + type.states[i].name +
+                   "' than its update()";
+    return {};
+} catch (const TypeError& e) {
+    return e.what();
+} catch (...) {
+    return {};  // a run will say so
+}
+
 }  // namespace
 
 std::string rehearse(const SynapseType& type) {
@@ -96,8 +124,10 @@ std::string rehearse(const SynapseType& type) {
         for (int i = 0; i < updates; ++i) synapse->update(columns);
     });
     if (!fault.empty()) return fault;
-    const std::string restless = type.rests_when_silent ? watch_rest(type) : "";
-    return restless.empty() && type.tells_output ? watch_output(type) : restless;
+    std::string broken = type.rests_when_silent ? watch_rest(type) : "";
+    if (broken.empty() && type.tells_output) broken = watch_output(type);
+    if (broken.empty() && type.adds_output) broken = watch_sums(type);
+    return broken;
 }
 
 }  // namespace forage::plugin

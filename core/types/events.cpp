@@ -62,7 +62,8 @@ FORAGE_AVX2 void batches_by_lanes(const Draw& d, std::size_t number, std::size_t
     const __m256i sign = _mm256_set1_epi16(-0x8000);
     const __m256i top = _mm256_set1_epi16(static_cast<short>(std::min(t.top, 0xffffu) - 0x8000u));
     const __m256d active = _mm256_set1_pd(t.top <= 0xffffu ? value : 0.0);
-    // What makes masks of 16 bits ones of 64: of the low and the high halves of blocks 0 to 3, then of 4 to 7.
+    // What makes masks of 16 bits ones of 64: of the low and the high halves of blocks 0 to 3, then of 4
+    // to 7.
     const __m256i lane = _mm256_setr_epi64x(0, 0x0808080808080808, 0, 0x0808080808080808);
     __m256i picks[4];
     for (int i = 0; i < 4; ++i)

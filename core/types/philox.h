@@ -49,10 +49,10 @@ inline r123::Philox4x32::ctr_type block(const Draw& d, std::uint32_t index, std:
 
 inline constexpr std::uint32_t multipliers[] = {0xd2511f53u, 0xcd9e8d57u};
 
-/// What the rounds of many blocks have in common. Their counters differ in the first word, so that half of the
-/// first round and the other half of the second one are the same for all: these are done here, once.
+/// What the rounds of many blocks have in common. Their counters differ in the first word, so that half of
+/// the first round and the other half of the second one are the same for all: these are done here, once.
 struct Rounds {
-    static constexpr int left = 8;              ///< after the first two
+    static constexpr int left = 8;               ///< after the first two
     alignas(32) std::uint64_t keys[left][2][4];  ///< each of them four times, as wide as they are read
     std::uint64_t second, third[2], fourth;
 
@@ -108,9 +108,7 @@ FORAGE_AVX2 inline void blocks(const Rounds& rounds, std::uint32_t first, __m256
 // The forms with a mask, of all lanes: GCC 12 warns of what the plain ones leave undefined. No mask is left
 // in the code.
 inline constexpr unsigned char all_lanes = 0xff;
-FORAGE_AVX512 inline __m512i wide(std::uint64_t v) {
-    return _mm512_set1_epi64(static_cast<long long>(v));
-}
+FORAGE_AVX512 inline __m512i wide(std::uint64_t v) { return _mm512_set1_epi64(static_cast<long long>(v)); }
 FORAGE_AVX512 inline __m512i upper(__m512i v) { return _mm512_maskz_srli_epi64(all_lanes, v, 32); }
 FORAGE_AVX512 inline __m512i product(__m512i a, std::uint32_t factor) {
     return _mm512_maskz_mul_epu32(all_lanes, a, wide(factor));

@@ -21,7 +21,7 @@ namespace forage {
 
 /// Grows whenever a plugin that was built before can no longer be used: when a declaration that types see
 /// has changed.
-inline constexpr int sdk_version = 4;
+inline constexpr int sdk_version = 5;
 
 /// What a plugin declares.
 struct PluginTypes {

@@ -5,9 +5,11 @@
 //     void check(Problems&) const;               // optional: warns of parameters that do not fit together
 //     void update(SynapseColumns&) const;        // one cycle, for some synapses at a time
 //     void output(SynapseColumns&) const;        // optional: writes the output state, and nothing else, as
-//     the
-//                                                // last update() did, from pre and the other states alone.
+//                                                // the last update() did, from pre and the other states
+//                                                alone.
 //                                                // Outputs need not be kept then: less memory to move.
+//     void update_and_add(SynapseColumns&) const;  // optional, beside output(): what update() does, but what
+//                                                // it would write to the output state is added to sums().
 //
 // A type that only multiplies its input by a constant declares that constant with `gain` and needs no
 // update(). The engine then attenuates and delays what the type puts out; synapses/fixed_weight.h is the
@@ -46,8 +48,8 @@ struct FeedbackInfo {
 class SynapseColumns {
   public:
     SynapseColumns(ConstColumn pre, const std::vector<Column>& states,
-                   const std::vector<ConstColumn>& feedback)
-        : pre_(pre), states_(states), feedback_(feedback) {}
+                   const std::vector<ConstColumn>& feedback, double* sums = nullptr)
+        : pre_(pre), states_(states), feedback_(feedback), sums_(sums) {}
     const ConstColumn& pre() const { return pre_; }  ///< source cell's activity of this cycle
     Column state(std::size_t i) const {              ///< own states, in order of declaration
         if (i >= states_.size()) detail::not_declared("state", static_cast<long long>(i), states_.size());
@@ -58,11 +60,14 @@ class SynapseColumns {
             detail::not_declared("feedback", static_cast<long long>(i), feedback_.size());
         return feedback_[i];
     }
+    /// What update_and_add() adds to; of no cells elsewhere.
+    Column sums() const { return {sums_, sums_ ? pre_.size() : 0}; }
 
   private:
     ConstColumn pre_;
     const std::vector<Column>& states_;
     const std::vector<ConstColumn>& feedback_;
+    double* sums_;
 };
 
 class SynapseInstance {
@@ -70,8 +75,9 @@ class SynapseInstance {
     virtual ~SynapseInstance() = default;
     virtual void* parameters() = 0;
     virtual void update(SynapseColumns&) const = 0;
-    virtual double gain() const = 0;                 ///< psp = gain * pre, for types that declare one
-    virtual void output(SynapseColumns&) const = 0;  ///< for types that have it; without feedback
+    virtual double gain() const = 0;                         ///< psp = gain * pre, for types that declare one
+    virtual void output(SynapseColumns&) const = 0;          ///< for types that have it; without feedback
+    virtual void update_and_add(SynapseColumns&) const = 0;  ///< for types that have it
 };
 
 struct SynapseType {
@@ -82,6 +88,7 @@ struct SynapseType {
     bool has_gain = false;
     bool rests_when_silent = false;  ///< see SynapseSpec
     bool tells_output = false;       ///< has an output()
+    bool adds_output = false;        ///< has an update_and_add()
     std::function<std::unique_ptr<SynapseInstance>()> make;
     std::function<void(const void*, Problems&)> check;  ///< of an object's parameters; may be empty
 
@@ -135,6 +142,9 @@ class SynapseModel final : public SynapseInstance {
     void output(SynapseColumns& columns) const override {
         if constexpr (requires { value_.output(columns); }) value_.output(columns);
     }
+    void update_and_add(SynapseColumns& columns) const override {
+        if constexpr (requires { value_.update_and_add(columns); }) value_.update_and_add(columns);
+    }
     double gain() const override {
         if constexpr (requires { value_.gain(); })
             return value_.gain();
@@ -153,11 +163,16 @@ SynapseType synapse_type() {
     static_assert(
         requires(const T t, SynapseColumns& c) { t.update(c); } || requires(const T t) { t.gain(); },
         "a synapse type needs void update(SynapseColumns&) const, or double gain() const");
+    static_assert(
+        requires(const T t, SynapseColumns& c) { t.output(c); } ||
+            !requires(const T t, SynapseColumns& c) { t.update_and_add(c); },
+        "a synapse type with an update_and_add() needs void output(SynapseColumns&) const, too");
     SynapseType type;
     SynapseSpec<T> spec(type);
     T::describe(spec);
     type.has_gain = requires(const T t) { t.gain(); };
     type.tells_output = requires(const T t, SynapseColumns& c) { t.output(c); };
+    type.adds_output = requires(const T t, SynapseColumns& c) { t.update_and_add(c); };
     type.make = [] { return std::make_unique<detail::SynapseModel<T>>(); };
     if constexpr (requires(const T t, Problems p) { t.check(p); })
         type.check = [](const void* object, Problems& problems) {

@@ -19,6 +19,7 @@ struct Gain final : SynapseInstance {
     void update(SynapseColumns&) const override {}
     double gain() const override { return 1.3; }
     void output(SynapseColumns&) const override {}
+    void update_and_add(SynapseColumns&) const override {}
 };
 
 enum class Order { ascending, shuffled };

@@ -1,7 +1,9 @@
 // Synapses with states of their own, with numbers computed by hand.
 #include <array>
 #include <cmath>
+#include <utility>
 
+#include "core/engine/sliding_targets.h"
 #include "core/engine/source_order.h"
 #include "tests/unit/engine/simulations.h"
 
@@ -182,6 +184,7 @@ TEST_CASE("Synapses of silent sources are passed over, and all is as if they wer
             learn.pattern = model::ForeachPattern{};
             learn.arborization.shape = model::RectArbor{1, 1};
     }
+    if (GENERATE(false, true)) learn.attenuation = uniform(0);  // outputs are added as they are
     if (GENERATE(false, true))
         learn.synapse->type = "mute", learn.synapse->settings.clear(),
         learn.synapse->feedback[0].name = "post";
@@ -226,4 +229,49 @@ TEST_CASE("Sources that targets hear in orders that contradict each other are no
     CHECK(order() == std::vector{1, 0});
     s.delay.back() = 1;
     CHECK(order().empty());
+}
+
+TEST_CASE("Of windows that move along rows of cells, a target stays at its place until none reaches it") {
+    // 12 x 4 sources, each with the targets of 7 x 3 cells round its own, column by column.
+    constexpr int width = 12, height = 4, cells = width * height;
+    connectivity::Synapses s;
+    for (int x = 0; x < width; ++x)
+        for (int y = 0; y < height; ++y)
+            for (int ty = std::max(0, y - 1); ty < std::min(height, y + 2); ++ty)
+                for (int tx = std::max(0, x - 3); tx < std::min(width, x + 4); ++tx)
+                    s.pre.push_back(width * y + x), s.post.push_back(width * ty + tx), s.delay.push_back(0),
+                        s.attenuation.push_back(0);
+    const auto order = engine::order_of_sources(s, cells, cells);
+    REQUIRE(order.frames.size() == width);
+    const auto slides = engine::SlidingTargets::make(order, cells);
+    REQUIRE(slides);
+    CHECK(slides->places() == height * 8);  // rows of seven, filled up
+    CHECK(slides->entering(0).size() == 4 * height);
+    for (std::size_t frame = 1; frame < width; ++frame) {
+        CHECK(slides->entering(frame).size() == (frame < 9 ? height : 0));
+        CHECK(slides->leaving(frame).size() == (frame > 3 ? height : 0));
+    }
+    CHECK(slides->leaving(width).size() == 4 * height);
+    // Everybody leaves from where he entered.
+    std::vector<int> place(cells, -1);
+    for (std::size_t frame = 0; frame <= width; ++frame) {
+        for (const auto m : slides->leaving(frame)) CHECK(std::exchange(place[m.target], -1) == m.place);
+        for (const auto m : slides->entering(frame)) CHECK(std::exchange(place[m.target], m.place) == -1);
+    }
+    CHECK(std::count(place.begin(), place.end(), -1) == cells);
+}
+
+TEST_CASE("Targets do not slide when hardly any stay, or when a source leaves some of a row out") {
+    connectivity::Synapses s;
+    const auto connect_to = [&](int pre, int first, int last) {
+        for (int post = first; post < last; ++post)
+            s.pre.push_back(pre), s.post.push_back(post), s.delay.push_back(0), s.attenuation.push_back(0);
+    };
+    SECTION("each has targets of its own") { connect_to(0, 0, 8), connect_to(1, 8, 16); }
+    SECTION("two runs in one row, of which a source has one") {
+        connect_to(0, 0, 8), connect_to(0, 16, 24), connect_to(1, 16, 24), connect_to(2, 7, 17);
+    }
+    const auto order = engine::order_of_sources(s, s.pre.back() + 1, 24);
+    REQUIRE(order.frames.size() == 2);
+    CHECK(!engine::SlidingTargets::make(order, 24));
 }
