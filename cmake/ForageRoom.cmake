@@ -6,10 +6,10 @@
 # so that an #include line says which room it comes from.
 add_library(forage_options INTERFACE)
 target_compile_features(forage_options INTERFACE cxx_std_20)
-# The same bits everywhere: no contraction to fused multiply-add, no fast math. Nobody asks errno about mathematics, which
-# else keeps loops with a root from being vectorised.
+# The same bits everywhere: no contraction to fused multiply-add, no fast math. Nobody asks errno about mathematics, nor for
+# signals of the processor, which else keep loops with a root or a choice from being vectorised.
 target_compile_options(forage_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-                                                -ffp-contract=off -fno-math-errno)
+                                                -ffp-contract=off -fno-math-errno -fno-trapping-math)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(forage_options INTERFACE -Wno-restrict)  # GCC 12 warns of its own std::string (bug 105329)
 endif()

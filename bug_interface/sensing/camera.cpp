@@ -23,7 +23,6 @@ double bottom(const VisualSolid& visual) {
 constexpr std::size_t lanes = 8;
 typedef float Levels __attribute__((vector_size(lanes * sizeof(float))));  // NOLINT: no `using` for these
 typedef std::int32_t Numbers __attribute__((vector_size(lanes * sizeof(int))));  // NOLINT
-typedef std::uint8_t Bytes __attribute__((vector_size(lanes)));                  // NOLINT
 
 #if defined(__clang__)
 #define FORAGE_LANES(v, ...) __builtin_shufflevector(v, v, __VA_ARGS__)
@@ -31,27 +30,42 @@ typedef std::uint8_t Bytes __attribute__((vector_size(lanes)));                 
 #define FORAGE_LANES(v, ...) __builtin_shuffle(v, Numbers{__VA_ARGS__})
 #endif
 
-/// Eight of the 24 values of eight pixels, with the noise of the pixels that they belong to.
-[[gnu::always_inline]] inline void to_bytes(const float* values, Levels noise, std::uint8_t* out) {
+/// Eight of the 24 values of eight pixels, with the noise of the pixels that they belong to, from 0 to 255.
+[[gnu::always_inline]] inline void add_noise(const float* values, Levels noise, std::int32_t* out) {
     Levels level;
     std::memcpy(&level, values, sizeof level);
     level = 255 * level + noise;
     level = level > 0 ? level : Levels{};
     level = level < 255 ? level : Levels{} + 255;
-    const Bytes bytes = __builtin_convertvector(__builtin_convertvector(level + 0.5f, Numbers), Bytes);
-    std::memcpy(out, &bytes, sizeof bytes);
+    const Numbers numbers = __builtin_convertvector(level + 0.5f, Numbers);
+    std::memcpy(out, &numbers, sizeof numbers);
+}
+
+/// Of `pixels` pixels, a multiple of eight. In two loops: GCC takes vectors apart when they are to become
+/// bytes at once.
+template <std::size_t pixels>
+[[gnu::always_inline]] inline void block_to_bytes(const float* rgb, const std::uint16_t* places,
+                                                  const float* quantiles, float scale, std::uint8_t* out) {
+    std::int32_t numbers[3 * pixels];
+    for (std::size_t i = 0; i < pixels; i += lanes) {
+        Levels z;
+        for (std::size_t k = 0; k < lanes; ++k) z[k] = scale * quantiles[places[i + k]];
+        add_noise(rgb + 3 * i, FORAGE_LANES(z, 0, 0, 0, 1, 1, 1, 2, 2), numbers + 3 * i);
+        add_noise(rgb + 3 * i + 8, FORAGE_LANES(z, 2, 3, 3, 3, 4, 4, 4, 5), numbers + 3 * i + 8);
+        add_noise(rgb + 3 * i + 16, FORAGE_LANES(z, 5, 5, 6, 6, 6, 7, 7, 7), numbers + 3 * i + 16);
+    }
+    for (std::size_t i = 0; i < 3 * pixels; ++i) out[i] = static_cast<std::uint8_t>(numbers[i]);
 }
 
 /// Of a multiple of eight pixels. Without branches, which this noise would make hard to predict.
 FORAGE_SIMD void to_bytes(const float* rgb, const std::uint16_t* places, const float* quantiles, float scale,
                           std::size_t pixels, std::uint8_t* out) {
-    for (std::size_t i = 0; i < pixels; i += lanes) {
-        Levels z;
-        for (std::size_t k = 0; k < lanes; ++k) z[k] = scale * quantiles[places[i + k]];
-        to_bytes(rgb + 3 * i, FORAGE_LANES(z, 0, 0, 0, 1, 1, 1, 2, 2), out + 3 * i);
-        to_bytes(rgb + 3 * i + 8, FORAGE_LANES(z, 2, 3, 3, 3, 4, 4, 4, 5), out + 3 * i + 8);
-        to_bytes(rgb + 3 * i + 16, FORAGE_LANES(z, 5, 5, 6, 6, 6, 7, 7, 7), out + 3 * i + 16);
-    }
+    constexpr std::size_t many = 4 * lanes;
+    std::size_t i = 0;
+    for (; i + many <= pixels; i += many)
+        block_to_bytes<many>(rgb + 3 * i, places + i, quantiles, scale, out + 3 * i);
+    for (; i < pixels; i += lanes)
+        block_to_bytes<lanes>(rgb + 3 * i, places + i, quantiles, scale, out + 3 * i);
 }
 
 }  // namespace

@@ -7,8 +7,11 @@ namespace forage::engine {
 /// x - x is 0, or NaN when x is NaN or infinite.
 FORAGE_SIMD bool all_finite(const double* row, Index n) {
     constexpr Index lanes = 8;
-    double sums[lanes] = {};
-    for (Index i = 0; i < n; i += lanes)
+    double sums[2 * lanes] = {};  // an addition waits for the one before
+    Index i = 0;
+    for (; i + 2 * lanes <= n; i += 2 * lanes)
+        for (Index k = 0; k < 2 * lanes; ++k) sums[k] += row[i + k] - row[i + k];
+    if (i < n)
         for (Index k = 0; k < lanes; ++k) sums[k] += row[i + k] - row[i + k];
     double sum = 0;
     for (const double s : sums) sum += s;

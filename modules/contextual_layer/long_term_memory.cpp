@@ -11,14 +11,18 @@ namespace {
 /// See LongTermMemory::collect; returns the largest collector, 0 if none is above 0.
 FORAGE_SIMD float collect_row(const float* distance, Index n, float decay, float* trigger, float* collector) {
     const float kept = 1 - decay;
-    for (Index i = 0; i < n; ++i) {
-        const float t = trigger[i] > 1.0F ? kept * trigger[i] + decay : 1.0F;
-        trigger[i] = t;
-        collector[i] = (1.0F - distance[i]) * t;
-    }
     std::int32_t largest = 0;  // bits of positive numbers are in their order
-    for (Index i = 0; i < n; ++i)
-        largest = std::max(largest, collector[i] > 0.0F ? std::bit_cast<std::int32_t>(collector[i]) : 0);
+#ifndef __clang__
+#pragma GCC ivdep
+#endif
+    for (Index i = 0; i < n; ++i) {
+        const float before = trigger[i], sinking = kept * before + decay;
+        const float t = before > 1.0F ? sinking : 1.0F;
+        const float c = (1.0F - distance[i]) * t;
+        trigger[i] = t;
+        collector[i] = c;
+        largest = std::max(largest, c > 0.0F ? std::bit_cast<std::int32_t>(c) : 0);
+    }
     return std::bit_cast<float>(largest);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "core/types/simd.h"
 
@@ -52,28 +53,42 @@ FORAGE_SIMD void add_two(Block* blocks, Index count, const double* present, doub
     add_cells<2>(blocks, 0, count, present, share);
 }
 
-/// Lists the cells of which a bit is set in a or b; returns how many there are.
-Index list_cells(const std::uint64_t* a, const std::uint64_t* b, Index words, Index* out) {
-    Index count = 0;
-    for (Index w = 0; w < words; ++w)
-        for (std::uint64_t left = a[w] | b[w]; left; left &= left - 1)
-            out[count++] = w * bits + std::countr_zero(left);
-    return count;
+/// What a block's sums say, and 1 for prototypes without any activity.
+FORAGE_SIMD void tell_distances(const double* sums, const std::uint8_t* silent, float* distances) {
+    for (Index l = 0; l < lanes; ++l) {
+        const auto distance = static_cast<float>(sums[l]);
+        distances[l] = silent[l] ? 1.0F : distance;
+    }
 }
 
 }  // namespace
+
+/// Lists the cells of which a bit is set in a or b.
+void PrototypeStore::CellList::list(const std::uint64_t* a, const std::uint64_t* b, Index words) {
+    bool same = true;
+    for (Index w = 0; w < words; ++w)
+        same &= std::exchange(of[static_cast<std::size_t>(w)], a[w] | b[w]) == (a[w] | b[w]);
+    if (same) return;
+    count = 0;
+    for (Index w = 0; w < words; ++w)
+        for (std::uint64_t left = a[w] | b[w]; left; left &= left - 1)
+            cells[static_cast<std::size_t>(count++)] = w * bits + std::countr_zero(left);
+}
 
 PrototypeStore::PrototypeStore(Index keys, Index capacity, Index cells)
     : cells_(cells),
       words_((cells + bits - 1) / bits),
       compared_(Eigen::ArrayXd::Zero(cells)),
       present_(Eigen::ArrayXd::Zero(cells)),
-      active_(static_cast<std::size_t>(words_)),
-      counted_(2 * static_cast<std::size_t>(cells)) {
+      active_(static_cast<std::size_t>(words_)) {
+    for (CellList& list : counted_) {
+        list.cells.resize(static_cast<std::size_t>(cells));
+        list.of.resize(static_cast<std::size_t>(words_), 0);
+    }
     const Index blocks = (capacity + lanes - 1) / lanes;
     blocks_.setZero(blocks * cells * lanes);
     used_.resize(static_cast<std::size_t>(blocks * words_), 0);
-    silent_.resize(static_cast<std::size_t>(capacity), 0);
+    silent_.resize(static_cast<std::size_t>(blocks * lanes), 0);
     keys_.reserve(static_cast<std::size_t>(capacity));
     slots_.resize(static_cast<std::size_t>(keys), 0);
 }
@@ -136,25 +151,24 @@ void PrototypeStore::compare(const Eigen::Ref<const Eigen::ArrayXd>& present, fl
 
 void PrototypeStore::compare_blocks(Index first, Index count, float* distances) {
     const double share = 1.0F / static_cast<float>(cells_);
-    Block pair[2];
+    Block pair[2];  // not cleared: that would take longer than it should
     for (Index b = 0; b < count; ++b) {
-        Index* counted = &counted_[static_cast<std::size_t>(b * cells_)];
-        // Cells that are 0 on both sides add nothing.
-        pair[b] = {blocks_.data() + (first + b) * cells_ * lanes,
-                   counted,
-                   list_cells(&used_[static_cast<std::size_t>((first + b) * words_)], active_.data(), words_,
-                              counted),
-                   {}};
+        CellList& counted =
+            counted_[static_cast<std::size_t>(b)];  // cells that are 0 on both sides add nothing
+        counted.list(&used_[static_cast<std::size_t>((first + b) * words_)], active_.data(), words_);
+        pair[b].cells = blocks_.data() + (first + b) * cells_ * lanes;
+        pair[b].counted = counted.cells.data(), pair[b].count = counted.count;
+        std::fill_n(pair[b].sums, lanes, 0.0);
     }
     const Index together = count == 2 ? std::min(pair[0].count, pair[1].count) : 0;
     if (together > 0) add_two(pair, together, present_.data(), share);
     for (Index b = 0; b < count; ++b) {
         if (pair[b].count > together) add_one(pair[b], together, present_.data(), share);
-        const Index begin = (first + b) * lanes, end = std::min(begin + lanes, size());
-        for (Index slot = begin; slot < end; ++slot)
-            distances[keys_[static_cast<std::size_t>(slot)]] =
-                silent_[static_cast<std::size_t>(slot)] ? 1.0F
-                                                        : static_cast<float>(pair[b].sums[slot - begin]);
+        const Index begin = (first + b) * lanes, left = std::min(lanes, size() - begin);
+        float found[lanes];
+        tell_distances(pair[b].sums, &silent_[static_cast<std::size_t>(begin)], found);
+        const Index* const keys = &keys_[static_cast<std::size_t>(begin)];
+        for (Index l = 0; l < left; ++l) distances[keys[l]] = found[l];
     }
 }
 

@@ -51,7 +51,14 @@ class PrototypeStore {
     bool current_ = false;               ///< the distances of the last comparison hold for compared_
     Eigen::ArrayXd present_;             ///< p / max p
     std::vector<std::uint64_t> active_;  ///< cells of present_ that are not 0
-    std::vector<Index> counted_;         ///< scratch: cells that count, of two blocks
+    /// Cells that count, in order. It is mostly the same for one pair of blocks after the other.
+    struct CellList {
+        std::vector<std::uint64_t> of;  ///< a bit per cell
+        std::vector<Index> cells;
+        Index count = 0;
+        void list(const std::uint64_t* a, const std::uint64_t* b, Index words);
+    };
+    CellList counted_[2];  ///< scratch
 };
 
 }  // namespace forage::contextual
