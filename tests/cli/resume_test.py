@@ -95,6 +95,8 @@ class Resume(Stopped):
             self.assertIn("all.npz", names)
             self.assertIn("run.json", names)
             self.assertFalse([n for n in names if n.endswith(".part")])
+            # As if it had been killed while it took a recording out of the archive again.
+            (self.here / out / "Adaptive_Weights_Display_act.npy.unpacked.part").write_bytes(b"not all of it")
             process = self.start("resume", out)
             self.stop(process, 0.3, how)
             self.assertEqual(self.stop(self.start("resume", out), 90, how), 0)

@@ -30,7 +30,7 @@ CORPUS = {
     "other_sum": (r"'synapseOtherSum' that does not work: its update_and_add\(\) adds something else than its update\(\)", ""),
     "other_output": (r"'synapseOtherOutput' that does not work: its output\(\) tells something else than its update\(\)", ""),
     "other_size": (r"'neuronOtherSize' that does not work: it computes with columns of different sizes", ""),
-    "other_version": (r"was built with version 5 of the SDK, this program has version 4", "build the plugin again"),
+    "other_version": (r"was built with version 6 of the SDK, this program has version 5", "build the plugin again"),
     "shipped_name": (r"has a neuron type 'neuronLinearThreshold', and so has Forage itself", "another name"),
     "restless": (r"'synapseRestless' that does not work: it promises rests_when_silent\(\), and changes state 'weight'", ""),
     "sociable": (r"'neuronSociable' that does not work: it promises cells_independent\(\), and state 'act' depends on which", ""),

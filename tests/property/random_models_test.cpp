@@ -22,7 +22,7 @@ std::uint64_t models() {
 }
 
 /// Every state of every group over some cycles, as bytes; one NaN is like another. With `observed`, of these
-/// groups; they are then the only ones that are asked for.
+/// groups; they are then the only ones that are asked for, and without their inputs.
 std::string trace(const model::System& system, const Registry& registry, int threads,
                   bool general_forms = false, const std::vector<int>* observed = nullptr,
                   bool leave_out = false) {
@@ -38,7 +38,7 @@ std::string trace(const model::System& system, const Registry& registry, int thr
     std::vector<int> groups(static_cast<std::size_t>(s->groups()));
     std::iota(groups.begin(), groups.end(), 0);
     if (observed) groups = *observed;
-    if (leave_out) s->leave_out_unread({.groups = groups});
+    if (leave_out) s->leave_out_unread({.groups = groups}), s->keep_inputs({});
     s->start();
     Archive out(Archive::Nan::all_the_same);
     for (int t = 0; t < 8; ++t) {

@@ -138,12 +138,15 @@ void Recordings::reopen(const File& f) const {
     namespace fs = std::filesystem;
     if (fs::exists(partial(f.path))) return;
     const std::string archive = directory_ + "/" + f.file.archive;
-    if (!f.file.archive.empty() && fs::exists(archive))
-        observe::extract_npz(archive, f.header.sources.front().name, partial(f.path));
-    else if (f.file.archive.empty() && fs::exists(f.path))
+    if (!f.file.archive.empty() && fs::exists(archive)) {
+        const std::string unpacked = partial(f.path + ".unpacked");  // killed now, it would be there in part
+        observe::extract_npz(archive, f.header.sources.front().name, unpacked);
+        fs::rename(unpacked, partial(f.path));
+    } else if (f.file.archive.empty() && fs::exists(f.path)) {
         fs::rename(f.path, partial(f.path));
-    else
+    } else {
         throw observe::ShortFile(fmt::format("the recording '{}' is not there", f.path));
+    }
 }
 
 void Recordings::checkpoint(Archive& archive) {

@@ -53,6 +53,17 @@ struct Failing {
     }
 };
 
+/// Throws in cycle 3.
+struct FailingSynapse {
+    mutable int deliveries = 0;
+    static void describe(SynapseSpec<FailingSynapse>& s) {
+        s.name("failing synapse", "Failing").output("psp", "Potential");
+    }
+    void update(SynapseColumns&) const {
+        if (++deliveries == 4) throw std::runtime_error("no way");
+    }
+};
+
 Registry types() {
     Registry r = registry();
     r.add(neuron_type<Total>());
@@ -178,4 +189,23 @@ TEST_CASE("When several groups fail, whole ones and parts, the first one is told
     CHECK_THROWS_WITH(simulation.step(),
                       small_first ? "failing of group 'Brain/Small' failed in cycle 3: out of luck"
                                   : "failing in parts of group 'Brain/Large' failed in cycle 3: out of luck");
+}
+
+TEST_CASE("An update that fails is told before a delivery that fails, and of deliveries the first one") {
+    model::System s;
+    const auto p = model::add_process(s, "Brain");
+    const auto a = model::add_group(s, p, "A", 2, 2, "total"), b = model::add_group(s, p, "B", 2, 2, "total"),
+               c = model::add_group(s, p, "C", 2, 2, "one");
+    const bool update_fails = GENERATE(false, true);
+    if (update_fails) model::add_group(s, p, "Last", 2, 2, "failing");
+    connect(s, c, a, InputKind::excitatory, "failing synapse", "to A");  // has to wait for C
+    connect(s, a, b, InputKind::excitatory, "failing synapse", "to B");
+    Registry registry = types();
+    registry.add(synapse_type<FailingSynapse>());
+    registry.add(neuron_type<Failing<false>>());
+    auto simulation = run(s, registry, {.threads = GENERATE(1, 2), .worth_sharing = 0});
+    for (int t = 0; t < 3; ++t) simulation.step();
+    CHECK_THROWS_WITH(simulation.step(),
+                      update_fails ? "failing of group 'Brain/Last' failed in cycle 3: out of luck"
+                                   : "failing synapse of connection 'C to A' failed in cycle 3: no way");
 }
