@@ -72,6 +72,7 @@ struct Loop {
             engine::Observed observed;
             tool::Layers(*simulation).note_observed(observed);  // for the measures of trials
             simulation->leave_out_unread(observed);
+            simulation->keep_inputs({});
         }
         simulation->watch(true);
         simulation->start();
