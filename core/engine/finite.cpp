@@ -11,7 +11,7 @@ FORAGE_SIMD bool all_finite(const double* row, Index n) {
     Index i = 0;
     for (; i + 2 * lanes <= n; i += 2 * lanes)
         for (Index k = 0; k < 2 * lanes; ++k) sums[k] += row[i + k] - row[i + k];
-    if (i < n)
+    for (; i < n; i += lanes)
         for (Index k = 0; k < lanes; ++k) sums[k] += row[i + k] - row[i + k];
     double sum = 0;
     for (const double s : sums) sum += s;

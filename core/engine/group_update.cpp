@@ -128,7 +128,9 @@ void update_part(GroupPlan& g, int part, const UpdateFrame& f) {
     found = {true, true};
     if (count <= 0) return;
     update_cells(g, first, count, f);
-    if (f.watched) each_row(g, [&](const double* row) { found.finite &= all_finite(row + first, count); });
+    if (f.watched)
+        each_row(g,
+                 [&](const double* row) { found.finite &= all_finite(row + first, Arena::stride(count)); });
     found.silent = all_zero(activity_row(g, f.cycle) + first, count);
 }
 

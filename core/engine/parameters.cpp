@@ -128,6 +128,9 @@ void Simulation::check(std::span<const Assignment> changes, Diagnostics& diagnos
 }
 
 void Simulation::set(const Assignment& a) {
+    if (delivers_early_)
+        throw std::logic_error(
+            "nothing can be set between update_groups_and_deliver() and update_connections()");
     void* object = holder(*plan_, a);
     if (const auto refused = refusal(a, object))
         throw RunError(fmt::format("'{}': {}", a.text, refused->why));

@@ -77,13 +77,13 @@ PlasticBySource::PlasticBySource(connectivity::Synapses s, const SourceOrder& or
         factor_ = std::vector<double>();
     adds_outputs_ &= factor_.empty();
 
-    Index largest_frame = 0;
+    Index largest_frame = sliding_ ? sliding_->places() : 0;
     for (const auto& frame : order.frames) {
         frames_.push_back({frame.first_source, frame.last_source});
         for (std::size_t n = frame.first_source; n < frame.last_source; ++n) {
             const Stretch source = stretches()[n];
             largest_source_ = std::max(largest_source_, source.size);
-            largest_frame = std::max(largest_frame, source.place + source.size);
+            if (!sliding_) largest_frame = std::max(largest_frame, source.place + source.size);
         }
     }
     for (std::size_t i = 0; i < type.states.size(); ++i) {
@@ -156,6 +156,7 @@ void PlasticBySource::find_active(const double* source, bool may_rest) {
 
 void PlasticBySource::update(const History& source, double* sums) {
     find_active(source.now, read_feedback(source.cycle));
+    if (active_count_ == 0) return;
     const std::size_t* next = active_.data();
     const std::size_t* const last = next + active_count_;
     for (std::size_t f = 0; f < frames_.size(); ++f) {

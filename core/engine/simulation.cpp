@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -87,6 +88,8 @@ Simulation::~Simulation() = default;
 
 void Simulation::keep_inputs(std::span<const int> groups) {
     if (started_) throw std::logic_error("inputs are kept from the start, or not at all");
+    if (inputs_known_) throw std::logic_error("it is told once whose inputs are kept, for all who look");
+    inputs_known_ = true;
     for (auto& g : plan_->groups) g.keeps_input = false;
     for (const int i : groups) at(plan_->groups, i).keeps_input = true;
     for (auto& g : plan_->groups)
@@ -111,7 +114,7 @@ void Simulation::start() {
 }
 
 void Simulation::step() {
-    update_groups(true);
+    update_groups_and_deliver();
     update_modules();
     update_connections();
 }
@@ -151,11 +154,14 @@ void Simulation::deliver_late() {
     if (failure_.reason) std::rethrow_exception(failure_.reason);
 }
 
-void Simulation::update_groups(bool untouched) {
+void Simulation::update_groups() { update_groups(false); }
+void Simulation::update_groups_and_deliver() { update_groups(true); }
+
+void Simulation::update_groups(bool deliver_early) {
     if (!started_) throw RunError("the simulation is not started");
     shown_ = cycle_;
     shared_ = begin_sharing();
-    delivers_early_ = untouched && !shared_;
+    delivers_early_ = deliver_early && !shared_;
     failure_ = {};
     if (shared_)
         shared_cycle_->update_groups(cycle_);
@@ -194,7 +200,7 @@ void Simulation::update_modules() {
 }
 
 void Simulation::update_connections() {
-    if (delivers_early_) {
+    if (std::exchange(delivers_early_, false)) {
         deliver_late();
     } else {
         for (const int i : plan_->updated) remember(at(plan_->groups, i), cycle_);
@@ -209,7 +215,18 @@ void Simulation::update_connections() {
 
 void Simulation::watch(bool wanted) { plan_->watched = wanted; }
 
-void Simulation::group_changed(int group) { touch(at(plan_->groups, group), cycle_); }
+GroupPlan& Simulation::changing(int group) {
+    if (delivers_early_)
+        throw std::logic_error(
+            "nothing can be changed between update_groups_and_deliver() and update_connections()");
+    auto& g = seen(plan_->groups, group);
+    touch(g, cycle_);
+    return g;
+}
+
+void Simulation::group_changed(int group) {
+    if (!left_out(group)) changing(group);
+}
 
 int Simulation::threads() const { return shared_cycle_ ? shared_cycle_->threads() : 1; }
 int Simulation::groups() const { return static_cast<int>(plan_->groups.size()); }
@@ -232,14 +249,12 @@ ConstColumn Simulation::state(int group, int state) const {
 }
 
 Column Simulation::output(int group) {
-    auto& g = seen(plan_->groups, group);
-    touch(g, cycle_);
+    auto& g = changing(group);
     return {activity_row(g, shown_), g.cells};
 }
 
 Column Simulation::writable_state(int group, int state) {
-    auto& g = seen(plan_->groups, group);
-    touch(g, cycle_);
+    auto& g = changing(group);
     return {state_row(g, static_cast<std::size_t>(state), shown_), g.cells};
 }
 

@@ -18,6 +18,7 @@
 
 namespace forage::engine {
 
+struct GroupPlan;
 struct ModulePlan;
 struct Plan;
 class EarlyDelivery;
@@ -45,7 +46,7 @@ struct Observed {
         int module, port;
     };
     std::vector<Output> outputs{};  ///< of modules, whoever reads their groups
-    std::vector<int> inputs{};      ///< groups of which the inputs are looked at
+    std::vector<int> inputs{};      ///< groups of which the inputs are looked at: see keep_inputs()
 };
 
 /// Runs a system cycle by cycle. A cycle is
@@ -91,11 +92,12 @@ class Simulation {
 
     /// Starts the modules; once, before the first cycle. Throws RunError.
     void start();
-    /// One cycle. Throws RunError, also before start().
+    /// One cycle. Throws RunError, also before start(). A simulation that has thrown in a cycle cannot go on.
     void step();
-    /// `untouched`: nobody overwrites anything before update_connections(), so that what can be delivered
-    /// already is delivered at once, as step() does.
-    void update_groups(bool untouched = false);
+    void update_groups();
+    /// The same when nobody changes anything before update_connections(): what can be delivered already, is,
+    /// as in step(). Who overwrites something all the same gets a std::logic_error.
+    void update_groups_and_deliver();
     void update_modules();
     void update_connections();  ///< ends the cycle
 
@@ -168,7 +170,10 @@ class Simulation {
 
     std::unique_ptr<Plan> plan_;
     bool begin_sharing();
+    void update_groups(bool deliver_early);
     void update_alone();
+    /// The group, to be changed. Throws std::logic_error where that would come too late.
+    GroupPlan& changing(int group);
     void deliver_early(int group);
     void deliver_late();
 
@@ -183,7 +188,7 @@ class Simulation {
         std::exception_ptr reason;  ///< null: none
     };
     Failure failure_;  ///< of the first group that was delivered to early and failed, in the running cycle
-    bool started_ = false, observers_known_ = false;
+    bool started_ = false, observers_known_ = false, inputs_known_ = false;
     std::uint64_t cycle_ = 0;
     std::optional<NotFinite> not_finite_;
     std::uint64_t shown_ = 0;  ///< the cycle whose numbers are looked at

@@ -58,6 +58,7 @@ void Simulation::leave_out_unread(const Observed& observed) {
     observers_known_ = true;
     Readers readers(*plan_);
     for (const int g : observed.groups) readers.want_group(g);
+    for (const int g : observed.inputs) readers.want_group(g);
     for (const int c : observed.connections) readers.want_connection(c);
     for (const auto& m : plan_->modules)
         for (const int g : m.input_groups) readers.want_group(g);

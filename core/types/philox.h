@@ -1,4 +1,4 @@
-// Blocks of Philox4x32-10 for the random streams, one or eight at a time, and what is made of many. Not for
+// Blocks of Philox4x32-10 for the random streams, one or several at a time, and what is made of many. Not for
 // types.
 #pragma once
 

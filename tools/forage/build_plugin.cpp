@@ -88,6 +88,8 @@ int build_plugin(const BuildPluginOptions& o) {
                                       "-Wall",
                                       "-Wextra",
                                       "-ffp-contract=off",
+                                      "-fno-math-errno",
+                                      "-fno-trapping-math",
                                       "-fvisibility=hidden",
                                       "-fvisibility-inlines-hidden",
                                       "-include",

@@ -45,7 +45,10 @@ void Running::cycle() {
     if (schedule.waiting()) schedule.apply(simulation, now());
     if (run_measures.waiting()) run_measures.see(simulation, now());
     for (auto& m : manipulations) m.look(simulation, now());
-    simulation.update_groups(clamp.idle() && manipulations.empty());
+    if (clamp.idle() && manipulations.empty())
+        simulation.update_groups_and_deliver();
+    else
+        simulation.update_groups();
     if (simulation.not_finite() && diverged.empty())
         diverged = describe(*simulation.not_finite(), simulation);
     clamp.apply(simulation);

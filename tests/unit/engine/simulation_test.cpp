@@ -235,13 +235,15 @@ TEST_CASE("A cycle in one step, which delivers early, is the same as phase by ph
         echo.inputs.push_back({"in", groups[2].id, {}}), echo.outputs.push_back({"out", groups[3].id, {}});
         system.processes[0].module = echo;
         auto phases = run(system, types), whole = run(system, types);
+        // Cycles by two threads and early ones in turns, as the trial has it.
+        auto tried = run(system, types, {.threads = 2, .worth_sharing = 1e-9});
         Diagnostics diagnostics;
         auto forgetful = std::move(*engine::Simulation::build(system, types, {}, diagnostics));
         forgetful.keep_inputs(std::array{1});
         forgetful.start();
         for (int t = 0; t < 40; ++t) {
             phases.update_groups(), phases.update_modules(), phases.update_connections();
-            whole.step(), forgetful.step();
+            whole.step(), forgetful.step(), tried.step();
             INFO("seed " << seed << ", cycle " << t);
             const auto same = [](const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) {
                 return ((a == b) || (a.isNaN() && b.isNaN())).all();
@@ -250,6 +252,7 @@ TEST_CASE("A cycle in one step, which delivers early, is the same as phase by ph
                 for (int i = 0; i < static_cast<int>(phases.type(g).states.size()); ++i) {
                     REQUIRE(same(phases.state(g, i), whole.state(g, i)));
                     REQUIRE(same(phases.state(g, i), forgetful.state(g, i)));
+                    REQUIRE(same(phases.state(g, i), tried.state(g, i)));
                 }
                 for (const auto kind : {InputKind::excitatory, InputKind::inhibitory, InputKind::modulatory})
                     REQUIRE(same(phases.input(g, kind), whole.input(g, kind)));
@@ -259,6 +262,24 @@ TEST_CASE("A cycle in one step, which delivers early, is the same as phase by ph
         CHECK_THROWS_AS(forgetful.input(0, InputKind::excitatory), std::logic_error);
         CHECK_THROWS_AS(forgetful.keep_inputs({}), std::logic_error);
     }
+}
+
+TEST_CASE("Who has something delivered early changes nothing before the cycle ends") {
+    model::System s;
+    const auto p = model::add_process(s, "P");
+    model::add_group(s, p, "A", 3, 1, "one");
+    const Registry types = registry();
+    auto simulation = run(s, types);
+    simulation.update_groups_and_deliver();
+    CHECK_THROWS_AS(simulation.output(0), std::logic_error);
+    CHECK_THROWS_AS(simulation.writable_state(0, 0), std::logic_error);
+    CHECK_THROWS_AS(simulation.group_changed(0), std::logic_error);
+    simulation.update_modules(), simulation.update_connections();
+    simulation.output(0).setZero();
+    Diagnostics diagnostics;
+    auto other = engine::Simulation::build(s, types, {}, diagnostics);
+    other->keep_inputs({});
+    CHECK_THROWS_AS(other->keep_inputs({}), std::logic_error);
 }
 
 TEST_CASE("What is changed from outside wakes what rests") {
