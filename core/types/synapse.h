@@ -167,6 +167,12 @@ SynapseType synapse_type() {
         requires(const T t, SynapseColumns& c) { t.output(c); } ||
             !requires(const T t, SynapseColumns& c) { t.update_and_add(c); },
         "a synapse type with an update_and_add() needs void output(SynapseColumns&) const, too");
+    constexpr bool told_by_const = requires(const T t, SynapseColumns& c) { t.output(c); }
+    || !requires(T t, SynapseColumns & c) { t.output(c); };
+    constexpr bool added_by_const = requires(const T t, SynapseColumns& c) { t.update_and_add(c); }
+    || !requires(T t, SynapseColumns & c) { t.update_and_add(c); };
+    static_assert(told_by_const && added_by_const,
+                  "output() and update_and_add() of a synapse type are const, as update() is");
     SynapseType type;
     SynapseSpec<T> spec(type);
     T::describe(spec);
