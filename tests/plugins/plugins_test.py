@@ -27,6 +27,8 @@ CORPUS = {
     "no_such_state": (r"'neuronNoSuchState' that does not work: it uses state 4, but declares 1", ""),
     "other_abi": (r"was built for .*_GLIBCXX_USE_CXX11_ABI=0.*, this program for ", "build the plugin again"),
     "other_layout": (r"was built with other compiler settings than this program", "build the plugin again"),
+    "restless_parameter": (r"'synapseRestlessParameter' that does not work: it promises rests_when_silent\(\), and changes "
+                           r"state 'weight' while its source is silent: \S+ becomes \S+, with rate = 0\.", ""),
     "other_sum": (r"'synapseOtherSum' that does not work: its update_and_add\(\) adds something else than its update\(\)", ""),
     "other_output": (r"'synapseOtherOutput' that does not work: its output\(\) tells something else than its update\(\)", ""),
     "other_size": (r"'neuronOtherSize' that does not work: it computes with columns of different sizes", ""),
