@@ -141,14 +141,18 @@ void PlasticBySource::find_active(const double* source, bool may_rest) {
     double odd = 0;  // x - x is not 0 when x is not finite
     std::size_t* const active = active_.data();
     const int* const cell = cell_.data();
+    if (keeps_outputs_)
+        for (std::size_t n = 0; n < cell_.size(); ++n)
+            if (source[cell[n]] == 0 && activity_[n] != 0)
+                std::fill(states_[output_] + first_[n], states_[output_] + first_[n + 1], 0.0);
+    // Without branches: who is active cannot be foreseen.
+    const std::size_t always = may_rest ? 0 : 1;
     for (std::size_t n = 0; n < cell_.size(); ++n) {
         const double activity = source[cell[n]];
-        if (keeps_outputs_ && activity == 0 && activity_[n] != 0)
-            std::fill(states_[output_] + first_[n], states_[output_] + first_[n + 1], 0.0);
         activity_[n] = activity;
         odd += activity - activity;
         active[count] = n;
-        count += activity != 0 || !may_rest;
+        count += static_cast<std::size_t>(activity != 0) | always;
     }
     active_count_ = count;
     if (odd != 0) *diverged_ = 1;  // what the synapses learn from it stays when their source falls silent
