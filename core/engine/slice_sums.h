@@ -11,9 +11,9 @@ struct SliceStream {
     const Slices::Run *run, *end;
     const std::uint16_t* targets;
     const Cell* pre;
-    const double* weight;  ///< null when all are alike
-    const double* scaled;  ///< of block 0
-    std::size_t stride;    ///< from one block to the next
+    const double* weights[2];  ///< of the first and the second half of each row; null when all are alike
+    const double* scaled;      ///< of block 0
+    std::size_t stride;        ///< from one block to the next
 };
 
 /// sums[t] += what each synapse of target t of the panel delivers, in order. `sums` has one more number,

@@ -9,7 +9,7 @@
 namespace forage::engine {
 namespace {
 
-constexpr std::size_t lanes = Slices::lanes;
+constexpr std::size_t lanes = Slices::lanes, half = Slices::half;
 
 /// Of a block of sources, for all delays: with the sums of some targets and with what passes by, in the 32 KB
 /// of the nearest cache of today's processors.
@@ -57,7 +57,8 @@ SlicedKernel<Cell>::SlicedKernel(ByTarget s, Slices slices, std::vector<int> del
 template <class Cell>
 void SlicedKernel<Cell>::fill(const ByTarget& s) {
     pre_.assign(slices_.entries(), static_cast<Cell>(delays_.size() * slices_.block_cells));
-    if (!s.factor.empty()) weight_.assign(pre_.size(), 0.0);
+    if (!s.factor.empty())
+        for (auto& weights : weights_) weights.assign(pre_.size() / 2, 0.0);
     std::vector<int> next(s.start.begin(), s.start.end() - 1);  // synapse of each target
     std::size_t entry = 0, place = 0;
     for (std::size_t panel = 0; panel + 1 < slices_.panels.size(); ++panel)
@@ -79,7 +80,8 @@ void SlicedKernel<Cell>::fill(const ByTarget& s) {
                                 : std::find(delays_.begin(), delays_.end(), s.delay[from]) - delays_.begin();
                         pre_[to] = static_cast<Cell>(static_cast<std::size_t>(row) * slices_.block_cells +
                                                      (pre - first));
-                        if (!s.factor.empty()) weight_[to] = s.factor[from];
+                        if (!s.factor.empty())
+                            weights_[lane / half][to / lanes * half + lane % half] = s.factor[from];
                     }
                 }
         }
@@ -101,7 +103,7 @@ void SlicedKernel<Cell>::prepare(const History& source, int part, int parts) {
         double* to = scaled_.data() + block * stride_ + in_block;
         for (std::size_t d = 0; d < delays_.size(); ++d, to += slices_.block_cells) {
             const double* from = source.ago(delays_[d]) + cell;
-            if (weight_.empty())
+            if (same_factor())
                 scale(from, gain, factor_, n, to);
             else
                 scale(from, gain, n, to);
@@ -118,10 +120,17 @@ void SlicedKernel<Cell>::add(const History&, double* target, int part, int parts
         const auto &panel = slices_.panels[p], &next = slices_.panels[p + 1];
         const std::size_t first = p * slices_.panel_cells,
                           n = std::min(slices_.panel_cells, targets_ - first);
+        const auto weights = [&](std::size_t which) {
+            return same_factor() ? nullptr : weights_[which].data() + panel.entry / 2;
+        };
         std::fill_n(sums, slices_.panel_cells + 1, 0.0);
-        add_stream({slices_.runs.data() + panel.run, slices_.runs.data() + next.run,
-                    slices_.targets.data() + panel.slice * lanes, pre_.data() + panel.entry,
-                    weight_.empty() ? nullptr : weight_.data() + panel.entry, scaled_.data(), stride_},
+        add_stream({slices_.runs.data() + panel.run,
+                    slices_.runs.data() + next.run,
+                    slices_.targets.data() + panel.slice * lanes,
+                    pre_.data() + panel.entry,
+                    {weights(0), weights(1)},
+                    scaled_.data(),
+                    stride_},
                    sums);
         add_sums(sums, n, target + first);
     }

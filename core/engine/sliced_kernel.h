@@ -1,6 +1,7 @@
 // Lists of synapses, eight targets side by side.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "core/engine/by_target.h"
@@ -20,13 +21,14 @@ class SlicedKernel final : public Kernel {
                  const SynapseInstance& synapse);
     void deliver(const History& source, double* target) override;
     std::string_view form() const override { return "sliced"; }
-    double cost() const override { return (weight_.empty() ? 0.4 : 0.6) * static_cast<double>(pre_.size()); }
+    double cost() const override { return (same_factor() ? 0.4 : 0.6) * static_cast<double>(pre_.size()); }
     bool divides() const override { return true; }
     void prepare(const History& source, int part, int parts) override;
     void add(const History& source, double* target, int part, int parts) override;
 
   private:
     void fill(const ByTarget& synapses);
+    bool same_factor() const { return weights_[0].empty(); }
 
     const SynapseInstance& synapse_;
     Slices slices_;
@@ -35,7 +37,9 @@ class SlicedKernel final : public Kernel {
     HugeVector<double> scaled_;  ///< by block: by delay: gain times activity; then a 0. A block every stride_
     double factor_;              ///< of every synapse, when it is the same
     HugeVector<Cell> pre_;       ///< places in a block
-    HugeVector<double> weight_;  ///< factors; empty when all are the same
+    /// Factors: of the first half of each row and of the second, as processors read two streams faster than
+    /// one. Empty when all are the same.
+    std::array<HugeVector<double>, 2> weights_;
 };
 
 /// Null when a list serves better: many delays, or targets of very different numbers of synapses. Takes

@@ -16,7 +16,7 @@ namespace forage::engine {
 /// SIAM J. Sci. Comput. 36, 2014): synapse k of lane l of a slice is its entry 8 k + l, and lanes that have
 /// no such synapse are padding.
 struct Slices {
-    static constexpr std::size_t lanes = 8, most_panel_cells = 4096;
+    static constexpr std::size_t lanes = 8, half = lanes / 2, most_panel_cells = 4096;
 
     /// Slices of a tile that follow each other and are of the same length.
     struct Run {
