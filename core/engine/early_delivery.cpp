@@ -29,7 +29,6 @@ EarlyDelivery::EarlyDelivery(const Plan& plan) {
         groups_.insert(groups_.end(), groups.begin(), groups.end());
     }
     begin_.push_back(groups_.size());
-    groups_.push_back(0);  // an empty span points to something
 }
 
 }  // namespace forage::engine

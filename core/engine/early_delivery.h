@@ -18,7 +18,7 @@ class EarlyDelivery {
 
     /// Groups that can be delivered to after the `k`-th update: of plan.updated[k].
     std::span<const int> after(std::size_t k) const {
-        return {&groups_[begin_[k]], begin_[k + 1] - begin_[k]};
+        return std::span(groups_).subspan(begin_[k], begin_[k + 1] - begin_[k]);
     }
     /// Groups that have to wait for the modules, in order.
     const std::vector<int>& late() const { return late_; }

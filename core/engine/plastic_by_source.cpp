@@ -64,6 +64,13 @@ PlasticBySource::PlasticBySource(connectivity::Synapses s, const SourceOrder& or
     first_.push_back(0);
     for (const Stretch& source : stretches())  // each begins with a line of the cache
         first_.push_back(first_.back() + Arena::stride(source.size));
+    for (const auto& frame : order.frames) frames_.push_back({frame.first_source, frame.last_source});
+    place_synapses(s, source_cells);
+    adds_outputs_ &= factor_.empty();
+    reserve(type, arena);
+}
+
+void PlasticBySource::place_synapses(const connectivity::Synapses& s, int source_cells) {
     factor_.assign(static_cast<std::size_t>(first_.back()), 1.0);
     const auto target_places = sliding_ ? sliding_->take_target_places() : std::vector<int>();
     const auto by_source = sorted(s, cell_, source_cells);
@@ -75,16 +82,13 @@ PlasticBySource::PlasticBySource(connectivity::Synapses s, const SourceOrder& or
         }
     if (std::all_of(factor_.begin(), factor_.end(), [](double f) { return f == 1; }))
         factor_ = std::vector<double>();
-    adds_outputs_ &= factor_.empty();
+}
 
+void PlasticBySource::reserve(const SynapseType& type, Arena& arena) {
     Index largest_frame = sliding_ ? sliding_->places() : 0;
-    for (const auto& frame : order.frames) {
-        frames_.push_back({frame.first_source, frame.last_source});
-        for (std::size_t n = frame.first_source; n < frame.last_source; ++n) {
-            const Stretch source = stretches()[n];
-            largest_source_ = std::max(largest_source_, source.size);
-            if (!sliding_) largest_frame = std::max(largest_frame, source.place + source.size);
-        }
+    for (const Stretch& source : stretches()) {
+        largest_source_ = std::max(largest_source_, source.size);
+        if (!sliding_) largest_frame = std::max(largest_frame, source.place + source.size);
     }
     for (std::size_t i = 0; i < type.states.size(); ++i) {
         state_offsets_.push_back(arena.reserve(kept(i) ? first_.back() : largest_source_));

@@ -34,6 +34,8 @@ class PlasticBySource final : public PlasticKernel {
     const std::vector<Stretch>& stretches() const {
         return sliding_ ? sliding_->sources() : frame_->sources();
     }
+    void place_synapses(const connectivity::Synapses& synapses, int source_cells);
+    void reserve(const SynapseType& type, Arena& arena);
     bool read_feedback(std::uint64_t cycle);
     void find_active(const double* source, bool may_rest);
     void update(const History& source, double* sums);

@@ -5,6 +5,7 @@
 #include "core/plugin/synapse_promises.h"
 
 namespace forage::plugin {
+
 std::string rehearse(const SynapseType& type) {
     if (type.has_gain) return {};
     std::deque<Fenced> stage;

@@ -1,7 +1,7 @@
 #include "core/plugin/synapse_promises.h"
 
 #include <cmath>
-#include <string_view>
+#include <memory>
 #include <vector>
 
 #include <fmt/format.h>
@@ -147,8 +147,7 @@ std::string watch_sums(const SynapseType& type, int draw, double activity) {
             if (const Index at = differing(numbers[i], others[i]); i != trial.output() && at >= 0)
                 return fmt::format(
                     "its update_and_add() makes something else of state '{}' than its update(): {} in place "
-                    "of {}, "
-                    "for a source of {}{}",
+                    "of {}, for a source of {}{}",
                     type.states[i].name, others[i][at], numbers[i][at], activity, trial.parameters());
     }
     return {};

@@ -6,10 +6,10 @@
 //     void update(SynapseColumns&) const;        // one cycle, for some synapses at a time
 //     void output(SynapseColumns&) const;        // optional: writes the output state, and nothing else, as
 //                                                // the last update() did, from pre and the other states
-//                                                alone.
-//                                                // Outputs need not be kept then: less memory to move.
-//     void update_and_add(SynapseColumns&) const;  // optional, beside output(): what update() does, but what
-//                                                // it would write to the output state is added to sums().
+//                                                // alone: outputs need not be kept then
+//     void update_and_add(SynapseColumns&) const;  // optional, beside output(): what update() does, but
+//                                                  // what it would write to the output state is added to
+//                                                  // sums()
 //
 // A type that only multiplies its input by a constant declares that constant with `gain` and needs no
 // update(). The engine then attenuates and delays what the type puts out; synapses/fixed_weight.h is the
@@ -133,6 +133,15 @@ class SynapseSpec {
 namespace detail {
 
 template <class T>
+concept TellsOutput = requires(T t, SynapseColumns& c) {
+    t.output(c);
+};
+template <class T>
+concept AddsOutput = requires(T t, SynapseColumns& c) {
+    t.update_and_add(c);
+};
+
+template <class T>
 class SynapseModel final : public SynapseInstance {
   public:
     void* parameters() override { return &value_; }
@@ -140,10 +149,10 @@ class SynapseModel final : public SynapseInstance {
         if constexpr (requires { value_.update(columns); }) value_.update(columns);
     }
     void output(SynapseColumns& columns) const override {
-        if constexpr (requires { value_.output(columns); }) value_.output(columns);
+        if constexpr (TellsOutput<const T>) value_.output(columns);
     }
     void update_and_add(SynapseColumns& columns) const override {
-        if constexpr (requires { value_.update_and_add(columns); }) value_.update_and_add(columns);
+        if constexpr (AddsOutput<const T>) value_.update_and_add(columns);
     }
     double gain() const override {
         if constexpr (requires { value_.gain(); })
@@ -163,22 +172,17 @@ SynapseType synapse_type() {
     static_assert(
         requires(const T t, SynapseColumns& c) { t.update(c); } || requires(const T t) { t.gain(); },
         "a synapse type needs void update(SynapseColumns&) const, or double gain() const");
-    static_assert(
-        requires(const T t, SynapseColumns& c) { t.output(c); } ||
-            !requires(const T t, SynapseColumns& c) { t.update_and_add(c); },
-        "a synapse type with an update_and_add() needs void output(SynapseColumns&) const, too");
-    constexpr bool told_by_const = requires(const T t, SynapseColumns& c) { t.output(c); }
-    || !requires(T t, SynapseColumns & c) { t.output(c); };
-    constexpr bool added_by_const = requires(const T t, SynapseColumns& c) { t.update_and_add(c); }
-    || !requires(T t, SynapseColumns & c) { t.update_and_add(c); };
-    static_assert(told_by_const && added_by_const,
+    static_assert(detail::TellsOutput<T> == detail::TellsOutput<const T> &&
+                      detail::AddsOutput<T> == detail::AddsOutput<const T>,
                   "output() and update_and_add() of a synapse type are const, as update() is");
+    static_assert(detail::TellsOutput<T> || !detail::AddsOutput<T>,
+                  "a synapse type with an update_and_add() needs void output(SynapseColumns&) const, too");
     SynapseType type;
     SynapseSpec<T> spec(type);
     T::describe(spec);
     type.has_gain = requires(const T t) { t.gain(); };
-    type.tells_output = requires(const T t, SynapseColumns& c) { t.output(c); };
-    type.adds_output = requires(const T t, SynapseColumns& c) { t.update_and_add(c); };
+    type.tells_output = detail::TellsOutput<const T>;
+    type.adds_output = detail::AddsOutput<const T>;
     type.make = [] { return std::make_unique<detail::SynapseModel<T>>(); };
     if constexpr (requires(const T t, Problems p) { t.check(p); })
         type.check = [](const void* object, Problems& problems) {
