@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <utility>
 
 #include "core/types/simd.h"
 
@@ -14,43 +13,25 @@ constexpr Index lanes = 16, bits = 64;
 
 using CellsOf = Eigen::Map<Eigen::ArrayXd, 0, Eigen::InnerStride<lanes>>;  ///< of one prototype in its block
 
-/// Prototypes side by side, the cells of them that count, in order, and their sums of single-precision
-/// numbers.
-struct Block {
-    const double* cells;  ///< [cell][lane]
-    const Index* counted;
-    Index count;
-    double sums[lanes];
-};
-
-/// sums[l] += |cells[i][l] - present[i]| share for the cells i that count from the `from`-th to before the
-/// `to`-th of each block, rounded to single precision each time. Such a sum takes its time: while that of one
-/// block is rounded, others are computed. (Cells are listed, not looked for here: when there is more than
-/// this in the loop GCC 12 takes the lanes apart and leaves some unrounded.)
-template <std::size_t blocks>
-[[gnu::always_inline]] inline void add_cells(Block* block, Index from, Index to, const double* present,
-                                             double share) {
-    double total[blocks * lanes];
-    for (std::size_t b = 0; b < blocks; ++b) std::copy_n(block[b].sums, lanes, total + b * lanes);
-    for (Index k = from; k < to; ++k)
+/// sums[b][l] = the sum of |cells[b][i][l] - present[i]| share over the `count` listed cells i, for two
+/// blocks `stride` numbers apart, rounded to single precision each time. That takes its time: while the sum
+/// of one block is rounded, the other's is computed. (Cells are listed, not looked for here, and a lone block
+/// is taken twice: otherwise GCC 12 takes the lanes apart and leaves some unrounded.)
+FORAGE_SIMD void add_two(const double* cells, Index stride, const Index* listed, Index count,
+                         const double* present, double share, double* sums) {
+    double total[2 * lanes];
+    std::fill_n(total, 2 * lanes, 0.0);
+    for (Index k = 0; k < count; ++k)
 #pragma GCC unroll 2
-        for (std::size_t b = 0; b < blocks; ++b) {
-            const Index cell = block[b].counted[k];
-            const double* stored = block[b].cells + cell * lanes;
+        for (Index b = 0; b < 2; ++b) {
+            const Index cell = listed[k];
+            const double* stored = cells + b * stride + cell * lanes;
             const double here = present[cell];
             for (Index l = 0; l < lanes; ++l)
                 total[b * lanes + l] =
                     static_cast<float>(total[b * lanes + l] + std::abs(stored[l] - here) * share);
         }
-    for (std::size_t b = 0; b < blocks; ++b) std::copy_n(total + b * lanes, lanes, block[b].sums);
-}
-
-FORAGE_SIMD void add_one(Block& block, Index from, const double* present, double share) {
-    add_cells<1>(&block, from, block.count, present, share);
-}
-
-FORAGE_SIMD void add_two(Block* blocks, Index count, const double* present, double share) {
-    add_cells<2>(blocks, 0, count, present, share);
+    std::copy_n(total, 2 * lanes, sums);
 }
 
 /// What a block's sums say, and 1 for prototypes without any activity.
@@ -63,16 +44,25 @@ FORAGE_SIMD void tell_distances(const double* sums, const std::uint8_t* silent, 
 
 }  // namespace
 
-/// Lists the cells of which a bit is set in a or b.
-void PrototypeStore::CellList::list(const std::uint64_t* a, const std::uint64_t* b, Index words) {
-    bool same = true;
-    for (Index w = 0; w < words; ++w)
-        same &= std::exchange(of[static_cast<std::size_t>(w)], a[w] | b[w]) == (a[w] | b[w]);
-    if (same) return;
+/// Lists the cells of which a bit is set in one of the words, and perhaps a few more that were listed before:
+/// what is 0 on both sides adds nothing, and making a list takes as long as some cells.
+void PrototypeStore::CellList::list(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* c,
+                                    Index words) {
+    constexpr Index most_in_vain = 8;
+    Index needed = 0;
+    std::uint64_t missing = 0;
+    for (Index w = 0; w < words; ++w) {
+        const std::uint64_t needs = a[w] | b[w] | c[w];
+        needed += std::popcount(needs);
+        missing |= needs & ~of[static_cast<std::size_t>(w)];
+    }
+    if (!missing && count <= needed + most_in_vain) return;
     count = 0;
-    for (Index w = 0; w < words; ++w)
-        for (std::uint64_t left = a[w] | b[w]; left; left &= left - 1)
+    for (Index w = 0; w < words; ++w) {
+        std::uint64_t left = of[static_cast<std::size_t>(w)] = a[w] | b[w] | c[w];
+        for (; left; left &= left - 1)
             cells[static_cast<std::size_t>(count++)] = w * bits + std::countr_zero(left);
+    }
 }
 
 PrototypeStore::PrototypeStore(Index keys, Index capacity, Index cells)
@@ -81,10 +71,8 @@ PrototypeStore::PrototypeStore(Index keys, Index capacity, Index cells)
       compared_(Eigen::ArrayXd::Zero(cells)),
       present_(Eigen::ArrayXd::Zero(cells)),
       active_(static_cast<std::size_t>(words_)) {
-    for (CellList& list : counted_) {
-        list.cells.resize(static_cast<std::size_t>(cells));
-        list.of.resize(static_cast<std::size_t>(words_), 0);
-    }
+    counted_.cells.resize(static_cast<std::size_t>(cells));
+    counted_.of.resize(static_cast<std::size_t>(words_), 0);
     const Index blocks = (capacity + lanes - 1) / lanes;
     blocks_.setZero(blocks * cells * lanes);
     used_.resize(static_cast<std::size_t>(blocks * words_), 0);
@@ -151,22 +139,17 @@ void PrototypeStore::compare(const Eigen::Ref<const Eigen::ArrayXd>& present, fl
 
 void PrototypeStore::compare_blocks(Index first, Index count, float* distances) {
     const double share = 1.0F / static_cast<float>(cells_);
-    Block pair[2];  // not cleared: that would take longer than it should
+    const std::uint64_t *used = &used_[static_cast<std::size_t>(first * words_)],
+                        *last_used = used + (count - 1) * words_;
+    counted_.list(used, last_used, active_.data(), words_);
+    const double* const cells = blocks_.data() + first * cells_ * lanes;
+    double sums[2 * lanes];
+    add_two(cells, (count - 1) * cells_ * lanes, counted_.cells.data(), counted_.count, present_.data(),
+            share, sums);
     for (Index b = 0; b < count; ++b) {
-        CellList& counted =
-            counted_[static_cast<std::size_t>(b)];  // cells that are 0 on both sides add nothing
-        counted.list(&used_[static_cast<std::size_t>((first + b) * words_)], active_.data(), words_);
-        pair[b].cells = blocks_.data() + (first + b) * cells_ * lanes;
-        pair[b].counted = counted.cells.data(), pair[b].count = counted.count;
-        std::fill_n(pair[b].sums, lanes, 0.0);
-    }
-    const Index together = count == 2 ? std::min(pair[0].count, pair[1].count) : 0;
-    if (together > 0) add_two(pair, together, present_.data(), share);
-    for (Index b = 0; b < count; ++b) {
-        if (pair[b].count > together) add_one(pair[b], together, present_.data(), share);
         const Index begin = (first + b) * lanes, left = std::min(lanes, size() - begin);
         float found[lanes];
-        tell_distances(pair[b].sums, &silent_[static_cast<std::size_t>(begin)], found);
+        tell_distances(sums + b * lanes, &silent_[static_cast<std::size_t>(begin)], found);
         const Index* const keys = &keys_[static_cast<std::size_t>(begin)];
         for (Index l = 0; l < left; ++l) distances[keys[l]] = found[l];
     }

@@ -56,9 +56,9 @@ class PrototypeStore {
         std::vector<std::uint64_t> of;  ///< a bit per cell
         std::vector<Index> cells;
         Index count = 0;
-        void list(const std::uint64_t* a, const std::uint64_t* b, Index words);
+        void list(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* c, Index words);
     };
-    CellList counted_[2];  ///< scratch
+    CellList counted_;  ///< scratch
 };
 
 }  // namespace forage::contextual
