@@ -13,19 +13,19 @@ constexpr std::size_t lanes = Slices::lanes, half = Slices::half;
 
 /// Loading single numbers takes the time, so that wider vectors gain nothing.
 typedef double Half __attribute__((vector_size(half * sizeof(double))));  // NOLINT: no `using` for this
+static_assert(half == 4 && std::endian::native == std::endian::little);
 
 /// The i-th of the places in `words`.
 template <class Place>
-[[gnu::always_inline]] inline std::size_t place(const std::uint64_t* words, std::size_t i) {
-    static_assert(std::endian::native == std::endian::little);
+[[gnu::always_inline]] inline std::size_t place(const std::uint32_t* words, std::size_t i) {
     constexpr std::size_t bits = 8 * sizeof(Place), in_word = sizeof *words / sizeof(Place);
     return static_cast<Place>(words[i / in_word] >> i % in_word * bits);
 }
 
-/// Places are read as words and taken apart, which is fewer loads.
+/// Places are read two at a time and taken apart: fewer loads.
 template <class Place>
 [[gnu::always_inline]] inline void gather(const double* from, const Place* places, Half& to) {
-    std::uint64_t words[half * sizeof(Place) / sizeof(std::uint64_t)];
+    std::uint32_t words[half * sizeof(Place) / sizeof(std::uint32_t)];
     std::memcpy(words, places, sizeof words);
     to = Half{from[place<Place>(words, 0)], from[place<Place>(words, 1)], from[place<Place>(words, 2)],
               from[place<Place>(words, 3)]};
@@ -35,11 +35,11 @@ template <class Place>
     for (std::size_t l = 0; l < half; ++l) to[places[l]] = from[l];
 }
 
-/// Reads ahead of what is summed, into the second cache: fetches that go straight into the nearest wait for
-/// each other.
-[[gnu::always_inline]] inline void fetch(const void* address) { __builtin_prefetch(address, 0, 2); }
+/// How far ahead of what is summed weights and places are fetched, in synapses. Into the second cache:
+/// fetches that go straight into the nearest wait for each other.
+constexpr std::size_t ahead = 320;
 
-constexpr std::size_t ahead = 320;  // synapses
+[[gnu::always_inline]] inline void fetch(const void* address) { __builtin_prefetch(address, 0, 2); }
 
 /// sum += what a half of a row of entries delivers.
 template <bool weighted, class Cell>

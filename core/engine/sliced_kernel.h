@@ -21,7 +21,7 @@ class SlicedKernel final : public Kernel {
                  const SynapseInstance& synapse);
     void deliver(const History& source, double* target) override;
     std::string_view form() const override { return "sliced"; }
-    double cost() const override { return (same_factor() ? 0.4 : 0.6) * static_cast<double>(pre_.size()); }
+    double cost() const override { return (same_factor() ? 0.3 : 0.45) * static_cast<double>(pre_.size()); }
     bool divides() const override { return true; }
     void prepare(const History& source, int part, int parts) override;
     void add(const History& source, double* target, int part, int parts) override;

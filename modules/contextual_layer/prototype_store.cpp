@@ -44,22 +44,22 @@ FORAGE_SIMD void tell_distances(const double* sums, const std::uint8_t* silent, 
 
 }  // namespace
 
-/// Lists the cells of which a bit is set in one of the words, and perhaps a few more that were listed before:
-/// what is 0 on both sides adds nothing, and making a list takes as long as some cells.
-void PrototypeStore::CellList::list(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* c,
-                                    Index words) {
-    constexpr Index most_in_vain = 8;
+/// Lists the cells of which a bit is set in one of the words. As what is 0 on both sides adds nothing, cells
+/// that were listed before may stay, until they have cost about as much as a new list. (A number that is not
+/// finite is not 0.)
+void PrototypeStore::CellList::list(const std::uint64_t* first, const std::uint64_t* second,
+                                    const std::uint64_t* present, Index words) {
     Index needed = 0;
     std::uint64_t missing = 0;
     for (Index w = 0; w < words; ++w) {
-        const std::uint64_t needs = a[w] | b[w] | c[w];
+        const std::uint64_t needs = first[w] | second[w] | present[w];
         needed += std::popcount(needs);
         missing |= needs & ~of[static_cast<std::size_t>(w)];
     }
-    if (!missing && count <= needed + most_in_vain) return;
-    count = 0;
+    if (!missing && (in_vain += count - needed) <= needed) return;
+    count = in_vain = 0;
     for (Index w = 0; w < words; ++w) {
-        std::uint64_t left = of[static_cast<std::size_t>(w)] = a[w] | b[w] | c[w];
+        std::uint64_t left = of[static_cast<std::size_t>(w)] = first[w] | second[w] | present[w];
         for (; left; left &= left - 1)
             cells[static_cast<std::size_t>(count++)] = w * bits + std::countr_zero(left);
     }
@@ -140,8 +140,8 @@ void PrototypeStore::compare(const Eigen::Ref<const Eigen::ArrayXd>& present, fl
 void PrototypeStore::compare_blocks(Index first, Index count, float* distances) {
     const double share = 1.0F / static_cast<float>(cells_);
     const std::uint64_t *used = &used_[static_cast<std::size_t>(first * words_)],
-                        *last_used = used + (count - 1) * words_;
-    counted_.list(used, last_used, active_.data(), words_);
+                        *second_used = used + (count - 1) * words_;
+    counted_.list(used, second_used, active_.data(), words_);
     const double* const cells = blocks_.data() + first * cells_ * lanes;
     double sums[2 * lanes];
     add_two(cells, (count - 1) * cells_ * lanes, counted_.cells.data(), counted_.count, present_.data(),

@@ -51,12 +51,13 @@ class PrototypeStore {
     bool current_ = false;               ///< the distances of the last comparison hold for compared_
     Eigen::ArrayXd present_;             ///< p / max p
     std::vector<std::uint64_t> active_;  ///< cells of present_ that are not 0
-    /// Cells that count, in order. It is mostly the same for one pair of blocks after the other.
+    /// The cells that count for two blocks, in order, and perhaps some more.
     struct CellList {
         std::vector<std::uint64_t> of;  ///< a bit per cell
         std::vector<Index> cells;
-        Index count = 0;
-        void list(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* c, Index words);
+        Index count = 0, in_vain = 0;  ///< in_vain: cells that added nothing, since the list was made
+        void list(const std::uint64_t* first, const std::uint64_t* second, const std::uint64_t* present,
+                  Index words);
     };
     CellList counted_;  ///< scratch
 };

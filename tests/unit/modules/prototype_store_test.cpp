@@ -110,3 +110,36 @@ TEST_CASE("A prototype is next to nothing from itself, at any strength, and at m
     store.compare(ArrayXd::Constant(4, -1), d);
     CHECK((d[0] == 1 && d[1] == 1 && d[2] == 1));
 }
+
+TEST_CASE("Distances are the definition's when each prototype has few cells of its own") {
+    std::mt19937 random(3);
+    for (const Index cells : {40, 64, 150}) {
+        const Index capacity = 100;
+        PrototypeStore store(capacity, capacity, cells);
+        std::map<Index, ArrayXf> stored;
+        const auto drawn = [&] {
+            ArrayXf out = ArrayXf::Zero(cells);
+            for (auto n = random() % 3 + 1; n-- > 0;)
+                out[static_cast<Index>(random() % static_cast<unsigned>(cells))] =
+                    std::uniform_real_distribution<float>(0.1F, 1)(random);
+            return out;
+        };
+        std::vector<float> distances(static_cast<std::size_t>(capacity));
+        int wrong = 0;
+        for (int step = 0; step < 1000; ++step) {
+            const auto most = static_cast<std::size_t>(step / 100 % 2 ? 3 : capacity);  // fills, and empties
+            const Index key = static_cast<Index>(random() % static_cast<unsigned>(capacity));
+            if (stored.count(key) && (stored.size() > most || random() % 3 == 0)) {
+                store.remove(key);
+                stored.erase(key);
+            } else if (!stored.count(key) && stored.size() < most) {
+                store.add(key, stored[key] = drawn());
+            }
+            const ArrayXd present = drawn().cast<double>();
+            store.compare(present, distances.data());
+            for (const auto& [k, prototype] : stored)
+                wrong += distances[static_cast<std::size_t>(k)] != distance(prototype, present);
+        }
+        CHECK(wrong == 0);
+    }
+}
