@@ -23,9 +23,11 @@ install(TARGETS forage_api forage_types forage_model forage_connectivity forage_
         EXPORT ForageEmbedding ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/forage ${directories})
 install(EXPORT ForageSdk NAMESPACE forage:: DESTINATION ${FORAGE_CMAKE_DIR})
 install(EXPORT ForageEmbedding NAMESPACE forage:: DESTINATION ${FORAGE_CMAKE_DIR})
-configure_package_config_file(cmake/ForageConfig.cmake.in ForageConfig.cmake INSTALL_DESTINATION ${FORAGE_CMAKE_DIR})
-write_basic_package_version_file(ForageConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/ForageConfig.cmake ${PROJECT_BINARY_DIR}/ForageConfigVersion.cmake
+# Not beside bin/, where find_package() would find what works only once it is installed.
+set(package ${PROJECT_BINARY_DIR}/package)
+configure_package_config_file(cmake/ForageConfig.cmake.in ${package}/ForageConfig.cmake INSTALL_DESTINATION ${FORAGE_CMAKE_DIR})
+write_basic_package_version_file(${package}/ForageConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${package}/ForageConfig.cmake ${package}/ForageConfigVersion.cmake
               cmake/ForagePlugin.cmake
         DESTINATION ${FORAGE_CMAKE_DIR})
 

@@ -156,6 +156,8 @@ std::string watch_sums(const SynapseType& type, int draw, double activity) {
 }  // namespace
 
 std::string broken_promise(const SynapseType& type) try {
+    if (type.tells_output && !type.rests_when_silent)
+        return "it has an output(), which is called only of types that promise rests_when_silent()";
     std::string out;
     for (int draw = 0; draw < draws && out.empty(); ++draw) {
         if (type.rests_when_silent) out = watch_rest(type, draw);

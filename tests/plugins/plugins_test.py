@@ -35,6 +35,8 @@ CORPUS = {
     "other_version": (r"was built with version 6 of the SDK, this program has version 5", "build the plugin again"),
     "shipped_name": (r"has a neuron type 'neuronLinearThreshold', and so has Forage itself", "another name"),
     "restless": (r"'synapseRestless' that does not work: it promises rests_when_silent\(\), and changes state 'weight'", ""),
+    "silent_output": (r"'synapseSilentOutput' that does not work: it has an output\(\), which is called only of types that "
+                      r"promise rests_when_silent\(\)", ""),
     "sociable": (r"'neuronSociable' that does not work: it promises cells_independent\(\), and state 'act' depends on which", ""),
     "synapse_feedback": (r"'synapseBlind' that does not work: it uses feedback 0, but declares 0", ""),
     "three_states": (r"'neuronThreeStates' that does not work: it uses 3 states, but declares 2", ""),

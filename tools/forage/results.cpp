@@ -163,8 +163,8 @@ std::string summary(const RunOptions& o, const Loaded& loaded, const Outcome& ou
                          : fmt::format("{} to {}", plot::Film::frame_name(o.video, 1),
                                        plot::Film::frame_name(o.video, outcome.frames)));
     if (!outcome.left_out.empty())
-        line("left out",
-             fmt::format("{} of {} groups, which nobody reads", outcome.left_out.size(), outcome.groups));
+        line("left out", fmt::format("{} of {} groups, which nobody reads; --hash updates all",
+                                     outcome.left_out.size(), outcome.groups));
     if (!outcome.diverged.empty()) line("diverged", outcome.diverged);
     if (!outcome.state.empty()) line("state", outcome.state);
     if (outcome.resumable) line("to go on", "forage resume " + o.directory);
