@@ -9,6 +9,9 @@ namespace forage::engine {
 
 struct Plan;
 
+/// The groups whose updates what is delivered to `group` waits for: itself and its sources, each once.
+std::vector<int> awaited_updates(const Plan& plan, int group);
+
 /// What is delivered to a group is read in the next cycle. So it can be delivered as soon as the group itself
 /// and all its sources are updated, while their numbers are still in the nearest cache: in a chain of small
 /// groups, always just after the update. Groups that modules write to have to wait for these.

@@ -14,8 +14,8 @@ void receive_from_modules(Plan& plan, GroupPlan& group);
 /// Keeps a group's activity of `cycle` for the connections with a delay.
 void remember(const GroupPlan& group, std::uint64_t cycle);
 
-/// Delivers all that the group receives in the cycle after `cycle`; lets its synapses learn. To be called when
-/// the group and all its sources are updated and remembered, and the modules that write to it, too.
+/// Delivers all that the group receives in the cycle after `cycle`; lets its synapses learn. To be called
+/// when the group and all its sources are updated and remembered, and the modules that write to it, too.
 void deliver_to(Plan& plan, GroupPlan& group, std::uint64_t cycle);
 
 /// The same in parts: begin_delivery(); when `receives` is set after it, prepare_part() for each of

@@ -1,16 +1,12 @@
 #include "core/engine/shared_cycle.h"
 
 #include <algorithm>
-#include <limits>
-#include <utility>
 
 #include "core/engine/group_delivery.h"
 #include "core/engine/group_update.h"
 
 namespace forage::engine {
 namespace {
-
-constexpr int no_group = std::numeric_limits<int>::max();
 
 auto& at(auto& all, int index) { return all[static_cast<std::size_t>(index)]; }
 
@@ -24,7 +20,8 @@ SharedCycle::SharedCycle(Plan& plan, int threads, double least)
       pool_(threads),
       parts_(2 * pool_.threads()),
       least_(least),
-      failures_(static_cast<std::size_t>(pool_.threads()), {no_group, nullptr}) {
+      failed_update_(pool_.threads()),
+      failed_delivery_(pool_.threads()) {
     share_out();
 }
 
@@ -60,93 +57,96 @@ void SharedCycle::share_out() {
     }
     items_.clear();
     shares_ = {0};
+    std::vector<std::vector<int>> whole_groups(static_cast<std::size_t>(threads()));
     for (int t = 0; t < threads(); ++t) {
         for (std::size_t n = 0; n < plan_.updated.size(); ++n) {
             const int g = plan_.updated[n];
             const int parts = static_cast<int>(at(plan_.groups, g).parts.size());
             for (int p = parts * t / threads(); p < parts * (t + 1) / threads(); ++p)
                 items_.push_back({g, p, p == owner[n]});
-            if (parts == 0 && owner[n] == t) items_.push_back({g, 0, true});
+            if (parts == 0 && owner[n] == t) {
+                items_.push_back({g, 0, true});
+                at(whole_groups, t).push_back(g);
+            }
         }
         shares_.push_back(static_cast<int>(items_.size()));
     }
+    ready_.emplace(plan_, whole_groups);
 }
 
 template <class Work>
-void SharedCycle::guard(int group, int thread, Work work) {
-    try {
-        work();
-    } catch (...) {
-        auto& failure = at(failures_, thread);
-        if (group < failure.group) failure = {group, std::current_exception()};
-    }
-}
-
-template <class Work>
-void SharedCycle::for_items(Work work) {
+void SharedCycle::for_items(FirstFailure& failure, Work work) {
     auto guarded = [&](int i, int thread) {
         const Item& item = at(items_, i);
-        guard(item.group, thread, [&] { work(at(plan_.groups, item.group), item, thread); });
+        failure.guard(item.group, thread, [&] { work(at(plan_.groups, item.group), item, thread); });
     };
     pool_.run(shares_, guarded);
 }
 
-const SharedCycle::Failure& SharedCycle::first_failure() const {
-    return *std::min_element(failures_.begin(), failures_.end(),
-                             [](const Failure& a, const Failure& b) { return a.group < b.group; });
+void SharedCycle::deliver_early(int updated, int thread, std::uint64_t cycle) {
+    remember(at(plan_.groups, updated), cycle);
+    ready_->updated(updated, [&](int i) {
+        failed_delivery_.guard(i, thread, [&] { deliver_to(plan_, at(plan_.groups, i), cycle); });
+    });
 }
 
-void SharedCycle::throw_failure() {
-    if (first_failure().group == no_group) return;
-    const auto reason = first_failure().reason;
-    std::fill(failures_.begin(), failures_.end(), Failure{no_group, nullptr});
-    std::rethrow_exception(reason);
-}
-
-void SharedCycle::update_groups(std::uint64_t cycle) {
+void SharedCycle::update_groups(std::uint64_t cycle, bool early) {
+    delivers_early_ = early;
+    failed_delivery_.forget();  // of a cycle that was not ended
     const auto frame = [&](int thread) {
         return UpdateFrame{cycle, at(plan_.scratch, thread).get(), at(plan_.before, thread).data(),
                            plan_.watched};
     };
     for (const int i : plan_.updated)
         if (auto& g = at(plan_.groups, i); g.update_divides) begin_update(g);
-    for_items([&](GroupPlan& g, const Item& item, int thread) {
-        if (g.update_divides && g.in_parts)
+    for_items(failed_update_, [&](GroupPlan& g, const Item& item, int thread) {
+        if (g.update_divides && g.in_parts) {
             update_part(g, item.part, frame(thread));
-        else if (item.whole)
+        } else if (item.whole) {
             update(g, frame(thread));
+            if (early && !g.update_divides) deliver_early(item.group, thread, cycle);
+        }
     });
-    throw_failure();
+    if (failed_update_.any()) ready_->restart();
+    failed_update_.raise();
     for (const int i : plan_.updated)
-        if (auto& g = at(plan_.groups, i); g.update_divides) end_update(g, frame(0));
+        if (auto& g = at(plan_.groups, i); g.update_divides) {
+            end_update(g, frame(0));
+            if (early) remember(g, cycle);
+        }
+}
+
+void SharedCycle::add_divided(GroupPlan& g, std::uint64_t cycle) {
+    for (const int connection : g.incoming) {
+        auto& c = at(plan_.connections, connection);
+        auto add = [&](int part, int) { add_part(plan_, g, c, part, cycle); };
+        if (divides(g, c))
+            pool_.run(parts_, add);
+        else
+            deliver_through(plan_, g, c, cycle);
+        c.changed = false;
+    }
 }
 
 void SharedCycle::deliver(std::uint64_t cycle) {
-    for (const int i : plan_.updated)
+    const auto& groups = delivers_early_ ? ready_->late() : plan_.updated;
+    for (const int i : groups)
         if (auto& g = at(plan_.groups, i); g.delivery_divides) begin_delivery(plan_, g, cycle);
-    for_items([&](GroupPlan& g, const Item& item, int) {
-        if (g.delivery_divides && g.receives)
-            prepare_part(plan_, g, item.part, cycle);
-        else if (!g.delivery_divides && item.whole)
-            deliver_to(plan_, g, cycle);
-    });
-    for (const int i : plan_.updated) {
+    if (!groups.empty())
+        for_items(failed_delivery_, [&](GroupPlan& g, const Item& item, int) {
+            if (delivers_early_ && !ready_->is_late(item.group)) return;
+            if (g.delivery_divides && g.receives)
+                prepare_part(plan_, g, item.part, cycle);
+            else if (!g.delivery_divides && item.whole)
+                deliver_to(plan_, g, cycle);
+        });
+    for (const int i : groups) {
         auto& g = at(plan_.groups, i);
         if (!g.delivery_divides) continue;
-        if (first_failure().group <= i) break;
-        guard(i, 0, [&] {
-            for (const int connection : g.incoming) {
-                auto& c = at(plan_.connections, connection);
-                auto add = [&](int part, int) { add_part(plan_, g, c, part, cycle); };
-                if (divides(g, c))
-                    pool_.run(parts_, add);
-                else
-                    deliver_through(plan_, g, c, cycle);
-                c.changed = false;
-            }
-        });
+        if (failed_delivery_.before(i + 1)) break;
+        failed_delivery_.guard(i, 0, [&] { add_divided(g, cycle); });
     }
-    throw_failure();
+    failed_delivery_.raise();
 }
 
 }  // namespace forage::engine

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <exception>
+#include <optional>
 #include <vector>
 
+#include "core/engine/first_failure.h"
 #include "core/engine/plan.h"
+#include "core/engine/ready_groups.h"
 #include "core/engine/thread_pool.h"
 
 namespace forage::engine {
@@ -25,7 +27,10 @@ class SharedCycle {
 
     int threads() const { return pool_.threads(); }
     // Where several groups fail, the exception of the first one comes out, as with one thread.
-    void update_groups(std::uint64_t cycle);
+
+    /// With `deliver_early` groups are delivered to as soon as they can, and activities remembered.
+    void update_groups(std::uint64_t cycle, bool deliver_early);
+    /// Delivers to all groups, or to those that had to wait. Throws what failed early, too.
     void deliver(std::uint64_t cycle);
 
   private:
@@ -33,28 +38,24 @@ class SharedCycle {
         int group, part;
         bool whole;  ///< who has this part does what is not divided
     };
-    struct Failure {
-        int group;
-        std::exception_ptr reason;
-    };
 
     void divide();
     /// Calls work(group, item, thread) for all items, and notes who fails.
     template <class Work>
-    void for_items(Work work);
-    /// Calls work(), and notes when it fails.
-    template <class Work>
-    void guard(int group, int thread, Work work);
-    const Failure& first_failure() const;
-    void throw_failure();
+    void for_items(FirstFailure& failure, Work work);
+    void deliver_early(int updated, int thread, std::uint64_t cycle);
+    /// The connections of a group that is prepared, one after the other.
+    void add_divided(GroupPlan& group, std::uint64_t cycle);
 
     Plan& plan_;
     ThreadPool pool_;
     int parts_;
     double least_;
-    std::vector<Failure> failures_;  ///< of each thread, of its first group that failed
+    FirstFailure failed_update_, failed_delivery_;
     std::vector<Item> items_;
     std::vector<int> shares_;  ///< see ThreadPool
+    std::optional<ReadyGroups> ready_;
+    bool delivers_early_ = false;  ///< in this cycle
 };
 
 }  // namespace forage::engine

@@ -139,19 +139,15 @@ void Simulation::update_alone() {
 
 /// A failure waits until its turn comes: groups that fail in their updates come first.
 void Simulation::deliver_early(int group) {
-    try {
-        deliver_to(*plan_, at(plan_->groups, group), cycle_);
-    } catch (...) {
-        if (!failure_.reason || group < failure_.group) failure_ = {group, std::current_exception()};
-    }
+    failed_delivery_.guard(group, 0, [&] { deliver_to(*plan_, at(plan_->groups, group), cycle_); });
 }
 
 void Simulation::deliver_late() {
     for (const int i : early_->late()) {
-        if (failure_.reason && failure_.group < i) break;
+        if (failed_delivery_.before(i)) break;
         deliver_to(*plan_, at(plan_->groups, i), cycle_);
     }
-    if (failure_.reason) std::rethrow_exception(failure_.reason);
+    failed_delivery_.raise();
 }
 
 void Simulation::update_groups() { update_groups(false); }
@@ -161,10 +157,10 @@ void Simulation::update_groups(bool deliver_early) {
     if (!started_) throw RunError("the simulation is not started");
     shown_ = cycle_;
     shared_ = begin_sharing();
-    delivers_early_ = deliver_early && !shared_;
-    failure_ = {};
+    delivers_early_ = deliver_early;
+    failed_delivery_.forget();
     if (shared_)
-        shared_cycle_->update_groups(cycle_);
+        shared_cycle_->update_groups(cycle_, deliver_early);
     else
         update_alone();
     if (!plan_->watched) return;
@@ -200,15 +196,15 @@ void Simulation::update_modules() {
 }
 
 void Simulation::update_connections() {
-    if (std::exchange(delivers_early_, false)) {
-        deliver_late();
-    } else {
+    const bool early = std::exchange(delivers_early_, false);
+    if (!early)
         for (const int i : plan_->updated) remember(at(plan_->groups, i), cycle_);
-        if (shared_)
-            shared_cycle_->deliver(cycle_);
-        else
-            for (const int i : plan_->updated) deliver_to(*plan_, at(plan_->groups, i), cycle_);
-    }
+    if (shared_)
+        shared_cycle_->deliver(cycle_);
+    else if (early)
+        deliver_late();
+    else
+        for (const int i : plan_->updated) deliver_to(*plan_, at(plan_->groups, i), cycle_);
     trial_.end();
     ++cycle_;
 }

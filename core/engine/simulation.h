@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <exception>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/engine/first_failure.h"
 #include "core/engine/sharing_trial.h"
 #include "core/model/edit.h"
 #include "core/model/system.h"
@@ -182,12 +182,8 @@ class Simulation {
     std::unique_ptr<SharedCycle> shared_cycle_;  ///< null when one thread does all
     bool shared_ = false;                        ///< the running cycle
     std::unique_ptr<EarlyDelivery> early_;
-    bool delivers_early_ = false;  ///< the running cycle
-    struct Failure {
-        int group = 0;
-        std::exception_ptr reason;  ///< null: none
-    };
-    Failure failure_;  ///< of the first group that was delivered to early and failed, in the running cycle
+    bool delivers_early_ = false;   ///< the running cycle
+    FirstFailure failed_delivery_;  ///< of groups that were delivered to early, in the running cycle
     bool started_ = false, observers_known_ = false, inputs_known_ = false;
     std::uint64_t cycle_ = 0;
     std::optional<NotFinite> not_finite_;

@@ -64,6 +64,16 @@ struct FailingSynapse {
     }
 };
 
+std::atomic<bool> out_of_luck;  ///< the next update of an Unlucky group fails
+
+struct Unlucky {
+    static void describe(NeuronSpec<Unlucky>& s) { s.name("unlucky", "Unlucky").output("act", "Activity"); }
+    void update(NeuronColumns& c) const {
+        if (out_of_luck.exchange(false)) throw std::runtime_error("out of luck");
+        c.state(0) += 1;  // never rests
+    }
+};
+
 Registry types() {
     Registry r = registry();
     r.add(neuron_type<Total>());
@@ -211,4 +221,27 @@ TEST_CASE("An update that fails is told before a delivery that fails, and of del
     CHECK_THROWS_WITH(simulation.step(),
                       update_fails ? "failing of group 'Brain/Last' failed in cycle 3: out of luck"
                                    : "failing synapse of connection 'C to A' failed in cycle 3: no way");
+}
+
+TEST_CASE("After a cycle that failed groups are delivered to when their sources are updated, again") {
+    model::System s;
+    const auto p = model::add_process(s, "P");
+    model::add_group(s, p, "A", 3, 3, "counter");
+    const auto b = model::add_group(s, p, "B", 3, 3, "total"),
+               z = model::add_group(s, p, "Z", 3, 3, "unlucky");
+    connect(s, z, b, InputKind::excitatory, "synapseFixedWeight").arborization.shape = model::RectArbor{1, 1};
+    Registry registry = types();
+    registry.add(neuron_type<Unlucky>());
+    auto simulation = run(s, registry, {.threads = GENERATE(1, 2, 3), .worth_sharing = 0});
+    for (const bool fails : {false, true, false, false, true, true, true, false, false}) {
+        out_of_luck = fails;
+        if (fails) {
+            CHECK_THROWS_AS(simulation.step(), engine::RunError);
+            continue;
+        }
+        simulation.step();
+        const double counted = activity(simulation, "P/Z")[1];
+        simulation.step();
+        CHECK(activity(simulation, "P/B")[1] == counted);
+    }
 }

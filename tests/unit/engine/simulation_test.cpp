@@ -237,6 +237,7 @@ TEST_CASE("A cycle in one step, which delivers early, is the same as phase by ph
         auto phases = run(system, types), whole = run(system, types);
         // Cycles by two threads and early ones in turns, as the trial has it.
         auto tried = run(system, types, {.threads = 2, .worth_sharing = 1e-9});
+        auto shared = run(system, types, {.threads = 3, .worth_sharing = 0});
         Diagnostics diagnostics;
         auto forgetful = std::move(*engine::Simulation::build(system, types, {}, diagnostics));
         forgetful.keep_inputs(std::array{1});
@@ -244,6 +245,10 @@ TEST_CASE("A cycle in one step, which delivers early, is the same as phase by ph
         for (int t = 0; t < 40; ++t) {
             phases.update_groups(), phases.update_modules(), phases.update_connections();
             whole.step(), forgetful.step(), tried.step();
+            if (t % 7 == 3)  // early or late, cycle by cycle
+                shared.update_groups(), shared.update_modules(), shared.update_connections();
+            else
+                shared.step();
             INFO("seed " << seed << ", cycle " << t);
             const auto same = [](const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) {
                 return ((a == b) || (a.isNaN() && b.isNaN())).all();
@@ -253,9 +258,11 @@ TEST_CASE("A cycle in one step, which delivers early, is the same as phase by ph
                     REQUIRE(same(phases.state(g, i), whole.state(g, i)));
                     REQUIRE(same(phases.state(g, i), forgetful.state(g, i)));
                     REQUIRE(same(phases.state(g, i), tried.state(g, i)));
+                    REQUIRE(same(phases.state(g, i), shared.state(g, i)));
                 }
                 for (const auto kind : {InputKind::excitatory, InputKind::inhibitory, InputKind::modulatory})
-                    REQUIRE(same(phases.input(g, kind), whole.input(g, kind)));
+                    REQUIRE((same(phases.input(g, kind), whole.input(g, kind)) &&
+                             same(phases.input(g, kind), shared.input(g, kind))));
             }
             REQUIRE(same(phases.input(1, InputKind::excitatory), forgetful.input(1, InputKind::excitatory)));
         }
