@@ -12,23 +12,27 @@ namespace {
 constexpr std::size_t lanes = Slices::lanes, half = Slices::half;
 
 /// Loading single numbers takes the time, so that wider vectors gain nothing.
-typedef double Half __attribute__((vector_size(half * sizeof(double))));  // NOLINT: no `using` for this
+typedef double Half __attribute__((vector_size(half * sizeof(double))));      // NOLINT: no `using` for this
+typedef double Pair __attribute__((vector_size(half / 2 * sizeof(double))));  // NOLINT
 static_assert(half == 4 && std::endian::native == std::endian::little);
 
-/// The i-th of the places in `words`.
-template <class Place>
-[[gnu::always_inline]] inline std::size_t place(const std::uint32_t* words, std::size_t i) {
-    constexpr std::size_t bits = 8 * sizeof(Place), in_word = sizeof *words / sizeof(Place);
-    return static_cast<Place>(words[i / in_word] >> i % in_word * bits);
-}
-
+struct TwoPlaces {
+    std::size_t first, second;
+};
 /// Places are read two at a time and taken apart: fewer loads.
+[[gnu::always_inline]] inline TwoPlaces two(const std::uint16_t* places) {
+    std::uint32_t word;
+    std::memcpy(&word, places, sizeof word);
+    return {static_cast<std::uint16_t>(word), word >> 16};
+}
+[[gnu::always_inline]] inline TwoPlaces two(const std::uint32_t* places) { return {places[0], places[1]}; }
+
 template <class Place>
 [[gnu::always_inline]] inline void gather(const double* from, const Place* places, Half& to) {
-    std::uint32_t words[half * sizeof(Place) / sizeof(std::uint32_t)];
-    std::memcpy(words, places, sizeof words);
-    to = Half{from[place<Place>(words, 0)], from[place<Place>(words, 1)], from[place<Place>(words, 2)],
-              from[place<Place>(words, 3)]};
+    const auto a = two(places), b = two(places + 2);
+    // In pairs: GCC 12 puts four single numbers one by one into a register, and waits for what was in it.
+    const Pair low{from[a.first], from[a.second]}, high{from[b.first], from[b.second]};
+    to = __builtin_shufflevector(low, high, 0, 1, 2, 3);
 }
 
 [[gnu::always_inline]] inline void scatter(const Half& from, const std::uint16_t* places, double* to) {
@@ -41,38 +45,53 @@ constexpr std::size_t ahead = 320;
 
 [[gnu::always_inline]] inline void fetch(const void* address) { __builtin_prefetch(address, 0, 2); }
 
-/// sum += what a half of a row of entries delivers.
+/// The rows of entries that are still to be read.
 template <bool weighted, class Cell>
-[[gnu::always_inline]] inline void add_half(const SliceStream<Cell>& s, const double* scaled,
-                                            std::size_t entry, std::size_t which, Half& sum) {
-    Half psp;
-    gather(scaled, s.pre + entry + which * half, psp);
-    if constexpr (weighted) {
-        const double* from = s.weights[which] + entry / lanes * half;
-        fetch(from + ahead / lanes * half);
-        Half weight;
-        std::memcpy(&weight, from, sizeof weight);
-        psp *= weight;
+struct Rows {
+    const Cell* pre;
+    const double* weights[2];  ///< of the halves
+
+    /// halves[i] += what n rows deliver. Each row fetches its own, though two share a line of the cache: a
+    /// fetch is given up when too many are under way, and the second one may not be.
+    template <std::size_t n>
+    [[gnu::always_inline]] void add(const double* scaled, Half (&halves)[2]) {
+        for (std::size_t row = 0; row < n; ++row) {
+            fetch(pre + row * lanes + ahead);
+            if constexpr (weighted)
+                for (const double* w : weights) fetch(w + row * half + ahead / lanes * half);
+            for (std::size_t i = 0; i < 2; ++i) {
+                Half psp;
+                gather(scaled, pre + row * lanes + i * half, psp);
+                if constexpr (weighted) {
+                    Half weight;
+                    std::memcpy(&weight, weights[i] + row * half, sizeof weight);
+                    psp *= weight;
+                }
+                halves[i] += psp;
+            }
+        }
+        pre += n * lanes;
+        if constexpr (weighted) {
+            for (auto& w : weights) w += n * half;
+            asm("" : "+r"(pre), "+r"(weights[0]), "+r"(weights[1]));  // each an address, not anew by each row
+        }
     }
-    sum += psp;
-}
+};
 
 template <bool weighted, class Cell>
 [[gnu::always_inline]] inline void add_panel(SliceStream<Cell> s, double* sums) {
-    std::size_t entry = 0;
+    Rows<weighted, Cell> rows{s.pre, {s.weights[0], s.weights[1]}};
     for (; s.run < s.end; ++s.run) {
         const double* scaled = s.scaled + s.run->block * s.stride;
         asm("" : "+r"(scaled));  // one address, not an addition for each place
         const std::size_t entries = std::size_t{s.run->length} * lanes;
         for (std::size_t slice = 0; slice < s.run->slices; ++slice, s.targets += lanes) {
-            Half first, second;
-            gather(sums, s.targets, first), gather(sums, s.targets + half, second);
-            for (const std::size_t end = entry + entries; entry < end; entry += lanes) {
-                fetch(s.pre + entry + ahead);
-                add_half<weighted>(s, scaled, entry, 0, first);
-                add_half<weighted>(s, scaled, entry, 1, second);
-            }
-            scatter(first, s.targets, sums), scatter(second, s.targets + half, sums);
+            Half halves[2];
+            gather(sums, s.targets, halves[0]), gather(sums, s.targets + half, halves[1]);
+            const Cell* end = rows.pre + entries;
+            if (s.run->length % 2) rows.template add<1>(scaled, halves);
+            while (rows.pre < end) rows.template add<2>(scaled, halves);
+            scatter(halves[0], s.targets, sums), scatter(halves[1], s.targets + half, sums);
         }
     }
 }

@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::size_t lanes = Slices::lanes, half = Slices::half;
 
-/// Of a block of sources, for all delays: with the sums of some targets and with what passes by, in the 32 KB
-/// of the nearest cache of today's processors.
-constexpr std::size_t block_places = 3072;
+/// Of a block of sources, for all delays: 20 KB, which leave room for what passes by, in the 32 KB of the
+/// nearest cache of today's processors.
+constexpr std::size_t block_places = 2560;
 
 constexpr std::size_t most_delays = 16;
 

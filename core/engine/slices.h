@@ -9,14 +9,14 @@
 
 namespace forage::engine {
 
-/// Targets in panels and sources in blocks, both so small that the activity of a block and the sums of a
-/// panel stay in the nearest caches together. The synapses from a block to a panel are a tile; panels follow
+/// Targets in panels and sources in blocks: the activity of a block stays in the nearest cache, the sums of a
+/// panel in the second. The synapses from a block to a panel are a tile; panels follow
 /// each other, and in each its tiles. Within a tile targets stand in slices of eight side by side, those
 /// with most synapses first ("sliced ELLPACK"; Kreutzer et al., "A unified sparse matrix data format...",
 /// SIAM J. Sci. Comput. 36, 2014): synapse k of lane l of a slice is its entry 8 k + l, and lanes that have
 /// no such synapse are padding.
 struct Slices {
-    static constexpr std::size_t lanes = 8, half = lanes / 2, most_panel_cells = 4096;
+    static constexpr std::size_t lanes = 8, half = lanes / 2, most_panel_cells = 8192;
 
     /// Slices of a tile that follow each other and are of the same length.
     struct Run {
