@@ -157,6 +157,7 @@ void Simulation::update_groups(bool deliver_early) {
     if (!started_) throw RunError("the simulation is not started");
     shown_ = cycle_;
     shared_ = begin_sharing();
+    shared_cycles_ += shared_;
     delivers_early_ = deliver_early;
     failed_delivery_.forget();
     if (shared_)

@@ -101,7 +101,9 @@ class Simulation {
     void update_modules();
     void update_connections();  ///< ends the cycle
 
-    int threads() const;  ///< that share a cycle's loops
+    int threads() const;  ///< that may share a cycle
+    /// How many cycles they have shared.
+    std::uint64_t shared_cycles() const { return shared_cycles_; }
     std::uint64_t cycle() const {
         return cycle_;
     }  ///< the number of completed cycles; the next one has this number
@@ -181,6 +183,7 @@ class Simulation {
     SharingTrial<> trial_;
     std::unique_ptr<SharedCycle> shared_cycle_;  ///< null when one thread does all
     bool shared_ = false;                        ///< the running cycle
+    std::uint64_t shared_cycles_ = 0;
     std::unique_ptr<EarlyDelivery> early_;
     bool delivers_early_ = false;   ///< the running cycle
     FirstFailure failed_delivery_;  ///< of groups that were delivered to early, in the running cycle

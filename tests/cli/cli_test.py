@@ -288,6 +288,16 @@ class Run(Cli):
         self.assertGreater(len(rows), 2)
         self.assertTrue(all(len(r) == 33 for r in rows))
 
+    def test_the_summary_tells_what_threads_have_shared(self):
+        small = re.sub("<Module.*</Module>", "", SMALL_SYSTEM, flags=re.DOTALL)
+        (self.here / "small.iqr").write_text(small)
+        self.assertNotIn("threads", self.forage("run", "small.iqr", "--cycles", 10).stdout)
+        out = self.forage("run", "small.iqr", "--cycles", 10, "--threads", 2).stdout
+        self.assertRegex(out, r"threads +1 of 2: by estimate, a cycle is too short to share")
+        (self.here / "large.iqr").write_text(small.replace('hcount="2" vcount="1"', 'hcount="100" vcount="80"'))
+        self.assertRegex(self.forage("run", "large.iqr", "--cycles", 100, "--threads", 2).stdout,
+                         r"threads +2, which shared [1-9]\d* % of the cycles")
+
     def test_drive_and_clamp_tables(self):
         system = self.here / "small.iqr"
         system.write_text(SMALL_SYSTEM)

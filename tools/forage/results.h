@@ -14,9 +14,10 @@ namespace forage::tool {
 struct Outcome {
     std::optional<std::uint64_t> length;  ///< cycles that were asked for; empty when trials end the run
     std::uint64_t cycles = 0;
-    std::uint64_t first_cycle = 0;  ///< in which it went on, 0 for a run from the start
-    double seconds = 0;             ///< of the world
-    double clock = 0;               ///< s of the clock
+    std::uint64_t first_cycle = 0;    ///< in which it went on, 0 for a run from the start
+    double seconds = 0;               ///< of the world
+    double clock = 0;                 ///< s of the clock
+    std::uint64_t shared_cycles = 0;  ///< by several threads
     std::vector<std::pair<std::string, std::optional<std::uint64_t>>>
         changes;             ///< of --at, and the first cycle in which each acted; empty: it never did
     std::string diverged;    ///< where numbers began to be not finite; empty: they are

@@ -205,6 +205,7 @@ void note(const Running& running, Outcome& outcome) {
     outcome.cycles = running.simulation.cycle();
     outcome.seconds = running.seconds();
     outcome.diverged = running.diverged;
+    outcome.shared_cycles = running.simulation.shared_cycles();
     outcome.groups = running.simulation.groups();
     for (int g = 0; g < outcome.groups; ++g)
         if (running.simulation.left_out(g)) outcome.left_out.push_back(running.simulation.path(g));

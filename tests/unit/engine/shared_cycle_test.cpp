@@ -140,6 +140,7 @@ TEST_CASE("Groups and connections divided between threads have the bits of whole
                 active += one.id(g) == id && (activity(one, one.path(g)) != 0).any();
     }
     CHECK(active > 25 * large.groups.size());
+    CHECK((one.shared_cycles() == 0 && many.shared_cycles() == 30));
 }
 
 TEST_CASE("A divided group that comes to rest wakes when its input changes") {
