@@ -71,7 +71,7 @@ void SharedCycle::share_out() {
         }
         shares_.push_back(static_cast<int>(items_.size()));
     }
-    ready_.emplace(plan_, whole_groups);
+    ready_.emplace(plan_, whole_groups, least_);
 }
 
 template <class Work>
@@ -85,7 +85,7 @@ void SharedCycle::for_items(FirstFailure& failure, Work work) {
 
 void SharedCycle::deliver_early(int updated, int thread, std::uint64_t cycle) {
     remember(at(plan_.groups, updated), cycle);
-    ready_->updated(updated, [&](int i) {
+    ready_->updated(updated, thread, [&](int i) {
         failed_delivery_.guard(i, thread, [&] { deliver_to(plan_, at(plan_.groups, i), cycle); });
     });
 }
@@ -93,6 +93,7 @@ void SharedCycle::deliver_early(int updated, int thread, std::uint64_t cycle) {
 void SharedCycle::update_groups(std::uint64_t cycle, bool early) {
     delivers_early_ = early;
     failed_delivery_.forget();  // of a cycle that was not ended
+    ready_->begin();
     const auto frame = [&](int thread) {
         return UpdateFrame{cycle, at(plan_.scratch, thread).get(), at(plan_.before, thread).data(),
                            plan_.watched};
@@ -129,24 +130,26 @@ void SharedCycle::add_divided(GroupPlan& g, std::uint64_t cycle) {
 }
 
 void SharedCycle::deliver(std::uint64_t cycle) {
-    const auto& groups = delivers_early_ ? ready_->late() : plan_.updated;
-    for (const int i : groups)
+    if (!delivers_early_ || ready_->some_wait()) deliver_waiting(cycle);
+    failed_delivery_.raise();
+}
+
+void SharedCycle::deliver_waiting(std::uint64_t cycle) {
+    for (const int i : plan_.updated)
         if (auto& g = at(plan_.groups, i); g.delivery_divides) begin_delivery(plan_, g, cycle);
-    if (!groups.empty())
-        for_items(failed_delivery_, [&](GroupPlan& g, const Item& item, int) {
-            if (delivers_early_ && !ready_->is_late(item.group)) return;
-            if (g.delivery_divides && g.receives)
-                prepare_part(plan_, g, item.part, cycle);
-            else if (!g.delivery_divides && item.whole)
-                deliver_to(plan_, g, cycle);
-        });
-    for (const int i : groups) {
+    for_items(failed_delivery_, [&](GroupPlan& g, const Item& item, int) {
+        if (delivers_early_ && !ready_->waits(item.group)) return;
+        if (g.delivery_divides && g.receives)
+            prepare_part(plan_, g, item.part, cycle);
+        else if (!g.delivery_divides && item.whole)
+            deliver_to(plan_, g, cycle);
+    });
+    for (const int i : plan_.updated) {
         auto& g = at(plan_.groups, i);
         if (!g.delivery_divides) continue;
         if (failed_delivery_.before(i + 1)) break;
         failed_delivery_.guard(i, 0, [&] { add_divided(g, cycle); });
     }
-    failed_delivery_.raise();
 }
 
 }  // namespace forage::engine

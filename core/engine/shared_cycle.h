@@ -14,8 +14,9 @@ namespace forage::engine {
 
 /// Updates and deliveries of a system, for several threads at a time. Small groups go to one thread whole;
 /// large ones, and those with large connections, are divided into parts of neighbouring cells. A thread gets
-/// the same groups and parts in every loop of every cycle, as long as it is not late: what it wrote in one
-/// loop it finds in its own cache in the next. The numbers are those of update() and deliver_to().
+/// the same groups and parts in every loop of every cycle, as long as it is not late, and delivers to what
+/// waited for its updates: what it wrote it finds in its own cache. The numbers are those of update() and
+/// deliver_to().
 class SharedCycle {
   public:
     /// No part of a group takes less than about `least` ns on one thread. Throws std::system_error when the
@@ -26,9 +27,9 @@ class SharedCycle {
     void share_out();
 
     int threads() const { return pool_.threads(); }
-    // Where several groups fail, the exception of the first one comes out, as with one thread.
-
-    /// With `deliver_early` groups are delivered to as soon as they can, and activities remembered.
+    /// With `deliver_early` groups are delivered to as soon as they can, and activities remembered. Where
+    /// several groups fail, here and in deliver(), the exception of the first one comes out, as with one
+    /// thread.
     void update_groups(std::uint64_t cycle, bool deliver_early);
     /// Delivers to all groups, or to those that had to wait. Throws what failed early, too.
     void deliver(std::uint64_t cycle);
@@ -44,6 +45,7 @@ class SharedCycle {
     template <class Work>
     void for_items(FirstFailure& failure, Work work);
     void deliver_early(int updated, int thread, std::uint64_t cycle);
+    void deliver_waiting(std::uint64_t cycle);
     /// The connections of a group that is prepared, one after the other.
     void add_divided(GroupPlan& group, std::uint64_t cycle);
 

@@ -18,9 +18,6 @@
 namespace forage::engine {
 namespace {
 
-/// ns on one thread: to divide a group further costs more, as its numbers then move between caches.
-constexpr double least_part = 1250;
-
 template <class T>
 auto& at(std::vector<T>& all, int index) {
     return all[static_cast<std::size_t>(index)];
@@ -75,8 +72,7 @@ Simulation::Simulation(std::unique_ptr<Plan> plan, const Options& options)
     estimate_deliveries(*plan_);
     early_ = std::make_unique<EarlyDelivery>(*plan_);
     if (options.threads > 1 && update_cost(*plan_) + delivery_cost(*plan_) >= worth_sharing_)
-        shared_cycle_ =
-            std::make_unique<SharedCycle>(*plan_, options.threads, worth_sharing_ > 0 ? least_part : 0);
+        shared_cycle_ = std::make_unique<SharedCycle>(*plan_, options.threads, options.least_part);
     for (int t = 0; t < threads(); ++t)  // not touched, and so not in memory, until a type draws numbers
         plan_->scratch.push_back(
             std::make_unique_for_overwrite<double[]>(widest * std::size_t{NeuronColumns::scratch_columns}));

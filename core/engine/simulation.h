@@ -67,6 +67,9 @@ class Simulation {
         /// ns that a cycle's updates and deliveries take on one thread; shorter ones stay there. 0: all are
         /// shared.
         double worth_sharing = 5'000;
+        /// ns on one thread, in a shared cycle: no part of a group takes less, nor do deliveries for which
+        /// all threads meet.
+        double least_part = 1'250;
         bool general_forms =
             false;  ///< compile every connection to a list of synapses (slower, same numbers)
     };

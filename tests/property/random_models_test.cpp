@@ -31,6 +31,7 @@ std::string trace(const model::System& system, const Registry& registry, int thr
                                        {.seed = test::RandomModel::connection_seed,
                                         .threads = threads,
                                         .worth_sharing = 0,
+                                        .least_part = threads == 3 ? 1e9 : 0,  // whole groups, or parts
                                         .general_forms = general_forms},
                                        diagnostics);
     INFO(format(diagnostics));
@@ -80,6 +81,7 @@ TEST_CASE("Neither the number of threads nor the form of the connections changes
         INFO("seed " << seed << "\n" << xml::write_system(system));
         const std::string one = trace(system, registry, 1);
         REQUIRE(!one.empty());
+        REQUIRE(one == trace(system, registry, 3));
         REQUIRE(one == trace(system, registry, 4));
         REQUIRE(one == trace(system, registry, 1, true));
     }
@@ -127,7 +129,8 @@ TEST_CASE("A simulation stopped in any cycle and resumed is the one that ran thr
         auto s = engine::Simulation::build(system, registry,
                                            {.seed = test::RandomModel::connection_seed,
                                             .threads = threads,
-                                            .worth_sharing = threads > 1 ? 0.0 : 1e9},
+                                            .worth_sharing = threads > 1 ? 0.0 : 1e9,
+                                            .least_part = 0},
                                            diagnostics);
         REQUIRE(s);
         s->start();
