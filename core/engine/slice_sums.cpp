@@ -32,7 +32,11 @@ template <class Place>
     const auto a = two(places), b = two(places + 2);
     // In pairs: GCC 12 puts four single numbers one by one into a register, and waits for what was in it.
     const Pair low{from[a.first], from[a.second]}, high{from[b.first], from[b.second]};
+#if __has_builtin(__builtin_shufflevector)
     to = __builtin_shufflevector(low, high, 0, 1, 2, 3);
+#else
+    to = Half{low[0], low[1], high[0], high[1]};
+#endif
 }
 
 [[gnu::always_inline]] inline void scatter(const Half& from, const std::uint16_t* places, double* to) {
