@@ -293,10 +293,10 @@ class Run(Cli):
         (self.here / "small.iqr").write_text(small)
         self.assertNotIn("threads", self.forage("run", "small.iqr", "--cycles", 10).stdout)
         out = self.forage("run", "small.iqr", "--cycles", 10, "--threads", 2).stdout
-        self.assertRegex(out, r"threads +1 of 2: by estimate, a cycle is too short to share")
+        self.assertRegex(out, r"threads +1 of 2: cycles are too short to share, or too few to try")
         (self.here / "large.iqr").write_text(small.replace('hcount="2" vcount="1"', 'hcount="100" vcount="80"'))
         self.assertRegex(self.forage("run", "large.iqr", "--cycles", 100, "--threads", 2).stdout,
-                         r"threads +2, which shared [1-9]\d* % of the cycles")
+                         r"threads +2, which shared [1-9]\d*\.\d % of the cycles, as trials told")
 
     def test_drive_and_clamp_tables(self):
         system = self.here / "small.iqr"

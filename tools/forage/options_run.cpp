@@ -195,10 +195,10 @@ void add_run(CLI::App& app, RunOptions& o) {
            "Film the world from above, with what the robots see: an animated .gif, or numbered .png files")
         ->option_text("FILE")
         ->needs("--world");
-    run.add_option("--threads", o.threads,
-                   "How many may share a cycle, where a trial shows that it pays: cycles of large systems. "
-                   "The numbers "
-                   "do not depend on it [1]")
+    run.add_option(
+           "--threads", o.threads,
+           "How many threads may share a cycle, where trials show that it pays: cycles of large systems, "
+           "while cores are idle. The numbers do not depend on it [1]")
         ->transform(threads())
         ->option_text("N");
     run.add_option_function<std::string>(

@@ -148,10 +148,11 @@ std::string summary(const RunOptions& o, const Loaded& loaded, const Outcome& ou
                               outcome.seconds * done / (static_cast<double>(outcome.cycles) * outcome.clock),
                               outcome.clock));
     if (o.threads > 1)
-        line("threads", outcome.shared_cycles > 0
-                            ? fmt::format("{}, which shared {:.0f} % of the cycles", o.threads,
-                                          100 * static_cast<double>(outcome.shared_cycles) / done)
-                            : fmt::format("1 of {}: by estimate, a cycle is too short to share", o.threads));
+        line("threads",
+             outcome.shared_cycles > 0
+                 ? fmt::format("{}, which shared {:.1f} % of the cycles, as trials told", o.threads,
+                               100 * static_cast<double>(outcome.shared_cycles) / done)
+                 : fmt::format("1 of {}: cycles are too short to share, or too few to try", o.threads));
     for (const auto& [text, cycle] : outcome.changes)
         line(cycle ? "changed" : "not changed", cycle ? fmt::format("in cycle {}, at {}", *cycle, text)
                                                       : fmt::format("at {}: it never was", text));
