@@ -10,11 +10,11 @@
 namespace forage::engine {
 
 /// Targets in panels and sources in blocks: the activity of a block stays in the nearest cache, the sums of a
-/// panel in the second. The synapses from a block to a panel are a tile; panels follow
-/// each other, and in each its tiles. Within a tile targets stand in slices of eight side by side, those
-/// with most synapses first ("sliced ELLPACK"; Kreutzer et al., "A unified sparse matrix data format...",
-/// SIAM J. Sci. Comput. 36, 2014): synapse k of lane l of a slice is its entry 8 k + l, and lanes that have
-/// no such synapse are padding.
+/// panel in the second. The synapses from a block to a panel are a tile; panels follow each other, and in
+/// each its tiles. Within a tile targets stand in slices of eight side by side, those with most synapses
+/// first ("sliced ELLPACK"; Kreutzer et al., "A unified sparse matrix data format...", SIAM J. Sci. Comput.
+/// 36, 2014): synapse k of lane l of a slice is its entry 8 k + l, and lanes that have no such synapse are
+/// padding.
 struct Slices {
     static constexpr std::size_t lanes = 8, half = lanes / 2, most_panel_cells = 8192;
 
