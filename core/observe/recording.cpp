@@ -71,6 +71,9 @@ class CsvRecording final : public Recording {
         what_.cells = {1, 1, static_cast<int>(columns_), 1, {}};
         what_.mean = names[1] == "mean";
         int x = 0, y = 0;
+        if (what_.mean && columns_ > 1)
+            bad(names[2].data() - line_.data() + 1,
+                fmt::format("a mean is one column, and here are {}", columns_));
         if (what_.mean) return;
         if (!parse_place(names[1], x, y)) {
             what_.numbered = true;
@@ -84,6 +87,11 @@ class CsvRecording final : public Recording {
             width * height != static_cast<std::int64_t>(columns_))
             no_recording(path, "its columns are not those of a group");
         what_.cells = {x, y, static_cast<int>(width), static_cast<int>(height), {}};
+        for (std::size_t i = 0; i < columns_; ++i)
+            if (names[i + 1] != what_.cell_name(i))
+                bad(names[i + 1].data() - line_.data() + 1,
+                    fmt::format("this column's name is '{}', and '{}' is expected", shown(names[i + 1]),
+                                what_.cell_name(i)));
     }
 
     void rewind() override {
