@@ -11,15 +11,20 @@ ContextualLayer::ContextualLayer(Index sequences, Index segments, Index prototyp
       memory_(sequences, segments, prototype_cells, action_cells),
       action_(Eigen::ArrayXf::Zero(action_cells)) {}
 
-bool ContextualLayer::update(const Inputs& in, const Settings& settings) {
+bool ContextualLayer::update(const Inputs& in, const Settings& settings, Exact exact) {
     const auto discrepancy = static_cast<float>(in.discrepancy);
     if (discrepancy > 1e-6 && discrepancy < static_cast<float>(settings.discrepancy_threshold)) open_ = true;
     if (!open_) return false;
     acquire(in);
-    memory_.compare(in.prototype);
+    if (exact == Exact::all)
+        memory_.compare(in.prototype);
+    else
+        memory_.estimate(in.prototype);
+    const auto threshold = static_cast<float>(settings.memory_threshold),
+               share = static_cast<float>(settings.winner_share);
     memory_.collect(static_cast<float>(settings.trigger_decay));
-    select(memory_, static_cast<float>(settings.memory_threshold), static_cast<float>(settings.winner_share),
-           static_cast<float>(settings.trigger_reset));
+    memory_.settle(threshold, share);
+    select(memory_, threshold, share, static_cast<float>(settings.trigger_reset));
     sum_actions(memory_, action_);
     return true;
 }

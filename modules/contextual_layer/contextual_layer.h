@@ -38,8 +38,10 @@ class ContextualLayer {
     /// least 1.
     ContextualLayer(Index sequences, Index segments, Index prototype_cells, Index action_cells);
 
-    /// One step; allocates nothing. False while the layer is closed.
-    bool update(const Inputs& in, const Settings& settings);
+    /// One step; allocates nothing. False while the layer is closed. Only those distances and collectors of
+    /// the memory that decide what is selected need be exact when nobody looks at the others: it is faster.
+    enum class Exact { all, what_matters };
+    bool update(const Inputs& in, const Settings& settings, Exact exact = Exact::all);
 
     const Eigen::ArrayXf& action() const { return action_; }  ///< of the last step, M cells
     const LongTermMemory& memory() const { return memory_; }

@@ -2,16 +2,40 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "core/types/simd.h"
 
 namespace forage::contextual {
 namespace {
 
-/// See LongTermMemory::collect; returns the largest collector, 0 if none is above 0.
-FORAGE_SIMD float collect_row(const float* distance, Index n, float decay, float* trigger, float* collector) {
+/// The largest so far of numbers, none of them below 0: their bits are in their order.
+class Largest {
+  public:
+    void note(float x) { bits_ = std::max(bits_, std::bit_cast<std::int32_t>(x)); }
+    float value() const { return std::bit_cast<float>(bits_); }
+
+  private:
+    std::int32_t bits_ = 0;
+};
+
+float positive(float x) { return x > 0.0F ? x : 0.0F; }
+
+/// Sets the collectors of a row; returns the largest, 0 if none is above 0.
+FORAGE_SIMD float weigh_row(const float* distance, const float* trigger, Index n, float* collector) {
+    Largest peak;
+#ifndef __clang__
+#pragma GCC ivdep
+#endif
+    for (Index i = 0; i < n; ++i) peak.note(positive(collector[i] = (1.0F - distance[i]) * trigger[i]));
+    return peak.value();
+}
+
+/// See LongTermMemory::collect; returns what weigh_row does.
+FORAGE_SIMD float collect_row(const float* distance, Index n, float decay, float* trigger, float* collector,
+                              float& highest_trigger) {
     const float kept = 1 - decay;
-    std::int32_t largest = 0;  // bits of positive numbers are in their order
+    Largest peak, highest;
 #ifndef __clang__
 #pragma GCC ivdep
 #endif
@@ -21,9 +45,11 @@ FORAGE_SIMD float collect_row(const float* distance, Index n, float decay, float
         const float c = (1.0F - distance[i]) * t;
         trigger[i] = t;
         collector[i] = c;
-        largest = std::max(largest, c > 0.0F ? std::bit_cast<std::int32_t>(c) : 0);
+        peak.note(positive(c));
+        highest.note(std::abs(t));
     }
-    return std::bit_cast<float>(largest);
+    highest_trigger = std::max(highest_trigger, highest.value());
+    return peak.value();
 }
 
 }  // namespace
@@ -62,11 +88,36 @@ void LongTermMemory::compare(const Eigen::Ref<const Eigen::ArrayXd>& prototype) 
     prototypes_.compare(prototype, distance_.data());
 }
 
+void LongTermMemory::estimate(const Eigen::Ref<const Eigen::ArrayXd>& prototype) {
+    prototypes_.estimate(prototype, distance_.data());
+}
+
 void LongTermMemory::collect(float decay) {
+    highest_trigger_ = 0;
     for (Index row = 0; row < sequences(); ++row) {
         const Index first = row * segments();
-        peaks_[static_cast<std::size_t>(row)] = collect_row(
-            distance_.data() + first, length(row), decay, trigger_.data() + first, collector_.data() + first);
+        peaks_[static_cast<std::size_t>(row)] =
+            collect_row(distance_.data() + first, length(row), decay, trigger_.data() + first,
+                        collector_.data() + first, highest_trigger_);
+    }
+}
+
+void LongTermMemory::settle(float threshold, float share) {
+    if (!(prototypes_.error() > 0)) return;
+    const float error = prototypes_.error() * highest_trigger_,
+                largest = *std::max_element(peaks_.begin(), peaks_.end()),
+                needed = std::max(threshold, share * largest - std::abs(share) * error);
+    // Said so that what is not a number is exact, too.
+    const auto too_small = [=](float collector) { return collector + error < needed; };
+    for (Index row = 0; row < sequences(); ++row)
+        for (Index column = 0; column < length(row) && !too_small(peak(row)); ++column)
+            if (!too_small(collector_(row, column))) prototypes_.need(row * segments() + column);
+    prototypes_.refine(distance_.data());
+    for (Index row = 0; row < sequences(); ++row) {
+        if (too_small(peak(row))) continue;
+        const Index first = row * segments();
+        peaks_[static_cast<std::size_t>(row)] = weigh_row(distance_.data() + first, trigger_.data() + first,
+                                                          length(row), collector_.data() + first);
     }
 }
 

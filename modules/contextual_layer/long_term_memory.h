@@ -36,9 +36,16 @@ class LongTermMemory {
 
     /// Compares every live segment's prototype with the present one: distance d (see PrototypeStore).
     void compare(const Eigen::Ref<const Eigen::ArrayXd>& prototype);
+    /// The same, but distances, and the collectors that are made of them, may be nearly right until settle()
+    /// makes those exact that matter.
+    void estimate(const Eigen::Ref<const Eigen::ArrayXd>& prototype);
     /// A live segment's trigger t <- (1 - decay) t + decay where it is above 1, else t <- 1; then its
     /// collector c = (1 - d) t.
     void collect(float decay);
+    /// Makes exact the distances and collectors of all segments that may be selected: whose collector may be
+    /// above `threshold` and at least `share` of the largest. No other can be by what stands for its
+    /// collector.
+    void settle(float threshold, float share);
 
     const SegmentArray& distance() const { return distance_; }
     const SegmentArray& collector() const { return collector_; }
@@ -66,6 +73,7 @@ class LongTermMemory {
     std::vector<Index> lengths_;
     SegmentArray distance_, collector_, trigger_, selected_;
     std::vector<float> peaks_;          ///< per row
+    float highest_trigger_ = 0;         ///< largest |t| of a live segment, since collect()
     std::vector<std::uint8_t> speaks_;  ///< per row
     Index next_ = 0;
 };
