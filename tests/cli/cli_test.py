@@ -297,6 +297,8 @@ class Run(Cli):
         (self.here / "large.iqr").write_text(small.replace('hcount="2" vcount="1"', 'hcount="100" vcount="80"'))
         self.assertRegex(self.forage("run", "large.iqr", "--cycles", 100, "--threads", 2).stdout,
                          r"threads +2, which shared [1-9]\d*\.\d % of the cycles, as trials told")
+        self.assertRegex(self.forage("run", "large.iqr", "--cycles", 100, "--threads", 1000).stdout,
+                         r"threads +\d+ of 1000, one per core, which shared")
 
     def test_drive_and_clamp_tables(self):
         system = self.here / "small.iqr"
@@ -324,6 +326,8 @@ class Mistakes(Cli):
         self.assertIn("did you mean '--trials'", self.forage("run", SYSTEM, "--trails", "3", status=2).stderr)
         self.assertIn("Usage:", self.forage(status=2).stderr)
         self.assertIn("Usage:", self.forage("help").stdout)
+        self.assertEqual(self.forage("help", "run").stdout, self.forage("run", "--help").stdout)
+        self.assertIn("there is no command 'rum'", self.forage("help", "rum", status=2).stderr)
 
     def test_every_mistake_of_a_file_is_reported_with_its_place(self):
         bad = self.here / "bad.iqr"

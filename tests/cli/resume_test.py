@@ -99,7 +99,7 @@ class Resume(Stopped):
             (self.here / out / "Adaptive_Weights_Display_act.npy.unpacked.part").write_bytes(b"not all of it")
             process = self.start("resume", out)
             self.stop(process, 0.3, how)
-            self.assertEqual(self.stop(self.start("resume", out), 90, how), 0)
+            self.assertEqual(self.stop(self.start("resume", out, "--threads", 2), 90, how), 0)
             self.assert_same(out)
 
     def test_a_damaged_checkpoint_is_refused_and_the_previous_one_is_used(self):

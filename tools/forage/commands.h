@@ -60,6 +60,7 @@ struct RunOptions {
 
 struct ResumeOptions {
     std::string path;  ///< a directory of results, or a checkpoint in it
+    int threads = 0;   ///< 0: as many as before
     bool quiet = false;
 };
 /// Makes options of the arguments of `forage run`.

@@ -1,15 +1,14 @@
 
 #include "core/xml/experiment.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <thread>
 
 #include <fmt/format.h>
 
 #include "core/model/named_file.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/cores.h"
 #include "tools/forage/experiment_runs.h"
 #include "tools/forage/experiment_tables.h"
 #include "tools/forage/files.h"
@@ -65,10 +64,9 @@ int experiment(const ExperimentOptions& o) {
     }
     note_signals();
     Progress progress(!o.quiet);
-    const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     for (const auto& table : {results_file, summary_file})  // one that is there is whole
         std::remove(table.c_str());
-    const auto results = make_runs(*wanted, sources, runs, o.jobs > 0 ? o.jobs : cores, o.fresh, progress);
+    const auto results = make_runs(*wanted, sources, runs, o.jobs > 0 ? o.jobs : cores(), o.fresh, progress);
     if (!results) {
         fmt::print(stderr, "stopped {}; the same command goes on with the runs that are not finished\n",
                    stopped_by(noted_signal()));

@@ -48,6 +48,9 @@ std::string help_of(const CLI::App& app) {
 }
 
 int program(int argc, char** argv) {
+    char help[] = "--help";
+    char* help_of_command[] = {argv[0], argv[argc - 1], help};
+    if (argc == 3 && std::string_view(argv[1]) == "help") argv = help_of_command;
     CLI::App app("Runs iqr brain models headless, in a closed loop with a simulated robot.", "forage");
     app.set_version_flag("--version", "forage " FORAGE_VERSION);
     app.require_subcommand(1);
@@ -122,20 +125,15 @@ int program(int argc, char** argv) {
             fmt::print(stderr, "{}", app.help());
             return bad_input;
         }
-        if (argc == 2 && std::string_view(argv[1]) == "help") throw CLI::CallForHelp();
+        if (argc == 2 && std::string_view(argv[1]) == "help") return fmt::print("{}", app.help()), fine;
         app.parse(argc, argv);
-    } catch (const CLI::Success& e) {
-        return app.exit(e);
-    } catch (const CLI::RequiredError& e) {
+    } catch (const CLI::ParseError& e) {  // also a call for help
         const bool no_command = app.get_subcommands().empty() && !std::string_view(argv[1]).starts_with("-");
+        if (e.get_exit_code() == 0 && !no_command) return app.exit(e);
         const std::string meant = suggestion(app, argc, argv);
         fmt::print(stderr, "error: {}\n  hint: {}\n",
                    no_command ? fmt::format("there is no command '{}'", argv[1]) : e.what(),
                    !meant.empty() ? meant : help_of(app));
-        return bad_input;
-    } catch (const CLI::ParseError& e) {
-        const std::string meant = suggestion(app, argc, argv);
-        fmt::print(stderr, "error: {}\n  hint: {}\n", e.what(), !meant.empty() ? meant : help_of(app));
         return bad_input;
     }
     try {

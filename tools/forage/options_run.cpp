@@ -233,6 +233,9 @@ void add_resume(CLI::App& app, ResumeOptions& o) {
     resume.add_option("FROM", o.path, "Directory of results, or one of the checkpoints in it")
         ->required()
         ->option_text("DIR|FILE");
+    resume.add_option("--threads", o.threads, "How many threads may share a cycle [as before]")
+        ->transform(threads())
+        ->option_text("N");
     resume.add_flag("-q,--quiet", o.quiet, "Print errors only");
 }
 

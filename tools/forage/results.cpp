@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bug_interface/versions.h"
+#include "tools/forage/cores.h"
 #include "tools/forage/files.h"
 #include "tools/forage/input_files.h"
 #include "tools/forage/score.h"
@@ -147,12 +148,16 @@ std::string summary(const RunOptions& o, const Loaded& loaded, const Outcome& ou
     line("speed", fmt::format("{:.0f} cycles/s, {:.0f} x real time ({:.2f} s)", done / outcome.clock,
                               outcome.seconds * done / (static_cast<double>(outcome.cycles) * outcome.clock),
                               outcome.clock));
-    if (o.threads > 1)
+    if (o.threads > 1 && cores() == 1)
+        line("threads", fmt::format("1 of {}: there is one core", o.threads));
+    else if (o.threads > 1 && outcome.shared_cycles == 0)
+        line("threads", fmt::format("1 of {}: cycles are too short to share, or too few to try", o.threads));
+    else if (o.threads > 1)
         line("threads",
-             outcome.shared_cycles > 0
-                 ? fmt::format("{}, which shared {:.1f} % of the cycles, as trials told", o.threads,
-                               100 * static_cast<double>(outcome.shared_cycles) / done)
-                 : fmt::format("1 of {}: cycles are too short to share, or too few to try", o.threads));
+             fmt::format("{}, which shared {:.1f} % of the cycles, as trials told",
+                         o.threads > cores() ? fmt::format("{} of {}, one per core", cores(), o.threads)
+                                             : fmt::format("{}", o.threads),
+                         100 * static_cast<double>(outcome.shared_cycles) / done));
     for (const auto& [text, cycle] : outcome.changes)
         line(cycle ? "changed" : "not changed", cycle ? fmt::format("in cycle {}, at {}", *cycle, text)
                                                       : fmt::format("at {}: it never was", text));

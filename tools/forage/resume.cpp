@@ -92,6 +92,7 @@ int resume(const ResumeOptions& o, const RunParser& parse) {
             options.arguments = found->origin.arguments;
             options.directory = directory;
             options.quiet |= o.quiet;
+            if (o.threads > 0) options.threads = o.threads;
             Diagnostics diagnostics;
             const Sources sources = read(options.input, diagnostics);
             auto running = restore(*found, options, sources, diagnostics);

@@ -6,6 +6,7 @@
 
 #include "core/model/lookup.h"
 #include "tools/forage/checkpoint.h"
+#include "tools/forage/cores.h"
 #include "tools/forage/files.h"
 #include "tools/forage/length.h"
 #include "tools/forage/manipulations.h"
@@ -87,8 +88,9 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
     else if (!o.video.empty())
         check_output(o.video, "film.gif", diagnostics);
     if (loaded->drive) check_drive(*loaded->drive, loaded->system, diagnostics);
-    auto simulation = engine::Simulation::build(loaded->system, loaded->registry,
-                                                {.seed = o.input.seed, .threads = o.threads}, diagnostics);
+    auto simulation = engine::Simulation::build(
+        loaded->system, loaded->registry, {.seed = o.input.seed, .threads = std::min(o.threads, cores())},
+        diagnostics);
     if (!simulation) return std::nullopt;
     auto scheduled = schedule(o.at, *loaded, *simulation, diagnostics);
     std::optional<observe::Condition> until;
