@@ -151,8 +151,9 @@ void PrototypeStore::estimate(const Eigen::Ref<const Eigen::ArrayXd>& present, f
     }
 }
 
-void PrototypeStore::need(Index key) {
-    const Index block = slots_[static_cast<std::size_t>(key)] / lanes;
+void PrototypeStore::need(Index key) { need_block(slots_[static_cast<std::size_t>(key)] / lanes); }
+
+void PrototypeStore::need_block(Index block) {
     auto& exact = exact_[static_cast<std::size_t>(block)];
     if (exact) return;
     exact = 1;
@@ -160,8 +161,7 @@ void PrototypeStore::need(Index key) {
 }
 
 void PrototypeStore::need_all() {
-    for (Index block = 0; block < blocks_in_use(); ++block)
-        need(keys_[static_cast<std::size_t>(block * lanes)]);
+    for (Index block = 0; block < blocks_in_use(); ++block) need_block(block);
 }
 
 void PrototypeStore::refine(float* distances) {
@@ -191,7 +191,9 @@ void PrototypeStore::tell(Index block, const float* found, float* distances) con
     const Index begin = block * lanes, left = std::min(lanes, size() - begin);
     const Index* const keys = &keys_[static_cast<std::size_t>(begin)];
     const std::uint8_t* const silent = &silent_[static_cast<std::size_t>(begin)];
-    for (Index l = 0; l < left; ++l) distances[keys[l]] = silent[l] ? 1.0F : found[l];
+    float told[lanes];
+    for (Index l = 0; l < lanes; ++l) told[l] = silent[l] ? 1.0F : found[l];
+    for (Index l = 0; l < left; ++l) distances[keys[l]] = told[l];
 }
 
 }  // namespace forage::contextual

@@ -63,6 +63,7 @@ class PrototypeStore {
     void note_cells(Index slot);
     void restore();
     bool look_at(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances);
+    void need_block(Index block);
     void need_all();
     void list_cells(Index first, Index second);
     void tell(Index block, const float* found, float* distances) const;
