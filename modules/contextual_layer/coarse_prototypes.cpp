@@ -33,13 +33,15 @@ FORAGE_SIMD void estimate_two(const std::int16_t* first, const std::int16_t* sec
 CoarsePrototypes::CoarsePrototypes(Index blocks, Index cells)
     : cells_(cells), levels_(static_cast<int>(std::min<Index>(32767, 65535 / std::max<Index>(1, cells)))) {
     if (!useful()) return;
-    // Half a level on either side, and what sums, shares and collectors lose in single precision.
+    // Half a level on either side; sums of so many cells, rounded each time; a few roundings of distances,
+    // and of collectors, the share of the largest and the threshold, which LongTermMemory::settle() relies
+    // on.
     error_ = 1.0F / static_cast<float>(levels_) + static_cast<float>(cells + 16) * 0x1p-23F;
     blocks_.resize(static_cast<std::size_t>(blocks * cells * lanes), 0);
     present_.resize(static_cast<std::size_t>(cells), 0);
 }
 
-void CoarsePrototypes::look_at(const Eigen::Ref<const Eigen::ArrayXd>& present) {
+void CoarsePrototypes::compare_with(const Eigen::Ref<const Eigen::ArrayXd>& present) {
     for (Index i = 0; i < cells_; ++i) present_[static_cast<std::size_t>(i)] = level(present[i]);
 }
 

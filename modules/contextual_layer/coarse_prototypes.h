@@ -1,4 +1,4 @@
-// Prototypes to the nearest of some hundred levels: nearly their distances, in a seventh of the time.
+// Prototypes to the nearest of 64 to 32,767 levels: nearly their distances, in a fifth of the time.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,23 @@ namespace forage::contextual {
 constexpr Index lanes = 16;  ///< prototypes per block: cell i of all lies side by side
 
 /// Slots for prototypes of N cells between 0 and 1, in blocks. Levels are so many that the sum over all cells
-/// fits into 16 bits.
+/// fits into 16 bits: 1,365 for 48 cells.
 class CoarsePrototypes {
   public:
     CoarsePrototypes() = default;
     CoarsePrototypes(Index blocks, Index cells);
 
     /// What an estimated distance is off at most, of the exact sum or of one that is rounded to single
-    /// precision for each cell.
+    /// precision for each cell; with something to spare for what is then made of both in single precision.
     float error() const { return error_; }
     /// Whether estimates spare anything: with many cells there are few levels.
     bool useful() const { return levels_ >= least_levels; }
 
     /// Stores the i-th cell of a prototype.
     void put(Index slot, Index i, double cell) { blocks_[place(slot, i)] = level(cell); }
-    /// Takes the prototype that others are compared with.
-    void look_at(const Eigen::Ref<const Eigen::ArrayXd>& present);
+    /// Takes the prototype that others are compared with, of cells from 0 to `most`.
+    static constexpr double most = 1.000001;  ///< the maximum that they are divided by was rounded
+    void compare_with(const Eigen::Ref<const Eigen::ArrayXd>& present);
     /// distances[0..lanes) and [lanes..2 lanes): of the prototypes of two blocks, mean of |stored - present|.
     void estimate(Index first, Index second, const CellList& cells, float* distances) const;
 

@@ -9,7 +9,7 @@
 namespace forage::contextual {
 namespace {
 
-/// The largest so far of numbers, none of them below 0: their bits are in their order.
+/// The largest so far of numbers, none of them below 0: their bits are in their order. NaN is above all.
 class Largest {
   public:
     void note(float x) { bits_ = std::max(bits_, std::bit_cast<std::int32_t>(x)); }
@@ -27,13 +27,17 @@ FORAGE_SIMD float weigh_row(const float* distance, const float* trigger, Index n
 #ifndef __clang__
 #pragma GCC ivdep
 #endif
-    for (Index i = 0; i < n; ++i) peak.note(positive(collector[i] = (1.0F - distance[i]) * trigger[i]));
+    for (Index i = 0; i < n; ++i) {
+        const float c = (1.0F - distance[i]) * trigger[i];
+        collector[i] = c;
+        peak.note(positive(c));
+    }
     return peak.value();
 }
 
 /// See LongTermMemory::collect; returns what weigh_row does.
 FORAGE_SIMD float collect_row(const float* distance, Index n, float decay, float* trigger, float* collector,
-                              float& highest_trigger) {
+                              Largest& highest_trigger) {
     const float kept = 1 - decay;
     Largest peak, highest;
 #ifndef __clang__
@@ -48,7 +52,7 @@ FORAGE_SIMD float collect_row(const float* distance, Index n, float decay, float
         peak.note(positive(c));
         highest.note(std::abs(t));
     }
-    highest_trigger = std::max(highest_trigger, highest.value());
+    highest_trigger.note(highest.value());
     return peak.value();
 }
 
@@ -93,13 +97,14 @@ void LongTermMemory::estimate(const Eigen::Ref<const Eigen::ArrayXd>& prototype)
 }
 
 void LongTermMemory::collect(float decay) {
-    highest_trigger_ = 0;
+    Largest highest_trigger;
     for (Index row = 0; row < sequences(); ++row) {
         const Index first = row * segments();
         peaks_[static_cast<std::size_t>(row)] =
             collect_row(distance_.data() + first, length(row), decay, trigger_.data() + first,
-                        collector_.data() + first, highest_trigger_);
+                        collector_.data() + first, highest_trigger);
     }
+    highest_trigger_ = highest_trigger.value();
 }
 
 void LongTermMemory::settle(float threshold, float share) {

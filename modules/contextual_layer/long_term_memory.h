@@ -43,8 +43,8 @@ class LongTermMemory {
     /// collector c = (1 - d) t.
     void collect(float decay);
     /// Makes exact the distances and collectors of all segments that may be selected: whose collector may be
-    /// above `threshold` and at least `share` of the largest. No other can be by what stands for its
-    /// collector.
+    /// above `threshold` and at least `share` of the largest. What is left of estimates is too small to be
+    /// selected, or to be the largest where any is.
     void settle(float threshold, float share);
 
     const SegmentArray& distance() const { return distance_; }

@@ -8,6 +8,8 @@
 namespace forage::contextual {
 namespace {
 
+constexpr int wait_after_vain = 16;
+
 using CellsOf = Eigen::Map<Eigen::ArrayXd, 0, Eigen::InnerStride<lanes>>;  ///< of one prototype in its block
 
 /// sums[b][l] = the sum of |cells_b[i][l] - present[i]| share over the `count` listed cells i, for two
@@ -105,8 +107,8 @@ void PrototypeStore::restore() {
     estimated_ = std::count(exact_.begin(), exact_.begin() + blocks_in_use(), 0);
 }
 
-/// Takes p. False when the distances in the array hold for it.
-bool PrototypeStore::look_at(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances) {
+/// Takes p. False when nothing is to be compared: the distances in the array hold for it.
+bool PrototypeStore::take(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances) {
     if (current_ && (present == compared_).all()) return false;
     current_ = true;
     compared_ = present;
@@ -127,19 +129,20 @@ bool PrototypeStore::look_at(const Eigen::Ref<const Eigen::ArrayXd>& present, fl
 }
 
 void PrototypeStore::compare(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances) {
-    look_at(present, distances);
-    if (estimated_ > 0) need_all();
-    refine(distances);
+    take(present, distances);
+    need_all();
+    compare_needed(distances);
 }
 
 void PrototypeStore::estimate(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances) {
-    if (!look_at(present, distances)) return;
-    if (!coarse_.useful() || odd_ones_ > 0 || !(present_ >= 0.0 && present_ <= 1.000001).all()) {
+    if (!take(present, distances)) return;
+    if (in_vain_ > 0 || !can_estimate()) {
+        in_vain_ = std::max(0, in_vain_ - 1);
         need_all();
-        refine(distances);
+        compare_needed(distances);
         return;
     }
-    coarse_.look_at(present_);
+    coarse_.compare_with(present_);
     const Index blocks = blocks_in_use();
     for (Index first = 0; first < blocks; first += 2) {
         const Index second = std::min(first + 1, blocks - 1);
@@ -149,6 +152,11 @@ void PrototypeStore::estimate(const Eigen::Ref<const Eigen::ArrayXd>& present, f
         tell(first, found, distances);
         tell(second, found + lanes, distances);
     }
+}
+
+bool PrototypeStore::can_estimate() const {
+    return coarse_.useful() && odd_ones_ == 0 &&
+           (present_ >= 0.0 && present_ <= CoarsePrototypes::most).all();
 }
 
 void PrototypeStore::need(Index key) { need_block(slots_[static_cast<std::size_t>(key)] / lanes); }
@@ -165,6 +173,12 @@ void PrototypeStore::need_all() {
 }
 
 void PrototypeStore::refine(float* distances) {
+    if (needed_.empty()) return;
+    compare_needed(distances);
+    if (3 * estimated_ < blocks_in_use()) in_vain_ = wait_after_vain;
+}
+
+void PrototypeStore::compare_needed(float* distances) {
     const double share = 1.0F / static_cast<float>(cells_);
     for (std::size_t n = 0; n < needed_.size(); n += 2) {
         const Index first = needed_[n], second = needed_[std::min(n + 1, needed_.size() - 1)];

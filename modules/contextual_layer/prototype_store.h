@@ -26,6 +26,8 @@ namespace forage::contextual {
 ///         store.refine(distances);
 ///     }
 ///
+/// Estimates are given up for a while where most of them had to be made exact.
+///
 /// `distances` is the same array every time, by key: what is known to be in it is not written again. Nothing
 /// here allocates.
 class PrototypeStore {
@@ -44,13 +46,14 @@ class PrototypeStore {
     void estimate(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances);
     /// How much a distance may be off; 0 when all are exact.
     float error() const { return estimated_ > 0 ? coarse_.error() : 0; }
-    /// Has the next refine() make a distance exact.
+    /// Has the next refine() make the distance of a stored prototype exact. Only after an estimate, and
+    /// before anything is added or removed.
     void need(Index key);
     /// Makes distances exact, those that are needed and perhaps others.
     void refine(float* distances);
 
     void checkpoint(Archive& archive) {
-        archive(blocks_, silent_, keys_, slots_, compared_, current_, present_, active_, exact_);
+        archive(blocks_, silent_, keys_, slots_, compared_, current_, present_, active_, exact_, in_vain_);
         if (archive.loading()) restore();
     }
 
@@ -62,9 +65,11 @@ class PrototypeStore {
     Index blocks_in_use() const { return (size() + lanes - 1) / lanes; }
     void note_cells(Index slot);
     void restore();
-    bool look_at(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances);
+    bool take(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances);
+    bool can_estimate() const;
     void need_block(Index block);
     void need_all();
+    void compare_needed(float* distances);
     void list_cells(Index first, Index second);
     void tell(Index block, const float* found, float* distances) const;
 
@@ -77,7 +82,8 @@ class PrototypeStore {
     bool current_ = false;               ///< the distances of the last comparison hold for compared_
     Eigen::ArrayXd present_;             ///< p / max p
     std::vector<std::uint64_t> active_;  ///< cells of present_ that are not 0
-    std::vector<std::uint8_t> exact_;    ///< per block: its distances are exact, or soon will be
+    std::vector<std::uint8_t> exact_;    ///< per block: its distances are exact, or it is in needed_
+    int in_vain_ = 0;                    ///< for so many comparisons estimates are not tried
 
     // What follows from the above.
     std::vector<std::uint64_t> used_;  ///< [block][word]: cells of which some lane is not 0

@@ -51,7 +51,7 @@ std::vector<float> exact_distances(const std::vector<ArrayXf>& stored, const Arr
 TEST_CASE("Estimated distances are off by no more than is said, and exact where they are needed") {
     Drawn drawn(1);
     for (const Index cells : {1, 2, 48, 65, 400, 1023}) {
-        const Index count = 70;
+        const Index count = 300;
         PrototypeStore store(count, count, cells);
         std::vector<ArrayXf> stored;
         for (Index key = 0; key < count; ++key) store.add(key, stored.emplace_back(drawn.prototype(cells)));
@@ -83,7 +83,7 @@ TEST_CASE("Estimated distances are off by no more than is said, and exact where 
         INFO(cells << " cells");
         CHECK(beyond == 0);
         CHECK(wrong == 0);
-        CHECK(estimated > 25);
+        CHECK(estimated > 20);
         CHECK(estimates > 100);
     }
 }
@@ -98,6 +98,30 @@ TEST_CASE("The error of an estimate is small where estimates are made") {
         CHECK(store.error() < (cells == 48 ? 0.001F : 0.02F));
         CHECK((store.error() == 0) == (cells > 1023));
     }
+}
+
+TEST_CASE("Estimates are given up for a while where most have to be made exact") {
+    Drawn drawn(3);
+    const Index cells = 48, count = 100;
+    PrototypeStore store(count, count, cells);
+    for (Index key = 0; key < count; ++key) store.add(key, ArrayXf::Constant(cells, 1));
+    std::vector<float> distances(static_cast<std::size_t>(count));
+    int estimates = 0;
+    const auto compare = [&](Index needed) {
+        ArrayXd present = ArrayXd::Constant(cells, drawn.uniform());
+        present[0] = 1;
+        store.estimate(present, distances.data());
+        estimates += store.error() > 0;
+        for (Index key = 0; store.error() > 0 && key < needed; ++key) store.need(key);
+        store.refine(distances.data());
+    };
+    for (int i = 0; i < 1000; ++i) compare(count);
+    CHECK(estimates > 20);
+    CHECK(estimates < 100);
+    for (int i = 0; i < 20; ++i) compare(1);
+    estimates = 0;
+    for (int i = 0; i < 100; ++i) compare(1);
+    CHECK(estimates == 100);
 }
 
 TEST_CASE("What is not between 0 and 1 is compared exactly") {
@@ -130,6 +154,11 @@ TEST_CASE("What is not between 0 and 1 is compared exactly") {
 
 namespace {
 
+template <class Array>
+bool same(const Array& a, const Array& b) {
+    return (a == b || (a.isNaN() && b.isNaN())).all();
+}
+
 /// Two layers in the same world: one has all distances exact, the other those that matter.
 struct Two {
     Index cells, actions = 4;
@@ -150,8 +179,8 @@ struct Two {
     }
     bool agree() const {
         const auto &a = exact.memory(), &b = estimating.memory();
-        return (a.selected() == b.selected()).all() && (a.trigger() == b.trigger()).all() &&
-               (exact.action() == estimating.action()).all();
+        return same(a.selected(), b.selected()) && same(a.trigger(), b.trigger()) &&
+               same(exact.action(), estimating.action());
     }
     Index inexact() const { return (exact.memory().distance() != estimating.memory().distance()).count(); }
 };
@@ -209,8 +238,34 @@ TEST_CASE("A layer that makes exact what matters selects and does what one does 
         CHECK(wrong == 0);
     }
     CHECK(selected > 10000);
-    CHECK(inexact > 10000);
+    CHECK(inexact > 3000);
     CHECK(on_the_edge > 200);
+}
+
+TEST_CASE("A trigger that is not a number does not hide how much others may be off") {
+    const Index cells = 100;
+    int wrong = 0, not_numbers = 0;
+    for (unsigned world = 0; world < 5000; ++world) {
+        Drawn drawn(world);
+        const auto prototype = [&] {
+            ArrayXd out(cells);
+            for (auto& v : out) v = 0.2 * drawn.uniform();
+            out[0] = 1;
+            return out;
+        };
+        Two two(20, 20, cells);
+        const ArrayXd known = prototype();
+        for (int i = 0; i < 20; ++i) two.step(i == 18 ? known : prototype(), drawn.below(4), i == 19);
+        two.settings = {0.999, 0.99, 1e39, 1, 0.1};  // the next trigger will be infinite in single precision
+        two.step(known, 0, false);
+        two.settings.memory_threshold = 0.1;
+        two.settings.winner_share = 1;
+        two.step(prototype(), 0, false);  // infinity times 1 - 1
+        not_numbers += two.exact.memory().trigger().hasNaN();
+        wrong += !two.agree();
+    }
+    CHECK(wrong == 0);
+    CHECK(not_numbers > 4000);
 }
 
 TEST_CASE("Nothing is selected otherwise where estimates are off by as much as they can be") {
