@@ -69,6 +69,20 @@ double Physics::gap_between(std::size_t body, std::size_t other) {
     return std::max(gap, apart(body, other));
 }
 
+/// Whether shapes of two bodies may be nearer than that to each other.
+bool Physics::may_be_nearer(std::size_t body, std::size_t other, double than) {
+    if (apart(body, other) >= than) return false;
+    for (const Placed& a : shapes(body))
+        for (const Placed& b : shapes(other)) {
+            const double near = than + a.reach + b.reach;
+            const double dx = b.outline.x - a.outline.x, dy = b.outline.y - a.outline.y;
+            if (dx * dx + dy * dy < near * near && meet(LayerMask{1} << a.layer, b.layer) &&
+                overlap(a.outline, b.outline, -than).depth > -than)
+                return true;
+        }
+    return false;
+}
+
 /// Of a gap between two bodies each may use one half.
 void Physics::measure_room(std::size_t body) {
     State& state = states_[body];
@@ -131,8 +145,7 @@ void Physics::involve_neighbours() {
                 State& other = states_[j];
                 if (other.involved || !other.present) continue;
                 const double near = 4 * near_enough + 2 * step_ * (reaches(i) + reaches(j));
-                if (apart(i, j) >= near) continue;
-                if (gap_between(i, j) < near) other.involved = more = true;
+                if (may_be_nearer(i, j, near)) other.involved = more = true;
             }
         }
     }

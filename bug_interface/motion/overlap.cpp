@@ -31,7 +31,7 @@ Overlap box_circle(const Outline& box, const Outline& circle) {
 }
 
 /// Separating axes: those of both boxes.
-Overlap boxes(const Outline& a, const Outline& b) {
+Overlap boxes(const Outline& a, const Outline& b, double least_wanted) {
     const Vector2d between = middle(b) - middle(a);
     const std::array<Vector2d, 2> axes_a = {Vector2d(a.cos_yaw, a.sin_yaw), Vector2d(-a.sin_yaw, a.cos_yaw)};
     const std::array<Vector2d, 2> axes_b = {Vector2d(b.cos_yaw, b.sin_yaw), Vector2d(-b.sin_yaw, b.cos_yaw)};
@@ -44,6 +44,7 @@ Overlap boxes(const Outline& a, const Outline& b) {
         const double along = between.dot(axis);
         const double depth = extent(a, axes_a, axis) + extent(b, axes_b, axis) - std::abs(along);
         if (first || depth < least.depth) least = {depth, std::copysign(1.0, along) * axis};
+        if (least.depth <= least_wanted) break;
         first = false;
     }
     return least;
@@ -51,10 +52,10 @@ Overlap boxes(const Outline& a, const Outline& b) {
 
 }  // namespace
 
-Overlap overlap(const Outline& a, const Outline& b) {
+Overlap overlap(const Outline& a, const Outline& b, double least) {
     if (a.round && b.round) return circles(a, b);
     if (b.round) return box_circle(a, b);
-    if (!a.round) return boxes(a, b);
+    if (!a.round) return boxes(a, b, least);
     Overlap turned = box_circle(b, a);
     turned.normal = -turned.normal;
     return turned;

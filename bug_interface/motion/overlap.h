@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Core>
 
@@ -16,7 +17,8 @@ struct Overlap {
 };
 
 /// `b` against `a`. Exact where they overlap by less than half the smaller one; apart, the depth is a bound.
-Overlap overlap(const Outline& a, const Outline& b);
+/// Who wants to know only of what is deeper than `least` may get any depth up to `least` instead.
+Overlap overlap(const Outline& a, const Outline& b, double least = -std::numeric_limits<double>::infinity());
 
 /// Radius of a circle round the middle of an outline, m.
 double reach(const Outline& outline);

@@ -159,6 +159,7 @@ class Physics {
     void measure_room(std::size_t body);
     const std::vector<Placed>& shapes(std::size_t body);
     double gap_between(std::size_t body, std::size_t other);
+    bool may_be_nearer(std::size_t body, std::size_t other, double than);
     void involve_neighbours();
     // ---- who got too deep into what ----
     template <class F>

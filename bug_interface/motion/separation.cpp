@@ -30,12 +30,14 @@ bool may_touch(const Outline& a, const Outline& b, double reaches) {
 /// and its shape the number of the obstacle.
 template <class F>
 void Physics::each_overlap(F&& visit) {
-    const auto look = [&](std::size_t a, std::size_t p, const Outline& there, double reach_there,
-                          std::size_t b, std::size_t q) {
-        const Placed& here = shapes(a)[p];
+    const auto look = [&](std::size_t a, std::size_t p, const Placed& here, const Outline& there,
+                          double reach_there, std::size_t b, std::size_t q) {
         if (!may_touch(there, here.outline, reach_there + here.reach)) return;
-        const Overlap in = overlap(there, here.outline);
-        if (in.depth > depth_left + depth_noticed) visit(a, p, b, q, in);
+        const Overlap in = overlap(there, here.outline, depth_left);
+        if (in.depth <= depth_left + depth_noticed) return;
+        visit(a, p, b, q, in);
+        shapes(a);  // where they are now
+        if (b < bodies_.size()) shapes(b);
     };
     for (std::size_t a = 0; a < states_.size(); ++a) {
         const State& s = states_[a];
@@ -46,19 +48,19 @@ void Physics::each_overlap(F&& visit) {
             const double reach_there = reach(there);
             if (square(there.x - s.pose.x) + square(there.y - s.pose.y) >= square(reach_there + s.reach))
                 continue;
-            for (std::size_t p = 0; p < shapes(a).size(); ++p)
-                if (obstacles_[o].layers >> shapes(a)[p].layer & 1u)
-                    look(a, p, there, reach_there, bodies_.size(), o);
+            const auto& here = shapes(a);
+            for (std::size_t p = 0; p < here.size(); ++p)
+                if (obstacles_[o].layers >> here[p].layer & 1u)
+                    look(a, p, here[p], there, reach_there, bodies_.size(), o);
         }
         for (std::size_t b = 0; b < a; ++b) {
             const State& other = states_[b];
             if (!other.present || !(s.involved || other.involved) || apart(a, b) >= 0) continue;
-            for (std::size_t p = 0; p < shapes(a).size(); ++p)
-                for (std::size_t q = 0; q < shapes(b).size(); ++q) {
-                    const Placed& there = shapes(b)[q];
-                    if (meet(LayerMask{1} << shapes(a)[p].layer, there.layer))
-                        look(a, p, there.outline, there.reach, b, q);
-                }
+            const auto &here = shapes(a), &there = shapes(b);
+            for (std::size_t p = 0; p < here.size(); ++p)
+                for (std::size_t q = 0; q < there.size(); ++q)
+                    if (meet(LayerMask{1} << here[p].layer, there[q].layer))
+                        look(a, p, here[p], there[q].outline, there[q].reach, b, q);
         }
     }
 }

@@ -1,6 +1,7 @@
 // Planar range scanners: distances along horizontal rays.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,6 +24,8 @@ class RangeScanner {
     int rays() const { return static_cast<int>(direction_x_.size()); }
     double min_range() const { return min_; }  ///< m
     double max_range() const { return max_; }  ///< m
+    /// What is farther from the middle of the model is out of range, m.
+    double farthest() const { return max_ + std::hypot(mount_.x, mount_.y); }
 
     /// ranges[i]: what ray i measures, m, without noise; size rays(). `body`: pose of the model in the world.
     /// `outlines`: what is there, cut at height(). Allocates nothing.

@@ -105,8 +105,16 @@ void Robot::surround(std::span<const Solid> still, std::span<const MovingSolid> 
 void Robot::Scan::run(const Pose2& body, std::uint64_t sample, bool with_noise, const Stage& stage,
                       std::span<double> cells) {
     around.resize(still);
-    for (const MovingOutline& m : moving)
-        if (stage.present[m.body]) around.push_back(m.at(stage));
+    std::size_t framed = stage.bodies.size();
+    Frame frame(0, 0, 1, 0);
+    for (const MovingOutline& m : moving) {
+        if (!stage.present[m.body]) continue;
+        const Pose2& there = stage.bodies[m.body];
+        const double near = scanner.farthest() + m.far(stage), dx = there.x - body.x, dy = there.y - body.y;
+        if (dx * dx + dy * dy > near * near) continue;
+        if (framed != m.body) framed = m.body, frame = Frame(there);
+        around.push_back(m.at(stage, frame));
+    }
     scanner.scan(body, around, ranges);
     if (with_noise) scanner.add_noise(ranges, noise, sample);
     scanner.to_activity(ranges, cells);

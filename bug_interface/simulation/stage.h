@@ -1,6 +1,7 @@
 // Where everything is that moves, at one moment.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "bug_interface/motion/overlap.h"
@@ -26,9 +27,20 @@ struct MovingOutline {
     int hinge = -1;   ///< that it turns with; -1: none
     Outline outline;  ///< in the body's frame, with its hinges at 0
 
-    Outline at(const Stage& stage) const {
-        if (hinge < 0) return moved(outline, stage.bodies[body]);
-        return moved(moved(outline, stage.hinges[body][static_cast<std::size_t>(hinge)]), stage.bodies[body]);
+    /// Where it is when its body stands at `frame`.
+    Outline at(const Stage& stage, const Frame& frame) const {
+        return frame.moved(hinge < 0 ? outline : moved(outline, displaced(stage)));
+    }
+    /// How far any of it is from the middle of its body at most, m.
+    double far(const Stage& stage) const {
+        const auto from_middle = [](const auto& at) { return std::sqrt(at.x * at.x + at.y * at.y); };
+        const double home = from_middle(outline) + reach(outline);
+        return hinge < 0 ? home : home + from_middle(displaced(stage));
+    }
+
+  private:
+    const Pose2& displaced(const Stage& stage) const {
+        return stage.hinges[body][static_cast<std::size_t>(hinge)];
     }
 };
 
