@@ -154,10 +154,11 @@ std::string summary(const RunOptions& o, const Loaded& loaded, const Outcome& ou
         line("threads", fmt::format("1 of {}: cycles are too short to share, or too few to try", o.threads));
     else if (o.threads > 1)
         line("threads",
-             fmt::format("{}, which shared {:.1f} % of the cycles, as trials told",
-                         o.threads > cores() ? fmt::format("{} of {}, one per core", cores(), o.threads)
-                                             : fmt::format("{}", o.threads),
-                         100 * static_cast<double>(outcome.shared_cycles) / done));
+             fmt::format(
+                 "{}, which shared {:.1f} % of the cycles; in the others, by trials, one thread is as fast",
+                 o.threads > cores() ? fmt::format("{} of {}, one per core", cores(), o.threads)
+                                     : fmt::format("{}", o.threads),
+                 100 * static_cast<double>(outcome.shared_cycles) / done));
     for (const auto& [text, cycle] : outcome.changes)
         line(cycle ? "changed" : "not changed", cycle ? fmt::format("in cycle {}, at {}", *cycle, text)
                                                       : fmt::format("at {}: it never was", text));
