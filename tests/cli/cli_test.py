@@ -288,6 +288,7 @@ class Run(Cli):
         self.assertGreater(len(rows), 2)
         self.assertTrue(all(len(r) == 33 for r in rows))
 
+    @unittest.skipIf(len(os.sched_getaffinity(0)) < 2, "there is one core: threads share nothing")
     def test_the_summary_tells_what_threads_have_shared(self):
         small = re.sub("<Module.*</Module>", "", SMALL_SYSTEM, flags=re.DOTALL)
         (self.here / "small.iqr").write_text(small)
