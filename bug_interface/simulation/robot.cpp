@@ -107,10 +107,11 @@ void Robot::Scan::run(const Pose2& body, std::uint64_t sample, bool with_noise, 
     around.resize(still);
     std::size_t framed = stage.bodies.size();
     Frame frame(0, 0, 1, 0);
+    const double farthest = scanner.farthest();
     for (const MovingOutline& m : moving) {
         if (!stage.present[m.body]) continue;
         const Pose2& there = stage.bodies[m.body];
-        const double near = scanner.farthest() + m.far(stage), dx = there.x - body.x, dy = there.y - body.y;
+        const double near = farthest + m.far(stage), dx = there.x - body.x, dy = there.y - body.y;
         if (dx * dx + dy * dy > near * near) continue;
         if (framed != m.body) framed = m.body, frame = Frame(there);
         around.push_back(m.at(stage, frame));

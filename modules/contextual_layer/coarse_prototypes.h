@@ -27,8 +27,9 @@ class CoarsePrototypes {
 
     /// Stores the i-th cell of a prototype.
     void put(Index slot, Index i, double cell) { blocks_[place(slot, i)] = level(cell); }
+    /// The most that a cell of the present prototype may be: the maximum that it is divided by was rounded.
+    static constexpr double most = 1.000001;
     /// Takes the prototype that others are compared with, of cells from 0 to `most`.
-    static constexpr double most = 1.000001;  ///< the maximum that they are divided by was rounded
     void compare_with(const Eigen::Ref<const Eigen::ArrayXd>& present);
     /// distances[0..lanes) and [lanes..2 lanes): of the prototypes of two blocks, mean of |stored - present|.
     void estimate(Index first, Index second, const CellList& cells, float* distances) const;
