@@ -9,7 +9,7 @@ void IntegrateFire::describe(NeuronSpec<IntegrateFire>& s) {
     using T = IntegrateFire;
     s.name("neuronIntegrateFire", "Integrate & fire")
         .doc("Sums its inputs, leaks, spikes and is reset at threshold.");
-    s.cells_independent();
+    s.elementwise();
     membrane::describe_potential(s);
     membrane::describe_firing(s);
     s.param("spkAmpl", &T::amplitude)

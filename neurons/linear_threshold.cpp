@@ -8,7 +8,7 @@ namespace forage {
 void LinearThreshold::describe(NeuronSpec<LinearThreshold>& s) {
     s.name("neuronLinearThreshold", "Linear threshold")
         .doc("Sums its inputs, leaks, silent below threshold.");
-    s.cells_independent();
+    s.elementwise();
     membrane::describe_potential(s);
     membrane::describe_firing(s);
     s.state("vm", "Membrane potential").output("act", "Activity");

@@ -8,7 +8,7 @@ namespace forage {
 struct Numeric {
     static void describe(NeuronSpec<Numeric>& s) {
         s.name("neuronNumeric", "Numeric").doc("Passes the difference of its inputs on.");
-        s.cells_independent();
+        s.elementwise();
         s.reads(InputKind::excitatory, InputKind::inhibitory);
         s.state("pot", "Membrane potential").output("act", "Activity");
     }

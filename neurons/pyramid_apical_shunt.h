@@ -14,7 +14,7 @@ struct PyramidApicalShunt {
         using T = PyramidApicalShunt;
         s.name("neuronPyramidApicalShunt", "Pyramidal with apical shunt");
         s.doc("Spikes at threshold; modulatory input shunts its apical synapses.");
-        s.cells_independent();
+        s.elementwise();
         s.reads(InputKind::excitatory, InputKind::inhibitory, InputKind::modulatory);
         s.param("vmPrs", &T::persistence)
             .label("Membrane persistence")

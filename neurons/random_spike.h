@@ -11,7 +11,7 @@ struct RandomSpike {
     static void describe(NeuronSpec<RandomSpike>& s) {
         using T = RandomSpike;
         s.name("neuronRandomSpike", "Random spike").doc("Spikes at random, without input.");
-        s.cells_independent();
+        s.elementwise();
         s.param("probability", &T::probability)
             .label("Probability")
             .range(0, 1)

@@ -8,7 +8,7 @@ namespace forage {
 void Sigmoid::describe(NeuronSpec<Sigmoid>& s) {
     using T = Sigmoid;
     s.name("neuronSigmoid", "Sigmoid").doc("Sums its inputs, leaks, squashes the potential to 0..1.");
-    s.cells_independent();
+    s.elementwise();
     membrane::describe_potential(s);
     s.param("midpoint", &T::midpoint).label("Midpoint").range(0, 1).doc("Potential at which act is 0.5.");
     s.param("slope", &T::slope).label("Slope").range(0, 1).doc("Steepness of act at the midpoint.");

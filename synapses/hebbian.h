@@ -23,7 +23,7 @@ struct Hebbian {
             .doc("Without effect: the original ignores it.");
         s.state("weight", "Weight").output("synpot", "Synaptic potential");
         s.feedback("postact", "Postsynaptic activity");
-        s.rests_when_silent();
+        s.event_driven();
     }
     void check(Problems& problems) const {
         if (decay != 0 && decay != Hebbian{}.decay)

@@ -105,7 +105,7 @@ class Check {
         if (e.text.empty())
             empty(e);
         else if (!truth(e.text))
-            diagnostics_.error(e.where, fmt::format("<{}> cannot be '{}'", e.name, shown(e.text)),
+            diagnostics_.error(e.where, fmt::format("<{}> cannot be '{}'", e.name, escaped(e.text)),
                                "write true or false");
     }
 
@@ -131,7 +131,7 @@ class Check {
         const auto outside = [](double v) { return !(v >= 0 && v <= 1); };
         if ((content == Content::whole_number && std::trunc(values[0]) != values[0]) ||
             (content == Content::colour && std::any_of(values.begin(), values.end(), outside)))
-            diagnostics_.error(e.text_where, fmt::format("<{}> cannot be '{}'", e.name, shown(e.text)),
+            diagnostics_.error(e.text_where, fmt::format("<{}> cannot be '{}'", e.name, escaped(e.text)),
                                expected(e, content));
     }
 
@@ -141,12 +141,12 @@ class Check {
         const Location where = place_of(word, e);
         if (error == std::errc::result_out_of_range)
             diagnostics_.error(where,
-                               fmt::format("'{}' is beyond all numbers that can be stored", shown(word)));
+                               fmt::format("'{}' is beyond all numbers that can be stored", escaped(word)));
         else if (end != word.data())  // "1,5", "3m"
-            diagnostics_.error(where, fmt::format("'{}' is not a number", shown(word)),
+            diagnostics_.error(where, fmt::format("'{}' is not a number", escaped(word)),
                                "numbers have a point, not a comma, and no unit");
         else
-            diagnostics_.error(where, fmt::format("<{}> cannot be '{}'", e.name, shown(e.text)),
+            diagnostics_.error(where, fmt::format("<{}> cannot be '{}'", e.name, escaped(e.text)),
                                expected(e, content));
     }
 
@@ -170,7 +170,7 @@ void check_sdf(const xml::Element& root, Diagnostics& diagnostics) {
     const auto minor = sdf_version(version->value);
     if (!minor)
         return diagnostics.error(version->where,
-                                 fmt::format("there is no version '{}' of SDF", shown(version->value)),
+                                 fmt::format("there is no version '{}' of SDF", escaped(version->value)),
                                  "<sdf version=\"1.4\">");
     if (*minor < 2)
         return diagnostics.error(

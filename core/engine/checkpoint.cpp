@@ -3,7 +3,7 @@
 
 #include "core/engine/plan.h"
 #include "core/engine/simulation.h"
-#include "core/types/reason.h"
+#include "core/types/exception_message.h"
 
 namespace forage::engine {
 namespace {
@@ -24,7 +24,7 @@ void keep(Archive& archive, GroupPlan& g) {
     g.random.bits(0, {&drawn, 1});
     archive.same(drawn, "the seed");
     keep(archive, g.type.parameters, g.neuron->parameters());
-    archive.same(g.left_out, "what is left out");
+    archive.same(g.pruned, "what is left out");
     archive.same(g.keeps_input, "the inputs that are kept");
     archive(g.row, g.delivered, g.same_input, g.same_for, g.rests, g.changed, g.silent);
 }
@@ -46,7 +46,7 @@ void keep(Archive& archive, ModulePlan& m) {
         throw;
     } catch (...) {
         throw RunError(fmt::format("{} of process '{}' failed to take part in a checkpoint: {}", m.type.name,
-                                   m.process, reason()));
+                                   m.process, current_exception_message()));
     }
 }
 
@@ -54,7 +54,7 @@ void keep(Archive& archive, ConnectionPlan& c) {
     archive.same(c.id, "a connection");
     archive.same(c.synapses, c.name);
     keep(archive, c.type.parameters, c.synapse->parameters());
-    archive.same(c.left_out, "what is left out");
+    archive.same(c.pruned, "what is left out");
     archive(c.changed);
 }
 

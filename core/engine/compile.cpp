@@ -8,7 +8,7 @@
 #include "core/engine/plan.h"
 #include "core/model/lookup.h"
 #include "core/model/validate.h"
-#include "core/types/reason.h"
+#include "core/types/exception_message.h"
 
 namespace forage::engine {
 namespace {
@@ -94,7 +94,7 @@ class Compiler {
         } catch (const std::bad_alloc&) {
             throw;
         } catch (...) {
-            diagnostics_.error(use.at, fmt::format("{} could not be made: {}", type.name, reason()));
+            diagnostics_.error(use.at, fmt::format("{} could not be made: {}", type.name, current_exception_message()));
             throw NotMade{};
         }
     }

@@ -7,7 +7,7 @@
 
 #include "core/engine/group_cycle.h"
 #include "core/engine/simulation.h"
-#include "core/types/reason.h"
+#include "core/types/exception_message.h"
 #include "core/types/simd.h"
 
 namespace forage::engine {
@@ -46,7 +46,7 @@ void run(Plan& plan, const ConnectionPlan& c, std::uint64_t cycle, Work work) {
         work(history);
     } catch (...) {
         throw RunError(fmt::format("{} of connection '{}' failed in cycle {}: {}", c.type.name, c.name, cycle,
-                                   reason()));
+                                   current_exception_message()));
     }
 }
 

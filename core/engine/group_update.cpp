@@ -9,7 +9,7 @@
 #include "core/engine/finite.h"
 #include "core/engine/group_cycle.h"
 #include "core/engine/simulation.h"
-#include "core/types/reason.h"
+#include "core/types/exception_message.h"
 
 namespace forage::engine {
 namespace {
@@ -65,7 +65,7 @@ void begin(GroupPlan& g) {
     g.same_for = same_for_now(g);
 }
 
-/// Lets the type update a range of cells. Whether it was timeless.
+/// Lets the type update a range of cells. Whether it was time_invariant.
 bool update_cells(const GroupPlan& g, Index first, Index count, const UpdateFrame& f) {
     NeuronColumns columns(count, g.stride, f.cycle,
                           {g.inputs[0][g.row], g.inputs[1][g.row], g.inputs[2][g.row]}, g.states, &g.random,
@@ -74,9 +74,9 @@ bool update_cells(const GroupPlan& g, Index first, Index count, const UpdateFram
         g.neuron->update(columns);
     } catch (...) {
         throw RunError(
-            fmt::format("{} of group '{}' failed in cycle {}: {}", g.type.name, g.path, f.cycle, reason()));
+            fmt::format("{} of group '{}' failed in cycle {}: {}", g.type.name, g.path, f.cycle, current_exception_message()));
     }
-    return columns.timeless();
+    return columns.time_invariant();
 }
 
 /// Of a large group.
@@ -90,10 +90,10 @@ void update_whole(GroupPlan& g, const UpdateFrame& f, bool look) {
     if (look) each_row(g, [&](const double* row) { old = std::copy_n(row, g.stride, old); });
     const bool small = g.cells <= compared_activity;
     if (small && f.cycle > 0) std::copy_n(activity_row(g, f.cycle - 1), g.cells, old);
-    const bool timeless = update_cells(g, 0, g.cells, f);
+    const bool time_invariant = update_cells(g, 0, g.cells, f);
     // All rows follow each other, filled up with zeros; an older one that is not finite was found before.
     if (f.watched) g.finite = all_finite(g.states.front().ring, static_cast<Index>(state_numbers(g)));
-    g.rests = look && timeless && at_rest(g, f.before);
+    g.rests = look && time_invariant && at_rest(g, f.before);
     if (g.rests) return;
     const double* now = activity_row(g, f.cycle);
     if (!small)

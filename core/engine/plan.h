@@ -27,7 +27,7 @@ struct GroupPlan {
     bool finite = true;                   ///< no update that was watched gave a state NaN or an infinity
     bool in_parts = false;                ///< this update is done in parts
     bool receives = false;                ///< this cycle's delivery is not what the group has already
-    bool left_out = false;                ///< nobody reads it
+    bool pruned = false;                ///< nobody reads it
     bool keeps_input = true;              ///< else the two rows of `inputs` are one
     std::array<bool, input_kinds> fed{};  ///< the type reads this kind, and somebody delivers it
     int output = 0;                       ///< the state that is the activity
@@ -87,7 +87,7 @@ struct ConnectionPlan {
     bool effective = true;  ///< the target's type reads this kind of input
     bool first = false;     ///< nobody delivers this kind of input to the target before
     bool changed = false;   ///< from outside, since it delivered
-    bool left_out = false;  ///< nobody reads what it leads to
+    bool pruned = false;  ///< nobody reads what it leads to
 
     std::string id, name;
     std::unique_ptr<SynapseInstance> synapse;

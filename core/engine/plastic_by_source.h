@@ -12,7 +12,7 @@
 namespace forage::engine {
 
 /// A cycle updates and delivers the synapses of active sources only. The type has promised that the others
-/// would change nothing: SynapseSpec::rests_when_silent(). Feedback and sums are copied into a column for
+/// would change nothing: SynapseSpec::event_driven(). Feedback and sums are copied into a column for
 /// each frame of targets, or where frames overlap, for each target; an update sees a stretch of it. Outputs
 /// are kept only where the type cannot tell them again.
 class PlasticBySource final : public PlasticKernel {

@@ -8,7 +8,7 @@ namespace forage::engine {
 std::unique_ptr<PlasticKernel> make_plastic(connectivity::Synapses synapses, int source_cells,
                                             int target_cells, const SynapseType& type,
                                             const SynapseInstance& synapse, Arena& arena, Forms forms) {
-    if (forms == Forms::fastest && type.rests_when_silent)
+    if (forms == Forms::fastest && type.event_driven)
         if (const auto order = order_of_sources(synapses, source_cells, target_cells); !order.sources.empty())
             return std::make_unique<PlasticBySource>(std::move(synapses), order, source_cells, target_cells,
                                                      type, synapse, arena);

@@ -11,9 +11,9 @@
 #include "core/engine/group_delivery.h"
 #include "core/engine/group_update.h"
 #include "core/engine/plan.h"
-#include "core/engine/shared_cycle.h"
+#include "core/engine/parallel_executor.h"
 #include "core/model/validate.h"
-#include "core/types/reason.h"
+#include "core/types/exception_message.h"
 
 namespace forage::engine {
 namespace {
@@ -38,14 +38,14 @@ std::optional<NotFinite> find_not_finite(const GroupPlan& g, int group, std::uin
 [[noreturn]] void nobody_reads(const std::string& what) {
     throw std::logic_error(
         fmt::format("{} was left out of the run, as nobody was to read it: it has no numbers "
-                    "(Simulation::leave_out_unread())",
+                    "(Simulation::prune())",
                     what));
 }
 
 /// A group to look at. Throws std::logic_error when it is left out.
 GroupPlan& seen(std::vector<GroupPlan>& groups, int group) {
     auto& g = at(groups, group);
-    if (g.left_out) nobody_reads(fmt::format("group '{}'", g.path));
+    if (g.pruned) nobody_reads(fmt::format("group '{}'", g.path));
     return g;
 }
 
@@ -63,7 +63,7 @@ std::optional<Simulation> Simulation::build(const model::System& system, const R
 }
 
 Simulation::Simulation(std::unique_ptr<Plan> plan, const Options& options)
-    : plan_(std::move(plan)), worth_sharing_(options.worth_sharing) {
+    : plan_(std::move(plan)), parallel_threshold_ns_(options.parallel_threshold_ns) {
     std::size_t widest = 0, most_compared = 0;
     for (auto& g : plan_->groups) {
         widest = std::max(widest, static_cast<std::size_t>(g.stride));
@@ -71,8 +71,8 @@ Simulation::Simulation(std::unique_ptr<Plan> plan, const Options& options)
     }
     estimate_deliveries(*plan_);
     early_ = std::make_unique<EarlyDelivery>(*plan_);
-    if (options.threads > 1 && update_cost(*plan_) + delivery_cost(*plan_) >= worth_sharing_)
-        shared_cycle_ = std::make_unique<SharedCycle>(*plan_, options.threads, options.least_part);
+    if (options.threads > 1 && update_cost(*plan_) + delivery_cost(*plan_) >= parallel_threshold_ns_)
+        shared_cycle_ = std::make_unique<ParallelExecutor>(*plan_, options.threads, options.min_task_ns);
     for (int t = 0; t < threads(); ++t)  // not touched, and so not in memory, until a type draws numbers
         plan_->scratch.push_back(
             std::make_unique_for_overwrite<double[]>(widest * std::size_t{NeuronColumns::scratch_columns}));
@@ -101,7 +101,7 @@ void Simulation::start() {
             m.module->start(m.ports, frame);
         } catch (...) {
             throw RunError(
-                fmt::format("{} of process '{}' could not start: {}", m.type.name, m.process, reason()));
+                fmt::format("{} of process '{}' could not start: {}", m.type.name, m.process, current_exception_message()));
         }
         note_changes(m);
     }
@@ -118,8 +118,8 @@ void Simulation::step() {
 /// Whether threads share the cycle that begins.
 bool Simulation::begin_sharing() {
     if (!shared_cycle_) return false;
-    if (worth_sharing_ == 0) return true;
-    return trial_.begin([&] { return update_cost(*plan_) + delivery_cost(*plan_) >= worth_sharing_; });
+    if (parallel_threshold_ns_ == 0) return true;
+    return trial_.begin([&] { return update_cost(*plan_) + delivery_cost(*plan_) >= parallel_threshold_ns_; });
 }
 
 void Simulation::update_alone() {
@@ -186,7 +186,7 @@ void Simulation::update_modules() {
             m.module->update(frame);
         } catch (...) {
             throw RunError(fmt::format("{} of process '{}' failed in cycle {}: {}", m.type.name, m.process,
-                                       cycle_, reason()));
+                                       cycle_, current_exception_message()));
         }
         note_changes(m);
     }
@@ -218,7 +218,7 @@ GroupPlan& Simulation::changing(int group) {
 }
 
 void Simulation::group_changed(int group) {
-    if (!left_out(group)) changing(group);
+    if (!pruned(group)) changing(group);
 }
 
 int Simulation::threads() const { return shared_cycle_ ? shared_cycle_->threads() : 1; }
@@ -282,7 +282,7 @@ const SynapseType& Simulation::synapse_type(int connection) const {
 }
 ConstColumn Simulation::synapse_state(int connection, int state) const {
     const auto& c = at(plan_->connections, connection);
-    if (c.plastic && c.left_out) nobody_reads(fmt::format("connection '{}'", c.name));
+    if (c.plastic && c.pruned) nobody_reads(fmt::format("connection '{}'", c.name));
     return c.plastic ? c.plastic->state(static_cast<std::size_t>(state)) : ConstColumn(nullptr, 0);
 }
 

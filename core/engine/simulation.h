@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/engine/first_failure.h"
-#include "core/engine/sharing_trial.h"
+#include "core/engine/parallel_tuner.h"
 #include "core/model/edit.h"
 #include "core/model/system.h"
 #include "core/types/registry.h"
@@ -22,7 +22,7 @@ struct GroupPlan;
 struct ModulePlan;
 struct Plan;
 class EarlyDelivery;
-class SharedCycle;
+class ParallelExecutor;
 
 /// A type's update or a module's start failed; the message names the type, its place in the system and the
 /// cycle.
@@ -39,7 +39,7 @@ struct NotFinite {
 };
 
 /// What somebody will look at in a run, beside its modules.
-struct Observed {
+struct Demand {
     std::vector<int> groups{};
     std::vector<int> connections{};  ///< for the states of their synapses
     struct Output {
@@ -66,10 +66,10 @@ class Simulation {
         int threads = 1;  ///< at most, for a cycle's loops; the numbers do not depend on it
         /// ns that a cycle's updates and deliveries take on one thread; shorter ones stay there. 0: all are
         /// shared.
-        double worth_sharing = 5'000;
+        double parallel_threshold_ns = 5'000;
         /// ns on one thread, in a shared cycle: no part of a group takes less, nor do deliveries for which
         /// all threads meet.
-        double least_part = 1'250;
+        double min_task_ns = 1'250;
         bool general_forms =
             false;  ///< compile every connection to a list of synapses (slower, same numbers)
     };
@@ -86,7 +86,7 @@ class Simulation {
     /// What is read has the same bits as ever. When nothing at all is read, nothing is left out: who runs
     /// such a system wants to see it run. To be called before start(), at most once; without it everything is
     /// updated. Who then looks at what is left out gets a std::logic_error.
-    void leave_out_unread(const Observed& observed);
+    void prune(const Demand& observed);
 
     /// Keeps, from now on, the inputs of these groups only between cycles: what is delivered to others takes
     /// the place of what they have read, so that less memory is moved. Who then asks for their input() gets a
@@ -139,7 +139,7 @@ class Simulation {
     const std::string& id(int group) const;
     GroupShape shape(int group) const;
     const NeuronType& type(int group) const;
-    bool left_out(int group) const;  ///< nobody reads it: leave_out_unread()
+    bool pruned(int group) const;  ///< nobody reads it: prune()
     /// Input as the neuron read it, with the gain that its type applies.
     ConstColumn input(int group, InputKind kind) const;
     ConstColumn state(int group, int state) const;
@@ -182,9 +182,9 @@ class Simulation {
     void deliver_early(int group);
     void deliver_late();
 
-    double worth_sharing_;
-    SharingTrial<> trial_;
-    std::unique_ptr<SharedCycle> shared_cycle_;  ///< null when one thread does all
+    double parallel_threshold_ns_;
+    ParallelTuner<> trial_;
+    std::unique_ptr<ParallelExecutor> shared_cycle_;  ///< null when one thread does all
     bool shared_ = false;                        ///< the running cycle
     std::uint64_t shared_cycles_ = 0;
     std::unique_ptr<EarlyDelivery> early_;

@@ -11,30 +11,30 @@
 namespace forage::model {
 
 /// What somebody asks for, in a language of its own, and where they wrote it.
-struct Wish {
+struct Expression {
     std::string text;
     Location at{};  ///< no file: on the command line
     bool empty() const { return text.empty(); }
 };
 
 /// A change of a parameter while the system runs.
-struct TimedWish {
-    Wish when;    ///< a condition
-    Wish change;  ///< "WHERE.parameter=value"
+struct ScheduledChange {
+    Expression when;    ///< a condition
+    Expression change;  ///< "WHERE.parameter=value"
     std::string text() const { return when.text + ": " + change.text; }
 };
 
 /// Patterns that are laid over the activity of a group while the system runs.
-struct ManipulationWish {
+struct ManipulationSpec {
     enum class Mode { clamp, add, multiply };
     Mode mode = Mode::clamp;
-    Wish group;                          ///< "Process/Group"
-    Wish cells;                          ///< one pattern, "(x,y)=value ...", or ...
-    Wish patterns;                       ///< ... a file of patterns, as seen from the working directory
+    Expression group;                          ///< "Process/Group"
+    Expression cells;                          ///< one pattern, "(x,y)=value ...", or ...
+    Expression patterns;                       ///< ... a file of patterns, as seen from the working directory
     std::uint64_t every = 1, step = 1;   ///< cycles between patterns; every so-manieth pattern
     std::optional<std::uint64_t> times;  ///< how often the list is played; empty: for ever
     bool backwards = false;
-    Wish from, until;  ///< conditions; empty: from the first cycle, to the last
+    Expression from, until;  ///< conditions; empty: from the first cycle, to the last
     std::string text;  ///< all of it, as written on the command line
 };
 
@@ -48,20 +48,20 @@ struct Measure {
     };
     std::string name;
     Kind kind = Kind::success;
-    Wish what;                          ///< the condition or quantity
+    Expression what;                          ///< the condition or quantity
     std::optional<std::uint64_t> last;  ///< of the trials only so many last ones
     Location at;
 };
 
-struct RecordingWish {
-    Wish column;
+struct RecordingSpec {
+    Expression column;
     std::uint64_t every = 1;  ///< cycles
 };
 
 /// A parameter that takes each of several values in turn.
 struct Sweep {
-    Wish parameter;  ///< "WHERE.parameter"
-    std::vector<Wish> values;
+    Expression parameter;  ///< "WHERE.parameter"
+    std::vector<Expression> values;
 };
 
 struct Experiment {
@@ -76,14 +76,14 @@ struct Experiment {
     std::optional<double> seconds;
     Location length_at;
     double longest_trial = 300;  ///< s
-    Wish until;                  ///< a condition that ends a run before its time; none when empty
+    Expression until;                  ///< a condition that ends a run before its time; none when empty
 
     std::vector<std::uint64_t> seeds = {1};
-    std::vector<Wish> settings;  ///< "WHERE.parameter=value"
-    std::vector<TimedWish> changes;
-    std::vector<ManipulationWish> manipulations;
-    std::vector<RecordingWish> recordings;
-    std::vector<Wish> plots;
+    std::vector<Expression> settings;  ///< "WHERE.parameter=value"
+    std::vector<ScheduledChange> changes;
+    std::vector<ManipulationSpec> manipulations;
+    std::vector<RecordingSpec> recordings;
+    std::vector<Expression> plots;
     std::vector<Measure> measures;
     std::vector<Sweep> sweeps;  ///< every combination is run with every seed
 };

@@ -10,7 +10,7 @@
 
 #include "core/model/lookup.h"
 #include "core/model/named_file.h"
-#include "core/types/reason.h"
+#include "core/types/exception_message.h"
 
 namespace forage::model {
 namespace {
@@ -122,7 +122,7 @@ class Validator {
             type.check(object->parameters(), problems);
         } catch (...) {
             return out_.error(use.at,
-                              fmt::format("{} failed to check its parameters: {}", type.name, reason()));
+                              fmt::format("{} failed to check its parameters: {}", type.name, current_exception_message()));
         }
         for (const auto& problem : problems.all) {
             Location at = use.at;
@@ -261,7 +261,7 @@ class Validator {
             return report(e, out_);
         } catch (...) {
             return out_.error(use.at,
-                              fmt::format("{} failed to check its parameters: {}", type.name, reason()));
+                              fmt::format("{} failed to check its parameters: {}", type.name, current_exception_message()));
         }
         for (const auto& problem : problems.all) {
             Location at = use.at;

@@ -24,7 +24,7 @@ void Clamp::apply(engine::Simulation& simulation) {
         simulation.output(e.group) = ConstColumn(e.values.data(), static_cast<Index>(e.values.size()));
 }
 
-void Clamp::note_observed(engine::Observed& out) const {
+void Clamp::declare(engine::Demand& out) const {
     for (const auto& [cycle, entry] : waiting_) out.groups.push_back(entry.group);
     for (const Entry& e : held_) out.groups.push_back(e.group);
 }

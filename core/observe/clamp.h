@@ -20,7 +20,7 @@ class Clamp {
     /// Between update_groups() and update_modules() of each cycle.
     void apply(engine::Simulation& simulation);
     /// Adds the groups that it overwrites.
-    void note_observed(engine::Observed& out) const;
+    void declare(engine::Demand& out) const;
 
   private:
     struct Entry {

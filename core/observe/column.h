@@ -24,7 +24,7 @@ std::optional<ColumnRef> find_column(const engine::Simulation& simulation, std::
                                      std::string_view what, Diagnostics& diagnostics, Location at = {});
 
 /// Adds what it looks at.
-inline void note_observed(const ColumnRef& c, engine::Observed& out) {
+inline void declare(const ColumnRef& c, engine::Demand& out) {
     out.groups.push_back(c.group);
     if (c.state < 0) out.inputs.push_back(c.group);
 }

@@ -4,7 +4,7 @@
 
 namespace forage::observe {
 
-double Quantity::in(const engine::Simulation& simulation, const Moment& now) const {
+double Quantity::in(const engine::Simulation& simulation, const SimTime& now) const {
     switch (kind) {
         case number:
             return value;
@@ -28,12 +28,12 @@ double Quantity::in(const engine::Simulation& simulation, const Moment& now) con
     return 0;
 }
 
-void Quantity::note_observed(engine::Observed& out) const {
-    if (kind >= cell) observe::note_observed(column, out);
+void Quantity::declare(engine::Demand& out) const {
+    if (kind >= cell) observe::declare(column, out);
 }
 
-void Condition::note_observed(engine::Observed& out) const {
-    for (const Node& n : nodes_) n.left.note_observed(out), n.right.note_observed(out);
+void Condition::declare(engine::Demand& out) const {
+    for (const Node& n : nodes_) n.left.declare(out), n.right.declare(out);
 }
 
 bool Condition::sees_cells() const {
@@ -42,7 +42,7 @@ bool Condition::sees_cells() const {
     });
 }
 
-bool Condition::holds(std::size_t node, const engine::Simulation& simulation, const Moment& now) const {
+bool Condition::holds(std::size_t node, const engine::Simulation& simulation, const SimTime& now) const {
     const Node& n = nodes_[node];
     if (n.op == Operator::both) return holds(n.first, simulation, now) && holds(n.second, simulation, now);
     if (n.op == Operator::either) return holds(n.first, simulation, now) || holds(n.second, simulation, now);

@@ -11,7 +11,7 @@
 namespace forage::observe {
 
 /// What a condition may look at beside the system: a moment between two cycles.
-struct Moment {
+struct SimTime {
     std::uint64_t cycle = 0;  ///< the one to come
     double seconds = 0;       ///< of the world, since the start
     int trial = 0;            ///< the running one, from 1; while the robot is put back, the one to come
@@ -24,9 +24,9 @@ struct Quantity {
     ColumnRef column;
     Index index = 0;  ///< of the cell
 
-    double in(const engine::Simulation& simulation, const Moment& now) const;
+    double in(const engine::Simulation& simulation, const SimTime& now) const;
     /// Adds the group that it looks at, if it does.
-    void note_observed(engine::Observed& out) const;
+    void declare(engine::Demand& out) const;
 };
 
 /// A comparison of numbers, or several of them, joined by && and ||, or by `and` and `or`.
@@ -44,14 +44,14 @@ struct Quantity {
 /// quotes. Values of cells are those of the last cycle that was completed; before the first cycle they are 0.
 class Condition {
   public:
-    bool holds(const engine::Simulation& simulation, const Moment& now) const {
+    bool holds(const engine::Simulation& simulation, const SimTime& now) const {
         return holds(nodes_.size() - 1, simulation, now);
     }
 
     /// Whether it looks at cells, which are all 0 before the first cycle.
     bool sees_cells() const;
     /// Adds the groups that it looks at.
-    void note_observed(engine::Observed& out) const;
+    void declare(engine::Demand& out) const;
 
   private:
     friend class ConditionParser;
@@ -61,7 +61,7 @@ class Condition {
         Quantity left, right;               ///< of a comparison
         std::size_t first = 0, second = 0;  ///< nodes, of `both` and `either`
     };
-    bool holds(std::size_t node, const engine::Simulation& simulation, const Moment& now) const;
+    bool holds(std::size_t node, const engine::Simulation& simulation, const SimTime& now) const;
 
     std::vector<Node> nodes_;  ///< parts before the whole
 };

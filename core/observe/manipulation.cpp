@@ -4,7 +4,7 @@ namespace forage::observe {
 
 Manipulation::Manipulation(Settings settings) : s_(std::move(settings)), waited_(s_.every - 1) {}
 
-void Manipulation::look(const engine::Simulation& simulation, const Moment& now) {
+void Manipulation::look(const engine::Simulation& simulation, const SimTime& now) {
     if (!begun_) begun_ = !s_.from || s_.from->holds(simulation, now);
     if (begun_ && s_.until && !over_) over_ = s_.until->holds(simulation, now);
 }
@@ -32,10 +32,10 @@ void Manipulation::apply(engine::Simulation& simulation) {
     over_ = s_.times && ++played_ == *s_.times;
 }
 
-void Manipulation::note_observed(engine::Observed& out) const {
+void Manipulation::declare(engine::Demand& out) const {
     out.groups.push_back(s_.group);
-    if (s_.from) s_.from->note_observed(out);
-    if (s_.until) s_.until->note_observed(out);
+    if (s_.from) s_.from->declare(out);
+    if (s_.until) s_.until->declare(out);
 }
 
 }  // namespace forage::observe

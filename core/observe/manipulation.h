@@ -31,12 +31,12 @@ class Manipulation {
     explicit Manipulation(Settings settings);
 
     /// Before each cycle: begins and ends when its conditions first hold.
-    void look(const engine::Simulation& simulation, const Moment& now);
+    void look(const engine::Simulation& simulation, const SimTime& now);
     /// Between update_groups() and update_modules() of each cycle.
     void apply(engine::Simulation& simulation);
 
     /// Adds the group that it overwrites, and those that its conditions look at.
-    void note_observed(engine::Observed& out) const;
+    void declare(engine::Demand& out) const;
 
     /// How far it is.
     void checkpoint(Archive& archive) { archive(begun_, over_, waited_, next_, played_); }

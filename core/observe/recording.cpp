@@ -90,7 +90,7 @@ class CsvRecording final : public Recording {
         for (std::size_t i = 0; i < columns_; ++i)
             if (names[i + 1] != what_.cell_name(i))
                 bad(names[i + 1].data() - line_.data() + 1,
-                    fmt::format("this column's name is '{}', and '{}' is expected", shown(names[i + 1]),
+                    fmt::format("this column's name is '{}', and '{}' is expected", escaped(names[i + 1]),
                                 what_.cell_name(i)));
     }
 
@@ -108,7 +108,7 @@ class CsvRecording final : public Recording {
         const auto number = [&](std::string_view text, auto& out) {
             const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
             if (error != std::errc() || end != text.data() + text.size())
-                bad(text.data() - line_.data() + 1, fmt::format("'{}' is not a number", shown(text)));
+                bad(text.data() - line_.data() + 1, fmt::format("'{}' is not a number", escaped(text)));
         };
         number(texts[0], cycle);
         numbers.resize(columns_);

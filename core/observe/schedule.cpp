@@ -2,7 +2,7 @@
 
 namespace forage::observe {
 
-void Schedule::apply(engine::Simulation& simulation, const Moment& now) {
+void Schedule::apply(engine::Simulation& simulation, const SimTime& now) {
     for (auto& e : entries_)
         if (!e.cycle && e.when.holds(simulation, now)) {
             simulation.set(e.change);

@@ -26,12 +26,12 @@ class Schedule {
     bool waiting() const { return waiting_ > 0; }
     /// Before each cycle. Makes, in the order in which they were added, the changes whose condition holds for
     /// the first time: they act in the cycle to come. Throws what Simulation::set() throws.
-    void apply(engine::Simulation& simulation, const Moment& now);
+    void apply(engine::Simulation& simulation, const SimTime& now);
 
     const std::vector<Entry>& entries() const { return entries_; }
     /// Adds the groups that its conditions look at.
-    void note_observed(engine::Observed& out) const {
-        for (const auto& e : entries_) e.when.note_observed(out);
+    void declare(engine::Demand& out) const {
+        for (const auto& e : entries_) e.when.declare(out);
     }
 
     /// What has acted.

@@ -55,7 +55,7 @@ class Source {
     /// The numbers of the running cycle, or of the last one between cycles; `out` has what().size() of them.
     void read(const engine::Simulation& simulation, std::span<double> out) const;
     /// Adds the group that it looks at.
-    void note_observed(engine::Observed& out) const { observe::note_observed(column_, out); }
+    void declare(engine::Demand& out) const { observe::declare(column_, out); }
 
   private:
     friend std::optional<Source> find_source(const engine::Simulation&, std::string_view, std::string_view,

@@ -9,7 +9,7 @@
 
 #include "core/plugin/rehearsal.h"
 #include "core/plugin/shared_object.h"
-#include "core/types/reason.h"
+#include "core/types/exception_message.h"
 
 namespace forage::plugin {
 namespace {
@@ -61,7 +61,7 @@ class Loader {
         } catch (...) {
             return error(out.path,
                          fmt::format("fails: its type {} throws in its constructor or describe(): {}",
-                                     demangled(entry.name()), reason()),
+                                     demangled(entry.name()), current_exception_message()),
                          "describe() and the constructor run before any system is loaded: what can fail "
                          "belongs into update(), or a module's start()");
         }
@@ -100,7 +100,7 @@ class Loader {
         try {
             type.make();
         } catch (...) {
-            return fmt::format("its constructor throws: {}", reason());
+            return fmt::format("its constructor throws: {}", current_exception_message());
         }
         if constexpr (std::is_same_v<Type, NeuronType>)
             for (const auto& s : type.states)

@@ -51,7 +51,7 @@ std::string watch_parts(const NeuronType& type) try {
             parts.update(*neuron, cycle, first, std::min(grain, many - first));
         for (std::size_t i = 0; i < type.states.size(); ++i)
             if (!std::equal(whole.numbers[i].begin(), whole.numbers[i].end(), parts.numbers[i].begin(), same))
-                return "it promises cells_independent(), and state '" + type.states[i].name +
+                return "it promises elementwise(), and state '" + type.states[i].name +
                        "' depends on which cells are updated together";
     }
     return {};
@@ -80,7 +80,7 @@ std::string rehearse(const NeuronType& type) {
             neuron->update(columns);
         }
     });
-    return fault.empty() && type.cells_independent ? watch_parts(type) : fault;
+    return fault.empty() && type.elementwise ? watch_parts(type) : fault;
 }
 
 }  // namespace forage::plugin

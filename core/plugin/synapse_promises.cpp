@@ -97,10 +97,10 @@ std::string watch_rest(const SynapseType& type, int draw) {
         if (at < 0) continue;
         if (output)
             return fmt::format(
-                "it promises rests_when_silent(), and puts out something while its source is silent: {}{}",
+                "it promises event_driven(), and puts out something while its source is silent: {}{}",
                 after[i][at], trial.parameters());
         return fmt::format(
-            "it promises rests_when_silent(), and changes state '{}' while its source is silent: {} becomes "
+            "it promises event_driven(), and changes state '{}' while its source is silent: {} becomes "
             "{}{}",
             type.states[i].name, before[i][at], after[i][at], trial.parameters());
     }
@@ -156,11 +156,11 @@ std::string watch_sums(const SynapseType& type, int draw, double activity) {
 }  // namespace
 
 std::string broken_promise(const SynapseType& type) try {
-    if (type.tells_output && !type.rests_when_silent)
-        return "it has an output(), which is called only of types that promise rests_when_silent()";
+    if (type.tells_output && !type.event_driven)
+        return "it has an output(), which is called only of types that promise event_driven()";
     std::string out;
     for (int draw = 0; draw < draws && out.empty(); ++draw) {
-        if (type.rests_when_silent) out = watch_rest(type, draw);
+        if (type.event_driven) out = watch_rest(type, draw);
         if (out.empty() && type.tells_output) out = watch_output(type, draw);
         for (const double activity : activities)
             if (out.empty() && type.adds_output) out = watch_sums(type, draw, activity);

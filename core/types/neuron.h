@@ -67,7 +67,7 @@ class NeuronColumns {
           silent_(silent) {}
 
     Index size() const { return size_; }  ///< number of cells
-    std::uint64_t cycle() const { return timeless_ = false, cycle_; }
+    std::uint64_t cycle() const { return time_invariant_ = false, cycle_; }
 
     /// What was delivered at the end of the last cycle, per cell. A type applies its gain in place.
     Column excitation() const { return input(InputKind::excitatory); }
@@ -97,7 +97,7 @@ class NeuronColumns {
     /// other, independent numbers, the same one the same numbers. The columns of draws 0 to 3 stay as they
     /// are during the update; draw 4 takes that of draw 0, and so on.
     Column uniform(std::uint32_t draw = 0) const {
-        timeless_ = false;
+        time_invariant_ = false;
         double* out = scratch_ + draw % draws_kept * stride_;
         random_->uniform(cycle_, {out, static_cast<std::size_t>(size_)}, draw,
                          static_cast<std::size_t>(first_));
@@ -106,7 +106,7 @@ class NeuronColumns {
     /// out[i] = `value` with this probability, independent in each cell and cycle, else 0. Many times faster
     /// than to compare uniform().
     void events(double probability, Column out, double value = 1, std::uint32_t draw = 0) const {
-        timeless_ = false;
+        time_invariant_ = false;
         random_->events(cycle_, probability, {out.data(), static_cast<std::size_t>(out.size())}, value, draw,
                         static_cast<std::size_t>(first_));
     }
@@ -118,7 +118,7 @@ class NeuronColumns {
 
     /// Whether the update has asked neither for the cycle nor for random numbers: then the same inputs and
     /// states give the same again, which the engine makes use of.
-    bool timeless() const { return timeless_; }
+    bool time_invariant() const { return time_invariant_; }
 
   private:
     Column input(InputKind kind) const { return {inputs_[static_cast<std::size_t>(kind)] + first_, size_}; }
@@ -139,7 +139,7 @@ class NeuronColumns {
     const RandomStream* random_;
     double* scratch_;
     std::array<bool, input_kinds> silent_;
-    mutable bool timeless_ = true;
+    mutable bool time_invariant_ = true;
 };
 
 /// A neuron type with its parameters set, ready to update one group.
@@ -155,7 +155,7 @@ struct NeuronType {
     std::vector<Parameter> parameters;
     std::vector<StateInfo> states;
     std::array<bool, input_kinds> reads{};  ///< which kinds of input the type uses; the others stay 0
-    bool cells_independent = false;         ///< see NeuronSpec
+    bool elementwise = false;         ///< see NeuronSpec
     std::function<std::unique_ptr<NeuronInstance>()> make;
     std::function<void(const void*, Problems&)> check;  ///< of an object's parameters; may be empty
 
@@ -182,7 +182,7 @@ class NeuronSpec {
     /// Promises that what update() makes of a cell depends on this cell's inputs, states and random numbers
     /// only, not on other cells and not on their number, and that update() changes nothing but its columns.
     /// Then several threads may update parts of a large group at the same time, with one object.
-    NeuronSpec& cells_independent() { return type_.cells_independent = true, *this; }
+    NeuronSpec& elementwise() { return type_.elementwise = true, *this; }
     template <class M>
     ParameterBuilder param(std::string name, M T::*member) {
         type_.parameters.push_back(detail::make_parameter(std::move(name), member));

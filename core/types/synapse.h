@@ -86,7 +86,7 @@ struct SynapseType {
     std::vector<SynapseStateInfo> states;
     std::vector<FeedbackInfo> feedback;
     bool has_gain = false;
-    bool rests_when_silent = false;  ///< see SynapseSpec
+    bool event_driven = false;  ///< see SynapseSpec
     bool tells_output = false;       ///< has an output()
     bool adds_output = false;        ///< has an update_and_add()
     std::function<std::unique_ptr<SynapseInstance>()> make;
@@ -124,7 +124,7 @@ class SynapseSpec {
     /// Promises that update() leaves the states of a synapse as they are and makes its output 0 when its
     /// source is silent (pre is 0) and all other numbers are finite. Such synapses are then passed over,
     /// which is many times faster where activity is sparse.
-    SynapseSpec& rests_when_silent() { return type_.rests_when_silent = true, *this; }
+    SynapseSpec& event_driven() { return type_.event_driven = true, *this; }
 
   private:
     SynapseType& type_;

@@ -111,7 +111,7 @@ std::string read_file(const std::string& path, std::size_t most) {
     }
 }
 
-std::string shown(std::string_view piece) {
+std::string escaped(std::string_view piece) {
     std::string out(piece.substr(0, 20));
     std::replace_if(
         out.begin(), out.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
@@ -159,8 +159,8 @@ std::string no_number(std::string_view word) {
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     const bool all = end == word.data() + word.size();
     if (all && error == std::errc::result_out_of_range)
-        return fmt::format("'{}' is beyond all numbers that can be stored", shown(word));
-    return fmt::format("'{}' is not a {}number", shown(word), all ? "finite " : "");
+        return fmt::format("'{}' is beyond all numbers that can be stored", escaped(word));
+    return fmt::format("'{}' is not a {}number", escaped(word), all ? "finite " : "");
 }
 
 }  // namespace forage

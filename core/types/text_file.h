@@ -37,7 +37,7 @@ class FileError : public std::runtime_error {
 std::string read_file(const std::string& path, std::size_t most = std::size_t{128} << 20);
 
 /// A piece of a file for a message: shortened, and harmless on a terminal.
-std::string shown(std::string_view piece);
+std::string escaped(std::string_view piece);
 
 /// Why no file can be read at `path`, as a fault of the whole; nothing when one can. Its content is not
 /// looked at.

@@ -80,13 +80,13 @@ class ExperimentReader {
         const auto* a = e.FindAttribute(name);
         return a ? document_.value_of(*a) : document_.at(e);
     }
-    model::Wish wish(const XMLElement& e, const char* name) const { return {text(e, name), at(e, name)}; }
+    model::Expression wish(const XMLElement& e, const char* name) const { return {text(e, name), at(e, name)}; }
 
     /// A path as seen from the working directory.
     std::string file(const XMLElement& e, const char* name) const {
         return (std::filesystem::path(experiment_.path).parent_path() / text(e, name)).string();
     }
-    model::Wish assignment(const XMLElement& e) const {
+    model::Expression assignment(const XMLElement& e) const {
         return {text(e, "parameter") + "=" + text(e, "value"), at(e, "parameter")};
     }
 
@@ -153,8 +153,8 @@ class ExperimentReader {
         static constexpr std::array sources = {"cells", "patterns"};
         const auto mode = std::find(modes.begin(), modes.end(), std::string_view(e.Name())) - modes.begin();
         if (mode == std::ssize(modes) || !one_of(e, sources)) return;
-        model::ManipulationWish m;
-        m.mode = static_cast<model::ManipulationWish::Mode>(mode);
+        model::ManipulationSpec m;
+        m.mode = static_cast<model::ManipulationSpec::Mode>(mode);
         m.group = wish(e, "group");
         if (e.FindAttribute("cells")) m.cells = wish(e, "cells");
         if (e.FindAttribute("patterns")) m.patterns = {file(e, "patterns"), at(e, "patterns")};
@@ -213,8 +213,8 @@ class ExperimentReader {
     }
 
     /// The parts of a list, each with its place.
-    static std::vector<model::Wish> words(const model::Wish& list) {
-        std::vector<model::Wish> out;
+    static std::vector<model::Expression> words(const model::Expression& list) {
+        std::vector<model::Expression> out;
         constexpr std::string_view blanks = " \t\r\n";
         for (std::size_t from = list.text.find_first_not_of(blanks); from != std::string::npos;) {
             const auto to = std::min(list.text.find_first_of(blanks, from), list.text.size());

@@ -36,7 +36,7 @@ std::string parse(std::string_view text, double& value) {
         return no_number(text);
     value = static_cast<double>(static_cast<float>(value));
     return std::isfinite(value) ? ""
-                                : fmt::format("'{}' is too large: weights are stored as float", shown(text));
+                                : fmt::format("'{}' is too large: weights are stored as float", escaped(text));
 }
 
 constexpr std::size_t most_faults = 100;

@@ -43,8 +43,8 @@ std::optional<N> number(std::string_view text) {
 
 std::string no_cycle(std::string_view field) {
     if (!field.empty() && field.find_first_not_of("-0123456789") == field.npos)
-        return fmt::format("there is no cycle {}", shown(field));
-    return fmt::format("'{}' is not the number of a cycle", shown(field));
+        return fmt::format("there is no cycle {}", escaped(field));
+    return fmt::format("'{}' is not the number of a cycle", escaped(field));
 }
 
 class Parser {
@@ -64,13 +64,13 @@ class Parser {
                          content[other] == ';' ? "a semicolon between values" : "a tab between values",
                          fmt::format("{}, with commas; numbers have a decimal point", form));
         if (fields.size() < 4)
-            return fault(content, fmt::format("'{}' is no row of a table", shown(content)), form);
+            return fault(content, fmt::format("'{}' is no row of a table", escaped(content)), form);
         for (std::size_t i = 1; i <= 2; ++i) {
             if (fields[i].empty())
                 return fault(fields[i], fmt::format("the row names no {}", i == 1 ? "process" : "group"),
                              form);
             if (fields[i].starts_with('"'))
-                return fault(fields[i], fmt::format("{} stands in quotes", shown(fields[i])),
+                return fault(fields[i], fmt::format("{} stands in quotes", escaped(fields[i])),
                              "write names without quotes");
         }
         DriveTable::Row row{0, std::string(fields[1]), std::string(fields[2]), {}, line, column(fields[1])};

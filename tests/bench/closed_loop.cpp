@@ -69,9 +69,9 @@ struct Loop {
         if (world) simulation = engine::Simulation::build(*system, registry, {}, diagnostics);
         if (!simulation) return;
         if (c.update == Update::what_is_read) {
-            engine::Observed observed;
-            tool::Layers(*simulation).note_observed(observed);  // for the measures of trials
-            simulation->leave_out_unread(observed);
+            engine::Demand observed;
+            tool::Layers(*simulation).declare(observed);  // for the measures of trials
+            simulation->prune(observed);
             simulation->keep_inputs({});
         }
         simulation->watch(true);
@@ -132,7 +132,7 @@ double median_of(const std::vector<Times>& times, Of of) {
 /// the shortest time counts, as what a neighbour takes from one repetition it does not take from all.
 bool measure(const Case& c) {
     std::vector<Times> best, all;
-    int left_out = 0, groups = 0;
+    int pruned = 0, groups = 0;
     double seconds_per_cycle = 0;
     for (int repetition = 0; repetition < repetitions; ++repetition) {
         Loop loop(c);
@@ -150,8 +150,8 @@ bool measure(const Case& c) {
         }
         seconds_per_cycle = loop.world->seconds_per_cycle();
         groups = loop.simulation->groups();
-        left_out = 0;
-        for (int g = 0; g < groups; ++g) left_out += loop.simulation->left_out(g);
+        pruned = 0;
+        for (int g = 0; g < groups; ++g) pruned += loop.simulation->pruned(g);
     }
     const auto whole = [](const Times& t) { return t.whole; };
     const double cycle = median_of(best, whole), usual = median_of(all, whole);
@@ -162,7 +162,7 @@ bool measure(const Case& c) {
         "the best of {} repetitions), {:.1f} us per cycle; median of {} blocks of {} cycles; {} of {} groups "
         "left out\n",
         c.subject, 1 / cycle, seconds_per_cycle / cycle, 1000 * seconds_per_cycle, seconds_per_cycle / usual,
-        repetitions, 1e6 * cycle, blocks, cycles_per_block, left_out, groups);
+        repetitions, 1e6 * cycle, blocks, cycles_per_block, pruned, groups);
     bench::result(subject, "rate", 1 / cycle, "cycles/s");
     bench::result(subject, "x real time", seconds_per_cycle / cycle, "");
     bench::result(subject, "x real time, without choosing", seconds_per_cycle / usual, "");

@@ -52,7 +52,7 @@ SMALL = f"""<?xml version="1.0" encoding="UTF-8"?>
 
 
 class Unread(Stopped):
-    def left_out(self, done):
+    def pruned(self, done):
         found = re.search(r"left out +(\d+) of (\d+) groups, which nobody reads", done.stdout)
         return int(found[1]) if found else 0
 
@@ -66,9 +66,9 @@ class Unread(Stopped):
         everything = self.forage(*RUN, *MOTOR, "--cycles", 4000, "--hash", "-o", "everything")
         displays = [word for d in DISPLAYS for word in ("-r", f"mean:Contextual/{d}")]
         shown = self.forage(*RUN, *MOTOR, *displays, "--cycles", 4000, "-o", "shown")
-        self.assertGreater(self.left_out(few), 8)
-        self.assertEqual(self.left_out(everything), 0)
-        self.assertEqual(self.left_out(shown), self.left_out(few) - len(DISPLAYS))
+        self.assertGreater(self.pruned(few), 8)
+        self.assertEqual(self.pruned(everything), 0)
+        self.assertEqual(self.pruned(shown), self.pruned(few) - len(DISPLAYS))
         self.assertRegex(few.stdout, r"memory +[1-9]\d* of 50 sequences")  # the layer is at work
         for name in ("Bug_Motor_act.csv", "trials.csv", "trajectory.csv"):
             self.assert_equal_files(name, "few", "everything", "shown")
@@ -79,12 +79,12 @@ class Unread(Stopped):
 
     def test_a_stopped_run_goes_on_with_the_same_groups(self):
         arguments = (*RUN, *MOTOR, "--cycles", 3000)
-        self.assertGreater(self.left_out(self.forage(*arguments, "-o", "through")), 8)
+        self.assertGreater(self.pruned(self.forage(*arguments, "-o", "through")), 8)
         for how in (signal.SIGTERM, signal.SIGKILL):
             process = self.start(*arguments, "--checkpoint-every", 50, "-o", "out")
             self.until_there_is("out/checkpoint.forage")
             self.stop(process, 0.02, how)
-            self.assertGreater(self.left_out(self.forage("resume", "out")), 8)
+            self.assertGreater(self.pruned(self.forage("resume", "out")), 8)
             self.assert_same("out")
             for file in (self.here / "out").iterdir():
                 file.unlink()
@@ -92,7 +92,7 @@ class Unread(Stopped):
     def test_who_looks_at_a_group_asks_for_it(self):
         """Everything that a person can look at or overwrite, on groups that are read by nobody else."""
         (self.here / "table.csv").write_text("cycle,process,group,v0...\n3,Bug,GPS,1,2,3\n")
-        plain = self.left_out(self.forage(*RUN, "--cycles", 60, "-o", ""))
+        plain = self.pruned(self.forage(*RUN, "--cycles", 60, "-o", ""))
         looks = {
             ("-r", "Bug/GPS:excIn"): 1,
             ("-r", "mean:Bug/GPS(1,1)"): 1,
@@ -108,13 +108,13 @@ class Unread(Stopped):
         for words, groups in looks.items():
             with self.subTest(words):
                 done = self.forage(*RUN, *words, "--cycles", 60, "-o", "out")
-                self.assertEqual(self.left_out(done), plain - groups)
+                self.assertEqual(self.pruned(done), plain - groups)
 
     def test_synapses_that_are_drawn_learn(self):
         (self.here / "small.iqr").write_text(SMALL)
         arguments = ("run", "small.iqr", "--cycles", 50)
-        self.assertEqual(self.left_out(self.forage(*arguments, "-r", "P/G", "-o", "one")), 3)
-        self.assertEqual(self.left_out(self.forage(*arguments, "-p", "connection:toM", "-o", "few")), 2)
+        self.assertEqual(self.pruned(self.forage(*arguments, "-r", "P/G", "-o", "one")), 3)
+        self.assertEqual(self.pruned(self.forage(*arguments, "-p", "connection:toM", "-o", "few")), 2)
         self.forage(*arguments, "-p", "connection:toM", "--hash", "-o", "all")
         name = next(p.name for p in (self.here / "few").glob("*.png"))
         self.assert_equal_files(name, "few", "all")
@@ -122,13 +122,13 @@ class Unread(Stopped):
     def test_a_system_that_nobody_reads_runs_whole(self):
         (self.here / "small.iqr").write_text(SMALL)
         done = self.forage("run", "small.iqr", "--cycles", 50, "-o", "out")
-        self.assertEqual(self.left_out(done), 0)
+        self.assertEqual(self.pruned(done), 0)
         self.assertIn("of 'P/H' becomes inf", done.stderr)
 
     def test_the_record_of_a_run_says_what_was_left_out(self):
         (self.here / "small.iqr").write_text(SMALL)
         self.forage("run", "small.iqr", "--cycles", 5, "-r", "P/M", "-o", "out")
-        self.assertEqual(json.loads((self.here / "out/run.json").read_text())["result"]["left_out"], ["P/H", "P/N"])
+        self.assertEqual(json.loads((self.here / "out/run.json").read_text())["result"]["pruned"], ["P/H", "P/N"])
 
     def test_numbers_that_are_not_finite_are_sought_everywhere_when_that_is_asked_for(self):
         (self.here / "small.iqr").write_text(SMALL)

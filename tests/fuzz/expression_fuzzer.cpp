@@ -12,7 +12,7 @@
 #include "synapses/synapses.h"
 #include "tests/fuzz/holds.h"
 #include "tools/forage/manipulations.h"
-#include "tools/forage/plot_wish.h"
+#include "tools/forage/plot_spec.h"
 #include "tools/forage/schedule.h"
 
 namespace {
@@ -36,7 +36,7 @@ struct Small {
     }
 };
 
-using Mode = model::ManipulationWish::Mode;
+using Mode = model::ManipulationSpec::Mode;
 
 void manipulate(const Small& small, Mode mode, const std::string& text, Diagnostics& diagnostics) {
     try {

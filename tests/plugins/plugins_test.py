@@ -27,17 +27,17 @@ CORPUS = {
     "no_such_state": (r"'neuronNoSuchState' that does not work: it uses state 4, but declares 1", ""),
     "other_abi": (r"was built for .*_GLIBCXX_USE_CXX11_ABI=0.*, this program for ", "build the plugin again"),
     "other_layout": (r"was built with other compiler settings than this program", "build the plugin again"),
-    "restless_parameter": (r"'synapseRestlessParameter' that does not work: it promises rests_when_silent\(\), and changes "
+    "restless_parameter": (r"'synapseRestlessParameter' that does not work: it promises event_driven\(\), and changes "
                            r"state 'weight' while its source is silent: \S+ becomes \S+, with rate = 0\.", ""),
     "other_sum": (r"'synapseOtherSum' that does not work: its update_and_add\(\) adds something else than its update\(\)", ""),
     "other_output": (r"'synapseOtherOutput' that does not work: its output\(\) tells something else than its update\(\)", ""),
     "other_size": (r"'neuronOtherSize' that does not work: it computes with columns of different sizes", ""),
     "other_version": (r"was built with version 6 of the SDK, this program has version 5", "build the plugin again"),
     "shipped_name": (r"has a neuron type 'neuronLinearThreshold', and so has Forage itself", "another name"),
-    "restless": (r"'synapseRestless' that does not work: it promises rests_when_silent\(\), and changes state 'weight'", ""),
+    "restless": (r"'synapseRestless' that does not work: it promises event_driven\(\), and changes state 'weight'", ""),
     "silent_output": (r"'synapseSilentOutput' that does not work: it has an output\(\), which is called only of types that "
-                      r"promise rests_when_silent\(\)", ""),
-    "sociable": (r"'neuronSociable' that does not work: it promises cells_independent\(\), and state 'act' depends on which", ""),
+                      r"promise event_driven\(\)", ""),
+    "sociable": (r"'neuronSociable' that does not work: it promises elementwise\(\), and state 'act' depends on which", ""),
     "synapse_feedback": (r"'synapseBlind' that does not work: it uses feedback 0, but declares 0", ""),
     "three_states": (r"'neuronThreeStates' that does not work: it uses 3 states, but declares 2", ""),
     "throws_in_constructor": (r"its type ThrowingConstructor throws in its constructor or describe\(\): no device", "update()"),

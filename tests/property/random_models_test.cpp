@@ -30,8 +30,8 @@ std::string trace(const model::System& system, const Registry& registry, int thr
     auto s = engine::Simulation::build(system, registry,
                                        {.seed = test::RandomModel::connection_seed,
                                         .threads = threads,
-                                        .worth_sharing = 0,
-                                        .least_part = threads == 3 ? 1e9 : 0,  // whole groups, or parts
+                                        .parallel_threshold_ns = 0,
+                                        .min_task_ns = threads == 3 ? 1e9 : 0,  // whole groups, or parts
                                         .general_forms = general_forms},
                                        diagnostics);
     INFO(format(diagnostics));
@@ -39,7 +39,7 @@ std::string trace(const model::System& system, const Registry& registry, int thr
     std::vector<int> groups(static_cast<std::size_t>(s->groups()));
     std::iota(groups.begin(), groups.end(), 0);
     if (observed) groups = *observed;
-    if (leave_out) s->leave_out_unread({.groups = groups}), s->keep_inputs({});
+    if (leave_out) s->prune({.groups = groups}), s->keep_inputs({});
     s->start();
     Archive out(Archive::Nan::all_the_same);
     for (int t = 0; t < 8; ++t) {
@@ -91,7 +91,7 @@ TEST_CASE("Groups that nobody reads can be left out, and those that are read hav
     Registry registry;
     add_neurons(registry);
     add_synapses(registry);
-    std::size_t left_out = 0, delivered = 0;
+    std::size_t pruned = 0, delivered = 0;
     for (std::uint64_t seed = 1; seed <= models(); ++seed) {
         const model::System system = test::RandomModel(seed).make();
         INFO("seed " << seed << "\n" << xml::write_system(system));
@@ -107,16 +107,16 @@ TEST_CASE("Groups that nobody reads can be left out, and those that are read hav
         for (int g = 0; g < groups; ++g)
             if ((seed + static_cast<std::uint64_t>(g)) % 3 == 0) observed.push_back(g);
         auto s = built();
-        s.leave_out_unread({.groups = observed});
-        for (int g = 0; g < groups; ++g) left_out += s.left_out(g);
-        for (int g = 0; g < groups; ++g) delivered += !s.left_out(g);
+        s.prune({.groups = observed});
+        for (int g = 0; g < groups; ++g) pruned += s.pruned(g);
+        for (int g = 0; g < groups; ++g) delivered += !s.pruned(g);
         delivered -= observed.size();
         const std::string all = trace(system, registry, 1, false, &observed);
         REQUIRE(all == trace(system, registry, 1, false, &observed, true));
         REQUIRE(all == trace(system, registry, 4, false, &observed, true));
         REQUIRE(all == trace(system, registry, 1, true, &observed, true));
     }
-    CHECK(left_out > models() / 4);    // some are left out,
+    CHECK(pruned > models() / 4);    // some are left out,
     CHECK(delivered > models() / 20);  // and some are not, only because another is observed
 }
 
@@ -129,8 +129,8 @@ TEST_CASE("A simulation stopped in any cycle and resumed is the one that ran thr
         auto s = engine::Simulation::build(system, registry,
                                            {.seed = test::RandomModel::connection_seed,
                                             .threads = threads,
-                                            .worth_sharing = threads > 1 ? 0.0 : 1e9,
-                                            .least_part = 0},
+                                            .parallel_threshold_ns = threads > 1 ? 0.0 : 1e9,
+                                            .min_task_ns = 0},
                                            diagnostics);
         REQUIRE(s);
         s->start();

@@ -35,19 +35,19 @@ struct RunOptions {
     Input input;
     std::vector<std::string> arguments;  ///< of the command line, which these options come from
     RecordOptions record;
-    std::vector<model::Wish> plots;  ///< as plot_wish.h
+    std::vector<model::Expression> plots;  ///< as plot_spec.h
     std::string picture_format = "png";
     std::optional<std::uint64_t> cycles;
     std::optional<double> seconds;
     std::optional<std::uint64_t> trials;
     Location length_at;          ///< no file: on the command line
     double longest_trial = 300;  ///< s of the world
-    model::Wish until;           ///< a condition that ends the run before its time; none when empty
-    std::vector<model::RecordingWish> recordings;
-    std::vector<model::TimedWish> at;
+    model::Expression until;           ///< a condition that ends the run before its time; none when empty
+    std::vector<model::RecordingSpec> recordings;
+    std::vector<model::ScheduledChange> at;
     std::vector<model::Measure> measures;
     std::vector<std::string> clamp;  ///< tables
-    std::vector<model::ManipulationWish> manipulations;
+    std::vector<model::ManipulationSpec> manipulations;
     int threads = 1;
     std::string directory = "forage-out";
     bool paths = true;  ///< follow the robots
@@ -76,7 +76,7 @@ struct ConvertOptions {
 
 struct PlotOptions {
     std::string source;               ///< a directory of results, a recording, or a system
-    std::vector<std::string> wishes;  ///< as plot_wish.h
+    std::vector<std::string> wishes;  ///< as plot_spec.h
     std::string directory;            ///< empty: beside the source, or here for a system
     std::string picture_format = "png";
 };

@@ -19,7 +19,7 @@ namespace forage::tool {
 namespace {
 
 /// One value of a sweep in place of the first one.
-void check_value(const model::Sweep& sweep, const model::Wish& value, const Loaded& loaded,
+void check_value(const model::Sweep& sweep, const model::Expression& value, const Loaded& loaded,
                  Diagnostics& diagnostics) {
     const auto assignment =
         model::parse_assignment(loaded.system, loaded.registry, sweep.parameter.text + "=" + value.text,

@@ -51,7 +51,7 @@ MemoryFill Layers::memory(const engine::Simulation& simulation) const {
     return out;
 }
 
-void Layers::note_observed(engine::Observed& out) const {
+void Layers::declare(engine::Demand& out) const {
     for (const auto& [module, port] : {std::pair(adaptive_, discrepancy_), std::pair(adaptive_, prototype_),
                                        std::pair(contextual_, empty_)})
         if (port >= 0) out.outputs.push_back({module, port});

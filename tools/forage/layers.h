@@ -35,7 +35,7 @@ class Layers {
     MemoryFill memory(const engine::Simulation&) const;
 
     /// Adds the modules' outputs that are looked at.
-    void note_observed(engine::Observed& out) const;
+    void declare(engine::Demand& out) const;
 
   private:
     int adaptive_ = -1, contextual_ = -1;                 ///< modules

@@ -20,7 +20,7 @@ namespace forage::tool {
 struct Input {
     std::string system, world;          ///< paths; no world when empty
     std::vector<std::string> more;      ///< further systems, which run together with the first
-    std::vector<model::Wish> settings;  ///< "Process/Group.parameter=value"
+    std::vector<model::Expression> settings;  ///< "Process/Group.parameter=value"
     std::string drive;                  ///< table for moduleReplay; none when empty
     std::vector<std::string> plugins;   ///< shared objects and folders of them, besides those that are found
     bool lenient = false;

@@ -14,7 +14,7 @@
 namespace forage::tool {
 namespace {
 
-using Wish = model::ManipulationWish;
+using Spec = model::ManipulationSpec;
 using model::trim;
 
 /// A name may hold parentheses, too.
@@ -38,7 +38,7 @@ std::uint64_t amount(std::string_view option, std::string_view text) {
     return static_cast<std::uint64_t>(std::get<int>(*value));
 }
 
-void parse_option(std::string_view option, Wish& out) {
+void parse_option(std::string_view option, Spec& out) {
     const auto blank = std::min(option.find(' '), option.size());
     const std::string_view name = option.substr(0, blank), rest = trim(option.substr(blank));
     if (name == "every")
@@ -63,9 +63,9 @@ std::string take_cell(std::string_view& list, std::pair<int, int>& place, double
     const auto close = list.find(")=");
     const auto end = std::min(list.find_first_of(" \t\r\n", close == list.npos ? 0 : close), list.size());
     if (!list.starts_with("(") || close == list.npos)
-        return fmt::format("'{}' is no cell with a value", shown(list.substr(0, end)));
+        return fmt::format("'{}' is no cell with a value", escaped(list.substr(0, end)));
     const auto cell = observe::parse_cell(list.substr(1, close - 1));
-    if (!cell) return fmt::format("'{}' is no cell", shown(list.substr(0, close + 1)));
+    if (!cell) return fmt::format("'{}' is no cell", escaped(list.substr(0, close + 1)));
     const auto word = list.substr(close + 2, end - close - 2);
     const auto number = parse_parameter(ParameterKind::real, word);
     if (!number) return no_number(word);
@@ -74,7 +74,7 @@ std::string take_cell(std::string_view& list, std::pair<int, int>& place, double
     return {};
 }
 
-void add_cells(const Wish& w, std::string_view what, const engine::Simulation& s, int group,
+void add_cells(const Spec& w, std::string_view what, const engine::Simulation& s, int group,
                std::vector<double>& pattern, Diagnostics& diagnostics) {
     std::string_view rest = trim(w.cells.text);
     do {
@@ -92,15 +92,15 @@ void add_cells(const Wish& w, std::string_view what, const engine::Simulation& s
     } while (!rest.empty());
 }
 
-bool same_settings(const Wish& a, const Wish& b) {
+bool same_settings(const Spec& a, const Spec& b) {
     return a.mode == b.mode && a.every == b.every && a.step == b.step && a.times == b.times &&
            a.backwards == b.backwards && a.from.text == b.from.text && a.until.text == b.until.text;
 }
 
 }  // namespace
 
-Wish parse_manipulation(Wish::Mode mode, std::string_view text) {
-    Wish out;
+Spec parse_manipulation(Spec::Mode mode, std::string_view text) {
+    Spec out;
     out.mode = mode, out.text = text;
     std::string_view head = text.substr(0, text.find(';'));
     for (auto at = text.find(';'); at != text.npos;) {
@@ -122,7 +122,7 @@ Wish parse_manipulation(Wish::Mode mode, std::string_view text) {
     return out;
 }
 
-int manipulated_group(const model::Wish& group, std::string_view what, const engine::Simulation& s,
+int manipulated_group(const model::Expression& group, std::string_view what, const engine::Simulation& s,
                       Diagnostics& diagnostics) {
     const auto column = observe::find_column(s, group.text, what, diagnostics, group.at);
     if (!column) return -1;
@@ -133,10 +133,10 @@ int manipulated_group(const model::Wish& group, std::string_view what, const eng
     return -1;
 }
 
-std::vector<observe::Manipulation> manipulations(const std::vector<Wish>& wishes, const Loaded& loaded,
+std::vector<observe::Manipulation> manipulations(const std::vector<Spec>& wishes, const Loaded& loaded,
                                                  const engine::Simulation& s, Diagnostics& diagnostics) {
     struct Made {
-        const Wish* wish;
+        const Spec* wish;
         observe::Manipulation::Settings settings;
     };
     std::vector<Made> all;
@@ -144,7 +144,7 @@ std::vector<observe::Manipulation> manipulations(const std::vector<Wish>& wishes
         static constexpr const char* names[] = {"clamp", "add", "multiply"};
         const std::string what = (w.group.at.file ? "" : "--") + std::string(names[static_cast<int>(w.mode)]);
         const int group = manipulated_group(w.group, what, s, diagnostics);
-        const auto condition = [&](const model::Wish& when) {
+        const auto condition = [&](const model::Expression& when) {
             return when.empty() ? std::nullopt
                                 : observe::parse_condition(s, has_trials(loaded), when.text, what,
                                                            diagnostics, when.at);

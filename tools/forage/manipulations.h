@@ -14,17 +14,17 @@ namespace forage::tool {
 /// Reads "Process/Group(x,y)=value ..." or "Process/Group=FILE" with "; every N", "; step N", "; times N",
 /// "; backwards", "; from WHEN", "; until WHEN" behind it. Throws std::invalid_argument that says what is
 /// wrong.
-model::ManipulationWish parse_manipulation(model::ManipulationWish::Mode mode, std::string_view text);
+model::ManipulationSpec parse_manipulation(model::ManipulationSpec::Mode mode, std::string_view text);
 
 /// Ties them to a system. Cells of one group with the same settings make one pattern; the cells that it does
 /// not name are 0 in a clamp and stay as they are otherwise. Clamps come first, then what is added, then what
 /// is multiplied. Reports what cannot be.
-std::vector<observe::Manipulation> manipulations(const std::vector<model::ManipulationWish>& wishes,
+std::vector<observe::Manipulation> manipulations(const std::vector<model::ManipulationSpec>& wishes,
                                                  const Loaded& loaded, const engine::Simulation& simulation,
                                                  Diagnostics& diagnostics);
 
 /// The group whose activity a person means; -1 when there is none, which is reported. `what`: "--clamp".
-int manipulated_group(const model::Wish& group, std::string_view what, const engine::Simulation& simulation,
+int manipulated_group(const model::Expression& group, std::string_view what, const engine::Simulation& simulation,
                       Diagnostics& diagnostics);
 
 }  // namespace forage::tool

@@ -56,8 +56,8 @@ class Measures {
     std::string route(const TrialMeasures& trial) const;
 
     /// Adds what it looks at.
-    void note_observed(engine::Observed& out) const {
-        if (layers_) layers_->note_observed(out);
+    void declare(engine::Demand& out) const {
+        if (layers_) layers_->declare(out);
     }
 
     void checkpoint(Archive& archive) { archive(finished_, seen_); }

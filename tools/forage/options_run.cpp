@@ -31,7 +31,7 @@ CheckpointInterval parse_interval(const std::string& text) {
 }
 
 void add_manipulations(CLI::App& run, RunOptions& o) {
-    using Mode = model::ManipulationWish::Mode;
+    using Mode = model::ManipulationSpec::Mode;
     const auto add = [&](const char* option, Mode mode, const char* description, const char* text) {
         repeated(run.add_option_function<std::vector<std::string>>(
                      option,

@@ -19,7 +19,7 @@ namespace forage::tool {
 namespace {
 
 namespace fs = std::filesystem;
-using Kind = PlotWish::Kind;
+using Kind = PlotSpec::Kind;
 
 /// What a person points at: results, a recording or a system.
 struct Source {
@@ -144,7 +144,7 @@ Source open(const std::string& path) {
 }
 
 /// Which recording a wish means, and which part of it; -1 when none.
-int find_recording(const Source& source, const PlotWish& wish, std::optional<observe::Part>& part) {
+int find_recording(const Source& source, const PlotSpec& wish, std::optional<observe::Part>& part) {
     const auto matches = [&](std::string_view wanted, const std::string& name) {
         return wanted == name || wanted == name.substr(0, name.rfind(':')) || file_name(wanted) == name ||
                file_name(wanted) + "_act" == name;
@@ -161,7 +161,7 @@ int find_recording(const Source& source, const PlotWish& wish, std::optional<obs
     return -1;
 }
 
-void draw_rows(const Source& source, const PlotWish& wish, const std::string& directory, plot::Format format,
+void draw_rows(const Source& source, const PlotSpec& wish, const std::string& directory, plot::Format format,
                std::vector<std::string>& written, Diagnostics& diagnostics) {
     std::optional<observe::Part> part;
     const int index = find_recording(source, wish, part);
@@ -243,7 +243,7 @@ int plot(const PlotOptions& o) {
                           "name a directory of results, a recording (.csv, .npy, .h5) or a system (.iqr)");
         return say();
     }
-    std::vector<PlotWish> wishes;
+    std::vector<PlotSpec> wishes;
     bool structure = false, trajectory = false;
     for (const auto& text : o.wishes.empty() ? usual_wishes(source) : o.wishes)
         if (auto wish = parse_plot(text, "forage plot", diagnostics)) {

@@ -17,8 +17,8 @@ constexpr double seconds_per_frame = 0.12;
 
 }  // namespace
 
-RowPlot::RowPlot(PlotWish wish, const observe::Recorded& what) : wish_(std::move(wish)), what_(what) {
-    if (wish_.kind != PlotWish::Kind::time) return;
+RowPlot::RowPlot(PlotSpec wish, const observe::Recorded& what) : wish_(std::move(wish)), what_(what) {
+    if (wish_.kind != PlotSpec::Kind::time) return;
     for (std::size_t i = 0; i < what_.size(); ++i) {
         const int n = static_cast<int>(i);
         curves_.emplace_back(what_.mean       ? "mean"
@@ -32,7 +32,7 @@ void RowPlot::add(std::uint64_t cycle, std::span<const double> numbers) {
     if (rows_++ == 0) first_ = cycle;
     last_ = cycle;
     if (!wish_.wants(cycle)) return;
-    if (wish_.kind != PlotWish::Kind::time) return add_frame(cycle, numbers);
+    if (wish_.kind != PlotSpec::Kind::time) return add_frame(cycle, numbers);
     for (std::size_t i = 0; i < curves_.size(); ++i) curves_[i].add(static_cast<double>(cycle), numbers[i]);
 }
 
@@ -44,7 +44,7 @@ void RowPlot::add_frame(std::uint64_t cycle, std::span<const double> numbers) {
                             "'@0..10000/100'",
                             wish_.text, most_panels));
         frames_.push_back({cycle, {numbers.begin(), numbers.end()}});
-    } else if (wish_.kind == PlotWish::Kind::space) {  // the last one
+    } else if (wish_.kind == PlotSpec::Kind::space) {  // the last one
         frames_.resize(1);
         frames_[0].cycle = cycle;
         frames_[0].values.assign(numbers.begin(), numbers.end());
@@ -67,7 +67,7 @@ std::string RowPlot::draw(plot::Format format, const PlotContext& context) const
                        : fmt::format("'{}': none of these cycles is there; there are {} of {} to {}",
                                      wish_.text, rows_, first_, last_));
     };
-    if (wish_.kind == PlotWish::Kind::time) {
+    if (wish_.kind == PlotSpec::Kind::time) {
         if (curves_.empty() || curves_[0].bins().empty()) throw nothing();
         plot::TimePlot p;
         p.title = title, p.subtitle = context.run, p.quantity = quantity;
@@ -85,25 +85,25 @@ std::string RowPlot::draw(plot::Format format, const PlotContext& context) const
               what_.mean ? 1 : what_.cells.height, what_.numbered};
     p.blocks_across = wish_.blocks_across, p.blocks_down = wish_.blocks_down;
     p.frames = frames_;
-    if (wish_.kind == PlotWish::Kind::space) return plot::render(plot::space_plot(p), format);
+    if (wish_.kind == PlotSpec::Kind::space) return plot::render(plot::space_plot(p), format);
     return plot::render_animation(plot::space_animation(p), seconds_per_frame);
 }
 
-LivePlots LivePlots::make(const std::vector<model::Wish>& wishes, const model::System& system,
+LivePlots LivePlots::make(const std::vector<model::Expression>& wishes, const model::System& system,
                           const engine::Simulation& simulation, Diagnostics& diagnostics) {
     LivePlots out;
     for (const auto& [text, at] : wishes) {
         const std::string option = at.file ? "plot" : "--plot";
         auto wish = parse_plot(text, option, diagnostics, at);
         if (!wish) continue;
-        if (wish->kind == PlotWish::Kind::trajectory) {
+        if (wish->kind == PlotSpec::Kind::trajectory) {
             out.paths_ = true;
             continue;
         }
         if (!wish->of_cells()) {
             check_structure(*wish, system, option, diagnostics, at);
             Diagnostics told;  // by check_structure()
-            if (wish->kind == PlotWish::Kind::connection)
+            if (wish->kind == PlotSpec::Kind::connection)
                 if (const auto* c = find_connection(system, wish->what, option, told))
                     for (int i = 0; i < simulation.connections(); ++i)
                         if (simulation.connection_id(i) == c->id) out.connections_.push_back(i);
@@ -126,8 +126,8 @@ void LivePlots::follow(const engine::Simulation& simulation) {
     }
 }
 
-void LivePlots::note_observed(engine::Observed& out) const {
-    for (const auto& s : sources_) s.note_observed(out);
+void LivePlots::declare(engine::Demand& out) const {
+    for (const auto& s : sources_) s.declare(out);
     out.connections.insert(out.connections.end(), connections_.begin(), connections_.end());
 }
 

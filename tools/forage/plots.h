@@ -10,7 +10,7 @@
 #include "core/model/experiment.h"
 #include "core/model/system.h"
 #include "core/observe/source.h"
-#include "tools/forage/plot_wish.h"
+#include "tools/forage/plot_spec.h"
 #include "tools/plot/space.h"
 #include "tools/plot/time.h"
 
@@ -27,12 +27,12 @@ struct PlotContext {
 /// picture without cycles leaves frames out, and of a space plot only the wanted cycles are kept.
 class RowPlot {
   public:
-    RowPlot(PlotWish wish, const observe::Recorded& what);
+    RowPlot(PlotSpec wish, const observe::Recorded& what);
     void add(std::uint64_t cycle, std::span<const double> numbers);
     /// The picture as the content of a file. Throws std::runtime_error, also when none of the wanted cycles
     /// was there.
     std::string draw(plot::Format format, const PlotContext& context) const;
-    const PlotWish& wish() const { return wish_; }
+    const PlotSpec& wish() const { return wish_; }
 
     /// What it has taken up.
     void checkpoint(Archive& archive) {
@@ -43,7 +43,7 @@ class RowPlot {
   private:
     void add_frame(std::uint64_t cycle, std::span<const double> numbers);
 
-    PlotWish wish_;
+    PlotSpec wish_;
     observe::Recorded what_;
     std::vector<plot::Curve> curves_;
     std::vector<plot::SpaceFrame> frames_;
@@ -54,26 +54,26 @@ class RowPlot {
 class LivePlots {
   public:
     /// Reports what is not there.
-    static LivePlots make(const std::vector<model::Wish>& wishes, const model::System& system,
+    static LivePlots make(const std::vector<model::Expression>& wishes, const model::System& system,
                           const engine::Simulation& simulation, Diagnostics& diagnostics);
     /// After each cycle.
     void follow(const engine::Simulation& simulation);
     /// Adds what they look at.
-    void note_observed(engine::Observed& out) const;
+    void declare(engine::Demand& out) const;
 
     void checkpoint(Archive& archive) {
         for (auto& p : plots_) archive(p);
     }
 
     const std::vector<RowPlot>& of_cells() const { return plots_; }
-    const std::vector<PlotWish>& others() const { return others_; }  ///< diagrams and connections
+    const std::vector<PlotSpec>& others() const { return others_; }  ///< diagrams and connections
     bool paths() const { return paths_; }  ///< of robots, also when they lead nowhere
 
   private:
     std::vector<RowPlot> plots_;
     std::vector<observe::Source> sources_;  ///< one for each of plots_
     std::vector<double> row_;
-    std::vector<PlotWish> others_;
+    std::vector<PlotSpec> others_;
     std::vector<int> connections_;  ///< those that others_ show
     bool paths_ = false;
 };

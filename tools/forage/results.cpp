@@ -110,7 +110,7 @@ std::string run_json(const RunOptions& o, const Loaded& loaded, const Outcome& o
                                        {"good", game.delivered(team, true)},
                                        {"bad", game.delivered(team, false)}});
         }
-    if (!outcome.left_out.empty()) result["left_out"] = outcome.left_out;
+    if (!outcome.pruned.empty()) result["pruned"] = outcome.pruned;
     result["files"] = outcome.files;
     for (const auto& r : outcome.recordings)
         result["recordings"].push_back({{"file", r.file}, {"source", r.source}, {"label", r.label}});
@@ -174,9 +174,9 @@ std::string summary(const RunOptions& o, const Loaded& loaded, const Outcome& ou
                          ? fmt::format("{}: {} frames", o.video, outcome.frames)
                          : fmt::format("{} to {}", plot::Film::frame_name(o.video, 1),
                                        plot::Film::frame_name(o.video, outcome.frames)));
-    if (!outcome.left_out.empty())
+    if (!outcome.pruned.empty())
         line("left out", fmt::format("{} of {} groups, which nobody reads; --hash updates all",
-                                     outcome.left_out.size(), outcome.groups));
+                                     outcome.pruned.size(), outcome.groups));
     if (!outcome.diverged.empty()) line("diverged", outcome.diverged);
     if (!outcome.state.empty()) line("state", outcome.state);
     if (outcome.resumable) line("to go on", "forage resume " + o.directory);

@@ -28,12 +28,12 @@ class Watch {
   public:
     explicit Watch(std::string directory) : directory_(std::move(directory)) {}
     bool gone() const { return !directory_.empty() && access(directory_.c_str(), F_OK) != 0; }
-    std::string reason() const { return fmt::format("the directory '{}' is not there any more", directory_); }
+    std::string current_exception_message() const { return fmt::format("the directory '{}' is not there any more", directory_); }
     void look() {
         const auto now = std::chrono::steady_clock::now();
         if (now < next_) return;
         next_ = now + std::chrono::seconds(1);
-        if (gone()) throw std::runtime_error(reason());
+        if (gone()) throw std::runtime_error(current_exception_message());
     }
 
   private:
@@ -139,7 +139,7 @@ int carry_on(const RunOptions& options, const Sources& sources, Running& running
         }
 
     if (watch.gone())
-        problems = {watch.reason()};
+        problems = {watch.current_exception_message()};
     else if (!options.directory.empty())
         for (auto& problem : write_results(options, running, outcome))
             if (std::find(problems.begin(), problems.end(), problem) == problems.end())

@@ -32,7 +32,7 @@ std::optional<double> mean_of_trials(const model::Measure& m, const bug::World& 
 RunMeasures::RunMeasures(std::span<const model::Measure> wishes, const Loaded& loaded,
                          const engine::Simulation& simulation, Diagnostics& diagnostics) {
     const bool trials = has_trials(loaded);
-    const observe::Moment start{0, 0, 1};
+    const observe::SimTime start{0, 0, 1};
     for (const auto& m : wishes) {
         Entry e{m, std::nullopt, std::nullopt, std::nullopt};
         if (m.kind == Kind::first) {
@@ -56,7 +56,7 @@ RunMeasures::RunMeasures(std::span<const model::Measure> wishes, const Loaded& l
     }
 }
 
-void RunMeasures::see(const engine::Simulation& simulation, const observe::Moment& now) {
+void RunMeasures::see(const engine::Simulation& simulation, const observe::SimTime& now) {
     for (auto& e : entries_)
         if (e.condition && !e.first && e.condition->holds(simulation, now)) {
             e.first = static_cast<double>(now.cycle);
@@ -66,7 +66,7 @@ void RunMeasures::see(const engine::Simulation& simulation, const observe::Momen
 
 std::vector<std::optional<double>> RunMeasures::values(const Loaded& loaded,
                                                        const engine::Simulation& simulation,
-                                                       const observe::Moment& now) const {
+                                                       const observe::SimTime& now) const {
     std::vector<std::optional<double>> out;
     for (const auto& e : entries_) {
         std::optional<double> value = e.first;
@@ -79,10 +79,10 @@ std::vector<std::optional<double>> RunMeasures::values(const Loaded& loaded,
     return out;
 }
 
-void RunMeasures::note_observed(engine::Observed& out) const {
+void RunMeasures::declare(engine::Demand& out) const {
     for (const auto& e : entries_) {
-        if (e.condition) e.condition->note_observed(out);
-        if (e.quantity) e.quantity->note_observed(out);
+        if (e.condition) e.condition->declare(out);
+        if (e.quantity) e.quantity->declare(out);
     }
 }
 

@@ -22,14 +22,14 @@ class RunMeasures {
     /// Whether a condition has not held yet: only then there is something to see.
     bool waiting() const { return waiting_ > 0; }
     /// Before each cycle, and after the last.
-    void see(const engine::Simulation& simulation, const observe::Moment& now);
+    void see(const engine::Simulation& simulation, const observe::SimTime& now);
 
     /// At the end; empty where there is nothing to measure, or no number.
     std::vector<std::optional<double>> values(const Loaded& loaded, const engine::Simulation& simulation,
-                                              const observe::Moment& now) const;
+                                              const observe::SimTime& now) const;
 
     /// Adds the groups that they look at.
-    void note_observed(engine::Observed& out) const;
+    void declare(engine::Demand& out) const;
 
     void checkpoint(Archive& archive) {
         for (auto& e : entries_) archive(e.first);

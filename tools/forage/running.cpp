@@ -29,15 +29,15 @@ std::string describe(const engine::NotFinite& what, const engine::Simulation& si
 
 /// Leaves out what nobody asked for. A digest is of everything, and so is a question for numbers that are not
 /// finite, but it does without inputs.
-void leave_out_unread(const RunOptions& o, engine::Simulation& simulation, const engine::Observed& observed) {
+void prune(const RunOptions& o, engine::Simulation& simulation, const engine::Demand& observed) {
     const bool seek_everywhere = o.on_nan && *o.on_nan != OnNan::ignore;
-    if (!o.hash && !seek_everywhere) simulation.leave_out_unread(observed);
+    if (!o.hash && !seek_everywhere) simulation.prune(observed);
     if (!o.hash) simulation.keep_inputs(observed.inputs);
 }
 
 }  // namespace
 
-observe::Moment Running::now() const {
+observe::SimTime Running::now() const {
     const int trial = has_trials(loaded) ? static_cast<int>(loaded.world->trials(0).size()) + 1 : 0;
     return {simulation.cycle(), seconds(), trial};
 }
@@ -112,17 +112,17 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
         if (loaded->world)
             for (std::size_t i = 0; i < loaded->world->bugs(); ++i)
                 measures.emplace_back(*loaded->world, i, *simulation);
-        engine::Observed observed;
-        scheduled.note_observed(observed);
-        if (until) until->note_observed(observed);
-        clamped.note_observed(observed);
-        for (const auto& m : manipulated) m.note_observed(observed);
+        engine::Demand observed;
+        scheduled.declare(observed);
+        if (until) until->declare(observed);
+        clamped.declare(observed);
+        for (const auto& m : manipulated) m.declare(observed);
         for (const auto& f : files)
-            for (const auto& s : f.sources) s.note_observed(observed);
-        plots.note_observed(observed);
-        run_measures.note_observed(observed);
-        for (const auto& m : measures) m.note_observed(observed);
-        leave_out_unread(o, *simulation, observed);
+            for (const auto& s : f.sources) s.declare(observed);
+        plots.declare(observed);
+        run_measures.declare(observed);
+        for (const auto& m : measures) m.declare(observed);
+        prune(o, *simulation, observed);
         simulation->start();
         simulation->watch(o.on_nan != OnNan::ignore);
         const double seconds_per_cycle =
@@ -210,7 +210,7 @@ void note(const Running& running, Outcome& outcome) {
     outcome.shared_cycles = running.simulation.shared_cycles();
     outcome.groups = running.simulation.groups();
     for (int g = 0; g < outcome.groups; ++g)
-        if (running.simulation.left_out(g)) outcome.left_out.push_back(running.simulation.path(g));
+        if (running.simulation.pruned(g)) outcome.pruned.push_back(running.simulation.path(g));
     for (const auto& e : running.schedule.entries()) outcome.changes.push_back({e.text, e.cycle});
     for (std::size_t i = 0; i < running.measures.size(); ++i)
         outcome.trials.push_back(

@@ -48,7 +48,7 @@ struct Running {
     /// not fit.
     void checkpoint(Archive& archive);
 
-    observe::Moment now() const;  ///< before the next cycle
+    observe::SimTime now() const;  ///< before the next cycle
     double seconds() const { return static_cast<double>(simulation.cycle()) * seconds_per_cycle; }
     /// Whether the condition that ends the run holds.
     bool done() const { return until && until->holds(simulation, now()); }

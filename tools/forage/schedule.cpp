@@ -4,18 +4,18 @@
 
 namespace forage::tool {
 
-std::optional<model::TimedWish> parse_timed(std::string_view text) {
+std::optional<model::ScheduledChange> parse_timed(std::string_view text) {
     bool quoted = false;
     for (std::size_t i = 0; i + 1 < text.size(); ++i) {
         quoted ^= text[i] == '"';
         if (!quoted && text[i] == ':' && text[i + 1] == ' ')
-            return model::TimedWish{{std::string(model::trim(text.substr(0, i)))},
+            return model::ScheduledChange{{std::string(model::trim(text.substr(0, i)))},
                                     {std::string(model::trim(text.substr(i + 1)))}};
     }
     return std::nullopt;
 }
 
-observe::Schedule schedule(const std::vector<model::TimedWish>& wishes, const Loaded& loaded,
+observe::Schedule schedule(const std::vector<model::ScheduledChange>& wishes, const Loaded& loaded,
                            const engine::Simulation& simulation, Diagnostics& diagnostics) {
     observe::Schedule out;
     std::vector<model::Assignment> changes;

@@ -12,10 +12,10 @@ namespace forage::tool {
 
 /// A text "WHEN: WHERE.parameter=value" of the command line; empty when it is not one. WHEN ends at the first
 /// colon that a blank follows, outside of double quotes.
-std::optional<model::TimedWish> parse_timed(std::string_view text);
+std::optional<model::ScheduledChange> parse_timed(std::string_view text);
 
 /// Changes of parameters, tied to a system. Reports what cannot be.
-observe::Schedule schedule(const std::vector<model::TimedWish>& wishes, const Loaded& loaded,
+observe::Schedule schedule(const std::vector<model::ScheduledChange>& wishes, const Loaded& loaded,
                            const engine::Simulation& simulation, Diagnostics& diagnostics);
 
 /// Whether conditions may speak of trials.

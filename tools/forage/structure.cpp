@@ -96,20 +96,20 @@ const model::Connection* find_connection(const model::System& system, std::strin
     return nullptr;
 }
 
-void check_structure(const PlotWish& wish, const model::System& system, std::string_view option,
+void check_structure(const PlotSpec& wish, const model::System& system, std::string_view option,
                      Diagnostics& diagnostics, Location at) {
-    if (wish.kind == PlotWish::Kind::connection) find_connection(system, wish.what, option, diagnostics, at);
-    if (wish.kind != PlotWish::Kind::diagram || wish.what.empty() || find_process(system, wish.what)) return;
+    if (wish.kind == PlotSpec::Kind::connection) find_connection(system, wish.what, option, diagnostics, at);
+    if (wish.kind != PlotSpec::Kind::diagram || wish.what.empty() || find_process(system, wish.what)) return;
     std::vector<std::string> names;
     for (const auto& p : system.processes) names.emplace_back(model::trim(p.name));
     diagnostics.error(at, fmt::format("{} '{}': there is no process '{}'", option, wish.text, wish.what),
                       suggest(wish.what, names));
 }
 
-plot::Picture structure_plot(const PlotWish& wish, const model::System& system, const Registry& registry,
+plot::Picture structure_plot(const PlotSpec& wish, const model::System& system, const Registry& registry,
                              const engine::Simulation* simulation, std::uint64_t seed,
                              const std::string& run) {
-    if (wish.kind == PlotWish::Kind::connection) {
+    if (wish.kind == PlotSpec::Kind::connection) {
         Diagnostics diagnostics;
         const auto* connection = find_connection(system, wish.what, "connection", diagnostics);
         if (!connection) throw std::runtime_error(format(diagnostics));

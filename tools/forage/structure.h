@@ -6,13 +6,13 @@
 
 #include "core/engine/simulation.h"
 #include "core/model/system.h"
-#include "tools/forage/plot_wish.h"
+#include "tools/forage/plot_spec.h"
 #include "tools/plot/canvas.h"
 
 namespace forage::tool {
 
 /// Reports a diagram's process or a connection that is not there.
-void check_structure(const PlotWish& wish, const model::System& system, std::string_view option,
+void check_structure(const PlotSpec& wish, const model::System& system, std::string_view option,
                      Diagnostics& diagnostics, Location at = {});
 
 /// The connection of this name or id; null when there is none, or several of that name, which is reported.
@@ -22,7 +22,7 @@ const model::Connection* find_connection(const model::System& system, std::strin
 /// The picture of a diagram or a connection that check_structure() has passed. A connection shows the
 /// strengths that the file gives; where synapses learn, those of `simulation`, or 0 without one. `run` says
 /// what it belongs to. Throws std::runtime_error.
-plot::Picture structure_plot(const PlotWish& wish, const model::System& system, const Registry& registry,
+plot::Picture structure_plot(const PlotSpec& wish, const model::System& system, const Registry& registry,
                              const engine::Simulation* simulation, std::uint64_t seed,
                              const std::string& run);
 

@@ -36,13 +36,13 @@ double FilmPanel::part_height() const {
 }
 
 double FilmPanel::height() const {
-    const double rows = single() ? 1.0 : static_cast<double>((shown() + 1) / 2);
+    const double rows = single() ? 1.0 : static_cast<double>((escaped() + 1) / 2);
     return clock_height + rows * part_height();
 }
 
 void FilmPanel::draw(Canvas& canvas, double x, double y) {
     draw_clock(canvas, x, y);
-    for (std::size_t i = 0; i < shown(); ++i) {
+    for (std::size_t i = 0; i < escaped(); ++i) {
         const double left = x + (i % 2 ? part_width() + 10 : 0),
                      top = y + clock_height + static_cast<double>(i / 2) * part_height();
         const std::string name = world_.bug_names()[i];

@@ -22,7 +22,7 @@ class FilmPanel {
     void draw(Canvas& canvas, double x, double y);
 
   private:
-    std::size_t shown() const { return std::min(world_.bugs(), std::size_t{8}); }
+    std::size_t escaped() const { return std::min(world_.bugs(), std::size_t{8}); }
     bool single() const { return world_.bugs() == 1; }
     double part_width() const { return single() ? panel_width : (panel_width - 10) / 2; }
     double part_height() const;

@@ -4,7 +4,7 @@
 struct OtherOutput {
     static void describe(forage::SynapseSpec<OtherOutput>& s) {
         s.name("synapseOtherOutput", "Other output").doc("Broken on purpose.");
-        s.state("weight", "Weight").output("psp", "Potential").rests_when_silent();
+        s.state("weight", "Weight").output("psp", "Potential").event_driven();
     }
     void update(forage::SynapseColumns& c) const {
         c.state(0) += 0.1 * c.pre();

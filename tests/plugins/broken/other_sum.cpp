@@ -4,7 +4,7 @@
 struct OtherSum {
     static void describe(forage::SynapseSpec<OtherSum>& s) {
         s.name("synapseOtherSum", "Other sum").doc("Broken on purpose.");
-        s.state("weight", "Weight").output("psp", "Potential").rests_when_silent();
+        s.state("weight", "Weight").output("psp", "Potential").event_driven();
     }
     void update(forage::SynapseColumns& c) const {
         c.state(0) += 0.1 * c.pre();

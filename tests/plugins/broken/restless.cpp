@@ -4,7 +4,7 @@
 struct Restless {
     static void describe(forage::SynapseSpec<Restless>& s) {
         s.name("synapseRestless", "Restless").doc("Broken on purpose.");
-        s.state("weight", "Weight").output("psp", "Potential").rests_when_silent();
+        s.state("weight", "Weight").output("psp", "Potential").event_driven();
     }
     void update(forage::SynapseColumns& c) const {
         c.state(0) *= 0.99;

@@ -6,7 +6,7 @@ struct RestlessParameter {
     static void describe(forage::SynapseSpec<RestlessParameter>& s) {
         s.name("synapseRestlessParameter", "Restless parameter").doc("Broken on purpose.");
         s.param("rate", &RestlessParameter::rate).range(0, 1).doc("Of what is forgotten.");
-        s.state("weight", "Weight").output("psp", "Potential").rests_when_silent();
+        s.state("weight", "Weight").output("psp", "Potential").event_driven();
     }
     void update(forage::SynapseColumns& c) const {
         c.state(0) -= rate * c.state(0);

@@ -5,7 +5,7 @@ struct Sociable {
     static void describe(forage::NeuronSpec<Sociable>& s) {
         s.name("neuronSociable", "Sociable").doc("Broken on purpose.");
         s.reads(forage::InputKind::excitatory);
-        s.cells_independent();
+        s.elementwise();
         s.output("act", "Activity");
     }
     void update(forage::NeuronColumns& c) const {

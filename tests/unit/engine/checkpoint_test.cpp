@@ -138,7 +138,7 @@ TEST_CASE("The first number that is not finite is found, with any number of thre
             const auto p = model::add_process(s, "P");
             for (const char* name : {"A", "B", "C"}) model::add_group(s, p, name, 40, 1, "one");
             for (const char* name : {"D", "E"}) model::add_group(s, p, name, 40, 1, "bursting");
-            auto simulation = run(s, types, {.threads = threads, .worth_sharing = 0, .least_part = 0});
+            auto simulation = run(s, types, {.threads = threads, .parallel_threshold_ns = 0, .min_task_ns = 0});
             simulation.watch(true);
             for (int t = 0; t < 9; ++t) simulation.step();
             REQUIRE(simulation.not_finite());

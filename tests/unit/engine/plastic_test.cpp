@@ -54,7 +54,7 @@ struct Mute {
             .state("weight", "Weight")
             .output("psp", "Potential")
             .feedback("post", "Activity");
-        s.rests_when_silent();
+        s.event_driven();
     }
     void update(SynapseColumns& c) const {
         c.state(0) += 0.001 * c.pre() * c.feedback(0);

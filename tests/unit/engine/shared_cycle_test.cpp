@@ -45,7 +45,7 @@ template <bool in_parts>
 struct Failing {
     static void describe(NeuronSpec<Failing>& s) {
         s.name(in_parts ? "failing in parts" : "failing", "Failing").output("act", "Activity");
-        if (in_parts) s.cells_independent();
+        if (in_parts) s.elementwise();
     }
     void update(NeuronColumns& c) const {
         if (in_parts)
@@ -147,7 +147,7 @@ TEST_CASE("Groups and connections divided between threads have the bits of whole
     const Registry registry = types();
     auto one = run(large.system, registry),
          many =
-             run(large.system, registry, {.threads = GENERATE(2, 3, 5), .worth_sharing = 0, .least_part = 0});
+             run(large.system, registry, {.threads = GENERATE(2, 3, 5), .parallel_threshold_ns = 0, .min_task_ns = 0});
     REQUIRE(many.threads() > 1);
     std::size_t active = 0;
     for (int cycle = 0; cycle < 30; ++cycle) {
@@ -168,7 +168,7 @@ TEST_CASE("A divided group that comes to rest wakes when its input changes") {
                b = model::add_group(s, p, "B", 20, 20, "neuronLinearThreshold");
     connect(s, a, b, InputKind::excitatory, "synapseFixedWeight").arborization.shape = model::RectArbor{3, 3};
     const Registry registry = types();
-    auto two = run(s, registry, {.threads = 2, .worth_sharing = 0, .least_part = 0});
+    auto two = run(s, registry, {.threads = 2, .parallel_threshold_ns = 0, .min_task_ns = 0});
     for (int cycle = 0; cycle < 40; ++cycle) two.step();
     CHECK(activity(two, "P/B")[21] == 9);
     two.update_groups();
@@ -190,7 +190,7 @@ TEST_CASE("What is not finite is found in every part of a divided group") {
     model::set_parameter(model::find_group(s, b)->neuron, "vmPrs", "1");
     const Registry registry = types();
     const Index cell = GENERATE(0, 63, 64, 250, 384, 391, 396);
-    auto simulation = run(s, registry, {.threads = GENERATE(1, 2), .worth_sharing = 0, .least_part = 0});
+    auto simulation = run(s, registry, {.threads = GENERATE(1, 2), .parallel_threshold_ns = 0, .min_task_ns = 0});
     simulation.watch(true);
     for (int cycle = 0; cycle < 4; ++cycle) simulation.step();
     simulation.writable_state(group(simulation, "P/B"), 0)[cell] = std::numeric_limits<double>::infinity();
@@ -214,7 +214,7 @@ TEST_CASE("When several groups fail, whole ones and parts, the first one is told
     Registry registry = types();
     registry.add(neuron_type<Failing<false>>());
     registry.add(neuron_type<Failing<true>>());
-    auto simulation = run(s, registry, {.threads = threads, .worth_sharing = 0, .least_part = 0});
+    auto simulation = run(s, registry, {.threads = threads, .parallel_threshold_ns = 0, .min_task_ns = 0});
     smallest_part = 30 * 30;
     for (int t = 0; t < 3; ++t) simulation.step();
     CHECK((smallest_part < 30 * 30) == (threads > 1));  // it was divided
@@ -235,7 +235,7 @@ TEST_CASE("An update that fails is told before a delivery that fails, and of del
     Registry registry = types();
     registry.add(synapse_type<FailingSynapse>());
     registry.add(neuron_type<Failing<false>>());
-    auto simulation = run(s, registry, {.threads = GENERATE(1, 2), .worth_sharing = 0, .least_part = 0});
+    auto simulation = run(s, registry, {.threads = GENERATE(1, 2), .parallel_threshold_ns = 0, .min_task_ns = 0});
     for (int t = 0; t < 3; ++t) simulation.step();
     CHECK_THROWS_WITH(simulation.step(),
                       update_fails ? "failing of group 'Brain/Last' failed in cycle 3: out of luck"
@@ -251,7 +251,7 @@ TEST_CASE("After a cycle that failed groups are delivered to when their sources 
     connect(s, z, b, InputKind::excitatory, "synapseFixedWeight").arborization.shape = model::RectArbor{1, 1};
     Registry registry = types();
     registry.add(neuron_type<Unlucky>());
-    auto simulation = run(s, registry, {.threads = GENERATE(1, 2, 3), .worth_sharing = 0, .least_part = 0});
+    auto simulation = run(s, registry, {.threads = GENERATE(1, 2, 3), .parallel_threshold_ns = 0, .min_task_ns = 0});
     for (const bool fails : {false, true, false, false, true, true, true, false, false}) {
         out_of_luck = fails;
         if (fails) {
@@ -276,7 +276,7 @@ TEST_CASE("What becomes ready at once is shared, where that is worth it") {
     Registry registry = types();
     registry.add(synapse_type<Slow>());
     const bool worth = GENERATE(true, false);
-    auto simulation = run(s, registry, {.threads = 2, .worth_sharing = 0, .least_part = worth ? 0 : 1e9});
+    auto simulation = run(s, registry, {.threads = 2, .parallel_threshold_ns = 0, .min_task_ns = worth ? 0 : 1e9});
     deliverers.clear();
     for (int cycle = 0; cycle < 3; ++cycle) simulation.step();
     CHECK((worth ? deliverers.size() == 2 : !deliverers.empty()));

@@ -1,5 +1,5 @@
 // Whether threads share a cycle is decided by trying, on a clock that the test sets.
-#include "core/engine/sharing_trial.h"
+#include "core/engine/parallel_tuner.h"
 
 #include "tests/support/catch.h"
 
@@ -18,7 +18,7 @@ struct TestClock {
 struct Machine {
     double without, with;
     double unit = 1e-4;
-    engine::SharingTrial<TestClock> trial;
+    engine::ParallelTuner<TestClock> trial;
     int shared = 0;    ///< of the cycles that were run last
     double spent = 0;  ///< by them
 

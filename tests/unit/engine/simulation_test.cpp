@@ -198,7 +198,7 @@ TEST_CASE("Windows of every size give the same bits as the list of synapses") {
     const Registry types = registry();
     CHECK(run(s, types).connection_form(0) == "window");
     REQUIRE(trace(s, {}, 5) == trace(s, {.general_forms = true}, 5));
-    REQUIRE(trace(s, {.threads = 3, .worth_sharing = 0, .least_part = 0}, 5) == trace(s, {}, 5));
+    REQUIRE(trace(s, {.threads = 3, .parallel_threshold_ns = 0, .min_task_ns = 0}, 5) == trace(s, {}, 5));
 }
 
 TEST_CASE("What rests is not computed again, and changes no bit") {
@@ -227,7 +227,7 @@ TEST_CASE("What rests is not computed again, and changes no bit") {
 
 TEST_CASE("A cycle in one step, which delivers early, is the same as phase by phase") {
     const Registry types = registry();
-    const double least_part = GENERATE(0, 1e9);  // parts, or whole groups
+    const double min_task_ns = GENERATE(0, 1e9);  // parts, or whole groups
     for (unsigned seed = 1; seed <= 20; ++seed) {
         auto system = random_system(seed, 8, 3);
         model::ModuleUse echo;  // groups that modules write to have to wait
@@ -237,8 +237,8 @@ TEST_CASE("A cycle in one step, which delivers early, is the same as phase by ph
         system.processes[0].module = echo;
         auto phases = run(system, types), whole = run(system, types);
         // Cycles by two threads and early ones in turns, as the trial has it.
-        auto tried = run(system, types, {.threads = 2, .worth_sharing = 1e-9});
-        auto shared = run(system, types, {.threads = 3, .worth_sharing = 0, .least_part = least_part});
+        auto tried = run(system, types, {.threads = 2, .parallel_threshold_ns = 1e-9});
+        auto shared = run(system, types, {.threads = 3, .parallel_threshold_ns = 0, .min_task_ns = min_task_ns});
         Diagnostics diagnostics;
         auto forgetful = std::move(*engine::Simulation::build(system, types, {}, diagnostics));
         forgetful.keep_inputs(std::array{1});
@@ -359,7 +359,7 @@ TEST_CASE("The number of threads changes no bit") {
 
     const Registry types = registry();
     auto one = run(system, types, {.threads = 1}),
-         four = run(system, types, {.threads = 4, .worth_sharing = 0, .least_part = 0});
+         four = run(system, types, {.threads = 4, .parallel_threshold_ns = 0, .min_task_ns = 0});
     REQUIRE((one.threads() == 1 && four.threads() == 4));
     std::map<std::string, std::size_t, std::less<>> synapses;
     for (int c = 0; c < one.connections(); ++c)

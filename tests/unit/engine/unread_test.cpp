@@ -16,10 +16,10 @@ engine::Simulation build(const model::System& system, const Registry& types) {
 }
 
 /// "A B": the groups of process P that are left out, in alphabetical order of their ids.
-std::string left_out(const engine::Simulation& s) {
+std::string pruned(const engine::Simulation& s) {
     std::string out;
     for (int g = 0; g < s.groups(); ++g)
-        if (s.left_out(g)) out += (out.empty() ? "" : " ") + s.path(g).substr(2);
+        if (s.pruned(g)) out += (out.empty() ? "" : " ") + s.path(g).substr(2);
     return out;
 }
 
@@ -74,17 +74,17 @@ struct Chain {
 
 TEST_CASE("Without being told to, a simulation leaves nothing out") {
     const Chain chain;
-    CHECK(left_out(run(chain.system, chain.types)).empty());
+    CHECK(pruned(run(chain.system, chain.types)).empty());
 }
 
 TEST_CASE("A group is read when it is observed, or leads to one that is, by way of others too") {
     const Chain chain;
     const auto observing = [&](std::vector<std::string> groups) {
         auto s = build(chain.system, chain.types);
-        engine::Observed observed;
+        engine::Demand observed;
         for (const auto& id : groups) observed.groups.push_back(group(s, "P/" + id));
-        s.leave_out_unread(observed);
-        return left_out(s);
+        s.prune(observed);
+        return pruned(s);
     };
     CHECK(observing({}) == "");  // a run that computes nothing is of no use
     CHECK(observing({"C"}) == "D E F G");
@@ -96,26 +96,26 @@ TEST_CASE("A group is read when it is observed, or leads to one that is, by way 
 TEST_CASE("What is left out stays out: there is no second choice") {
     const Chain chain;
     auto s = build(chain.system, chain.types);
-    s.leave_out_unread({{group(s, "P/A")}, {}, {}});
-    CHECK_THROWS_AS(s.leave_out_unread({{group(s, "P/B")}, {}, {}}), std::logic_error);
+    s.prune({{group(s, "P/A")}, {}, {}});
+    CHECK_THROWS_AS(s.prune({{group(s, "P/B")}, {}, {}}), std::logic_error);
 
     auto whole = build(chain.system, chain.types);
-    engine::Observed all;
+    engine::Demand all;
     for (int g = 0; g < whole.groups(); ++g) all.groups.push_back(g);
-    whole.leave_out_unread(all);  // nothing, which is a choice as well
-    CHECK_THROWS_AS(whole.leave_out_unread({{group(whole, "P/A")}, {}, {}}), std::logic_error);
-    CHECK(left_out(whole).empty());
+    whole.prune(all);  // nothing, which is a choice as well
+    CHECK_THROWS_AS(whole.prune({{group(whole, "P/A")}, {}, {}}), std::logic_error);
+    CHECK(pruned(whole).empty());
 }
 
 TEST_CASE("Groups that read each other, and that nobody else reads, are left out together") {
     Chain chain;
     connect(chain.system, chain.c, chain.b, InputKind::inhibitory, "synapseFixedWeight", "5");
     auto s = build(chain.system, chain.types);
-    s.leave_out_unread({.groups = {group(s, "P/D")}});
-    CHECK(left_out(s) == "B C E F G");
+    s.prune({.groups = {group(s, "P/D")}});
+    CHECK(pruned(s) == "B C E F G");
     auto other = build(chain.system, chain.types);
-    other.leave_out_unread({.groups = {group(other, "P/B")}});
-    CHECK(left_out(other) == "D E F G");
+    other.prune({.groups = {group(other, "P/B")}});
+    CHECK(pruned(other) == "D E F G");
 }
 
 TEST_CASE("A connection of a kind that the target's type does not read leads nowhere") {
@@ -123,16 +123,16 @@ TEST_CASE("A connection of a kind that the target's type does not read leads now
     connect(chain.system, chain.g, chain.f, InputKind::excitatory, "synapseFixedWeight", "5");
     auto s = build(chain.system, chain.types);
     CHECK_FALSE(s.type(group(s, "P/F")).reads[0]);
-    s.leave_out_unread({.groups = {group(s, "P/F")}});
-    CHECK(left_out(s) == "A B C D E G");
+    s.prune({.groups = {group(s, "P/F")}});
+    CHECK(pruned(s) == "A B C D E G");
 }
 
 TEST_CASE("What a module takes as an input is read; its outputs are, when their groups are") {
     Chain chain;
     chain.use_module(chain.b, chain.f, chain.g);
     auto s = build(chain.system, chain.types);
-    s.leave_out_unread({.groups = {group(s, "P/G")}});
-    CHECK(left_out(s) == "C D E F");
+    s.prune({.groups = {group(s, "P/G")}});
+    CHECK(pruned(s) == "C D E F");
     s.start();
     CHECK(*chain.asking.read == std::vector<bool>{false, true, false});
     s.step();
@@ -148,8 +148,8 @@ TEST_CASE("An output of a module can be looked at without its group") {
     Chain chain;
     chain.use_module(chain.a, chain.f, chain.g);
     auto s = build(chain.system, chain.types);
-    s.leave_out_unread({.outputs = {{0, 0}}});
-    CHECK(left_out(s) == "B C D E F G");
+    s.prune({.outputs = {{0, 0}}});
+    CHECK(pruned(s) == "B C D E F G");
     s.start();
     CHECK(*chain.asking.read == std::vector<bool>{true, false, false});
     for (int t = 0; t < 4; ++t) s.step();
@@ -162,17 +162,17 @@ TEST_CASE("A module is told that all its outputs are read, unless they are unset
     auto s = run(chain.system, chain.types);
     CHECK(*chain.asking.read == std::vector<bool>{true, true, false});
     auto other = build(chain.system, chain.types);
-    other.leave_out_unread({.groups = {group(other, "P/F"), group(other, "P/G")}});
+    other.prune({.groups = {group(other, "P/F"), group(other, "P/G")}});
     other.start();
     CHECK(*chain.asking.read == std::vector<bool>{true, true, false});
 }
 
-TEST_CASE("Observed synapses learn as ever; others to groups that are left out cannot be looked at") {
+TEST_CASE("Demand synapses learn as ever; others to groups that are left out cannot be looked at") {
     const Chain chain;
     auto all = run(chain.system, chain.types);
     auto s = build(chain.system, chain.types);
-    s.leave_out_unread({.connections = {Chain::learning}});
-    CHECK(left_out(s) == "B C D F G");
+    s.prune({.connections = {Chain::learning}});
+    CHECK(pruned(s) == "B C D F G");
     s.start();
     for (int t = 0; t < 9; ++t) all.step(), s.step();
     REQUIRE(s.synapse_state(Chain::learning, 0).size() == 2);
@@ -180,14 +180,14 @@ TEST_CASE("Observed synapses learn as ever; others to groups that are left out c
     CHECK((activity(s, "P/E") == activity(all, "P/E")).all());
 
     auto without = build(chain.system, chain.types);
-    without.leave_out_unread({.groups = {group(without, "P/A")}});
+    without.prune({.groups = {group(without, "P/A")}});
     CHECK_THROWS_AS(without.synapse_state(Chain::learning, 0), std::logic_error);
 }
 
 TEST_CASE("Who looks at a group that is left out is told so") {
     const Chain chain;
     auto s = build(chain.system, chain.types);
-    s.leave_out_unread({.groups = {group(s, "P/B")}});
+    s.prune({.groups = {group(s, "P/B")}});
     s.start();
     s.step();
     const int c = group(s, "P/C");
@@ -198,14 +198,14 @@ TEST_CASE("Who looks at a group that is left out is told so") {
     CHECK_THROWS_WITH(s.writable_state(c, 0), told);
     CHECK_THROWS_AS(s.state(c, 0), std::logic_error);
     CHECK(activity(s, "P/B").size() == 2);
-    CHECK_THROWS_AS(s.leave_out_unread({}), std::logic_error);  // too late
+    CHECK_THROWS_AS(s.prune({}), std::logic_error);  // too late
 }
 
 TEST_CASE("A checkpoint is of a run that leaves out the same") {
     const Chain chain;
     const auto observing = [&](const char* path) {
         auto s = build(chain.system, chain.types);
-        s.leave_out_unread({.groups = {group(s, path)}});
+        s.prune({.groups = {group(s, path)}});
         s.start();
         return s;
     };

@@ -10,7 +10,7 @@ Location place(const std::string& text, int line, int column, const std::string&
     return {std::make_shared<const SourceFile>(SourceFile{path, text}), line, column};
 }
 
-std::string shown(const std::string& text, int line, int column) {
+std::string escaped(const std::string& text, int line, int column) {
     return format(Diagnostic{Severity::error, place(text, line, column), "m", ""});
 }
 
@@ -24,23 +24,23 @@ TEST_CASE("A diagnostic shows its place, its line with a caret, and its hint") {
 TEST_CASE("A diagnostic leaves out what it does not know") {
     CHECK(format(Diagnostic{Severity::error, {}, "what", ""}) == "error: what\n");
     CHECK(format(Diagnostic{Severity::error, place("x", 0, 0), "what", ""}) == "a.iqr: error: what\n");
-    CHECK(shown("x\ny", 2, 0) == "a.iqr:2: error: m\n      y\n");  // a line without a column has no caret
-    CHECK(shown("x", 7, 3) == "a.iqr:7:3: error: m\n");            // a line that the file does not have
+    CHECK(escaped("x\ny", 2, 0) == "a.iqr:2: error: m\n      y\n");  // a line without a column has no caret
+    CHECK(escaped("x", 7, 3) == "a.iqr:7:3: error: m\n");            // a line that the file does not have
 }
 
 TEST_CASE(
     "The caret stands under its character after tabs, characters of several bytes and Windows line ends") {
-    CHECK(shown("\t\t<x/>\r\n", 1, 3) == "a.iqr:1:3: error: m\n      <x/>\n      ^\n");
-    CHECK(shown("<x y='1'\tz='2'/>\r\n", 1, 10) ==
+    CHECK(escaped("\t\t<x/>\r\n", 1, 3) == "a.iqr:1:3: error: m\n      <x/>\n      ^\n");
+    CHECK(escaped("<x y='1'\tz='2'/>\r\n", 1, 10) ==
           "a.iqr:1:10: error: m\n      <x y='1' z='2'/>\n               ^\n");
-    CHECK(shown("\xc3\xa9\xe2\x82\xac x", 1, 7) ==
+    CHECK(escaped("\xc3\xa9\xe2\x82\xac x", 1, 7) ==
           "a.iqr:1:7: error: m\n      \xc3\xa9\xe2\x82\xac x\n         ^\n");
 }
 
 TEST_CASE("A long line is cut round the place, and never inside of a character") {
     std::string text(300, '.');
     text[199] = 'X';
-    const std::string said = shown(text, 1, 200);
+    const std::string said = escaped(text, 1, 200);
     const auto line = said.find("\n      "), caret = said.find('^');
     REQUIRE((line != std::string::npos && caret != std::string::npos));
     const auto second = said.find('\n', line + 1);
@@ -48,7 +48,7 @@ TEST_CASE("A long line is cut round the place, and never inside of a character")
     CHECK(said[line + 1 + (caret - second - 1)] == 'X');
     std::string wide;
     for (int i = 0; i < 200; ++i) wide += "\xe2\x82\xac";
-    for (const int column : {1, 31, 301, 598}) CHECK(shown(wide, 1, column).find('?') == std::string::npos);
+    for (const int column : {1, 31, 301, 598}) CHECK(escaped(wide, 1, column).find('?') == std::string::npos);
 }
 
 TEST_CASE("A file cannot send commands to the terminal that shows its mistakes") {
@@ -57,7 +57,7 @@ TEST_CASE("A file cannot send commands to the terminal that shows its mistakes")
     CHECK(said.find('\x1b') == std::string::npos);
     CHECK(said.find('\x07') == std::string::npos);
     CHECK(said.find("id ' [2J '") != std::string::npos);
-    CHECK(shown("\xff\xfe", 1, 1).find("??") != std::string::npos);
+    CHECK(escaped("\xff\xfe", 1, 1).find("??") != std::string::npos);
 }
 
 TEST_CASE("A message is cut to a length that people read") {

@@ -13,7 +13,7 @@ namespace forage::engine {
 /// the next trial, which comes at once when sharing has become clearly slower than it was without. The
 /// numbers are the same either way.
 template <class Clock = std::chrono::steady_clock>
-class SharingTrial {
+class ParallelTuner {
   public:
     /// Begins a run; whether to share it. `worth()` is asked before a trial: without it there is none.
     template <class Worth>

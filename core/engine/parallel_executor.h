@@ -17,11 +17,11 @@ namespace forage::engine {
 /// the same groups and parts in every loop of every cycle, as long as it is not late, and delivers to what
 /// waited for its updates: what it wrote it finds in its own cache. The numbers are those of update() and
 /// deliver_to().
-class SharedCycle {
+class ParallelExecutor {
   public:
     /// No part of a group takes less than about `least` ns on one thread. Throws std::system_error when the
     /// threads cannot be started.
-    SharedCycle(Plan& plan, int threads, double least);
+    ParallelExecutor(Plan& plan, int threads, double least);
 
     /// Divides groups and gives them to the threads: to be called again when some were left out.
     void share_out();

@@ -1,4 +1,4 @@
-#include "tools/forage/plot_wish.h"
+#include "tools/forage/plot_spec.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 namespace forage::tool {
 namespace {
 
-using Kind = PlotWish::Kind;
+using Kind = PlotSpec::Kind;
 constexpr std::array<std::pair<std::string_view, Kind>, 6> kinds = {{{"time", Kind::time},
                                                                      {"space", Kind::space},
                                                                      {"movie", Kind::movie},
@@ -31,8 +31,8 @@ bool read(std::string_view text, Number& out) {
 }
 
 /// "100", "0..500" or "0..500/10"
-std::optional<PlotWish::Cycles> parse_cycles(std::string_view text) {
-    PlotWish::Cycles out{0, 0, 1};
+std::optional<PlotSpec::Cycles> parse_cycles(std::string_view text) {
+    PlotSpec::Cycles out{0, 0, 1};
     const auto dots = text.find("..");
     if (dots == std::string_view::npos) {
         if (!read(text, out.first)) return std::nullopt;
@@ -51,12 +51,12 @@ std::optional<PlotWish::Cycles> parse_cycles(std::string_view text) {
 
 }  // namespace
 
-bool PlotWish::wants(std::uint64_t cycle) const {
+bool PlotSpec::wants(std::uint64_t cycle) const {
     return cycles.empty() ||
            std::any_of(cycles.begin(), cycles.end(), [&](const Cycles& c) { return c.contains(cycle); });
 }
 
-std::string PlotWish::file(plot::Format format) const {
+std::string PlotSpec::file(plot::Format format) const {
     std::string name(kinds[static_cast<std::size_t>(kind)].first);
     if (!what.empty()) name += "_" + what;
     const auto at = text.find('@');
@@ -64,13 +64,13 @@ std::string PlotWish::file(plot::Format format) const {
     return file_name(name) + std::string(plot::ending(kind == Kind::movie ? plot::Format::png : format));
 }
 
-std::optional<PlotWish> parse_plot(std::string_view text, std::string_view option, Diagnostics& diagnostics,
+std::optional<PlotSpec> parse_plot(std::string_view text, std::string_view option, Diagnostics& diagnostics,
                                    Location where) {
     const auto bad = [&](std::string why, std::string hint) {
         diagnostics.error(where, fmt::format("{} '{}': {}", option, text, why), std::move(hint));
         return std::nullopt;
     };
-    PlotWish out;
+    PlotSpec out;
     out.text = text;
     std::string_view rest = text;
     const auto colon = std::min(rest.find(':'), rest.size());

@@ -6,7 +6,7 @@
 #include "core/engine/early_delivery.h"
 #include "core/engine/group_delivery.h"
 #include "core/engine/plan.h"
-#include "core/engine/shared_cycle.h"
+#include "core/engine/parallel_executor.h"
 #include "core/engine/simulation.h"
 
 namespace forage::engine {
@@ -52,7 +52,7 @@ class Readers {
 
 }  // namespace
 
-void Simulation::leave_out_unread(const Observed& observed) {
+void Simulation::prune(const Demand& observed) {
     if (started_) throw std::logic_error("groups are left out before the start, or not at all");
     if (observers_known_) throw std::logic_error("groups are left out once, for all who observe");
     observers_known_ = true;
@@ -67,28 +67,28 @@ void Simulation::leave_out_unread(const Observed& observed) {
 
     auto& groups = plan_->groups;
     for (std::size_t c = 0; c < plan_->connections.size(); ++c)
-        plan_->connections[c].left_out = !readers.reads_connection(static_cast<int>(c));
+        plan_->connections[c].pruned = !readers.reads_connection(static_cast<int>(c));
     for (std::size_t i = 0; i < groups.size(); ++i) {
-        groups[i].left_out = !readers.reads_group(static_cast<int>(i));
+        groups[i].pruned = !readers.reads_group(static_cast<int>(i));
         groups[i].history = 0;
         std::erase_if(groups[i].incoming,
-                      [&](int c) { return plan_->connections[static_cast<std::size_t>(c)].left_out; });
+                      [&](int c) { return plan_->connections[static_cast<std::size_t>(c)].pruned; });
     }
     for (const auto& c : plan_->connections) {
         int& history = groups[static_cast<std::size_t>(c.source)].history;
-        if (!c.left_out && !c.plastic) history = std::max(history, c.longest_delay);
+        if (!c.pruned && !c.plastic) history = std::max(history, c.longest_delay);
     }
-    std::erase_if(plan_->updated, [&](int g) { return left_out(g); });
+    std::erase_if(plan_->updated, [&](int g) { return pruned(g); });
     estimate_deliveries(*plan_);
     early_ = std::make_unique<EarlyDelivery>(*plan_);
     if (shared_cycle_) shared_cycle_->share_out();
     for (auto& m : plan_->modules)
         for (std::size_t port = 0; port < m.read.size(); ++port)
-            m.read[port] = m.output_groups[port] >= 0 && !left_out(m.output_groups[port]);
+            m.read[port] = m.output_groups[port] >= 0 && !pruned(m.output_groups[port]);
     for (const auto& [module, port] : observed.outputs)
         plan_->modules[static_cast<std::size_t>(module)].read[static_cast<std::size_t>(port)] = true;
 }
 
-bool Simulation::left_out(int group) const { return plan_->groups[static_cast<std::size_t>(group)].left_out; }
+bool Simulation::pruned(int group) const { return plan_->groups[static_cast<std::size_t>(group)].pruned; }
 
 }  // namespace forage::engine

@@ -7,7 +7,7 @@
 namespace forage {
 
 /// What the exception that is being handled says, whatever was thrown. To be called in a `catch (...)`.
-inline std::string reason() {
+inline std::string current_exception_message() {
     try {
         throw;
     } catch (const std::exception& e) {

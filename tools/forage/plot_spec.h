@@ -23,7 +23,7 @@ namespace forage::tool {
 ///
 /// A column is 'Process/Group:state(x1..x2,y1..y2)'; cycles are N, A..B or A..B/STEP; ';blocks=9x1' at the
 /// end draws lines between so many blocks of a space plot.
-struct PlotWish {
+struct PlotSpec {
     enum class Kind { time, space, movie, connection, diagram, trajectory };
     struct Cycles {
         std::uint64_t first, last, step;
@@ -42,7 +42,7 @@ struct PlotWish {
 };
 
 /// Reports what is not one; `option` says where the text stands.
-std::optional<PlotWish> parse_plot(std::string_view text, std::string_view option, Diagnostics& diagnostics,
+std::optional<PlotSpec> parse_plot(std::string_view text, std::string_view option, Diagnostics& diagnostics,
                                    Location at = {});
 
 }  // namespace forage::tool

@@ -1,4 +1,4 @@
-#include "core/engine/shared_cycle.h"
+#include "core/engine/parallel_executor.h"
 
 #include <algorithm>
 
@@ -15,7 +15,7 @@ double cost(const GroupPlan& g) { return static_cast<double>(g.cells) + g.delive
 
 }  // namespace
 
-SharedCycle::SharedCycle(Plan& plan, int threads, double least)
+ParallelExecutor::ParallelExecutor(Plan& plan, int threads, double least)
     : plan_(plan),
       pool_(threads),
       parts_(2 * pool_.threads()),
@@ -25,12 +25,12 @@ SharedCycle::SharedCycle(Plan& plan, int threads, double least)
     share_out();
 }
 
-void SharedCycle::divide() {
+void ParallelExecutor::divide() {
     for (auto& g : plan_.groups) {
         const auto worth = [&](double cost) { return cost >= parts_ * least_; };
         const auto cells = static_cast<std::size_t>(g.cells);
         g.update_divides =
-            g.type.cells_independent && cells > 2 * RandomStream::grain && worth(static_cast<double>(cells));
+            g.type.elementwise && cells > 2 * RandomStream::grain && worth(static_cast<double>(cells));
         g.delivery_divides = worth(g.delivery_cost) &&
                              std::any_of(g.incoming.begin(), g.incoming.end(),
                                          [&](int i) { return at(plan_.connections, i).kernel->divides(); });
@@ -39,7 +39,7 @@ void SharedCycle::divide() {
 }
 
 /// Whole groups in order, about the same cost for each thread; parts evenly.
-void SharedCycle::share_out() {
+void ParallelExecutor::share_out() {
     divide();
     double whole = 0, before = 0;
     for (const int i : plan_.updated)
@@ -75,7 +75,7 @@ void SharedCycle::share_out() {
 }
 
 template <class Work>
-void SharedCycle::for_items(FirstFailure& failure, Work work) {
+void ParallelExecutor::for_items(FirstFailure& failure, Work work) {
     auto guarded = [&](int i, int thread) {
         const Item& item = at(items_, i);
         failure.guard(item.group, thread, [&] { work(at(plan_.groups, item.group), item, thread); });
@@ -83,14 +83,14 @@ void SharedCycle::for_items(FirstFailure& failure, Work work) {
     pool_.run(shares_, guarded);
 }
 
-void SharedCycle::deliver_early(int updated, int thread, std::uint64_t cycle) {
+void ParallelExecutor::deliver_early(int updated, int thread, std::uint64_t cycle) {
     remember(at(plan_.groups, updated), cycle);
     ready_->updated(updated, thread, [&](int i) {
         failed_delivery_.guard(i, thread, [&] { deliver_to(plan_, at(plan_.groups, i), cycle); });
     });
 }
 
-void SharedCycle::update_groups(std::uint64_t cycle, bool early) {
+void ParallelExecutor::update_groups(std::uint64_t cycle, bool early) {
     delivers_early_ = early;
     failed_delivery_.forget();  // of a cycle that was not ended
     ready_->begin();
@@ -117,7 +117,7 @@ void SharedCycle::update_groups(std::uint64_t cycle, bool early) {
         }
 }
 
-void SharedCycle::add_divided(GroupPlan& g, std::uint64_t cycle) {
+void ParallelExecutor::add_divided(GroupPlan& g, std::uint64_t cycle) {
     for (const int connection : g.incoming) {
         auto& c = at(plan_.connections, connection);
         auto add = [&](int part, int) { add_part(plan_, g, c, part, cycle); };
@@ -129,12 +129,12 @@ void SharedCycle::add_divided(GroupPlan& g, std::uint64_t cycle) {
     }
 }
 
-void SharedCycle::deliver(std::uint64_t cycle) {
+void ParallelExecutor::deliver(std::uint64_t cycle) {
     if (!delivers_early_ || ready_->some_wait()) deliver_waiting(cycle);
     failed_delivery_.raise();
 }
 
-void SharedCycle::deliver_waiting(std::uint64_t cycle) {
+void ParallelExecutor::deliver_waiting(std::uint64_t cycle) {
     for (const int i : plan_.updated)
         if (auto& g = at(plan_.groups, i); g.delivery_divides) begin_delivery(plan_, g, cycle);
     for_items(failed_delivery_, [&](GroupPlan& g, const Item& item, int) {
