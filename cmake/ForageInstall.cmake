@@ -12,13 +12,13 @@ install(FILES README.md LICENSE DESTINATION ${FORAGE_DOC_DIR})
 
 # Includes of headers are written from the project's root: <forage/plugin.h> for users, "core/..." in the headers.
 install(DIRECTORY tools/api/forage/ DESTINATION ${FORAGE_HEADER_DIR} FILES_MATCHING PATTERN "*.h")
-install(DIRECTORY core/types core/model DESTINATION ${FORAGE_HEADER_DIR}/core FILES_MATCHING PATTERN "*.h" PATTERN philox.h EXCLUDE PATTERN huge_pages.h EXCLUDE)
+install(DIRECTORY core/base core/types core/model DESTINATION ${FORAGE_HEADER_DIR}/core FILES_MATCHING PATTERN "*.h" PATTERN philox.h EXCLUDE PATTERN huge_pages.h EXCLUDE)
 install(FILES core/engine/first_failure.h core/engine/parallel_tuner.h core/engine/simulation.h DESTINATION ${FORAGE_HEADER_DIR}/core/engine)
 
 # Plugins need Eigen alone; programs that run systems need what Forage itself is made with.
 set(directories INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${FORAGE_HEADER_DIR})
 install(TARGETS forage_sdk forage_random EXPORT ForageSdk ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/forage ${directories})
-install(TARGETS forage_api forage_types forage_model forage_connectivity forage_xml forage_engine forage_plugin forage_neurons
+install(TARGETS forage_api forage_base forage_types forage_model forage_connectivity forage_xml forage_engine forage_plugin forage_neurons
                 forage_synapses forage_modules
         EXPORT ForageEmbedding ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/forage ${directories})
 install(EXPORT ForageSdk NAMESPACE forage:: DESTINATION ${FORAGE_CMAKE_DIR})

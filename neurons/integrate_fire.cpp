@@ -1,6 +1,6 @@
 #include "neurons/integrate_fire.h"
 
-#include "core/types/simd.h"
+#include "core/base/simd.h"
 #include "neurons/membrane.h"
 
 namespace forage {

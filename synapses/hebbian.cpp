@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "core/types/simd.h"
+#include "core/base/simd.h"
 
 namespace forage {
 namespace {

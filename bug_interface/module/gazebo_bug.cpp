@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "bug_interface/motion/motor.h"
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 
 namespace forage::bug {
 namespace {

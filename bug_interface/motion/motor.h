@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "core/types/archive.h"
+#include "core/base/archive.h"
 
 namespace forage::bug {
 

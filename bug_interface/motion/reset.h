@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 
 #include "bug_interface/world/description.h"
-#include "core/model/diagnostic.h"
-#include "core/types/random.h"
+#include "core/base/diagnostic.h"
+#include "core/base/random.h"
 
 namespace forage::bug {
 

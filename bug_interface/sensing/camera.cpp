@@ -11,7 +11,7 @@
 
 #include "bug_interface/sensing/normal_table.h"
 #include "bug_interface/sensing/solid_ray.h"
-#include "core/types/simd.h"
+#include "core/base/simd.h"
 
 namespace forage::bug {
 namespace {

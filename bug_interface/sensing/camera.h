@@ -10,7 +10,7 @@
 
 #include "bug_interface/sensing/scene.h"
 #include "bug_interface/world/description.h"
-#include "core/types/random.h"
+#include "core/base/random.h"
 
 namespace forage::bug {
 

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "core/types/simd.h"
+#include "core/base/simd.h"
 
 namespace forage::bug {
 namespace {

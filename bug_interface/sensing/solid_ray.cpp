@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/types/simd.h"
+#include "core/base/simd.h"
 
 namespace forage::bug {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "bug_interface/motion/reset.h"
 #include "bug_interface/world/description.h"
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 
 namespace forage::bug {
 

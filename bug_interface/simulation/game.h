@@ -9,7 +9,7 @@
 
 #include "bug_interface/motion/physics.h"
 #include "bug_interface/world/description.h"
-#include "core/types/random.h"
+#include "core/base/random.h"
 
 namespace forage::bug {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bug_interface/motion/physics.h"
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 
 namespace forage::bug {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/types/archive.h"
+#include "core/base/archive.h"
 
 namespace forage::bug {
 

@@ -15,7 +15,7 @@
 #include "bug_interface/simulation/thing.h"
 #include "bug_interface/simulation/trials.h"
 #include "bug_interface/world/description.h"
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 
 namespace forage::bug {
 

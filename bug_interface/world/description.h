@@ -9,8 +9,8 @@
 
 #include <Eigen/Geometry>
 
-#include "core/model/diagnostic.h"
-#include "core/types/archive.h"
+#include "core/base/diagnostic.h"
+#include "core/base/archive.h"
 
 namespace forage::bug {
 

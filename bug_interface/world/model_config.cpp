@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "bug_interface/world/sdf_values.h"
-#include "core/model/named_file.h"
+#include "core/base/named_file.h"
 #include "core/xml/element.h"
 
 namespace forage::bug {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 
 namespace forage::bug {
 

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/model/diagnostic.h"
-#include "core/types/text_file.h"
+#include "core/base/diagnostic.h"
+#include "core/base/text_file.h"
 
 namespace forage::bug {
 namespace {

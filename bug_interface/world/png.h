@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/types/huge_pages.h"
+#include "core/base/huge_pages.h"
 
 namespace forage::bug {
 

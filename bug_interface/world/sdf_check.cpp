@@ -8,7 +8,7 @@
 
 #include "bug_interface/world/sdf_schema.h"
 #include "bug_interface/world/sdf_values.h"
-#include "core/types/text_file.h"
+#include "core/base/text_file.h"
 
 namespace forage::bug {
 namespace {

@@ -1,7 +1,7 @@
 // Whether an SDF file holds what the format says.
 #pragma once
 
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 #include "core/xml/element.h"
 
 namespace forage::bug {

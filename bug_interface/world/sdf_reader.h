@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bug_interface/world/description.h"
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 
 namespace forage::bug {
 

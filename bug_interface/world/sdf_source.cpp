@@ -10,7 +10,7 @@
 
 #include "bug_interface/world/sdf_check.h"
 #include "bug_interface/world/sdf_values.h"
-#include "core/model/named_file.h"
+#include "core/base/named_file.h"
 
 namespace forage::bug {
 namespace {

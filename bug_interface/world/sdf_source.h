@@ -8,7 +8,7 @@
 
 #include "bug_interface/world/description.h"
 #include "bug_interface/world/model_folders.h"
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 #include "core/xml/element.h"
 
 namespace forage::bug {

@@ -6,7 +6,7 @@
 
 #include "core/connectivity/grid.h"
 #include "core/connectivity/pairs.h"
-#include "core/types/random.h"
+#include "core/base/random.h"
 
 namespace forage::connectivity {
 

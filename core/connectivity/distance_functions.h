@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/model/arborization.h"
-#include "core/types/random.h"
+#include "core/base/random.h"
 
 namespace forage::connectivity {
 

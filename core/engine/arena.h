@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
-#include "core/types/column.h"
-#include "core/types/huge_pages.h"
+#include "core/base/column.h"
+#include "core/base/huge_pages.h"
 
 namespace forage::engine {
 

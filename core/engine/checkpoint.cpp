@@ -3,7 +3,7 @@
 
 #include "core/engine/plan.h"
 #include "core/engine/simulation.h"
-#include "core/types/exception_message.h"
+#include "core/base/exception_message.h"
 
 namespace forage::engine {
 namespace {

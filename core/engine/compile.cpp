@@ -8,7 +8,7 @@
 #include "core/engine/plan.h"
 #include "core/model/lookup.h"
 #include "core/model/validate.h"
-#include "core/types/exception_message.h"
+#include "core/base/exception_message.h"
 
 namespace forage::engine {
 namespace {

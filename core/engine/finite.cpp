@@ -1,6 +1,6 @@
 #include "core/engine/finite.h"
 
-#include "core/types/simd.h"
+#include "core/base/simd.h"
 
 namespace forage::engine {
 

@@ -1,7 +1,7 @@
 // Whether numbers are finite.
 #pragma once
 
-#include "core/types/column.h"
+#include "core/base/column.h"
 
 namespace forage::engine {
 

@@ -7,8 +7,8 @@
 
 #include "core/engine/group_cycle.h"
 #include "core/engine/simulation.h"
-#include "core/types/exception_message.h"
-#include "core/types/simd.h"
+#include "core/base/exception_message.h"
+#include "core/base/simd.h"
 
 namespace forage::engine {
 namespace {

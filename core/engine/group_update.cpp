@@ -9,7 +9,7 @@
 #include "core/engine/finite.h"
 #include "core/engine/group_cycle.h"
 #include "core/engine/simulation.h"
-#include "core/types/exception_message.h"
+#include "core/base/exception_message.h"
 
 namespace forage::engine {
 namespace {

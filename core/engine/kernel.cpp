@@ -7,7 +7,7 @@
 #include "core/engine/by_target.h"
 #include "core/engine/sliced_kernel.h"
 #include "core/engine/window_kernel.h"
-#include "core/types/simd.h"
+#include "core/base/simd.h"
 
 namespace forage::engine {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/engine/group_cycle.h"
 #include "core/engine/plan.h"
 #include "core/engine/simulation.h"
-#include "core/model/named_file.h"
+#include "core/base/named_file.h"
 
 namespace forage::engine {
 namespace {

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "core/engine/finite.h"
-#include "core/types/simd.h"
+#include "core/base/simd.h"
 
 namespace forage::engine {
 namespace {

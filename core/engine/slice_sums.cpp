@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "core/types/simd.h"
+#include "core/base/simd.h"
 
 namespace forage::engine {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/engine/slice_sums.h"
-#include "core/types/simd.h"
+#include "core/base/simd.h"
 
 namespace forage::engine {
 namespace {

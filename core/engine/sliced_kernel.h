@@ -7,7 +7,7 @@
 #include "core/engine/by_target.h"
 #include "core/engine/kernel.h"
 #include "core/engine/slices.h"
-#include "core/types/huge_pages.h"
+#include "core/base/huge_pages.h"
 
 namespace forage::engine {
 

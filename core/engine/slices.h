@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/engine/by_target.h"
-#include "core/types/huge_pages.h"
+#include "core/base/huge_pages.h"
 
 namespace forage::engine {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/connectivity/connect.h"
-#include "core/types/column.h"
+#include "core/base/column.h"
 
 namespace forage::engine {
 

@@ -1,7 +1,7 @@
 // Windows summed column by column: what is read of the source serves several target rows.
 #pragma once
 
-#include "core/types/column.h"
+#include "core/base/column.h"
 
 namespace forage::engine {
 

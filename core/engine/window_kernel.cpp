@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/types/simd.h"
+#include "core/base/simd.h"
 
 namespace forage::engine {
 namespace {

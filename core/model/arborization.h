@@ -3,7 +3,7 @@
 
 #include <variant>
 
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 
 namespace forage::model {
 

@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 
 namespace forage::model {
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/model/arborization.h"
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 #include "core/model/pattern.h"
-#include "core/types/column.h"
+#include "core/base/column.h"
 
 namespace forage::model {
 

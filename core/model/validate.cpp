@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "core/model/lookup.h"
-#include "core/model/named_file.h"
-#include "core/types/exception_message.h"
+#include "core/base/named_file.h"
+#include "core/base/exception_message.h"
 
 namespace forage::model {
 namespace {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/observe/hdf5_handle.h"
-#include "core/types/text_file.h"
+#include "core/base/text_file.h"
 
 namespace forage::observe {
 namespace {

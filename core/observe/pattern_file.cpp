@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/model/named_file.h"
+#include "core/base/named_file.h"
 #include "core/types/parameter.h"
 
 namespace forage::observe {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/model/diagnostic.h"
-#include "core/types/column.h"
+#include "core/base/diagnostic.h"
+#include "core/base/column.h"
 
 namespace forage::observe {
 

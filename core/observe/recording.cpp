@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/observe/hdf5_recording.h"
-#include "core/types/text_file.h"
+#include "core/base/text_file.h"
 
 namespace forage::observe {
 namespace {

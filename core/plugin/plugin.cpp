@@ -9,7 +9,7 @@
 
 #include "core/plugin/rehearsal.h"
 #include "core/plugin/shared_object.h"
-#include "core/types/exception_message.h"
+#include "core/base/exception_message.h"
 
 namespace forage::plugin {
 namespace {

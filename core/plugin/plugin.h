@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 #include "core/types/plugin.h"
 #include "core/types/registry.h"
 

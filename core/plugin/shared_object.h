@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 
 namespace forage::plugin {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/types/column.h"
+#include "core/base/column.h"
 #include "core/types/type_error.h"
 
 namespace forage::plugin {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/types/random.h"
+#include "core/base/random.h"
 #include "core/types/type_error.h"
 
 namespace forage::plugin {

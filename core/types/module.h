@@ -20,12 +20,12 @@
 #include <string>
 #include <vector>
 
-#include "core/types/archive.h"
-#include "core/types/column.h"
+#include "core/base/archive.h"
+#include "core/base/column.h"
 #include "core/types/members.h"
 #include "core/types/parameter.h"
 #include "core/types/problems.h"
-#include "core/types/random.h"
+#include "core/base/random.h"
 #include "core/types/type_error.h"
 
 namespace forage {

@@ -17,10 +17,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/types/column.h"
+#include "core/base/column.h"
 #include "core/types/parameter.h"
 #include "core/types/problems.h"
-#include "core/types/random.h"
+#include "core/base/random.h"
 #include "core/types/type_error.h"
 
 namespace forage {

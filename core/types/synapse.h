@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/types/column.h"
+#include "core/base/column.h"
 #include "core/types/parameter.h"
 #include "core/types/problems.h"
 #include "core/types/type_error.h"

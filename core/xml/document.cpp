@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
-#include "core/model/named_file.h"
+#include "core/base/named_file.h"
 #include "core/xml/well_formed.h"
 
 namespace forage::xml {

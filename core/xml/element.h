@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 
 namespace forage::xml {
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/model/utf8.h"
+#include "core/base/utf8.h"
 
 namespace forage::xml {
 namespace {

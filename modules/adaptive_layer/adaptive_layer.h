@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "core/types/archive.h"
+#include "core/base/archive.h"
 
 namespace forage::adaptive {
 

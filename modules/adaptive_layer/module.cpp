@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/types/text_file.h"
+#include "core/base/text_file.h"
 #include "modules/adaptive_layer/weights_file.h"
 
 namespace forage::adaptive {

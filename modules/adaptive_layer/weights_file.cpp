@@ -13,7 +13,7 @@
 
 #include <fmt/format.h>
 
-#include "core/types/text_file.h"
+#include "core/base/text_file.h"
 
 namespace forage::adaptive {
 namespace {

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "core/types/simd.h"
+#include "core/base/simd.h"
 
 namespace forage::contextual {
 namespace {

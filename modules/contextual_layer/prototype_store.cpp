@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/types/simd.h"
+#include "core/base/simd.h"
 
 namespace forage::contextual {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "core/types/archive.h"
+#include "core/base/archive.h"
 #include "modules/contextual_layer/cell_list.h"
 #include "modules/contextual_layer/coarse_prototypes.h"
 

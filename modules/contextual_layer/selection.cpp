@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/types/simd.h"
+#include "core/base/simd.h"
 
 namespace forage::contextual {
 namespace {

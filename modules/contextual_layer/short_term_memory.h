@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "core/types/archive.h"
+#include "core/base/archive.h"
 
 namespace forage::contextual {
 

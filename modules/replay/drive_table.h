@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/types/column.h"
-#include "core/types/text_file.h"
+#include "core/base/column.h"
+#include "core/base/text_file.h"
 
 namespace forage::replay {
 

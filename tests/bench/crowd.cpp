@@ -16,7 +16,7 @@
 
 #include "bug_interface/simulation/world.h"
 #include "bug_interface/world/sdf_reader.h"
-#include "core/types/random.h"
+#include "core/base/random.h"
 #include "tests/bench/report.h"
 
 namespace {

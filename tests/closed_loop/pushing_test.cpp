@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bug_interface/motion/overlap.h"
-#include "core/types/random.h"
+#include "core/base/random.h"
 #include "tests/unit/bug_motion/worlds.h"
 
 using namespace forage;

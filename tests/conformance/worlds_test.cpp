@@ -9,7 +9,7 @@
 #include "bug_interface/simulation/world.h"
 #include "bug_interface/world/sdf_reader.h"
 #include "core/engine/simulation.h"
-#include "core/types/random.h"
+#include "core/base/random.h"
 #include "core/xml/reader.h"
 #include "modules/modules.h"
 #include "neurons/neurons.h"

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 
 namespace forage::test {
 

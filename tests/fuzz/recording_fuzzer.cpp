@@ -1,5 +1,5 @@
 // Recordings that are read back: the first byte chooses the format.
-#include "core/model/named_file.h"
+#include "core/base/named_file.h"
 #include "core/observe/recording.h"
 #include "tests/fuzz/holds.h"
 #include "tests/fuzz/scratch_file.h"

@@ -1,7 +1,7 @@
 // Tables that drive and clamp groups, and lists of patterns: the same text as both.
 #include <cstdint>
 
-#include "core/model/named_file.h"
+#include "core/base/named_file.h"
 #include "core/observe/pattern_file.h"
 #include "modules/replay/drive_table.h"
 #include "tests/fuzz/holds.h"

@@ -1,7 +1,7 @@
 // Weights of the adaptive layer.
 #include <cstdint>
 
-#include "core/model/named_file.h"
+#include "core/base/named_file.h"
 #include "modules/adaptive_layer/weights_file.h"
 #include "tests/fuzz/holds.h"
 

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "core/types/archive.h"
+#include "core/base/archive.h"
 #include "tools/forage/files.h"
 
 namespace forage::tool {

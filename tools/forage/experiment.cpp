@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/model/named_file.h"
+#include "core/base/named_file.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/cores.h"
 #include "tools/forage/experiment_runs.h"

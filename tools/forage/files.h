@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 
 namespace forage::tool {
 

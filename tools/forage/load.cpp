@@ -9,7 +9,7 @@
 #include "bug_interface/world/sdf_reader.h"
 #include "core/model/build.h"
 #include "core/model/edit.h"
-#include "core/model/named_file.h"
+#include "core/base/named_file.h"
 #include "core/model/validate.h"
 #include "core/plugin/search.h"
 #include "core/xml/reader.h"

@@ -9,7 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 #include "core/model/lookup.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/options.h"

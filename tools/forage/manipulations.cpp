@@ -8,7 +8,7 @@
 #include "core/model/lookup.h"
 #include "core/observe/cell.h"
 #include "core/observe/pattern_file.h"
-#include "core/types/text_file.h"
+#include "core/base/text_file.h"
 #include "tools/forage/schedule.h"
 
 namespace forage::tool {

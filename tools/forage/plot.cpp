@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/model/named_file.h"
+#include "core/base/named_file.h"
 #include "core/observe/recording.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/files.h"

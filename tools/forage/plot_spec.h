@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 #include "tools/plot/canvas.h"
 
 namespace forage::tool {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/model/lookup.h"
-#include "core/model/named_file.h"
+#include "core/base/named_file.h"
 #include "modules/replay/replay.h"
 #include "tools/forage/manipulations.h"
 

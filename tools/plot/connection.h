@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/types/column.h"
+#include "core/base/column.h"
 #include "tools/plot/canvas.h"
 
 namespace forage::plot {

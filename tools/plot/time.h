@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/types/archive.h"
+#include "core/base/archive.h"
 #include "tools/plot/axes.h"
 #include "tools/plot/canvas.h"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/types/random.h"
+#include "core/base/random.h"
 #include "tests/support/catch.h"
 
 using namespace forage::bug;

@@ -1,4 +1,4 @@
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 
 #include "tests/support/catch.h"
 

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "core/types/random.h"
+#include "core/base/random.h"
 #include "tests/support/catch.h"
 
 using namespace forage;

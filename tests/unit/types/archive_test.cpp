@@ -1,4 +1,4 @@
-#include "core/types/archive.h"
+#include "core/base/archive.h"
 
 #include <bit>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "core/types/random.h"
+#include "core/base/random.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "core/types/philox.h"
+#include "core/base/philox.h"
 #include "tests/support/catch.h"
 
 using forage::RandomStream;

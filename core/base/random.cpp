@@ -1,11 +1,11 @@
-#include "core/types/random.h"
+#include "core/base/random.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "core/types/philox.h"
+#include "core/base/philox.h"
 
 namespace forage {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/types/text_file.h"
+#include "core/base/text_file.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "core/model/diagnostic.h"
+#include "core/base/diagnostic.h"
 
 #include <algorithm>
 #include <cctype>
@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/model/utf8.h"
+#include "core/base/utf8.h"
 
 namespace forage {
 namespace {

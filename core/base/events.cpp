@@ -10,8 +10,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/types/philox.h"
-#include "core/types/random.h"
+#include "core/base/philox.h"
+#include "core/base/random.h"
 
 namespace forage {
 namespace {

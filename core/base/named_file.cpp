@@ -1,4 +1,4 @@
-#include "core/model/named_file.h"
+#include "core/base/named_file.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "core/model/diagnostic.h"
-#include "core/types/text_file.h"
+#include "core/base/diagnostic.h"
+#include "core/base/text_file.h"
 
 namespace forage {
 
