@@ -1,10 +1,9 @@
-// PNG files, 8 bits per channel.
+// PNG files, 8 bits per channel, read and written by libpng's simplified interface.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "core/base/huge_pages.h"
 
@@ -19,25 +18,26 @@ struct Image {
     Pixels pixels;              ///< in rows from the top: red, green, blue, 255, from the low byte
 
     std::size_t stride() const { return static_cast<std::size_t>(width + 2 * border); }
-    /// From the left; negative ones are of the border.
+    /// The first pixel of a row, from the left; negative rows belong to the border.
     std::uint32_t* row(int row) {
         return &pixels[static_cast<std::size_t>(row + border) * stride()] + border;
     }
 };
 
-/// Transparent pixels stand before black. Throws std::runtime_error with the reason when the file cannot be
-/// read.
+/// Reads a picture of any kind, with a border of `border` pixels. Transparent pixels are drawn on black.
+/// Throws std::runtime_error with the reason when the file cannot be read, is larger than 4096 x 4096 pixels,
+/// or has more than 64 KiB of texts and profiles before its pixels.
 Image read_png(const std::string& path, int border);
 
-/// What keeps a file from being a picture for read_png(), as far as its beginning and end tell; empty when
-/// nothing does. Much text before the pixels is refused in every picture, though read_png() passes over it in
-/// those of the usual kind.
+/// Returns what keeps read_png() from reading a file, as far as the file's beginning and end tell; empty when
+/// nothing does.
 std::string png_problem(const std::string& path);
 
-/// Throws std::runtime_error with the reason when the file cannot be written.
+/// Writes `rgb`, which holds three bytes per pixel in rows from the top. Throws std::runtime_error with the
+/// reason when the file cannot be written.
 void write_png(const std::string& path, int width, int height, std::span<const std::uint8_t> rgb);
 
-/// The bytes of a PNG file, made quickly rather than small.
+/// The bytes of a PNG file, compressed for speed rather than size.
 std::string encode_png(int width, int height, std::span<const std::uint8_t> rgb);
 
 }  // namespace forage::bug
