@@ -37,7 +37,7 @@ std::string no_robot(const World& world, const std::string& name) {
 }
 
 std::string what_there_is(const World& world, const std::string& name) {
-    const auto names = world.bug_names();
+    const auto names = world.robot_names();
     return names.empty() ? "the world has no robot: a robot is a model with a link 'bug' and the plugin "
                            "libvel_plugin.so"
                          : suggest(name, names);
@@ -179,6 +179,7 @@ void GazeboBug::check(const ModulePorts& ports, Problems& problems) {
                                                      : "headSigma",
                                 {}});
 
+    world_ = dynamic_cast<World*>(ports.environment);
     if (!world_) return;
     const auto bug = world_->find(device_name);
     if (!bug) {
@@ -209,6 +210,7 @@ void GazeboBug::check(const ModulePorts& ports, Problems& problems) {
 }
 
 void GazeboBug::start(const ModulePorts& ports, ModuleFrame& frame) {
+    world_ = dynamic_cast<World*>(ports.environment);
     if (!world_)
         throw std::runtime_error(
             "this system drives a robot and needs a world to run in: give one with --world FILE");
@@ -289,6 +291,6 @@ void GazeboBug::copy_image(ModuleFrame& frame) {
                 channel(image_first), channel(image_second), channel(image_third));
 }
 
-ModuleType gazebo_bug_type(World* world) { return module_type(GazeboBug(world)); }
+ModuleType gazebo_bug_type() { return module_type<GazeboBug>(); }
 
 }  // namespace forage::bug

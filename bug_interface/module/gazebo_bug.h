@@ -29,10 +29,6 @@ namespace forage::bug {
 /// effect.
 class GazeboBug {
   public:
-    GazeboBug() = default;
-    /// `world`: not owned; null for systems that are only checked.
-    explicit GazeboBug(World* world) : world_(world) {}
-
     std::string device_name = "iqrGazebo";
     double cps = 25;
     std::string comkey;
@@ -60,8 +56,8 @@ class GazeboBug {
     std::vector<double> unused_;  ///< for colour channels that no group takes
 };
 
-/// The descriptor of the module type; its modules drive robots of `world`, which must outlive them. With a
-/// null world systems can be checked but not run.
-ModuleType gazebo_bug_type(World* world);
+/// The module type. Its modules drive robots of the run's environment, which must be a World; without one, systems
+/// can be checked but not run.
+ModuleType gazebo_bug_type();
 
 }  // namespace forage::bug

@@ -22,7 +22,7 @@ void check_bounds(const WorldDescription& world, const ResetPlan& plan, Diagnost
         WorldDescription alone;
         alone.models.push_back(model);
         for (const Eigen::Vector2d& target : targets_of(alone))
-            if (plan.bounds.exteriorDistance(target) >= Trial::reach)
+            if (plan.bounds.exteriorDistance(target) >= TrialLog::reach)
                 diagnostics.warning(
                     model.where,
                     fmt::format("no robot reaches the target at ({:g}, {:g}): it is put back before",

@@ -26,7 +26,7 @@ std::string describe(const World& world) {
     const auto line = [&](std::string_view label, const std::string& text) {
         out += fmt::format("  {:12}{}\n", label, text);
     };
-    const auto names = world.bug_names();
+    const auto names = world.robot_names();
     std::size_t with_resets = 0;
     for (std::size_t i = 0; i < names.size(); ++i) {
         line("robot", fmt::format("{} at {}", names[i], at(world.snapshot(i).pose)));

@@ -57,6 +57,8 @@ class Game {
     const std::vector<Resource>& resources() const { return resources_; }
     const std::vector<Delivery>& deliveries() const { return deliveries_; }
     const std::array<Pose2, 2>& homes() const { return homes_; }
+    /// "A" or "B".
+    static std::string team_name(int team) { return team == 0 ? "A" : "B"; }
     int points(int team) const;
     int delivered(int team, bool good) const;
 

@@ -1,4 +1,4 @@
-// What happened between two resets.
+// Follows a robot from reset to reset.
 #pragma once
 
 #include <algorithm>
@@ -9,29 +9,17 @@
 
 #include <Eigen/Core>
 
-#include "bug_interface/world/description.h"
+#include "core/run/trial.h"
 
 namespace forage::bug {
-
-/// From a start to the moment when the robot leaves the bounds.
-struct Trial {
-    /// A robot (radius 0.2 m) whose middle comes nearer than this to the middle of a target (radius 0.25 m)
-    /// has reached it, m.
-    static constexpr double reach = 0.45;
-
-    int number = 1;                 ///< counts from 1
-    Pose2 start, end;               ///< end: of an unfinished trial, where the robot is now
-    std::uint64_t first_cycle = 0;  ///< the first in which the robot is driven
-    std::uint64_t cycles = 0;       ///< up to and with the one in which it ends
-    double smallest_distance = std::numeric_limits<double>::infinity();  ///< robot to nearest target, middle
-                                                                         ///< to middle, over all substeps, m
-    bool target() const { return smallest_distance < reach; }
-    void checkpoint(Archive& archive) { archive(number, start, end, first_cycle, cycles, smallest_distance); }
-};
 
 /// One robot's trials.
 class TrialLog {
   public:
+    /// A robot (radius 0.2 m) whose centre comes nearer than this to the centre of a target (radius 0.25 m) has
+    /// reached it, m.
+    static constexpr double reach = 0.45;
+
     explicit TrialLog(std::vector<Eigen::Vector2d> targets) : targets_(std::move(targets)) {}
 
     /// `cycle`: the first one in which the robot is driven.

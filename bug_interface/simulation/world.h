@@ -10,12 +10,14 @@
 
 #include "bug_interface/motion/physics.h"
 #include "bug_interface/simulation/game.h"
+#include "bug_interface/simulation/patches.h"
 #include "bug_interface/simulation/robot.h"
 #include "bug_interface/simulation/surroundings.h"
 #include "bug_interface/simulation/thing.h"
 #include "bug_interface/simulation/trials.h"
 #include "bug_interface/world/description.h"
 #include "core/base/diagnostic.h"
+#include "core/run/environment.h"
 
 namespace forage::bug {
 
@@ -40,13 +42,13 @@ struct WorldOptions {
 ///
 /// What is neither fixed nor a robot is loose: it can be pushed and carried. Things touch where they share
 /// heights.
-class World {
+class World final : public Environment {
   public:
     /// Null when the world cannot be simulated; `diagnostics` then says why.
     static std::unique_ptr<World> make(const WorldDescription& description, const WorldOptions& options,
                                        Diagnostics& diagnostics);
 
-    double seconds_per_cycle() const {
+    double seconds_per_cycle() const override {
         return substeps_per_cycle_ * description_.step;
     }  ///< of the world; a mean
     double time() const { return static_cast<double>(substep_) * description_.step; }  ///< s since the start
@@ -54,7 +56,7 @@ class World {
     std::uint64_t substeps() const { return substep_; }                                ///< physics steps done
 
     /// One cycle: its substeps, then a snapshot of every robot. The first snapshot is taken at construction.
-    void step();
+    void step() override;
     // The parts of step(), for benchmarks; in this order, since scans and pictures are of the cycle that
     // advance_bodies() ended.
     void advance_bodies();  ///< the substeps of a cycle
@@ -62,7 +64,7 @@ class World {
     void render();          ///< pictures into the snapshots of the robots of which they are wanted
 
     std::size_t bugs() const { return robots_.size(); }
-    std::vector<std::string> bug_names() const;
+    std::vector<std::string> robot_names() const override;
     std::optional<std::size_t> find(std::string_view bug) const;
     /// What modules get: of the last cycle, or of an earlier one when the options have it late.
     const BugSnapshot& snapshot(std::size_t bug) const;
@@ -75,7 +77,7 @@ class World {
 
     /// All that changes in it; between cycles. To be read into a world made of the same description, with the
     /// same options, which the same modules have started to use. Throws ArchiveError when it does not fit.
-    void checkpoint(Archive& archive);
+    void checkpoint(Archive& archive) override;
 
     /// Holds until the next command. The first is to stand still.
     void command(std::size_t bug, const MotorCommand& command) { robots_[bug].command = command; }
@@ -95,18 +97,32 @@ class World {
     /// A robot obeys one module: empty when it has one already. The claim ends with the returned object.
     std::shared_ptr<void> claim(std::size_t bug);
 
-    const Pose2& pose(std::size_t bug) const { return robots_[bug].pose; }
+    Pose2 pose(std::size_t bug) const override { return robots_[bug].pose; }
     /// The point of the floor (z = 0) in the middle of its camera's picture; where it stands itself, for a
     /// robot without a camera or with one that does not look down. World frame, m.
     Eigen::Vector2d looks_at(std::size_t bug) const;
     /// Whether this robot is put back to a start pose when it leaves the bounds.
-    bool has_trials(std::size_t bug) const { return robots_[bug].reset.has_value(); }
-    bool resetting(std::size_t bug) const { return robots_[bug].reset && robots_[bug].reset->running(); }
+    bool has_trials(std::size_t bug) const override { return robots_[bug].reset.has_value(); }
+    bool resetting(std::size_t bug) const override {
+        return robots_[bug].reset && robots_[bug].reset->running();
+    }
 
-    const std::vector<Trial>& trials(std::size_t bug) const {
+    const std::vector<Trial>& trials(std::size_t bug) const override {
         return robots_[bug].trials->finished();
-    }                                            ///< finished ones
-    Trial current_trial(std::size_t bug) const;  ///< the running one; during a reset the one to come
+    }
+    Trial current_trial(std::size_t bug) const override;
+    std::vector<Pose2> start_poses() const override { return plan_ ? plan_->starts : std::vector<Pose2>(); }
+    bool has_targets() const override { return !targets_.empty(); }
+
+    /// Patches are found when they are first asked for, so not by two threads at a time. Throws std::runtime_error
+    /// when a floor's picture cannot be read.
+    std::vector<std::string> patch_colours() const override;
+    /// The patch at looks_at(); patch_colours() must have been called.
+    std::optional<std::size_t> patch_in_view(std::size_t bug) const override;
+
+    std::vector<Score> scores() const override;
+    std::optional<double> game_time_left() const override;
+    std::string score_csv() const override;
 
     const std::vector<Eigen::Vector2d>& targets() const { return targets_; }  ///< their middles, m
     std::optional<ResetPlan> reset_plan() const { return plan_; }             ///< start poses and bounds
@@ -166,6 +182,7 @@ class World {
     std::vector<MotorCommand> drives_;  ///< of this substep, with noise
     std::unique_ptr<Physics> physics_;
     mutable std::shared_ptr<const Scene> scene_;
+    mutable std::optional<std::vector<Patch>> patches_;
 };
 
 /// A world in a few lines for people: robots, start poses, targets, bounds, whether there are trials, and how

@@ -1,8 +1,12 @@
 #include "bug_interface/simulation/world.h"
 
+#include <array>
+
+#include <fmt/format.h>
+
 namespace forage::bug {
 
-std::vector<std::string> World::bug_names() const {
+std::vector<std::string> World::robot_names() const {
     std::vector<std::string> names;
     for (const Robot& robot : robots_) names.push_back(robot.name);
     return names;
@@ -40,6 +44,43 @@ Eigen::Vector2d World::looks_at(std::size_t bug) const {
     if (axis.z() >= 0) return here;
     const Eigen::Vector3d floor = at - at.z() / axis.z() * axis;
     return here + Eigen::Rotation2Dd(robot.pose.yaw) * floor.head<2>();
+}
+
+std::vector<std::string> World::patch_colours() const {
+    if (!patches_) patches_ = patches_of(scene()->floors());
+    std::vector<std::string> out;
+    for (const Patch& patch : *patches_) out.push_back(patch.colour);
+    return out;
+}
+
+std::optional<std::size_t> World::patch_in_view(std::size_t bug) const {
+    const int patch = patches_ ? patch_at(*patches_, looks_at(bug)) : -1;
+    if (patch < 0) return std::nullopt;
+    return static_cast<std::size_t>(patch);
+}
+
+std::vector<Environment::Score> World::scores() const {
+    std::vector<Score> out;
+    for (int team = 0; team < 2 && !game_.empty(); ++team)
+        out.push_back({Game::team_name(team), game_.points(team), game_.delivered(team, true),
+                       game_.delivered(team, false)});
+    return out;
+}
+
+std::optional<double> World::game_time_left() const {
+    if (!game_.timed()) return std::nullopt;
+    return game_.left();
+}
+
+std::string World::score_csv() const {
+    std::string out = "seconds,team,resource,points,score_a,score_b\n";
+    std::array<int, 2> score{};
+    for (const auto& d : game_.deliveries()) {
+        score[static_cast<std::size_t>(d.team)] += d.points;
+        out += fmt::format("{:.3f},{},{},{},{},{}\n", d.time, Game::team_name(d.team), d.good ? "good" : "bad",
+                           d.points, score[0], score[1]);
+    }
+    return out;
 }
 
 Trial World::current_trial(std::size_t bug) const {

@@ -10,9 +10,12 @@
 #include <Eigen/Geometry>
 
 #include "core/base/diagnostic.h"
+#include "core/run/trial.h"
 #include "core/base/archive.h"
 
 namespace forage::bug {
+
+using forage::Pose2;
 
 using Pose = Eigen::Isometry3d;  ///< relative to the parent: model in world, link in model, the rest in link
 using Colour = Eigen::Array3f;   ///< red, green, blue in 0..1
@@ -142,11 +145,6 @@ struct WorldDescription {
 };
 
 /// A pose in the plane.
-struct Pose2 {
-    double x = 0, y = 0, yaw = 0;
-    void checkpoint(Archive& archive) { archive(x, y, yaw); }
-};
-
 inline double yaw_of(const Pose& pose) { return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0)); }
 inline Pose2 in_plane(const Pose& pose) {
     return {pose.translation().x(), pose.translation().y(), yaw_of(pose)};

@@ -54,7 +54,7 @@ GroupPlan& seen(std::vector<GroupPlan>& groups, int group) {
 std::optional<Simulation> Simulation::build(const model::System& system, const Registry& registry,
                                             Options options, Diagnostics& diagnostics) {
     const int errors_before = diagnostics.errors();
-    model::validate(system, registry, diagnostics);
+    model::validate(system, registry, diagnostics, options.environment);
     if (diagnostics.errors() > errors_before) return std::nullopt;
     auto plan = compile(system, registry, options.seed,
                         options.general_forms ? Forms::general : Forms::fastest, diagnostics);
@@ -69,6 +69,7 @@ Simulation::Simulation(std::unique_ptr<Plan> plan, const Options& options)
         widest = std::max(widest, static_cast<std::size_t>(g.stride));
         most_compared = std::max(most_compared, compared_numbers(g));
     }
+    for (auto& m : plan_->modules) m.ports.environment = options.environment;
     estimate_deliveries(*plan_);
     early_ = std::make_unique<EarlyDelivery>(*plan_);
     if (options.threads > 1 && update_cost(*plan_) + delivery_cost(*plan_) >= parallel_threshold_ns_)

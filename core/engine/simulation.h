@@ -70,6 +70,7 @@ class Simulation {
         /// ns on one thread, in a shared cycle: no part of a group takes less, nor do deliveries for which
         /// all threads meet.
         double min_task_ns = 1'250;
+        Environment* environment = nullptr;  ///< given to the modules; must outlive the simulation
         bool general_forms =
             false;  ///< compile every connection to a list of synapses (slower, same numbers)
     };

@@ -27,8 +27,8 @@ std::string_view name_of(InputKind kind) {
 
 class Validator {
   public:
-    Validator(const System& system, const Registry& registry, Diagnostics& out)
-        : system_(system), registry_(registry), out_(out), groups_(system) {}
+    Validator(const System& system, const Registry& registry, Diagnostics& out, Environment* environment)
+        : system_(system), registry_(registry), out_(out), environment_(environment), groups_(system) {}
 
     void run() {
         unique_ids();
@@ -177,6 +177,7 @@ class Validator {
         check_settings(use, type->parameters);
         ModulePorts ports;
         ports.process = process.name;
+        ports.environment = environment_;
         check_ports(use, *type, use.inputs, false, process.module_enabled, ports.inputs);
         check_ports(use, *type, use.outputs, true, process.module_enabled, ports.outputs);
         // What modules find is told of all of them; they look only where nothing else is wrong.
@@ -400,6 +401,7 @@ class Validator {
     const System& system_;
     const Registry& registry_;
     Diagnostics& out_;
+    Environment* environment_;
     int found_by_modules_ = 0;  ///< errors
     GroupIndex groups_;
 };
@@ -412,8 +414,9 @@ std::string resolved(const Setting& s) {
 
 }  // namespace
 
-void validate(const System& system, const Registry& registry, Diagnostics& diagnostics) {
-    Validator(system, registry, diagnostics).run();
+void validate(const System& system, const Registry& registry, Diagnostics& diagnostics,
+              Environment* environment) {
+    Validator(system, registry, diagnostics, environment).run();
 }
 
 void apply(const std::vector<Setting>& settings, const std::vector<Parameter>& parameters, void* object) {

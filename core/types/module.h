@@ -30,6 +30,8 @@
 
 namespace forage {
 
+class Environment;
+
 /// A cross reference that a module declares: a named place for one group.
 struct ModulePort {
     std::string name;           ///< as in the file's `<XRef name="..">`
@@ -51,6 +53,7 @@ struct ModulePorts {
     std::vector<Group> inputs;  ///< in order of declaration (of the file, for a type that takes any)
     std::vector<Group> outputs;
     RandomStream random;  ///< the module's own stream
+    Environment* environment = nullptr;  ///< core/run/environment.h; null in a run, or a check, without one
 };
 
 /// What a module sees in one cycle.

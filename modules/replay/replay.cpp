@@ -28,18 +28,16 @@ bool plays(const DriveTable::Row& row, std::string_view process, const ModulePor
 }
 
 void Replay::check(const ModulePorts& ports, Problems&) {
-    if (!file.empty())
-        require_sizes(DriveTable::read(file), ports);
-    else if (table)
-        require_sizes(*table, ports);
+    if (!file.empty()) require_sizes(DriveTable::read(file), ports);
 }
 
 void Replay::start(const ModulePorts& ports, ModuleFrame& frame) {
-    if (!file.empty()) table = std::make_shared<DriveTable>(DriveTable::read(file));
-    if (!table) throw std::runtime_error("it has no table to play; set its parameter 'file', or use --drive");
-    require_sizes(*table, ports);
+    if (file.empty())
+        throw std::runtime_error("it has no table to play; set its parameter 'file', or use --replay");
+    table_ = DriveTable::read(file);
+    require_sizes(table_, ports);
     cursors_.assign(ports.outputs.size(), {});
-    for (const auto& row : table->rows())
+    for (const auto& row : table_.rows())
         for (std::size_t i = 0; i < ports.outputs.size(); ++i)
             if (plays(row, ports.process, ports.outputs[i])) cursors_[i].rows.push_back(&row);
     play(-1, frame);

@@ -1,7 +1,7 @@
 // moduleReplay: plays a table into groups, so that a system can be driven by recorded data.
 #pragma once
 
-#include <memory>
+#include <string>
 
 #include "core/types/module.h"
 #include "modules/replay/drive_table.h"
@@ -16,7 +16,6 @@ bool plays(const DriveTable::Row& row, std::string_view process, const ModulePor
 /// 0. Outputs hold their last row.
 struct Replay {
     std::string file;
-    std::shared_ptr<const DriveTable> table;  ///< what is played when `file` is empty
 
     static void describe(ModuleSpec<Replay>& s) {
         s.name("moduleReplay", "Replay").doc("Plays the rows of a table into its output groups.").any_ports();
@@ -40,6 +39,7 @@ struct Replay {
     };
     void play(std::int64_t until, ModuleFrame& frame);
 
+    DriveTable table_;
     std::vector<Cursor> cursors_;  ///< one per output
 };
 

@@ -64,9 +64,11 @@ struct Loop {
         add_neurons(registry);
         add_synapses(registry);
         add_modules(registry);
-        registry.add(bug::gazebo_bug_type(world.get()));
+        registry.add(bug::gazebo_bug_type());
         for (const auto& setting : c.settings) model::set(*system, registry, setting, diagnostics);
-        if (world) simulation = engine::Simulation::build(*system, registry, {}, diagnostics);
+        if (world)
+            simulation =
+                engine::Simulation::build(*system, registry, {.environment = world.get()}, diagnostics);
         if (!simulation) return;
         if (c.update == Update::what_is_read) {
             engine::Demand observed;

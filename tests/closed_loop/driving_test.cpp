@@ -28,7 +28,7 @@ TEST_CASE("With Explore connected to the motors alone the robot drives straight,
         const auto& trial = loop.world->trials(0).front();
         CHECK(std::abs(trial.end.x + 1.5) < 0.02);  // straight up to the edge, noise aside
         CHECK(trial.end.y > 2.5);
-        CHECK_FALSE(trial.target());
+        CHECK_FALSE(trial.reached_target);
     }
 }
 

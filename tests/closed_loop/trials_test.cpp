@@ -15,7 +15,7 @@ TEST_CASE("The reactive system reaches the target in the large majority of trial
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         ClosedLoop loop({.world = world, .seed = seed});
         loop.run_trials(trials);
-        for (const auto& t : loop.world->trials(0)) reached += t.target();
+        for (const auto& t : loop.world->trials(0)) reached += t.reached_target;
     }
     INFO(reached << " of " << trials * seeds);
     CHECK(reached >= 0.9 * trials * seeds);

@@ -40,7 +40,7 @@ std::unique_ptr<World> made(const WorldDescription& description, WorldOptions op
 /// The world with its first robot at another place.
 std::unique_ptr<World> with_robot_at(const std::string& name, const Pose2& place) {
     WorldDescription text = original(name);
-    const std::string robot = made(text)->bug_names().front();
+    const std::string robot = made(text)->robot_names().front();
     for (Model& m : text.models)
         if (m.name == robot) m.pose = in_space(place);
     return made(text);
@@ -232,7 +232,7 @@ TEST_CASE("Teams: green robots with names of team A, red ones of team B, where t
     const auto world = made(original("SDIC_challenge/SDIC_arena"));
     REQUIRE(world->bugs() == places.size());
     for (std::size_t i = 0; i < world->bugs(); ++i) {
-        const std::string name = world->bug_names()[i];
+        const std::string name = world->robot_names()[i];
         INFO(name);
         const Pose2& at = places.at(name);
         CHECK((world->pose(i).x == at.x && world->pose(i).y == at.y));

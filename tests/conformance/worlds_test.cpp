@@ -155,7 +155,7 @@ TEST_CASE("The original's systems run in the original's worlds") {
             const auto world = bug::World::make(*description, options, diagnostics);
             Registry registry;
             add_neurons(registry), add_synapses(registry), add_modules(registry);
-            registry.add(bug::gazebo_bug_type(world.get()));
+            registry.add(bug::gazebo_bug_type());
             auto simulation = engine::Simulation::build(*system, registry, {}, diagnostics);
             if (!simulation) {  // it wants a robot of another name
                 CHECK(format(diagnostics).find("there is no robot '") != std::string::npos);

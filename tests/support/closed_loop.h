@@ -46,10 +46,11 @@ class ClosedLoop {
             add_neurons(registry);
             add_synapses(registry);
             add_modules(registry);
-            registry.add(bug::gazebo_bug_type(world.get()));
+            registry.add(bug::gazebo_bug_type());
             for (const auto& assignment : setup.set) model::set(*system, registry, assignment, diagnostics);
             parsed_ = *system;
-            simulation = engine::Simulation::build(*system, registry, {setup.seed}, diagnostics);
+            simulation = engine::Simulation::build(
+                *system, registry, {.seed = setup.seed, .environment = world.get()}, diagnostics);
         }
         if (!simulation || !world) throw std::runtime_error(format(diagnostics));
         simulation->start();
@@ -75,7 +76,7 @@ class ClosedLoop {
         if (!change) throw std::runtime_error(format(diagnostics));
         simulation->set(*change);
     }
-    bug::Pose2 pose() const { return world->pose(0); }
+    Pose2 pose() const { return world->pose(0); }
     /// Activity of "Process/Group".
     ConstColumn activity(std::string_view group) const {
         Diagnostics diagnostics;

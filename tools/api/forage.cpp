@@ -22,7 +22,7 @@ Registry types(const std::vector<std::string>& plugins, Diagnostics& diagnostics
     add_neurons(out);
     add_synapses(out);
     add_modules(out);
-    out.add(module_type(replay::Replay{}));
+    out.add(module_type<replay::Replay>());
     plugin::add(plugin::load(plugin::find(plugins, {}, {}, diagnostics), out, diagnostics), out);
     return out;
 }

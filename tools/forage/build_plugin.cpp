@@ -108,7 +108,7 @@ int build_plugin(const BuildPluginOptions& o) {
         return bad_input;
     }
     Diagnostics diagnostics;
-    plugin::load({partial(output)}, shipped_types(nullptr, nullptr), diagnostics);  // whatever else there is
+    plugin::load({partial(output)}, shipped_types(), diagnostics);  // whatever else there is
     if (diagnostics.failed()) {
         std::string said = format(diagnostics);
         for (auto at = said.find(partial(output)); at != said.npos; at = said.find(partial(output), at))

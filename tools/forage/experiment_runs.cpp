@@ -28,7 +28,7 @@ void check_value(const model::Sweep& sweep, const model::Expression& value, cons
     model::System system = loaded.system;
     model::set(system, *assignment);
     Diagnostics found;
-    model::validate(system, loaded.registry, found);
+    model::validate(system, loaded.registry, found, loaded.world.get());
     for (const auto& d : found.all())
         if (d.severity == Severity::error)
             diagnostics.error(

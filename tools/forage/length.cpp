@@ -71,7 +71,7 @@ double Length::done(std::uint64_t cycle) const {
 std::string Length::text() const {
     if (!world_ || world_->bugs() == 0 || !world_->reset_plan()) return {};
     std::size_t reached = 0;
-    for (const auto& t : world_->trials(0)) reached += t.target();
+    for (const auto& t : world_->trials(0)) reached += t.reached_target;
     return fmt::format("{}{} trials, {} at the target", world_->trials(0).size(),
                        cycles_ ? "" : fmt::format("/{}", trials_), reached);
 }

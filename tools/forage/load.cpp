@@ -1,5 +1,6 @@
 #include "tools/forage/load.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
@@ -31,6 +32,20 @@ std::shared_ptr<const replay::DriveTable> read_table(const std::string& path, Di
     }
 }
 
+/// Makes every enabled moduleReplay that names no table of its own play this one.
+void play(const replay::DriveTable& table, model::System& system) {
+    for (auto& p : system.processes) {
+        if (!p.module || p.module->type != "moduleReplay") continue;
+        auto& settings = p.module->settings;
+        const auto file =
+            std::find_if(settings.begin(), settings.end(), [](const auto& s) { return s.name == "file"; });
+        if (file == settings.end())
+            settings.push_back({"file", table.name(), {}, {}});
+        else if (file->value.empty())
+            file->value = table.name(), file->value_at = {};
+    }
+}
+
 /// A system, or a process file as a system of one process.
 std::optional<model::System> read_any(const std::string& path, Diagnostics& diagnostics) {
     if (std::filesystem::path(path).extension() != ".iqrProcess") return xml::read_system(path, diagnostics);
@@ -45,15 +60,13 @@ std::optional<model::System> read_any(const std::string& path, Diagnostics& diag
 
 }  // namespace
 
-Registry shipped_types(bug::World* world, std::shared_ptr<const replay::DriveTable> drive) {
+Registry shipped_types() {
     Registry registry;
     add_neurons(registry);
     add_synapses(registry);
     add_modules(registry);
-    replay::Replay player;
-    player.table = std::move(drive);
-    registry.add(module_type(player));
-    registry.add(bug::gazebo_bug_type(world));
+    registry.add(module_type<replay::Replay>());
+    registry.add(bug::gazebo_bug_type());
     return registry;
 }
 
@@ -62,11 +75,11 @@ std::vector<plugin::Plugin> load_plugins(const std::vector<std::string>& named, 
     const char* path = std::getenv("FORAGE_PLUGIN_PATH");
     const auto files = plugin::find(named, path ? path : "", system, diagnostics);
     if (files.empty()) return {};
-    return plugin::load(files, shipped_types(nullptr, nullptr), diagnostics);
+    return plugin::load(files, shipped_types(), diagnostics);
 }
 
 Registry known_types(const std::vector<plugin::Plugin>& plugins) {
-    Registry registry = shipped_types(nullptr, nullptr);
+    Registry registry = shipped_types();
     plugin::add(plugins, registry);
     return registry;
 }
@@ -112,16 +125,15 @@ std::optional<Loaded> assemble(const Sources& sources, const Input& input, Diagn
         options.game = input.game;
         out.world = bug::World::make(*sources.world, options, diagnostics);
     }
-    out.drive = sources.drive;
-
-    out.registry = shipped_types(out.world.get(), out.drive);
+    if (sources.drive) play(*sources.drive, out.system);
+    out.registry = shipped_types();
     plugin::add(sources.plugins, out.registry);
     for (const auto& p : sources.plugins) out.plugins.push_back(p.path);
     if (sources.system && !sources.plugins_failed) {
         for (const auto& wish : input.settings)
             model::set(out.system, out.registry, wish.text, diagnostics, wish.at);
         if (diagnostics.failed())
-            model::validate(out.system, out.registry, diagnostics);  // say all of it at once
+            model::validate(out.system, out.registry, diagnostics, out.world.get());  // say all of it at once
     }
     if (diagnostics.failed()) return std::nullopt;
     return out;

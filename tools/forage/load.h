@@ -42,17 +42,16 @@ struct Sources {
     bool plugins_failed = false;  ///< types may be missing
 };
 
-/// Everything read and checked. Registry and system refer to world and table: keep them together.
+/// Everything read and checked.
 struct Loaded {
     Registry registry;
     std::unique_ptr<bug::World> world;  ///< null without one
     model::System system;
-    std::shared_ptr<const replay::DriveTable> drive;  ///< null without one
-    std::vector<std::string> plugins;                 ///< their files
+    std::vector<std::string> plugins;  ///< their files
 };
 
-/// The types that ship. Robots live in `world` and moduleReplay plays `drive`; either may be null.
-Registry shipped_types(bug::World* world, std::shared_ptr<const replay::DriveTable> drive);
+/// The types that ship.
+Registry shipped_types();
 /// The plugins that `named`, FORAGE_PLUGIN_PATH and the folder plugins beside `system` hold; no system when
 /// empty.
 std::vector<plugin::Plugin> load_plugins(const std::vector<std::string>& named, const std::string& system,

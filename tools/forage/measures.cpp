@@ -7,10 +7,10 @@ namespace forage::tool {
 namespace {
 
 /// The nearest start position, from 1; 0 when the world has none.
-int start_position(const bug::World& world, const bug::Pose2& start) {
+int start_position(const bug::World& world, const Pose2& start) {
     const auto plan = world.reset_plan();
     if (!plan) return 0;
-    const auto distance = [&](const bug::Pose2& p) { return std::hypot(p.x - start.x, p.y - start.y); };
+    const auto distance = [&](const Pose2& p) { return std::hypot(p.x - start.x, p.y - start.y); };
     const auto nearest =
         std::min_element(plan->starts.begin(), plan->starts.end(),
                          [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
@@ -46,7 +46,7 @@ void Measures::follow(const engine::Simulation& simulation) {
             std::max(seen_.back().prototype_peak, layers_->prototype_peak(simulation));
 }
 
-TrialMeasures Measures::at_end(const bug::Trial& trial, const engine::Simulation& simulation) const {
+TrialMeasures Measures::at_end(const Trial& trial, const engine::Simulation& simulation) const {
     TrialMeasures out{start_position(world_, trial.start), seen_, {}, {}};
     if (layers_ && layers_->adaptive()) out.discrepancy = layers_->discrepancy(simulation);
     if (layers_ && layers_->contextual()) out.memory = layers_->memory(simulation);

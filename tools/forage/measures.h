@@ -63,7 +63,7 @@ class Measures {
     void checkpoint(Archive& archive) { archive(finished_, seen_); }
 
   private:
-    TrialMeasures at_end(const bug::Trial& trial, const engine::Simulation& simulation) const;
+    TrialMeasures at_end(const Trial& trial, const engine::Simulation& simulation) const;
 
     const bug::World& world_;
     std::size_t robot_;

@@ -12,7 +12,7 @@ PathLog::PathLog(const bug::World& world, std::size_t robot) : world_(world), ro
     add(0, world.pose(robot), true);
 }
 
-void PathLog::add(std::uint64_t cycle, const bug::Pose2& pose, bool always) {
+void PathLog::add(std::uint64_t cycle, const Pose2& pose, bool always) {
     if (!current_.points.empty()) {
         const auto& last = current_.points.back().pose;
         if (!always && std::hypot(pose.x - last.x, pose.y - last.y) < spacing_) return;
@@ -27,7 +27,7 @@ void PathLog::follow() {
     while (finished_.size() < trials.size()) {
         const auto& trial = trials[finished_.size()];
         add(cycle, trial.end, true);
-        current_.reached = trial.target();
+        current_.reached = trial.reached_target;
         current_.finished = true;
         current_.points.shrink_to_fit();  // there may be many trials
         finished_.push_back(std::move(current_));
@@ -66,7 +66,7 @@ std::vector<plot::Path> PathLog::paths() const {
     for (const auto& t : finished_) out.push_back(drawn(t));
     if (!current_.points.empty() && !world_.resetting(robot_)) {
         out.push_back(drawn(current_));
-        out.back().reached = world_.current_trial(robot_).target();
+        out.back().reached = world_.current_trial(robot_).reached_target;
     }
     return out;
 }

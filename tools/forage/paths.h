@@ -26,7 +26,7 @@ class PathLog {
   private:
     struct Point {
         std::uint64_t cycle;
-        bug::Pose2 pose;
+        Pose2 pose;
         void checkpoint(Archive& archive) { archive(cycle, pose); }
     };
     struct Trial {
@@ -34,7 +34,7 @@ class PathLog {
         bool reached = false, finished = false;
         void checkpoint(Archive& archive) { archive(points, reached, finished); }
     };
-    void add(std::uint64_t cycle, const bug::Pose2& pose, bool always);
+    void add(std::uint64_t cycle, const Pose2& pose, bool always);
     void thin();
     static plot::Path drawn(const Trial& trial);
 

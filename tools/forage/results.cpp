@@ -96,7 +96,7 @@ std::string run_json(const RunOptions& o, const Loaded& loaded, const Outcome& o
         for (std::size_t i = 0; i < loaded.world->bugs(); ++i) {
             const Trials& trials = outcome.trials[i];
             auto& robot = result["robots"].emplace_back();
-            robot["name"] = loaded.world->bug_names()[i];
+            robot["name"] = loaded.world->robot_names()[i];
             robot["trials"] = trials.finished.size();
             robot["at_target"] = trials.reached();
             if (!trials.finished.empty())
@@ -164,7 +164,7 @@ std::string summary(const RunOptions& o, const Loaded& loaded, const Outcome& ou
                                                       : fmt::format("at {}: it never was", text));
     if (loaded.world)
         for (std::size_t i = 0; i < loaded.world->bugs(); ++i) {
-            const std::string name = loaded.world->bugs() > 1 ? loaded.world->bug_names()[i] + " " : "";
+            const std::string name = loaded.world->bugs() > 1 ? loaded.world->robot_names()[i] + " " : "";
             for (const auto& [what, text] : trials_summary(*loaded.world, outcome.trials[i]))
                 line(name + what, text);
         }

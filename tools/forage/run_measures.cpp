@@ -12,7 +12,7 @@ namespace {
 using Kind = model::Measure::Kind;
 
 /// The last `last` of the finished trials of the first robot.
-std::span<const bug::Trial> trials_of(const model::Measure& m, const bug::World& world) {
+std::span<const Trial> trials_of(const model::Measure& m, const bug::World& world) {
     const std::span all(world.trials(0));
     return m.last && *m.last < all.size() ? all.last(*m.last) : all;
 }
@@ -22,7 +22,7 @@ std::optional<double> mean_of_trials(const model::Measure& m, const bug::World& 
     if (trials.empty()) return std::nullopt;
     double sum = 0;
     for (const auto& t : trials)
-        sum += m.kind == Kind::success ? (t.target() ? 1.0 : 0.0)
+        sum += m.kind == Kind::success ? (t.reached_target ? 1.0 : 0.0)
                                        : static_cast<double>(t.cycles) * world.seconds_per_cycle();
     return sum / static_cast<double>(trials.size());
 }

@@ -87,9 +87,11 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
                           "it ends with .gif or .png");
     else if (!o.video.empty())
         check_output(o.video, "film.gif", diagnostics);
-    if (loaded->drive) check_drive(*loaded->drive, loaded->system, diagnostics);
+    if (sources.drive) check_drive(*sources.drive, loaded->system, diagnostics);
     auto simulation = engine::Simulation::build(
-        loaded->system, loaded->registry, {.seed = o.input.seed, .threads = std::min(o.threads, cores())},
+        loaded->system, loaded->registry, {.seed = o.input.seed,
+         .threads = std::min(o.threads, cores()),
+         .environment = loaded->world.get()},
         diagnostics);
     if (!simulation) return std::nullopt;
     auto scheduled = schedule(o.at, *loaded, *simulation, diagnostics);
@@ -200,7 +202,7 @@ std::vector<std::string> write_tables(const RunOptions& o, Running& r, Outcome& 
 }
 
 std::string robot_suffix(const bug::World& world, std::size_t robot) {
-    return world.bugs() > 1 ? "_" + file_name(world.bug_names()[robot]) : "";
+    return world.bugs() > 1 ? "_" + file_name(world.robot_names()[robot]) : "";
 }
 
 void note(const Running& running, Outcome& outcome) {

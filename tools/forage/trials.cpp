@@ -12,15 +12,15 @@ namespace {
 
 using Lines = std::vector<std::pair<std::string, std::string>>;
 
-std::string_view outcome_of(const bug::Trial& t, bool finished) {
-    if (t.target()) return "target";
+std::string_view outcome_of(const Trial& t, bool finished) {
+    if (t.reached_target) return "target";
     return finished ? "missed" : "unfinished";
 }
 
 /// How many reached the target, of how many.
 struct Count {
     std::size_t reached = 0, all = 0;
-    void add(const MeasuredTrial& t) { ++all, reached += t.trial.target(); }
+    void add(const MeasuredTrial& t) { ++all, reached += t.trial.reached_target; }
     double percent() const { return 100.0 * static_cast<double>(reached) / static_cast<double>(all); }
 };
 
@@ -103,8 +103,8 @@ void memory_line(const std::vector<MeasuredTrial>& trials, Lines& lines) {
                     full == trials.end() ? "" : fmt::format("; full after trial {}", full->trial.number)));
 }
 
-Lines running_lines(const bug::World& world, const bug::Trial& t) {
-    const auto place = [](const bug::Pose2& p) {  // + 0.0: no minus before a zero
+Lines running_lines(const bug::World& world, const Trial& t) {
+    const auto place = [](const Pose2& p) {  // + 0.0: no minus before a zero
         return fmt::format("({:.2f}, {:.2f})", std::round(p.x * 100) / 100 + 0.0,
                            std::round(p.y * 100) / 100 + 0.0);
     };
@@ -112,7 +112,7 @@ Lines running_lines(const bug::World& world, const bug::Trial& t) {
                                       std::hypot(t.end.x - t.start.x, t.end.y - t.start.y))}};
     if (!world.targets().empty())
         lines.emplace_back("target", fmt::format("{:.2f} m away at the nearest{}", t.smallest_distance,
-                                                 t.target() ? ": reached" : ""));
+                                                 t.reached_target ? ": reached" : ""));
     return lines;
 }
 
@@ -120,7 +120,7 @@ Lines running_lines(const bug::World& world, const bug::Trial& t) {
 
 std::size_t Trials::reached() const {
     return static_cast<std::size_t>(
-        std::count_if(finished.begin(), finished.end(), [](const auto& t) { return t.trial.target(); }));
+        std::count_if(finished.begin(), finished.end(), [](const auto& t) { return t.trial.reached_target; }));
 }
 
 double Trials::recent_success(std::size_t count) const {

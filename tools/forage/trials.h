@@ -13,7 +13,7 @@ namespace forage::tool {
 
 /// A trial and what was measured in it.
 struct MeasuredTrial {
-    bug::Trial trial;
+    Trial trial;
     TrialMeasures measures;
     std::string route;  ///< the patches that came into view, "cyan > red"
 };

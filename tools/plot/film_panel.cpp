@@ -45,7 +45,7 @@ void FilmPanel::draw(Canvas& canvas, double x, double y) {
     for (std::size_t i = 0; i < escaped(); ++i) {
         const double left = x + (i % 2 ? part_width() + 10 : 0),
                      top = y + clock_height + static_cast<double>(i / 2) * part_height();
-        const std::string name = world_.bug_names()[i];
+        const std::string name = world_.robot_names()[i];
         canvas.text(left, top + 10,
                     canvas.fitted(single() ? "camera of " + name : fmt::format("{} {}", i + 1, name), 11,
                                   part_width()),

@@ -41,7 +41,7 @@ std::vector<Label> robot_labels(Canvas& canvas, const bug::World& world, const W
     constexpr std::pair<double, double> sides[] = {{0, -1}, {0, 1},   {1, 0}, {-1, 0},
                                                    {1, -1}, {-1, -1}, {1, 1}, {-1, 1}};
     std::vector<Label> out;
-    const auto names = world.bug_names();
+    const auto names = world.robot_names();
     for (std::size_t i = 0; i < world.bugs(); ++i) {
         const double r = world.robot(i).body.radius * map.scale(), x = map.px(world.pose(i).x),
                      y = map.py(world.pose(i).y);
@@ -116,7 +116,7 @@ std::vector<Entry> entries_of(const bug::World& world) {
 void draw_home_names(Canvas& canvas, const bug::World& world, const WorldMap& map) {
     if (!has_homes(world)) return;
     for (int team = 0; team < 2; ++team) {
-        const bug::Pose2& at = world.game().homes()[static_cast<std::size_t>(team)];
+        const Pose2& at = world.game().homes()[static_cast<std::size_t>(team)];
         const Eigen::Vector2d home(at.x, at.y);
         const Eigen::Vector2d outwards =
             home + (home - map.view().center()).normalized() * 0.75 * bug::Game::home_radius;

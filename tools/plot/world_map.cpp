@@ -161,7 +161,7 @@ namespace {
 void draw_homes(Canvas& canvas, const bug::World& world, const WorldMap& map) {
     if (!has_homes(world)) return;
     cairo_t* c = canvas.cairo();
-    for (const bug::Pose2& at : world.game().homes()) {
+    for (const Pose2& at : world.game().homes()) {
         canvas.colour(white, 0.8);
         canvas.dashes(2, 4);
         cairo_set_line_width(c, 1);
@@ -214,7 +214,7 @@ void WorldMap::draw_targets(Canvas& canvas) const {
         cairo_set_source_rgb(c, 1, 1, 1);
         cairo_set_line_width(c, 1.5);
         canvas.dashes(3, 3);
-        cairo_arc(c, px(t.x()), py(t.y()), bug::Trial::reach * scale_, 0, 2 * M_PI);
+        cairo_arc(c, px(t.x()), py(t.y()), bug::TrialLog::reach * scale_, 0, 2 * M_PI);
         cairo_stroke(c);
         canvas.dashes(0, 0);
     }

@@ -69,7 +69,7 @@ TEST_CASE("A cycle has as many substeps as its share of simulated time") {
 
 TEST_CASE("Without noise a robot drives straight, at the speed of its command") {
     const auto world = make_world(description("basic_arena"), options(25, 1, false));
-    CHECK(world->bug_names() == std::vector<std::string>{"Bug"});
+    CHECK(world->robot_names() == std::vector<std::string>{"Bug"});
     CHECK(world->pose(0).y == -2);
     world->command(0, {1, 0});
     for (int i = 0; i < 50; ++i) world->step();
@@ -126,7 +126,7 @@ TEST_CASE("Trials end at the bounds and the next one starts 1001 substeps later,
     CHECK(trials[0].first_cycle == 0);
     CHECK(trials[0].cycles == 57);  // 4.5 m at 1 m/s are 4501 substeps
     CHECK(trials[0].start.x == 0);
-    CHECK(trials[0].target());
+    CHECK(trials[0].reached_target);
     for (std::size_t i = 1; i < trials.size(); ++i) {
         const Trial& t = trials[i];
         starts.insert(std::lround(t.start.x / 1.5));
@@ -138,7 +138,7 @@ TEST_CASE("Trials end at the bounds and the next one starts 1001 substeps later,
                pause == 12));  // 1001 substeps of 80 to a cycle, less what the last cycle had left
         CHECK((t.cycles >= 57 && t.cycles <= 58));
         CHECK(t.smallest_distance == Approx(std::hypot(t.end.x, 0.0)).margin(0.002));
-        CHECK(t.target() == (std::abs(t.end.x) < 0.45));
+        CHECK(t.reached_target == (std::abs(t.end.x) < 0.45));
     }
     CHECK(starts == std::set<long>{-1, 0, 1});
     const Trial now = world->current_trial(0);

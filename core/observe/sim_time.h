@@ -1,0 +1,15 @@
+// The time of a run.
+#pragma once
+
+#include <cstdint>
+
+namespace forage {
+
+/// A moment between two cycles.
+struct SimTime {
+    std::uint64_t cycle = 0;  ///< the number of the cycle to come, counted from 0
+    double seconds = 0;       ///< since the start: of the world, or at the system's own rate without one
+    int trial = 0;            ///< the running trial, counted from 1; 0 in a run without trials
+};
+
+}  // namespace forage
