@@ -1,9 +1,9 @@
 // What of a simulation changes while it runs.
 #include <fmt/format.h>
 
+#include "core/base/exception_message.h"
 #include "core/engine/plan.h"
 #include "core/engine/simulation.h"
-#include "core/base/exception_message.h"
 
 namespace forage::engine {
 namespace {
@@ -24,7 +24,7 @@ void keep(Archive& archive, GroupPlan& g) {
     g.random.bits(0, {&drawn, 1});
     archive.same(drawn, "the seed");
     keep(archive, g.type.parameters, g.neuron->parameters());
-    archive.same(g.pruned, "what is left out");
+    archive.same(g.pruned, "what is pruned");
     archive.same(g.keeps_input, "the inputs that are kept");
     archive(g.row, g.delivered, g.same_input, g.same_for, g.rests, g.changed, g.silent);
 }
@@ -38,7 +38,7 @@ void keep(Archive& archive, ModulePlan& m) {
     archive.same(m.process_id, "a process");
     archive.same(m.type.name, m.process);
     keep(archive, m.type.parameters, m.module->parameters());
-    archive.same(m.read, "what is left out");
+    archive.same(m.read, "what is pruned");
     archive(m.written, m.changed, m.ever_written, m.last);
     try {
         m.module->checkpoint(archive);
@@ -54,7 +54,7 @@ void keep(Archive& archive, ConnectionPlan& c) {
     archive.same(c.id, "a connection");
     archive.same(c.synapses, c.name);
     keep(archive, c.type.parameters, c.synapse->parameters());
-    archive.same(c.pruned, "what is left out");
+    archive.same(c.pruned, "what is pruned");
     archive(c.changed);
 }
 

@@ -1,25 +1,14 @@
 #include <algorithm>
-#include <map>
 #include <new>
-#include <numeric>
 
 #include <fmt/format.h>
 
-#include "core/engine/plan.h"
-#include "core/model/lookup.h"
-#include "core/model/validate.h"
 #include "core/base/exception_message.h"
+#include "core/engine/plan.h"
+#include "core/model/validate.h"
 
 namespace forage::engine {
 namespace {
-
-template <class T>
-std::vector<const T*> by_id(const std::vector<T>& items) {
-    std::vector<const T*> out;
-    for (const auto& item : items) out.push_back(&item);
-    std::sort(out.begin(), out.end(), [](const T* a, const T* b) { return a->id < b->id; });
-    return out;
-}
 
 /// Adds up what the arena will hold and remembers the largest part. In double: a file may ask for any amount.
 class Budget {
@@ -52,14 +41,18 @@ class Budget {
 
 class Compiler {
   public:
-    Compiler(const model::System& system, const Registry& registry, std::uint64_t seed, Forms forms,
-             Diagnostics& diagnostics)
-        : system_(system),
-          registry_(registry),
+    Compiler(const model::System& system, Layout layout, const Demand& demand, std::uint64_t seed,
+             Forms forms, Diagnostics& diagnostics)
+        : order_(system),
+          demand_(demand),
           seed_(seed),
           forms_(forms),
           diagnostics_(diagnostics),
-          plan_(std::make_unique<Plan>()) {}
+          plan_(std::make_unique<Plan>()),
+          layout_(plan_->layout) {
+        plan_->layout = std::move(layout);
+        plan_->overwritten = demand.overwrites_anything();
+    }
 
     std::unique_ptr<Plan> run() {
         const int errors_before = diagnostics_.errors();
@@ -69,9 +62,8 @@ class Compiler {
             add_connections();
             if (budget_.exceeded()) budget_.report(diagnostics_);
             if (diagnostics_.errors() > errors_before) return nullptr;
+            prune();
             lay_out();
-            plan_->updated.resize(plan_->groups.size());
-            std::iota(plan_->updated.begin(), plan_->updated.end(), 0);
         } catch (const std::bad_alloc&) {
             budget_.report_exhausted(diagnostics_);
             return nullptr;
@@ -94,109 +86,74 @@ class Compiler {
         } catch (const std::bad_alloc&) {
             throw;
         } catch (...) {
-            diagnostics_.error(use.at, fmt::format("{} could not be made: {}", type.name, current_exception_message()));
+            diagnostics_.error(
+                use.at, fmt::format("{} could not be made: {}", type.name, current_exception_message()));
             throw NotMade{};
         }
     }
 
     void add_groups() {
-        const auto paths = model::group_paths(system_);
-        std::map<const model::Group*, std::string> path_of;
-        std::vector<const model::Group*> groups;
-        for (const auto& p : system_.processes)
-            for (const auto& g : p.groups) {
-                path_of[&g] = paths[groups.size()];
-                groups.push_back(&g);
-            }
-        std::sort(groups.begin(), groups.end(), [](const auto* a, const auto* b) { return a->id < b->id; });
-        for (const auto* g : groups) {
+        for (std::size_t i = 0; i < layout_.groups.size(); ++i) {
+            const auto& described = layout_.groups[i];
+            const auto* g = order_.groups[i];
             GroupPlan plan;
-            plan.path = path_of[g], plan.id = g->id;
-            plan.shape = model::shape(g->topology);
+            plan.path = described.path, plan.id = described.id;
+            plan.shape = described.shape;
             plan.cells = plan.shape.cells;
             plan.stride = Arena::stride(plan.cells);
-            plan.type = *registry_.neuron(g->neuron.type);
+            plan.type = described.type;
             plan.neuron = make(plan.type, g->neuron);
             plan.random = RandomStream(seed_, g->id);
             plan.output = plan.type.output();
+            plan.keeps_input = demand_.reads_input(static_cast<int>(i));
+            plan.overwritten = demand_.overwrites(static_cast<int>(i));
             for (const auto& s : plan.type.states) plan.states.push_back({nullptr, s.history});
             double rows = 2 * input_kinds;
             for (const auto& s : plan.states) rows += static_cast<double>(s.depth);
             budget_.add(rows, plan.cells, g->at,
                         fmt::format("group '{}': {} numbers x {} cells", plan.path, rows, plan.cells));
-            group_at_[g->id] = static_cast<int>(plan_->groups.size());
             topologies_.push_back(&g->topology);
             plan_->groups.push_back(std::move(plan));
         }
     }
 
-    int group_of(const std::string& id) const {
-        const auto it = group_at_.find(id);
-        return it == group_at_.end() ? -1 : it->second;
-    }
-
     void add_modules() {
-        for (const auto* p : by_id(system_.processes)) {
-            if (!p->module || !p->module_enabled) continue;
+        for (std::size_t n = 0; n < layout_.modules.size(); ++n) {
+            const auto& described = layout_.modules[n];
+            const auto* p = order_.modules[n];
             ModulePlan plan;
-            plan.process = std::string(model::trim(p->name)), plan.process_id = p->id;
-            plan.type = *registry_.module(p->module->type);
+            plan.process = described.process, plan.process_id = described.process_id;
+            plan.type = described.type;
             plan.module = make(plan.type, *p->module);
-            plan.ports.process = plan.process;
+            plan.ports = described.ports;
             plan.ports.random = RandomStream(seed_, p->id);
-            for (const bool outputs : {false, true}) {
-                auto& groups = outputs ? plan.output_groups : plan.input_groups;
-                auto& ports = outputs ? plan.ports.outputs : plan.ports.inputs;
-                for (const auto& r : references(*p->module, plan.type, outputs)) {
-                    const int group = group_of(r.target);
-                    groups.push_back(group);
-                    ports.push_back({r.name, {}, {}});
-                    if (group >= 0) {
-                        if (outputs)
-                            budget_.add(1, plan_->groups[static_cast<std::size_t>(group)].cells, r.at,
-                                        fmt::format("output '{}' of process '{}'", r.name, p->name));
-                        ports.back().path = plan_->groups[static_cast<std::size_t>(group)].path;
-                        ports.back().shape = plan_->groups[static_cast<std::size_t>(group)].shape;
-                    }
-                }
-            }
+            plan.input_groups = described.input_groups, plan.output_groups = described.output_groups;
+            const auto references = cross_references(*p->module, plan.type, true);
             for (std::size_t i = 0; i < plan.output_groups.size(); ++i) {
                 if (plan.output_groups[i] < 0) continue;
-                auto& group = plan_->groups[static_cast<std::size_t>(plan.output_groups[i])];
+                auto& group = plan_->groups[plan.output_groups[i]];
+                budget_.add(1, group.cells, references[i].at,
+                            fmt::format("output '{}' of process '{}'", references[i].name, p->name));
                 constexpr auto excitatory = static_cast<std::size_t>(InputKind::excitatory);
                 if (!group.type.reads[excitatory]) continue;
-                group.module_inputs.emplace_back(static_cast<int>(plan_->modules.size()),
-                                                 static_cast<int>(i));
+                group.module_inputs.emplace_back(static_cast<int>(n), static_cast<int>(i));
                 group.fed[excitatory] = true;
             }
             plan_->modules.push_back(std::move(plan));
         }
     }
 
-    /// What the file sets, in the type's order of declaration, or in file order for a type that takes any.
-    static std::vector<model::CrossReference> references(const model::ModuleUse& use, const ModuleType& type,
-                                                         bool outputs) {
-        const auto& given = outputs ? use.outputs : use.inputs;
-        if (type.any_ports) return given;
-        std::vector<model::CrossReference> out;
-        for (const auto& port : type.ports) {
-            if (port.is_output != outputs) continue;
-            const auto it =
-                std::find_if(given.begin(), given.end(), [&](const auto& r) { return r.name == port.name; });
-            out.push_back(it != given.end() ? *it : model::CrossReference{port.name, {}, {}});
-        }
-        return out;
-    }
-
     void add_connections() {
-        for (const auto* c : by_id(system_.connections)) {
+        for (std::size_t n = 0; n < layout_.connections.size(); ++n) {
+            const auto& described = layout_.connections[n];
+            const auto* c = order_.connections[n];
             ConnectionPlan plan;
-            plan.id = c->id, plan.name = c->name, plan.kind = c->kind;
-            plan.source = group_of(c->source), plan.target = group_of(c->target);
-            auto& target = plan_->groups[static_cast<std::size_t>(plan.target)];
-            plan.type = *registry_.synapse(c->synapse->type);
+            plan.id = described.id, plan.name = described.name, plan.kind = described.kind;
+            plan.source = described.source, plan.target = described.target;
+            auto& target = plan_->groups[plan.target];
+            plan.type = described.type;
             plan.synapse = make(plan.type, *c->synapse);
-            plan.effective = target.type.reads[static_cast<std::size_t>(c->kind)];
+            plan.effective = described.effective;
             if (!(forms_ == Forms::fastest && plan.type.has_gain && make_regular(*c, plan)) &&
                 !make_list(*c, plan))
                 continue;  // reported
@@ -206,6 +163,26 @@ class Compiler {
             fed |= plan.effective;
             plan_->connections.push_back(std::move(plan));
         }
+    }
+
+    /// Marks what is not computed. What is computed is numbered in `updated`.
+    void prune() {
+        const Pruned pruned = engine::prune(layout_, demand_);
+        auto& groups = plan_->groups;
+        for (std::size_t i = 0; i < groups.size(); ++i) {
+            groups[i].pruned = pruned.groups[i];
+            groups[i].history = 0;
+            std::erase_if(groups[i].incoming, [&](int c) { return pruned.connections[c]; });
+            if (!groups[i].pruned) plan_->updated.push_back(static_cast<int>(i));
+        }
+        for (std::size_t i = 0; i < plan_->connections.size(); ++i) {
+            auto& c = plan_->connections[i];
+            c.pruned = pruned.connections[i];
+            int& history = groups[c.source].history;
+            if (!c.pruned && !c.plastic) history = std::max(history, c.longest_delay);
+        }
+        for (std::size_t m = 0; m < plan_->modules.size(); ++m)
+            for (const bool left_out : pruned.outputs[m]) plan_->modules[m].read.push_back(!left_out);
     }
 
     const model::Topology& topology_of(int group) const {
@@ -326,7 +303,8 @@ class Compiler {
                         std::fill_n(g.states[s].ring + row * g.stride, g.cells, initial);
             }
             for (std::size_t k = 0; k < g.inputs.size(); ++k)
-                for (std::size_t i = 0; i < 2; ++i) g.inputs[k][i] = arena.at(g.input_offsets[k][i]);
+                for (std::size_t i = 0; i < 2; ++i)
+                    g.inputs[k][i] = arena.at(g.input_offsets[k][g.keeps_input ? i : 0]);
             if (g.history > 0) g.history_ring = arena.at(g.history_offset);
         }
         for (auto& m : plan_->modules) {
@@ -335,7 +313,6 @@ class Compiler {
             m.written.resize(m.output_groups.size());
             m.changed.resize(m.output_groups.size());
             m.ever_written.resize(m.output_groups.size());
-            m.read.assign(m.output_groups.size(), true);
             for (std::size_t i = 0; i < m.output_groups.size(); ++i) {
                 const int g = m.output_groups[i];
                 const Index cells = g < 0 ? 0 : plan_->groups[static_cast<std::size_t>(g)].cells;
@@ -358,22 +335,22 @@ class Compiler {
         }
     }
 
-    const model::System& system_;
-    const Registry& registry_;
+    UpdateOrder order_;
+    const Demand& demand_;
     std::uint64_t seed_;
     Forms forms_;
     Diagnostics& diagnostics_;
     std::unique_ptr<Plan> plan_;
-    std::map<std::string, int> group_at_;
+    const Layout& layout_;
     std::vector<const model::Topology*> topologies_;
     Budget budget_;
 };
 
 }  // namespace
 
-std::unique_ptr<Plan> compile(const model::System& system, const Registry& registry, std::uint64_t seed,
-                              Forms forms, Diagnostics& diagnostics) {
-    return Compiler(system, registry, seed, forms, diagnostics).run();
+std::unique_ptr<Plan> compile(const model::System& system, Layout layout, const Demand& demand,
+                              std::uint64_t seed, Forms forms, Diagnostics& diagnostics) {
+    return Compiler(system, std::move(layout), demand, seed, forms, diagnostics).run();
 }
 
 }  // namespace forage::engine

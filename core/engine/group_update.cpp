@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "core/base/exception_message.h"
 #include "core/engine/finite.h"
 #include "core/engine/group_cycle.h"
 #include "core/engine/simulation.h"
-#include "core/base/exception_message.h"
 
 namespace forage::engine {
 namespace {
@@ -73,8 +73,8 @@ bool update_cells(const GroupPlan& g, Index first, Index count, const UpdateFram
     try {
         g.neuron->update(columns);
     } catch (...) {
-        throw RunError(
-            fmt::format("{} of group '{}' failed in cycle {}: {}", g.type.name, g.path, f.cycle, current_exception_message()));
+        throw RunError(fmt::format("{} of group '{}' failed in cycle {}: {}", g.type.name, g.path, f.cycle,
+                                   current_exception_message()));
     }
     return columns.time_invariant();
 }
@@ -92,7 +92,7 @@ void update_whole(GroupPlan& g, const UpdateFrame& f, bool look) {
     if (small && f.cycle > 0) std::copy_n(activity_row(g, f.cycle - 1), g.cells, old);
     const bool time_invariant = update_cells(g, 0, g.cells, f);
     // All rows follow each other, filled up with zeros; an older one that is not finite was found before.
-    if (f.watched) g.finite = all_finite(g.states.front().ring, static_cast<Index>(state_numbers(g)));
+    if (f.check_finite) g.finite = all_finite(g.states.front().ring, static_cast<Index>(state_numbers(g)));
     g.rests = look && time_invariant && at_rest(g, f.before);
     if (g.rests) return;
     const double* now = activity_row(g, f.cycle);
@@ -128,7 +128,7 @@ void update_part(GroupPlan& g, int part, const UpdateFrame& f) {
     found = {true, true};
     if (count <= 0) return;
     update_cells(g, first, count, f);
-    if (f.watched)
+    if (f.check_finite)
         each_row(g,
                  [&](const double* row) { found.finite &= all_finite(row + first, Arena::stride(count)); });
     found.silent = all_zero(activity_row(g, f.cycle) + first, count);

@@ -9,7 +9,7 @@ namespace forage::engine {
 struct UpdateFrame {
     std::uint64_t cycle;
     double *scratch, *before;  ///< the thread's
-    bool watched;              ///< notes whether the states are finite
+    bool check_finite;         ///< notes whether the states are finite
 };
 
 /// Updates the states, unless the group rests.

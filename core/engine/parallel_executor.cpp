@@ -96,7 +96,7 @@ void ParallelExecutor::update_groups(std::uint64_t cycle, bool early) {
     ready_->begin();
     const auto frame = [&](int thread) {
         return UpdateFrame{cycle, at(plan_.scratch, thread).get(), at(plan_.before, thread).data(),
-                           plan_.watched};
+                           plan_.checks_finite};
     };
     for (const int i : plan_.updated)
         if (auto& g = at(plan_.groups, i); g.update_divides) begin_update(g);

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "core/base/named_file.h"
 #include "core/engine/group_cycle.h"
 #include "core/engine/plan.h"
 #include "core/engine/simulation.h"
-#include "core/base/named_file.h"
 
 namespace forage::engine {
 namespace {
@@ -130,7 +130,8 @@ void Simulation::check(std::span<const Assignment> changes, Diagnostics& diagnos
 void Simulation::set(const Assignment& a) {
     if (delivers_early_)
         throw std::logic_error(
-            "nothing can be set between update_groups_and_deliver() and update_connections()");
+            "parameters change between cycles, not between update_groups() and "
+            "update_connections()");
     void* object = holder(*plan_, a);
     if (const auto refused = refusal(a, object))
         throw RunError(fmt::format("'{}': {}", a.text, refused->why));

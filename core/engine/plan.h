@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "core/engine/arena.h"
+#include "core/engine/demand.h"
 #include "core/engine/kernel.h"
+#include "core/engine/layout.h"
 #include "core/engine/plastic_kernel.h"
-#include "core/model/system.h"
-#include "core/types/registry.h"
 
 namespace forage::engine {
 
@@ -24,11 +24,12 @@ struct GroupPlan {
     bool delivered = false;               ///< the other row of `inputs` holds what the next update reads
     bool same_input = false;              ///< ... which is what the last update read
     bool silent = false;                  ///< the activity is 0; noticed for large groups only
-    bool finite = true;                   ///< no update that was watched gave a state NaN or an infinity
+    bool finite = true;                   ///< no update that was checked gave a state NaN or an infinity
     bool in_parts = false;                ///< this update is done in parts
     bool receives = false;                ///< this cycle's delivery is not what the group has already
-    bool pruned = false;                ///< nobody reads it
+    bool pruned = false;                  ///< nothing that is demanded depends on it
     bool keeps_input = true;              ///< else the two rows of `inputs` are one
+    bool overwritten = false;             ///< from outside
     std::array<bool, input_kinds> fed{};  ///< the type reads this kind, and somebody delivers it
     int output = 0;                       ///< the state that is the activity
     std::size_t row = 0;         ///< the row of `inputs` that the last update read; the other one receives
@@ -72,7 +73,7 @@ struct ModulePlan {
     std::vector<char> written,
         changed;  ///< per output: in this cycle; changed: and with something else than before
     std::vector<char> ever_written;    ///< per output: since the start
-    std::vector<char> read;            ///< per output: somebody reads it
+    std::vector<char> read;            ///< per output: something that is demanded depends on it
     std::vector<Eigen::ArrayXd> last;  ///< what small outputs held before
     static constexpr Index compared_output =
         1024;  ///< cells; of larger outputs only whether they are written
@@ -87,7 +88,7 @@ struct ConnectionPlan {
     bool effective = true;  ///< the target's type reads this kind of input
     bool first = false;     ///< nobody delivers this kind of input to the target before
     bool changed = false;   ///< from outside, since it delivered
-    bool pruned = false;  ///< nobody reads what it leads to
+    bool pruned = false;    ///< nothing that is demanded depends on it
 
     std::string id, name;
     std::unique_ptr<SynapseInstance> synapse;
@@ -99,22 +100,33 @@ struct ConnectionPlan {
 /// Groups, modules and connections in the order in which a cycle updates them: byte order of their ids (of
 /// the process, for a module).
 struct Plan {
+    Layout layout;
     std::vector<GroupPlan> groups;
     std::vector<ModulePlan> modules;
     std::vector<ConnectionPlan> connections;
-    std::vector<int> updated;                        ///< groups that are not left out, in order
+    std::vector<int> updated;                        ///< groups that are not pruned, in order
     std::vector<std::unique_ptr<double[]>> scratch;  ///< per thread, for NeuronColumns of the widest group
     std::vector<std::vector<double>> before;         ///< per thread: states to compare with
     Arena arena;
-    bool watched = false;  ///< updates are looked at for numbers that are not finite
+    bool checks_finite = false;  ///< updates are searched for numbers that are not finite
+    bool overwritten = false;    ///< activities of some groups may change between phases
 };
 
 /// What the numbers of a system may take: 16 GiB. Lists of synapses come on top.
 inline constexpr double most_bytes = 16.0 * (1 << 30);
 
-/// Empty when `diagnostics` got an error. The system must have passed model::validate(). Reports one that
-/// takes more than `most_bytes`, before it takes them, or more than there is.
-std::unique_ptr<Plan> compile(const model::System& system, const Registry& registry, std::uint64_t seed,
-                              Forms forms, Diagnostics& diagnostics);
+/// What a demand does not need: by the numbers of a layout, and outputs by module and port.
+struct Pruned {
+    std::vector<bool> groups, connections;
+    std::vector<std::vector<bool>> outputs;
+};
+
+/// Finds the groups from which nothing that is demanded follows, nor a module's input.
+Pruned prune(const Layout& layout, const Demand& demand);
+
+/// Compiles a system for a demand. Empty when `diagnostics` got an error. Reports a system that takes more
+/// than `most_bytes`, before it takes them, or more than there is. `layout` is that of the system.
+std::unique_ptr<Plan> compile(const model::System& system, Layout layout, const Demand& demand,
+                              std::uint64_t seed, Forms forms, Diagnostics& diagnostics);
 
 }  // namespace forage::engine

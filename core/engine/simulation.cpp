@@ -6,14 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "core/base/exception_message.h"
 #include "core/engine/early_delivery.h"
 #include "core/engine/group_cycle.h"
 #include "core/engine/group_delivery.h"
 #include "core/engine/group_update.h"
-#include "core/engine/plan.h"
 #include "core/engine/parallel_executor.h"
-#include "core/model/validate.h"
-#include "core/base/exception_message.h"
+#include "core/engine/plan.h"
 
 namespace forage::engine {
 namespace {
@@ -35,28 +34,33 @@ std::optional<NotFinite> find_not_finite(const GroupPlan& g, int group, std::uin
     return std::nullopt;
 }
 
-[[noreturn]] void nobody_reads(const std::string& what) {
+[[noreturn]] void refuse_pruned(const std::string& what, std::string_view demand) {
     throw std::logic_error(
-        fmt::format("{} was left out of the run, as nobody was to read it: it has no numbers "
-                    "(Simulation::prune())",
-                    what));
+        fmt::format("{} is pruned: nothing that was demanded depends on it. To read it, call "
+                    "Demand::{} before Simulation::build()",
+                    what, demand));
 }
 
-/// A group to look at. Throws std::logic_error when it is left out.
-GroupPlan& seen(std::vector<GroupPlan>& groups, int group) {
-    auto& g = at(groups, group);
-    if (g.pruned) nobody_reads(fmt::format("group '{}'", g.path));
+/// A group to read. Throws std::logic_error when it is pruned.
+GroupPlan& computed(std::vector<GroupPlan>& groups, int group) {
+    auto& g = groups[group];
+    if (g.pruned) refuse_pruned(fmt::format("group '{}'", g.path), "read_group()");
     return g;
 }
 
 }  // namespace
 
 std::optional<Simulation> Simulation::build(const model::System& system, const Registry& registry,
-                                            Options options, Diagnostics& diagnostics) {
-    const int errors_before = diagnostics.errors();
-    model::validate(system, registry, diagnostics, options.environment);
-    if (diagnostics.errors() > errors_before) return std::nullopt;
-    auto plan = compile(system, registry, options.seed,
+                                            const Demand& demand, const Options& options,
+                                            Diagnostics& diagnostics) {
+    auto layout = make_layout(system, registry, diagnostics, options.environment);
+    if (!layout) return std::nullopt;
+    return build(system, std::move(*layout), demand, options, diagnostics);
+}
+
+std::optional<Simulation> Simulation::build(const model::System& system, Layout layout, const Demand& demand,
+                                            const Options& options, Diagnostics& diagnostics) {
+    auto plan = compile(system, std::move(layout), demand, options.seed,
                         options.general_forms ? Forms::general : Forms::fastest, diagnostics);
     if (!plan) return std::nullopt;
     return Simulation(std::move(plan), options);
@@ -83,17 +87,6 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
-void Simulation::keep_inputs(std::span<const int> groups) {
-    if (started_) throw std::logic_error("inputs are kept from the start, or not at all");
-    if (inputs_known_) throw std::logic_error("it is told once whose inputs are kept, for all who look");
-    inputs_known_ = true;
-    for (auto& g : plan_->groups) g.keeps_input = false;
-    for (const int i : groups) at(plan_->groups, i).keeps_input = true;
-    for (auto& g : plan_->groups)
-        if (!g.keeps_input)
-            for (auto& rows : g.inputs) rows[1] = rows[0];
-}
-
 void Simulation::start() {
     for (auto& m : plan_->modules) {
         try {
@@ -101,8 +94,8 @@ void Simulation::start() {
             ModuleFrame frame(0, m.in, m.out, &m.written, &m.read);
             m.module->start(m.ports, frame);
         } catch (...) {
-            throw RunError(
-                fmt::format("{} of process '{}' could not start: {}", m.type.name, m.process, current_exception_message()));
+            throw RunError(fmt::format("{} of process '{}' could not start: {}", m.type.name, m.process,
+                                       current_exception_message()));
         }
         note_changes(m);
     }
@@ -111,7 +104,7 @@ void Simulation::start() {
 }
 
 void Simulation::step() {
-    update_groups_and_deliver();
+    update_groups(true);
     update_modules();
     update_connections();
 }
@@ -120,11 +113,12 @@ void Simulation::step() {
 bool Simulation::begin_sharing() {
     if (!shared_cycle_) return false;
     if (parallel_threshold_ns_ == 0) return true;
-    return trial_.begin([&] { return update_cost(*plan_) + delivery_cost(*plan_) >= parallel_threshold_ns_; });
+    return trial_.begin(
+        [&] { return update_cost(*plan_) + delivery_cost(*plan_) >= parallel_threshold_ns_; });
 }
 
 void Simulation::update_alone() {
-    const UpdateFrame frame{cycle_, plan_->scratch[0].get(), plan_->before[0].data(), plan_->watched};
+    const UpdateFrame frame{cycle_, plan_->scratch[0].get(), plan_->before[0].data(), plan_->checks_finite};
     for (std::size_t k = 0; k < plan_->updated.size(); ++k) {
         auto& g = at(plan_->groups, plan_->updated[k]);
         update(g, frame);
@@ -147,8 +141,7 @@ void Simulation::deliver_late() {
     failed_delivery_.raise();
 }
 
-void Simulation::update_groups() { update_groups(false); }
-void Simulation::update_groups_and_deliver() { update_groups(true); }
+void Simulation::update_groups() { update_groups(!plan_->overwritten); }
 
 void Simulation::update_groups(bool deliver_early) {
     if (!started_) throw RunError("the simulation is not started");
@@ -161,11 +154,11 @@ void Simulation::update_groups(bool deliver_early) {
         shared_cycle_->update_groups(cycle_, deliver_early);
     else
         update_alone();
-    if (!plan_->watched) return;
+    if (!plan_->checks_finite) return;
     for (const int i : plan_->updated)
         if (!at(plan_->groups, i).finite) {
             not_finite_ = find_not_finite(at(plan_->groups, i), i, cycle_);
-            plan_->watched = !not_finite_;
+            plan_->checks_finite = !not_finite_;
             if (not_finite_) return;
         }
 }
@@ -207,83 +200,65 @@ void Simulation::update_connections() {
     ++cycle_;
 }
 
-void Simulation::watch(bool wanted) { plan_->watched = wanted; }
+void Simulation::check_finite(bool wanted) { plan_->checks_finite = wanted; }
 
-GroupPlan& Simulation::changing(int group) {
-    if (delivers_early_)
+GroupPlan& Simulation::overwritten(int group) {
+    auto& g = computed(plan_->groups, group);
+    if (!g.overwritten)
         throw std::logic_error(
-            "nothing can be changed between update_groups_and_deliver() and update_connections()");
-    auto& g = seen(plan_->groups, group);
+            fmt::format("group '{}' is not to be overwritten: nothing demanded that. Call "
+                        "Demand::overwrite_group() before Simulation::build()",
+                        g.path));
     touch(g, cycle_);
     return g;
 }
 
-void Simulation::group_changed(int group) {
-    if (!pruned(group)) changing(group);
-}
+void Simulation::invalidate(int group) { touch(plan_->groups[group], cycle_); }
 
 int Simulation::threads() const { return shared_cycle_ ? shared_cycle_->threads() : 1; }
-int Simulation::groups() const { return static_cast<int>(plan_->groups.size()); }
-const std::string& Simulation::path(int group) const { return at(plan_->groups, group).path; }
-const std::string& Simulation::id(int group) const { return at(plan_->groups, group).id; }
-GroupShape Simulation::shape(int group) const { return at(plan_->groups, group).shape; }
-const NeuronType& Simulation::type(int group) const { return at(plan_->groups, group).type; }
+const Layout& Simulation::layout() const { return plan_->layout; }
+bool Simulation::pruned(int group) const { return plan_->groups[group].pruned; }
 
 ConstColumn Simulation::input(int group, InputKind kind) const {
-    const auto& g = seen(plan_->groups, group);
-    if (!g.keeps_input)
-        throw std::logic_error(
-            fmt::format("the input of group '{}' is not kept (Simulation::keep_inputs())", g.path));
+    const auto& g = computed(plan_->groups, group);
+    if (!g.keeps_input) refuse_pruned(fmt::format("the input of group '{}'", g.path), "read_input()");
     return {g.inputs[static_cast<std::size_t>(kind)][g.row], g.cells};
 }
 
 ConstColumn Simulation::state(int group, int state) const {
-    const auto& g = seen(plan_->groups, group);
+    const auto& g = computed(plan_->groups, group);
     return {state_row(g, static_cast<std::size_t>(state), shown_), g.cells};
 }
 
 Column Simulation::output(int group) {
-    auto& g = changing(group);
+    auto& g = overwritten(group);
     return {activity_row(g, shown_), g.cells};
 }
 
 Column Simulation::writable_state(int group, int state) {
-    auto& g = changing(group);
+    auto& g = overwritten(group);
     return {state_row(g, static_cast<std::size_t>(state), shown_), g.cells};
 }
 
-int Simulation::modules() const { return static_cast<int>(plan_->modules.size()); }
-const std::string& Simulation::module_process(int module) const { return at(plan_->modules, module).process; }
-const std::string& Simulation::module_type(int module) const { return at(plan_->modules, module).type.name; }
-const ModulePorts& Simulation::module_ports(int module) const { return at(plan_->modules, module).ports; }
 ConstColumn Simulation::module_output(int module, int port) const {
     const auto& m = at(plan_->modules, module);
     const auto i = static_cast<std::size_t>(port);
     if (m.out[i].size() > 0 && !m.read[i])
-        nobody_reads(fmt::format("output '{}' of process '{}'", m.ports.outputs[i].port, m.process));
+        refuse_pruned(fmt::format("output '{}' of process '{}'", m.ports.outputs[i].port, m.process),
+                      "read_output()");
     return {m.out[i].data(), m.out[i].size()};
 }
 bool Simulation::has_written(int module, int port) const {
     return at(plan_->modules, module).ever_written[static_cast<std::size_t>(port)];
 }
 
-int Simulation::connections() const { return static_cast<int>(plan_->connections.size()); }
-const std::string& Simulation::connection_id(int connection) const {
-    return at(plan_->connections, connection).id;
-}
-const std::string& Simulation::connection_name(int connection) const {
-    return at(plan_->connections, connection).name;
-}
 std::string_view Simulation::connection_form(int connection) const {
     return at(plan_->connections, connection).kernel->form();
 }
 std::size_t Simulation::synapses(int connection) const { return at(plan_->connections, connection).synapses; }
-const SynapseType& Simulation::synapse_type(int connection) const {
-    return at(plan_->connections, connection).type;
-}
 ConstColumn Simulation::synapse_state(int connection, int state) const {
     const auto& c = at(plan_->connections, connection);
-    if (c.plastic && c.pruned) nobody_reads(fmt::format("connection '{}'", c.name));
+    if (c.plastic && c.pruned) refuse_pruned(fmt::format("connection '{}'", c.name), "read_synapses()");
     return c.plastic ? c.plastic->state(static_cast<std::size_t>(state)) : ConstColumn(nullptr, 0);
 }
 

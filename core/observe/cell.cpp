@@ -6,13 +6,14 @@
 
 namespace forage::observe {
 
-std::optional<Index> find_cell(const engine::Simulation& s, int group, int x, int y, std::string_view what,
+std::optional<Index> find_cell(const engine::Layout& layout, int group, int x, int y, std::string_view what,
                                Diagnostics& diagnostics, Location at) {
-    const GroupShape shape = s.shape(group);
+    const GroupShape shape = layout.groups[group].shape;
     const bool full = shape.cells == shape.width * shape.height;
     if (full && x >= 1 && y >= 1 && x <= shape.width && y <= shape.height)
         return Index{y - 1} * shape.width + x - 1;
-    diagnostics.error(std::move(at), fmt::format("{}: '{}' has no cell ({}, {})", what, s.path(group), x, y),
+    diagnostics.error(std::move(at),
+                      fmt::format("{}: '{}' has no cell ({}, {})", what, layout.groups[group].path, x, y),
                       full ? fmt::format("it has {} columns and {} rows; cells count from (1, 1), at the "
                                          "upper left",
                                          shape.width, shape.height)

@@ -25,8 +25,8 @@ void Clamp::apply(engine::Simulation& simulation) {
 }
 
 void Clamp::declare(engine::Demand& out) const {
-    for (const auto& [cycle, entry] : waiting_) out.groups.push_back(entry.group);
-    for (const Entry& e : held_) out.groups.push_back(e.group);
+    for (const auto& [cycle, entry] : waiting_) out.overwrite_group(entry.group);
+    for (const Entry& e : held_) out.overwrite_group(e.group);
 }
 
 }  // namespace forage::observe

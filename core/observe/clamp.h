@@ -19,7 +19,7 @@ class Clamp {
     bool idle() const { return waiting_.empty() && held_.empty(); }
     /// Between update_groups() and update_modules() of each cycle.
     void apply(engine::Simulation& simulation);
-    /// Adds the groups that it overwrites.
+    /// Demands the groups that it overwrites.
     void declare(engine::Demand& out) const;
 
   private:

@@ -12,26 +12,26 @@ namespace {
 
 constexpr std::array<std::string_view, input_kinds> inputs = {"excIn", "inhIn", "modIn"};
 
-/// The groups that a person may mean by `path`: the one of exactly this path, or all of it without "#id", or
+/// The groups that a user may mean by `path`: the one of exactly this path, or all of it without "#id", or
 /// the one of this id, written alone, as "#id" or as "Process/Group#id".
-std::vector<int> groups_named(const engine::Simulation& s, std::string_view path) {
+std::vector<int> groups_named(const engine::Layout& s, std::string_view path) {
     path = model::trim(path);
     std::vector<int> out;
-    for (int g = 0; g < s.groups(); ++g)
-        if (s.path(g) == path) return {g};
-    for (int g = 0; g < s.groups(); ++g) {
-        const std::string& own = s.path(g);
-        const std::string suffix = "#" + s.id(g);
+    for (int g = 0; g < std::ssize(s.groups); ++g)
+        if (s.groups[g].path == path) return {g};
+    for (int g = 0; g < std::ssize(s.groups); ++g) {
+        const auto& [own, id, shape, type] = s.groups[g];
+        const std::string suffix = "#" + id;
         const std::string plain = own.ends_with(suffix) ? own.substr(0, own.size() - suffix.size()) : own;
-        if (path == plain || path == s.id(g) || path == suffix || path == plain + suffix) out.push_back(g);
+        if (path == plain || path == id || path == suffix || path == plain + suffix) out.push_back(g);
     }
     return out;
 }
 
 }  // namespace
 
-std::optional<ColumnRef> find_column(const engine::Simulation& s, std::string_view text,
-                                     std::string_view what, Diagnostics& diagnostics, Location at) {
+std::optional<ColumnRef> find_column(const engine::Layout& s, std::string_view text, std::string_view what,
+                                     Diagnostics& diagnostics, Location at) {
     std::string_view path = text, state;
     auto found = groups_named(s, path);  // a name may contain ':'
     if (const auto colon = text.rfind(':'); found.empty() && colon != std::string_view::npos) {
@@ -42,8 +42,8 @@ std::optional<ColumnRef> find_column(const engine::Simulation& s, std::string_vi
     if (found.size() != 1) {
         std::vector<std::string> names;
         if (found.empty())
-            for (int g = 0; g < s.groups(); ++g) names.push_back(s.path(g));
-        for (const int g : found) names.push_back(s.path(g));
+            for (const auto& g : s.groups) names.push_back(g.path);
+        for (const int g : found) names.push_back(s.groups[g].path);
         diagnostics.error(
             at,
             fmt::format("{} '{}': {}", what, text,
@@ -54,22 +54,17 @@ std::optional<ColumnRef> find_column(const engine::Simulation& s, std::string_vi
         return std::nullopt;
     }
     const int group = found.front();
-    const auto& type = s.type(group);
-    if (state.empty())
-        return ColumnRef{group,
-                         type.output(),
-                         {},
-                         s.path(group) + ":" + type.states[static_cast<std::size_t>(type.output())].name};
+    const NeuronType& type = s.groups[group].type;
+    const std::string prefix = s.groups[group].path + ":";
+    if (state.empty()) return ColumnRef{group, type.output(), {}, prefix + type.states[type.output()].name};
     std::vector<std::string> known;
     for (std::size_t i = 0; i < type.states.size(); ++i) {
         known.push_back(type.states[i].name);
-        if (known.back() == state)
-            return ColumnRef{group, static_cast<int>(i), {}, s.path(group) + ":" + known.back()};
+        if (known.back() == state) return ColumnRef{group, static_cast<int>(i), {}, prefix + known.back()};
     }
     for (std::size_t k = 0; k < inputs.size(); ++k) {
         known.emplace_back(inputs[k]);
-        if (inputs[k] == state)
-            return ColumnRef{group, -1, static_cast<InputKind>(k), s.path(group) + ":" + known.back()};
+        if (inputs[k] == state) return ColumnRef{group, -1, static_cast<InputKind>(k), prefix + known.back()};
     }
     diagnostics.error(at, fmt::format("{} '{}': {} has no state '{}'", what, text, type.name, state),
                       suggest(state, known));

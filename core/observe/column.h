@@ -1,4 +1,4 @@
-// Columns of a running system by the name that a person gives them.
+// Columns of a system by the names that users give them.
 #pragma once
 
 #include <optional>
@@ -20,13 +20,12 @@ struct ColumnRef {
 /// The column that `text` names: "Process/Group:state", or "Process/Group" for the activity. States are those
 /// of the group's type, and excIn, inhIn, modIn. Reports what is not there, with the names there are; `what`
 /// says where the text stands ("--record").
-std::optional<ColumnRef> find_column(const engine::Simulation& simulation, std::string_view text,
+std::optional<ColumnRef> find_column(const engine::Layout& layout, std::string_view text,
                                      std::string_view what, Diagnostics& diagnostics, Location at = {});
 
-/// Adds what it looks at.
+/// Demands the column.
 inline void declare(const ColumnRef& c, engine::Demand& out) {
-    out.groups.push_back(c.group);
-    if (c.state < 0) out.inputs.push_back(c.group);
+    c.state < 0 ? out.read_input(c.group) : out.read_group(c.group);
 }
 
 /// Its values in the running cycle, or the last one between cycles.

@@ -25,7 +25,7 @@ struct Quantity {
     Index index = 0;  ///< of the cell
 
     double in(const engine::Simulation& simulation, const SimTime& now) const;
-    /// Adds the group that it looks at, if it does.
+    /// Demands what it reads.
     void declare(engine::Demand& out) const;
 };
 
@@ -50,7 +50,7 @@ class Condition {
 
     /// Whether it looks at cells, which are all 0 before the first cycle.
     bool sees_cells() const;
-    /// Adds the groups that it looks at.
+    /// Demands what it reads.
     void declare(engine::Demand& out) const;
 
   private:
@@ -68,13 +68,11 @@ class Condition {
 
 /// Reads a condition. Reports what it cannot be, with what there is; `what` says where the text stands
 /// ("--at"). `trials`: whether the run has any.
-std::optional<Condition> parse_condition(const engine::Simulation& simulation, bool trials,
-                                         std::string_view text, std::string_view what,
-                                         Diagnostics& diagnostics, Location at = {});
+std::optional<Condition> parse_condition(const engine::Layout& layout, bool trials, std::string_view text,
+                                         std::string_view what, Diagnostics& diagnostics, Location at = {});
 
 /// Reads an `operand` of the grammar of conditions.
-std::optional<Quantity> parse_quantity(const engine::Simulation& simulation, bool trials,
-                                       std::string_view text, std::string_view what, Diagnostics& diagnostics,
-                                       Location at = {});
+std::optional<Quantity> parse_quantity(const engine::Layout& layout, bool trials, std::string_view text,
+                                       std::string_view what, Diagnostics& diagnostics, Location at = {});
 
 }  // namespace forage::observe

@@ -16,9 +16,9 @@ class ConditionParser {
     struct Mistake {
         std::string message, hint;
     };
-    ConditionParser(const engine::Simulation& simulation, bool trials, std::string_view text,
-                    std::string_view what, Diagnostics& diagnostics, Location at)
-        : simulation_(simulation),
+    ConditionParser(const engine::Layout& layout, bool trials, std::string_view text, std::string_view what,
+                    Diagnostics& diagnostics, Location at)
+        : layout_(layout),
           trials_(trials),
           rest_(text),
           what_(fmt::format(
@@ -200,12 +200,12 @@ class ConditionParser {
     }
     Quantity cell(std::string_view name) {
         Quantity out{Quantity::cell, 0, column(name), 0};
-        const int cells = simulation_.shape(out.column.group).cells;
+        const int cells = layout_.groups[out.column.group].shape.cells;
         if (take("(")) {
             const auto place = parse_cell(take_until(")"));
             if (!place || !take(")")) throw Mistake{"a cell is '(x,y)', two whole numbers", form()};
             if (found_)
-                out.index = find_cell(simulation_, out.column.group, place->first, place->second, what_,
+                out.index = find_cell(layout_, out.column.group, place->first, place->second, what_,
                                       diagnostics_, at_)
                                 .value_or(0);
         } else if (found_ && cells != 1) {
@@ -215,7 +215,7 @@ class ConditionParser {
         return out;
     }
     ColumnRef column(std::string_view name) {
-        const auto out = find_column(simulation_, name, what_ + ":", diagnostics_, at_);
+        const auto out = find_column(layout_, name, what_ + ":", diagnostics_, at_);
         found_ = out.has_value();
         return out.value_or(ColumnRef{});
     }
@@ -228,7 +228,7 @@ class ConditionParser {
     static constexpr std::array<std::pair<std::string_view, Quantity::Kind>, 4> functions = {
         {{"mean", Quantity::mean}, {"sum", Quantity::sum}, {"min", Quantity::min}, {"max", Quantity::max}}};
 
-    const engine::Simulation& simulation_;
+    const engine::Layout& layout_;
     bool trials_;
     std::string_view rest_;
     std::string what_;
@@ -240,16 +240,14 @@ class ConditionParser {
     bool found_ = false;      ///< the column that was just named is there
 };
 
-std::optional<Condition> parse_condition(const engine::Simulation& simulation, bool trials,
-                                         std::string_view text, std::string_view what,
-                                         Diagnostics& diagnostics, Location at) {
-    return ConditionParser(simulation, trials, text, what, diagnostics, std::move(at)).condition();
+std::optional<Condition> parse_condition(const engine::Layout& layout, bool trials, std::string_view text,
+                                         std::string_view what, Diagnostics& diagnostics, Location at) {
+    return ConditionParser(layout, trials, text, what, diagnostics, std::move(at)).condition();
 }
 
-std::optional<Quantity> parse_quantity(const engine::Simulation& simulation, bool trials,
-                                       std::string_view text, std::string_view what, Diagnostics& diagnostics,
-                                       Location at) {
-    return ConditionParser(simulation, trials, text, what, diagnostics, std::move(at)).quantity();
+std::optional<Quantity> parse_quantity(const engine::Layout& layout, bool trials, std::string_view text,
+                                       std::string_view what, Diagnostics& diagnostics, Location at) {
+    return ConditionParser(layout, trials, text, what, diagnostics, std::move(at)).quantity();
 }
 
 }  // namespace forage::observe

@@ -33,7 +33,7 @@ void Manipulation::apply(engine::Simulation& simulation) {
 }
 
 void Manipulation::declare(engine::Demand& out) const {
-    out.groups.push_back(s_.group);
+    out.overwrite_group(s_.group);
     if (s_.from) s_.from->declare(out);
     if (s_.until) s_.until->declare(out);
 }

@@ -1,4 +1,4 @@
-// State manipulation: patterns that are laid over the activity of a group.
+// State manipulation: patterns that change the activity of a group.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class Manipulation {
         Mode mode = Mode::clamp;
         std::vector<std::vector<double>> patterns{};  ///< one value per cell each; at least one pattern
         std::uint64_t every = 1;                      ///< cycles from one pattern to the next
-        std::uint64_t step = 1;                       ///< only every so-manieth pattern of the list
+        std::uint64_t step = 1;                       ///< every `step`-th pattern of the list is used
         std::optional<std::uint64_t> times{};         ///< how often the list is played; empty: for ever
         bool backwards = false;                       ///< from the last pattern to the first
         std::optional<Condition> from{}, until{};     ///< from the first cycle, and to the last one
@@ -35,7 +35,7 @@ class Manipulation {
     /// Between update_groups() and update_modules() of each cycle.
     void apply(engine::Simulation& simulation);
 
-    /// Adds the group that it overwrites, and those that its conditions look at.
+    /// Demands the group that it overwrites, and what its conditions read.
     void declare(engine::Demand& out) const;
 
     /// How far it is.

@@ -15,7 +15,7 @@ class Schedule {
     struct Entry {
         Condition when;
         model::Assignment change;
-        std::string text;                    ///< as the person wrote it
+        std::string text;                    ///< as the user wrote it
         std::optional<std::uint64_t> cycle;  ///< the first in which it acted; empty: not yet
     };
     void add(Condition when, model::Assignment change, std::string text) {
@@ -28,8 +28,11 @@ class Schedule {
     /// the first time: they act in the cycle to come. Throws what Simulation::set() throws.
     void apply(engine::Simulation& simulation, const SimTime& now);
 
+    /// Reports what Simulation::check() finds wrong with the changes.
+    void check(const engine::Simulation& simulation, Diagnostics& diagnostics) const;
+
     const std::vector<Entry>& entries() const { return entries_; }
-    /// Adds the groups that its conditions look at.
+    /// Demands what its conditions read.
     void declare(engine::Demand& out) const {
         for (const auto& e : entries_) e.when.declare(out);
     }

@@ -90,7 +90,7 @@ void Source::read(const engine::Simulation& simulation, std::span<double> out) c
     part_.take({column.data(), static_cast<std::size_t>(column.size())}, out);
 }
 
-std::optional<Source> find_source(const engine::Simulation& s, std::string_view text, std::string_view what,
+std::optional<Source> find_source(const engine::Layout& s, std::string_view text, std::string_view what,
                                   Diagnostics& diagnostics, Location at) {
     const Selection selection = parse_selection(text);
     if (const auto open = text.rfind('('); !selection.region && open != text.npos && text.ends_with(')')) {
@@ -104,16 +104,14 @@ std::optional<Source> find_source(const engine::Simulation& s, std::string_view 
     }
     auto column = find_column(s, selection.column, what, diagnostics, at);
     if (!column) return std::nullopt;
-    const GroupShape shape = s.shape(column->group);
-    const auto& type = s.type(column->group);
+    const auto& [path, id, shape, type] = s.groups[column->group];
     static constexpr std::string_view inputs[] = {"Excitation", "Inhibition", "Modulation"};
 
     Recorded whole;
     whole.name = column->name;
     whole.label = column->state >= 0 ? type.states[static_cast<std::size_t>(column->state)].label
                                      : std::string(inputs[static_cast<std::size_t>(column->kind)]);
-    whole.group_id = s.id(column->group);
-    const std::string& path = s.path(column->group);
+    whole.group_id = id;
     whole.group = path.substr(path.find('/') + 1);
     if (const std::string suffix = "#" + whole.group_id; whole.group.ends_with(suffix))
         whole.group.resize(whole.group.size() - suffix.size());

@@ -1,4 +1,4 @@
-// What a person selects of a running system, or of a recording of one.
+// What users select of a running system, or of a recording of one.
 #pragma once
 
 #include <optional>
@@ -48,24 +48,24 @@ struct Part {
 };
 std::optional<Part> part_of(const Recorded& what, const Selection& selection);
 
-/// A selection tied to a system.
+/// A selection of the columns of a system.
 class Source {
   public:
     const Recorded& what() const { return part_.what; }
     /// The numbers of the running cycle, or of the last one between cycles; `out` has what().size() of them.
     void read(const engine::Simulation& simulation, std::span<double> out) const;
-    /// Adds the group that it looks at.
+    /// Demands what it reads.
     void declare(engine::Demand& out) const { observe::declare(column_, out); }
 
   private:
-    friend std::optional<Source> find_source(const engine::Simulation&, std::string_view, std::string_view,
+    friend std::optional<Source> find_source(const engine::Layout&, std::string_view, std::string_view,
                                              Diagnostics&, Location);
     ColumnRef column_;
     Part part_;
 };
 
 /// The source that `text` names. Reports what is not there; `what` says where the text stands ("--record").
-std::optional<Source> find_source(const engine::Simulation& simulation, std::string_view text,
-                                  std::string_view what, Diagnostics& diagnostics, Location at = {});
+std::optional<Source> find_source(const engine::Layout& layout, std::string_view text, std::string_view what,
+                                  Diagnostics& diagnostics, Location at = {});
 
 }  // namespace forage::observe

@@ -66,17 +66,18 @@ struct Loop {
         add_modules(registry);
         registry.add(bug::gazebo_bug_type());
         for (const auto& setting : c.settings) model::set(*system, registry, setting, diagnostics);
-        if (world)
-            simulation =
-                engine::Simulation::build(*system, registry, {.environment = world.get()}, diagnostics);
-        if (!simulation) return;
+        if (!world) return;
+        auto layout = engine::make_layout(*system, registry, diagnostics, world.get());
+        if (!layout) return;
+        engine::Demand demand = engine::Demand::everything();
         if (c.update == Update::what_is_read) {
-            engine::Demand observed;
-            tool::Layers(*simulation).declare(observed);  // for the measures of trials
-            simulation->prune(observed);
-            simulation->keep_inputs({});
+            demand = {};
+            tool::Layers(*layout).declare(demand);  // for the measures of trials
         }
-        simulation->watch(true);
+        simulation = engine::Simulation::build(*system, std::move(*layout), demand,
+                                               {.environment = world.get()}, diagnostics);
+        if (!simulation) return;
+        simulation->check_finite(true);
         simulation->start();
     }
 };
@@ -151,7 +152,7 @@ bool measure(const Case& c) {
                 best[b] = least(best[b], times);
         }
         seconds_per_cycle = loop.world->seconds_per_cycle();
-        groups = loop.simulation->groups();
+        groups = static_cast<int>(loop.simulation->layout().groups.size());
         pruned = 0;
         for (int g = 0; g < groups; ++g) pruned += loop.simulation->pruned(g);
     }

@@ -90,13 +90,20 @@ int measure(const Original& original) {
     diagnostics.lenient = true;  // the player has none of the robot's parameters
     const double begin = bench::wall_seconds();
     const auto system = xml::read_system(file, diagnostics);
-    auto simulation = system ? engine::Simulation::build(*system, registry, {}, diagnostics) : std::nullopt;
+    const auto built = [&](int threads) -> std::optional<engine::Simulation> {
+        auto layout = engine::make_layout(*system, registry, diagnostics);
+        if (!layout) return std::nullopt;
+        engine::Demand demand;  // for everything but inputs, as of a run that records all activities
+        for (int g = 0; g < std::ssize(layout->groups); ++g) demand.read_group(g);
+        return engine::Simulation::build(*system, std::move(*layout), demand, {.threads = threads},
+                                         diagnostics);
+    };
+    auto simulation = system ? built(1) : std::nullopt;
     const double build = bench::wall_seconds() - begin;
     if (!simulation) {
         fmt::print(stderr, "{}", format(diagnostics));
         return 1;
     }
-    simulation->keep_inputs({});
     simulation->start();
     const auto run = [cycles](engine::Simulation& s) {
         return [&s, cycles] {
@@ -114,8 +121,7 @@ int measure(const Original& original) {
     const double megabytes = static_cast<double>(usage.ru_maxrss) / 1024;
 
     const auto build_another = [&](int threads) {
-        auto out = engine::Simulation::build(*system, registry, {.threads = threads}, diagnostics);
-        out->keep_inputs({});
+        auto out = built(threads);
         out->start();
         return out;
     };

@@ -48,7 +48,8 @@ int main() {
     for (const int cells : {10, 1000, 100'000}) {
         std::vector<engine::Simulation> simulations;
         for (const char* type : {"neuronLinearThreshold", "neuronLinearThresholdTwin"}) {
-            auto one = engine::Simulation::build(system_of(type, cells), registry, {}, diagnostics);
+            auto one = engine::Simulation::build(system_of(type, cells), registry,
+                                                 engine::Demand::everything(), {}, diagnostics);
             if (!one) return fmt::print("{}", format(diagnostics)), 1;
             one->start();
             simulations.push_back(std::move(*one));

@@ -44,7 +44,8 @@ Cost measure(const model::System& system) {
     add_synapses(registry);
     Diagnostics diagnostics;
     const double before = resident(), begin = bench::wall_seconds();
-    auto simulation = engine::Simulation::build(system, registry, {}, diagnostics);
+    auto simulation =
+        engine::Simulation::build(system, registry, engine::Demand::everything(), {}, diagnostics);
     if (!simulation) return fmt::print(stderr, "{}", format(diagnostics)), Cost{};
     Cost cost;
     cost.build = bench::wall_seconds() - begin;

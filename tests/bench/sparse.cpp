@@ -40,8 +40,8 @@ int main() {
     Diagnostics diagnostics;
     Triad triad(8'000'000);
     for (const auto& [cells, each] : {std::pair{20'000, 1000}, std::pair{100'000, 200}}) {
-        auto simulation =
-            engine::Simulation::build(bench::random_lists(cells, each), registry, {}, diagnostics);
+        auto simulation = engine::Simulation::build(bench::random_lists(cells, each), registry,
+                                                    engine::Demand::everything(), {}, diagnostics);
         if (!simulation) return fmt::print(stderr, "{}", format(diagnostics)), 1;
         simulation->start();
         simulation->step();
@@ -53,8 +53,9 @@ int main() {
         });
         const double speed = bytes * lists.best(), share = speed / (triad.bytes() * triads.best());
         const auto build_another = [&, cells = cells, each = each](int threads) {
-            auto out = engine::Simulation::build(bench::random_lists(cells, each), registry,
-                                                 {.threads = threads}, diagnostics);
+            auto out =
+                engine::Simulation::build(bench::random_lists(cells, each), registry,
+                                          engine::Demand::everything(), {.threads = threads}, diagnostics);
             out->start();
             return out;
         };

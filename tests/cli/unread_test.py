@@ -1,4 +1,4 @@
-"""Groups that nobody reads are left out of a run, and nothing else changes by that.
+"""Groups that nothing reads are pruned from a run, and nothing else changes by that.
 
     unread_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
 """
@@ -40,7 +40,7 @@ GROWS = 'name="neuronLinearThreshold"><Parameter name="vmPrs" value="1"/><Parame
 STRONG = 'name="synapseFixedWeight"><Parameter name="weight" value="1e307"/>'
 WEAK = 'name="synapseFixedWeight"><Parameter name="weight" value="0.1"/>'
 LEARNS = 'name="synapseHebbian"><XRefHolder name="Freedback"><XRef name="postact" target="act"/></XRefHolder>'
-# G spikes; H becomes infinite soon; M is reached by synapses that learn; nobody reads any of them.
+# G spikes; H becomes infinite soon; M is reached by synapses that learn; nothing reads any of them.
 SMALL = f"""<?xml version="1.0" encoding="UTF-8"?>
 <System id="s" name="small" author="" date="" cylesPerSecond="25">
   <Process id="p" name="P"><DiagramIcon x="0" y="0"/>
@@ -53,7 +53,7 @@ SMALL = f"""<?xml version="1.0" encoding="UTF-8"?>
 
 class Unread(Stopped):
     def pruned(self, done):
-        found = re.search(r"left out +(\d+) of (\d+) groups, which nobody reads", done.stdout)
+        found = re.search(r"pruned +(\d+) of (\d+) groups, which nothing reads; --hash computes all", done.stdout)
         return int(found[1]) if found else 0
 
     def assert_equal_files(self, name, *directories):
@@ -68,11 +68,13 @@ class Unread(Stopped):
         shown = self.forage(*RUN, *MOTOR, *displays, "--cycles", 4000, "-o", "shown")
         self.assertGreater(self.pruned(few), 8)
         self.assertEqual(self.pruned(everything), 0)
+        self.assertRegex(everything.stdout, r"computed +all \d+ groups, as --hash demands")
+        self.assertNotIn("as --hash demands", few.stdout)
         self.assertEqual(self.pruned(shown), self.pruned(few) - len(DISPLAYS))
         self.assertRegex(few.stdout, r"memory +[1-9]\d* of 50 sequences")  # the layer is at work
         for name in ("Bug_Motor_act.csv", "trials.csv", "trajectory.csv"):
             self.assert_equal_files(name, "few", "everything", "shown")
-        # What is looked at is what it is when everything is updated.
+        # What is read is what it is when everything is computed.
         self.forage(*RUN, *displays, "--cycles", 4000, "--hash", "-o", "all")
         for d in DISPLAYS:
             self.assert_equal_files(f"mean_Contextual_{d}_act.csv", "shown", "all")
@@ -89,8 +91,8 @@ class Unread(Stopped):
             for file in (self.here / "out").iterdir():
                 file.unlink()
 
-    def test_who_looks_at_a_group_asks_for_it(self):
-        """Everything that a person can look at or overwrite, on groups that are read by nobody else."""
+    def test_all_that_reads_a_group_demands_it(self):
+        """Everything that a user can read or overwrite, on groups that nothing else reads."""
         (self.here / "table.csv").write_text("cycle,process,group,v0...\n3,Bug,GPS,1,2,3\n")
         plain = self.pruned(self.forage(*RUN, "--cycles", 60, "-o", ""))
         looks = {
@@ -119,28 +121,32 @@ class Unread(Stopped):
         name = next(p.name for p in (self.here / "few").glob("*.png"))
         self.assert_equal_files(name, "few", "all")
 
-    def test_a_system_that_nobody_reads_runs_whole(self):
+    def test_a_system_that_nothing_reads_runs_whole(self):
         (self.here / "small.iqr").write_text(SMALL)
         done = self.forage("run", "small.iqr", "--cycles", 50, "-o", "out")
         self.assertEqual(self.pruned(done), 0)
         self.assertIn("of 'P/H' becomes inf", done.stderr)
 
-    def test_the_record_of_a_run_says_what_was_left_out(self):
+    def test_the_record_of_a_run_says_what_was_pruned(self):
         (self.here / "small.iqr").write_text(SMALL)
         self.forage("run", "small.iqr", "--cycles", 5, "-r", "P/M", "-o", "out")
         self.assertEqual(json.loads((self.here / "out/run.json").read_text())["result"]["pruned"], ["P/H", "P/N"])
 
-    def test_numbers_that_are_not_finite_are_sought_everywhere_when_that_is_asked_for(self):
+    def test_what_is_done_about_numbers_that_are_not_finite_never_changes_what_is_computed(self):
         (self.here / "small.iqr").write_text(SMALL)
         arguments = ("run", "small.iqr", "--cycles", 50, "-o", "out")
-        self.assertNotIn("becomes", self.forage(*arguments, "-r", "P/G").stderr)  # nobody reads it
-        self.assertIn("of 'P/H' becomes inf", self.forage(*arguments, "-r", "P/H").stderr)
-        self.assertIn("of 'P/H' becomes inf", self.forage(*arguments, "--hash").stderr)
-        self.assertIn("of 'P/H' becomes inf", self.forage(*arguments, "--on-nan", "warn").stderr)
-        self.assertIn("of 'P/H' becomes inf", self.forage(*arguments, "--on-nan", "stop", status=1).stderr)
-        self.assertNotIn("becomes", self.forage(*arguments, "--on-nan", "ignore", "-r", "P/H").stderr)
+        for how in ((), ("--on-nan", "warn"), ("--on-nan", "stop"), ("--on-nan", "ignore")):
+            done = self.forage(*arguments, *how, "-r", "P/G")
+            self.assertNotIn("becomes", done.stderr)
+            self.assertEqual(self.pruned(done), 3)
+        told = "of 'P/H' becomes inf"
+        self.assertIn(told, self.forage(*arguments, "-r", "P/H").stderr)
+        self.assertIn(told, self.forage(*arguments, "-r", "P/G", "--hash").stderr)
+        self.assertIn(told, self.forage(*arguments, "-r", "P/H", "--on-nan", "warn").stderr)
+        self.assertIn(told, self.forage(*arguments, "-r", "P/H", "--on-nan", "stop", status=1).stderr)
+        self.assertNotIn("becomes", self.forage(*arguments, "-r", "P/H", "--on-nan", "ignore").stderr)
 
-    def test_measures_of_an_experiment_ask_for_what_they_look_at(self):
+    def test_measures_of_an_experiment_demand_what_they_read(self):
         (self.here / "small.iqr").write_text(SMALL)
         (self.here / "e.xml").write_text("""<experiment>
   <system file="small.iqr"/>

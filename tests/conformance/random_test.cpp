@@ -39,7 +39,8 @@ TEST_CASE("Cells that fire at random do so as often, and as strongly, as recorde
     Diagnostics diagnostics;
     const auto system = xml::read_system(path / "input.iqr", diagnostics);
     REQUIRE(system);
-    auto simulation = engine::Simulation::build(*system, registry, {}, diagnostics);
+    auto simulation =
+        engine::Simulation::build(*system, registry, engine::Demand::everything(), {}, diagnostics);
     REQUIRE(simulation);
     simulation->start();
 

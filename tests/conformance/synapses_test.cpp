@@ -43,8 +43,8 @@ class Potentials {
     Eigen::ArrayXd of(const engine::Simulation& s, const std::string& id) const {
         const auto& one = all_.at(id);
         int source = 0;
-        while (s.id(source) != one.source) ++source;
-        const ConstColumn pre = s.state(source, s.type(source).output());
+        while (s.layout().groups[source].id != one.source) ++source;
+        const ConstColumn pre = s.state(source, s.layout().groups[source].type.output());
         Eigen::ArrayXd out(static_cast<Index>(one.synapses.size()));
         for (std::size_t i = 0; i < one.synapses.size(); ++i)
             out[static_cast<Index>(i)] = (one.gain * pre[one.synapses.pre[i]]) *
@@ -63,8 +63,8 @@ class Potentials {
 };
 
 int connection(const engine::Simulation& s, std::string_view id) {
-    for (int c = 0; c < s.connections(); ++c)
-        if (s.connection_id(c) == id) return c;
+    for (int c = 0; c < std::ssize(s.layout().connections); ++c)
+        if (s.layout().connections[c].id == id) return c;
     FAIL("no connection " << id);
     return -1;
 }
@@ -94,7 +94,8 @@ TEST_CASE("Weights and potentials of synapses are those recorded") {
         Diagnostics diagnostics;
         const auto system = xml::read_system(c.path / "input.iqr", diagnostics);
         REQUIRE(system);
-        auto simulation = engine::Simulation::build(*system, registry, {}, diagnostics);
+        auto simulation =
+            engine::Simulation::build(*system, registry, engine::Demand::everything(), {}, diagnostics);
         REQUIRE(simulation);
         simulation->start();
         const Potentials potentials(*system, registry);
@@ -110,7 +111,7 @@ TEST_CASE("Weights and potentials of synapses are those recorded") {
                 ++copies;
                 continue;
             }
-            const SynapseType& type = simulation->synapse_type(index);
+            const SynapseType& type = simulation->layout().connections[index].type;
             const int state = state_index(type, row.state);
             const bool has_states = simulation->connection_form(index).starts_with("plastic");
             Eigen::ArrayXd ours;

@@ -54,8 +54,8 @@ std::size_t compare(const Path& file, const Path& drive, const std::vector<std::
     REQUIRE(system);
     for (const auto& setting : settings) model::set(*system, registry, setting, diagnostics);
     const bool general_forms = GENERATE(false, true);
-    auto simulation =
-        engine::Simulation::build(*system, registry, {.general_forms = general_forms}, diagnostics);
+    auto simulation = engine::Simulation::build(*system, registry, engine::Demand::everything(),
+                                                {.general_forms = general_forms}, diagnostics);
     INFO(format(diagnostics));
     REQUIRE(simulation);
     simulation->start();

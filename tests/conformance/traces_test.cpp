@@ -40,8 +40,8 @@ class Clamp {
                table_.rows()[next_].cycle <= static_cast<std::int64_t>(s.cycle());
              ++next_) {
             const auto& row = table_.rows()[next_];
-            for (int g = 0; g < s.groups(); ++g)
-                if (s.path(g) == row.process + "/" + row.target) held_[g] = &row;
+            for (int g = 0; g < std::ssize(s.layout().groups); ++g)
+                if (s.layout().groups[g].path == row.process + "/" + row.target) held_[g] = &row;
         }
         for (const auto& [group, row] : held_)
             s.output(group) = ConstColumn(row->values.data(), static_cast<Index>(row->values.size()));
@@ -58,10 +58,11 @@ std::string run(const Case& c, bool general_forms) {
     Diagnostics diagnostics;
     const auto system = xml::read_system(c.path / "input.iqr", diagnostics);
     const Registry registry = registry_for(c);
-    auto simulation =
-        system ? engine::Simulation::build(*system, registry, {.general_forms = general_forms}, diagnostics)
-               : std::nullopt;
-    if (c.status == "refused" && format(diagnostics).find("has no synapses") == std::string::npos) return "not refused for want of synapses";
+    auto simulation = system ? engine::Simulation::build(*system, registry, engine::Demand::everything(),
+                                                         {.general_forms = general_forms}, diagnostics)
+                             : std::nullopt;
+    if (c.status == "refused" && format(diagnostics).find("has no synapses") == std::string::npos)
+        return "not refused for want of synapses";
     if (c.status != "ok") return simulation || !diagnostics.failed() ? "not refused" : "";
     if (!simulation) return format(diagnostics);
     if (c.name.ends_with("_RANDOM")) return {};  // its statistics: random_test.cpp

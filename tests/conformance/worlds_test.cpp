@@ -8,8 +8,8 @@
 #include "bug_interface/module/gazebo_bug.h"
 #include "bug_interface/simulation/world.h"
 #include "bug_interface/world/sdf_reader.h"
-#include "core/engine/simulation.h"
 #include "core/base/random.h"
+#include "core/engine/simulation.h"
 #include "core/xml/reader.h"
 #include "modules/modules.h"
 #include "neurons/neurons.h"
@@ -156,7 +156,8 @@ TEST_CASE("The original's systems run in the original's worlds") {
             Registry registry;
             add_neurons(registry), add_synapses(registry), add_modules(registry);
             registry.add(bug::gazebo_bug_type());
-            auto simulation = engine::Simulation::build(*system, registry, {}, diagnostics);
+            auto simulation =
+                engine::Simulation::build(*system, registry, engine::Demand::everything(), {}, diagnostics);
             if (!simulation) {  // it wants a robot of another name
                 CHECK(format(diagnostics).find("there is no robot '") != std::string::npos);
                 continue;

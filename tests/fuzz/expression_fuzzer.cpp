@@ -30,7 +30,8 @@ struct Small {
         add_neurons(loaded.registry);
         add_synapses(loaded.registry);
         add_modules(loaded.registry);
-        simulation = engine::Simulation::build(loaded.system, loaded.registry, {1}, diagnostics);
+        simulation = engine::Simulation::build(loaded.system, loaded.registry, engine::Demand::everything(),
+                                               {1}, diagnostics);
         test::holds(simulation.has_value(), "the small system is sound");
         simulation->start();
     }
@@ -42,7 +43,7 @@ void manipulate(const Small& small, Mode mode, const std::string& text, Diagnost
     try {
         const auto wish = tool::parse_manipulation(mode, text);
         if (wish.patterns.empty())  // else it names a file
-            tool::manipulations({wish}, small.loaded, *small.simulation, diagnostics);
+            tool::manipulations({wish}, small.loaded, small.simulation->layout(), diagnostics);
     } catch (const std::invalid_argument& e) {
         diagnostics.error({}, e.what());
     }
@@ -59,22 +60,24 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     switch (data[0] % 8) {
         case 0:
         case 1:
-            if (const auto c =
-                    observe::parse_condition(simulation, data[0] & 1, text, "--until", diagnostics)) {
+            if (const auto c = observe::parse_condition(simulation.layout(), data[0] & 1, text, "--until",
+                                                        diagnostics)) {
                 c->sees_cells();
                 c->holds(simulation, {3, 0.1, 1});
             }
             break;
         case 2:
-            if (const auto q = observe::parse_quantity(simulation, true, text, "measure", diagnostics))
+            if (const auto q =
+                    observe::parse_quantity(simulation.layout(), true, text, "measure", diagnostics))
                 q->in(simulation, {3, 0.1, 1});
             break;
         case 3:
             if (const auto timed = tool::parse_timed(text))
-                tool::schedule({*timed}, small.loaded, simulation, diagnostics);
+                tool::schedule({*timed}, small.loaded, simulation.layout(), diagnostics)
+                    .check(simulation, diagnostics);
             break;
         case 4:
-            if (auto source = observe::find_source(simulation, text, "--record", diagnostics)) {
+            if (auto source = observe::find_source(simulation.layout(), text, "--record", diagnostics)) {
                 std::vector<double> row(source->what().size());
                 source->read(simulation, row);
             }

@@ -22,12 +22,17 @@ std::uint64_t models() {
 }
 
 /// Every state of every group over some cycles, as bytes; one NaN is like another. With `observed`, of these
-/// groups; they are then the only ones that are asked for, and without their inputs.
+/// groups; they are then all that is demanded, with `prune`.
 std::string trace(const model::System& system, const Registry& registry, int threads,
                   bool general_forms = false, const std::vector<int>* observed = nullptr,
-                  bool leave_out = false) {
+                  bool prune = false) {
     Diagnostics diagnostics;
-    auto s = engine::Simulation::build(system, registry,
+    engine::Demand demand = engine::Demand::everything();
+    if (prune) {
+        demand = {};
+        for (const int g : *observed) demand.read_group(g);
+    }
+    auto s = engine::Simulation::build(system, registry, demand,
                                        {.seed = test::RandomModel::connection_seed,
                                         .threads = threads,
                                         .parallel_threshold_ns = 0,
@@ -36,16 +41,15 @@ std::string trace(const model::System& system, const Registry& registry, int thr
                                        diagnostics);
     INFO(format(diagnostics));
     REQUIRE(s);
-    std::vector<int> groups(static_cast<std::size_t>(s->groups()));
+    std::vector<int> groups(s->layout().groups.size());
     std::iota(groups.begin(), groups.end(), 0);
     if (observed) groups = *observed;
-    if (leave_out) s->prune({.groups = groups}), s->keep_inputs({});
     s->start();
     Archive out(Archive::Nan::all_the_same);
     for (int t = 0; t < 8; ++t) {
         s->step();
         for (const int g : groups)
-            for (int i = 0; i < static_cast<int>(s->type(g).states.size()); ++i) {
+            for (int i = 0; i < static_cast<int>(s->layout().groups[g].type.states.size()); ++i) {
                 Eigen::ArrayXd column = s->state(g, i);
                 out(column);
             }
@@ -87,7 +91,7 @@ TEST_CASE("Neither the number of threads nor the form of the connections changes
     }
 }
 
-TEST_CASE("Groups that nobody reads can be left out, and those that are read have the same bits") {
+TEST_CASE("Groups that nothing reads can be pruned, and those that are read have the same bits") {
     Registry registry;
     add_neurons(registry);
     add_synapses(registry);
@@ -96,28 +100,26 @@ TEST_CASE("Groups that nobody reads can be left out, and those that are read hav
         const model::System system = test::RandomModel(seed).make();
         INFO("seed " << seed << "\n" << xml::write_system(system));
         Diagnostics diagnostics;
-        const auto built = [&] {
-            auto s = engine::Simulation::build(system, registry, {.seed = test::RandomModel::connection_seed},
-                                               diagnostics);
-            REQUIRE(s);
-            return std::move(*s);
-        };
+        const auto layout = engine::make_layout(system, registry, diagnostics);
+        REQUIRE(layout);
+        const int groups = static_cast<int>(layout->groups.size());
         std::vector<int> observed;
-        const int groups = built().groups();
+        engine::Demand demand;
         for (int g = 0; g < groups; ++g)
-            if ((seed + static_cast<std::uint64_t>(g)) % 3 == 0) observed.push_back(g);
-        auto s = built();
-        s.prune({.groups = observed});
-        for (int g = 0; g < groups; ++g) pruned += s.pruned(g);
-        for (int g = 0; g < groups; ++g) delivered += !s.pruned(g);
+            if ((seed + static_cast<std::uint64_t>(g)) % 3 == 0) observed.push_back(g), demand.read_group(g);
+        const auto s = engine::Simulation::build(system, *layout, demand,
+                                                 {.seed = test::RandomModel::connection_seed}, diagnostics);
+        REQUIRE(s);
+        for (int g = 0; g < groups; ++g) pruned += s->pruned(g);
+        for (int g = 0; g < groups; ++g) delivered += !s->pruned(g);
         delivered -= observed.size();
         const std::string all = trace(system, registry, 1, false, &observed);
         REQUIRE(all == trace(system, registry, 1, false, &observed, true));
         REQUIRE(all == trace(system, registry, 4, false, &observed, true));
         REQUIRE(all == trace(system, registry, 1, true, &observed, true));
     }
-    CHECK(pruned > models() / 4);    // some are left out,
-    CHECK(delivered > models() / 20);  // and some are not, only because another is observed
+    CHECK(pruned > models() / 4);      // some are pruned,
+    CHECK(delivered > models() / 20);  // and some are computed only because another group is demanded
 }
 
 TEST_CASE("A simulation stopped in any cycle and resumed is the one that ran through, to the last bit") {
@@ -126,7 +128,7 @@ TEST_CASE("A simulation stopped in any cycle and resumed is the one that ran thr
     add_synapses(registry);
     const auto build = [&](const model::System& system, int threads) {
         Diagnostics diagnostics;
-        auto s = engine::Simulation::build(system, registry,
+        auto s = engine::Simulation::build(system, registry, engine::Demand::everything(),
                                            {.seed = test::RandomModel::connection_seed,
                                             .threads = threads,
                                             .parallel_threshold_ns = threads > 1 ? 0.0 : 1e9,

@@ -49,8 +49,8 @@ class ClosedLoop {
             registry.add(bug::gazebo_bug_type());
             for (const auto& assignment : setup.set) model::set(*system, registry, assignment, diagnostics);
             parsed_ = *system;
-            simulation = engine::Simulation::build(
-                *system, registry, {.seed = setup.seed, .environment = world.get()}, diagnostics);
+            simulation = engine::Simulation::build(*system, registry, engine::Demand::everything(),
+                                                   {.seed = setup.seed, .environment = world.get()}, diagnostics);
         }
         if (!simulation || !world) throw std::runtime_error(format(diagnostics));
         simulation->start();
@@ -80,7 +80,7 @@ class ClosedLoop {
     /// Activity of "Process/Group".
     ConstColumn activity(std::string_view group) const {
         Diagnostics diagnostics;
-        const auto column = observe::find_column(*simulation, group, "test", diagnostics);
+        const auto column = observe::find_column(simulation->layout(), group, "test", diagnostics);
         if (!column) throw std::runtime_error(format(diagnostics));
         return observe::values(*simulation, *column);
     }

@@ -39,22 +39,24 @@ inline std::string trimmed(std::string text) {
 /// The column that a row names, or an empty one.
 inline ConstColumn find_column(const engine::Simulation& s, const ExpectedRow& row) {
     if (row.group.starts_with("@module:")) {
-        for (int m = 0; m < s.modules(); ++m)
-            for (int p = 0; p < static_cast<int>(s.module_ports(m).outputs.size()); ++p)
-                if (s.module_process(m) == trimmed(row.process) &&
-                    s.module_ports(m).outputs[static_cast<std::size_t>(p)].port == row.group.substr(8))
+        for (int m = 0; m < std::ssize(s.layout().modules); ++m)
+            for (int p = 0; p < static_cast<int>(s.layout().modules[m].ports.outputs.size()); ++p)
+                if (s.layout().modules[m].process == trimmed(row.process) &&
+                    s.layout().modules[m].ports.outputs[static_cast<std::size_t>(p)].port ==
+                        row.group.substr(8))
                     return s.module_output(m, p);
         return {nullptr, 0};
     }
     const auto hash = row.group.rfind('#');
-    for (int g = 0; g < s.groups(); ++g) {
+    for (int g = 0; g < std::ssize(s.layout().groups); ++g) {
         const std::string path = trimmed(row.process) + "/" + trimmed(row.group);
-        if (s.path(g) != path && !(hash != std::string::npos && s.id(g) == row.group.substr(hash + 1)))
+        if (s.layout().groups[g].path != path &&
+            !(hash != std::string::npos && s.layout().groups[g].id == row.group.substr(hash + 1)))
             continue;
         if (row.state == "excIn") return s.input(g, InputKind::excitatory);
         if (row.state == "inhIn") return s.input(g, InputKind::inhibitory);
         if (row.state == "modIn") return s.input(g, InputKind::modulatory);
-        const auto& states = s.type(g).states;
+        const auto& states = s.layout().groups[g].type.states;
         for (std::size_t i = 0; i < states.size(); ++i)
             if (states[i].name == row.state) return s.state(g, static_cast<int>(i));
     }

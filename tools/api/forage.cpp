@@ -42,14 +42,15 @@ Model::Model(model::System system, Registry types, engine::Simulation simulation
 
 int Model::group(std::string_view path) const {
     std::vector<std::string> known;
-    for (int g = 0; g < groups(); ++g) known.push_back(this->path(g));
+    for (const auto& g : layout().groups) known.push_back(g.path);
     return named("group", path, known);
 }
 
 int Model::state(int group, std::string_view name) const {
     std::vector<std::string> known;
-    for (const auto& s : type(group).states) known.push_back(s.name);
-    return named(fmt::format("state of {}", type(group).name), name, known);
+    const NeuronType& type = layout().groups.at(group).type;
+    for (const auto& s : type.states) known.push_back(s.name);
+    return named(fmt::format("state of {}", type.name), name, known);
 }
 
 void Model::set(std::string_view assignment) {
@@ -72,7 +73,8 @@ Model build(model::System system, Registry types, const LoadOptions& options) {
     diagnostics.lenient = options.lenient;
     engine::Simulation::Options wanted;
     wanted.seed = options.seed, wanted.threads = options.threads;
-    auto simulation = engine::Simulation::build(system, types, wanted, diagnostics);
+    auto simulation =
+        engine::Simulation::build(system, types, engine::Demand::everything(), wanted, diagnostics);
     if (!simulation) refuse(diagnostics);
     simulation->start();
     return {std::move(system), std::move(types), std::move(*simulation)};
@@ -85,7 +87,7 @@ Model load(const std::string& path, const LoadOptions& options) {
     Registry registry = types(options.plugins, diagnostics);
     if (!system) refuse(diagnostics);
     if (!diagnostics.failed()) return build(std::move(*system), std::move(registry), options);
-    engine::Simulation::build(*system, registry, {}, diagnostics);  // says what else is wrong
+    engine::Simulation::build(*system, registry, {}, {}, diagnostics);  // says what else is wrong
     refuse(diagnostics);
 }
 

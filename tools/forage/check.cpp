@@ -45,7 +45,8 @@ int check(const Input& input) {
     const auto loaded = load(input, diagnostics);
     std::optional<engine::Simulation> simulation;
     if (loaded)
-        simulation = engine::Simulation::build(loaded->system, loaded->registry, {input.seed}, diagnostics);
+        simulation = engine::Simulation::build(loaded->system, loaded->registry, engine::Demand::everything(),
+                                               {input.seed}, diagnostics);
     fmt::print(stderr, "{}", format(diagnostics));
     if (!simulation) {
         std::string name = input.system;  // it may hold anything, and the terminal must not obey it
@@ -57,14 +58,13 @@ int check(const Input& input) {
         return bad_input;
     }
     std::size_t cells = 0, synapses = 0;
-    for (int g = 0; g < simulation->groups(); ++g)
-        cells += static_cast<std::size_t>(simulation->shape(g).cells);
-    for (int c = 0; c < simulation->connections(); ++c) synapses += simulation->synapses(c);
+    const auto& layout = simulation->layout();
+    for (const auto& g : layout.groups) cells += static_cast<std::size_t>(g.shape.cells);
+    for (int c = 0; c < std::ssize(layout.connections); ++c) synapses += simulation->synapses(c);
     fmt::print("{}: fine: {}, {}, {}, {}, {}{}\n", input.system,
                counted(loaded->system.processes.size(), "process", "processes"),
-               counted(static_cast<std::size_t>(simulation->groups()), "group"), counted(cells, "cell"),
-               counted(static_cast<std::size_t>(simulation->connections()), "connection"),
-               counted(synapses, "synapse"),
+               counted(layout.groups.size(), "group"), counted(cells, "cell"),
+               counted(layout.connections.size(), "connection"), counted(synapses, "synapse"),
                diagnostics.warnings()
                    ? ", " + counted(static_cast<std::size_t>(diagnostics.warnings()), "warning")
                    : "");

@@ -42,20 +42,18 @@ void Checkpoints::write(Running& running) {
     write_checkpoint(directory_, archive.bytes());
 }
 
-void check_checkpoints(const RunOptions& o, const Loaded& loaded, const engine::Simulation& simulation,
-                       Diagnostics& diagnostics) {
+void check_checkpoints(const RunOptions& o, const engine::Layout& layout, Diagnostics& diagnostics) {
     if (!o.checkpoint_every && !o.hash) return;
     if (o.checkpoint_every && o.directory.empty())
         diagnostics.error({}, "--checkpoint-every needs a directory to write to",
                           "leave out -o '' or name one");
-    for (int m = 0; m < simulation.modules(); ++m)
-        if (!loaded.registry.module(simulation.module_type(m))->checkpoints)
+    for (const auto& m : layout.modules)
+        if (!m.type.checkpoints)
             diagnostics.error(
                 {},
                 fmt::format("{}: the module type '{}' of process '{}' does not say what it "
                             "keeps beside its parameters",
-                            o.checkpoint_every ? "--checkpoint-every" : "--hash", simulation.module_type(m),
-                            simulation.module_process(m)),
+                            o.checkpoint_every ? "--checkpoint-every" : "--hash", m.type.name, m.process),
                 "give the type a member 'void checkpoint(forage::Archive& archive)' that lists its members");
 }
 

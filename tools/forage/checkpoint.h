@@ -58,8 +58,7 @@ class Checkpoints {
 };
 
 /// Reports what keeps this run from being checkpointed, or its state from being digested, if that is wanted.
-void check_checkpoints(const RunOptions& options, const Loaded& loaded, const engine::Simulation& simulation,
-                       Diagnostics& diagnostics);
+void check_checkpoints(const RunOptions& options, const engine::Layout& layout, Diagnostics& diagnostics);
 
 /// A digest of all that decides the cycles to come, in system and world: two runs that were the same have the
 /// same one. Throws RunError for modules that do not declare what they keep.

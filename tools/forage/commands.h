@@ -42,7 +42,7 @@ struct RunOptions {
     std::optional<std::uint64_t> trials;
     Location length_at;          ///< no file: on the command line
     double longest_trial = 300;  ///< s of the world
-    model::Expression until;           ///< a condition that ends the run before its time; none when empty
+    model::Expression until;     ///< a condition that ends the run before its time; none when empty
     std::vector<model::RecordingSpec> recordings;
     std::vector<model::ScheduledChange> at;
     std::vector<model::Measure> measures;
@@ -53,8 +53,8 @@ struct RunOptions {
     bool paths = true;  ///< follow the robots
     std::string video;  ///< .gif or .png file to film the world to; none when empty
     std::optional<CheckpointInterval> checkpoint_every;  ///< none without
-    std::optional<OnNan> on_nan;                         ///< empty: warn, of what the run updates anyway
-    bool hash = false;                                   ///< give a digest of the state at the end
+    OnNan on_nan = OnNan::warn;
+    bool hash = false;  ///< give a digest of the state at the end
     bool real_time = false, quiet = false;
 };
 

@@ -64,16 +64,17 @@ int describe(const Input& input) {
     const auto loaded = load(input, diagnostics);
     std::optional<engine::Simulation> simulation;
     if (loaded)
-        simulation =
-            engine::Simulation::build(loaded->system, loaded->registry, {.seed = input.seed}, diagnostics);
+        simulation = engine::Simulation::build(loaded->system, loaded->registry, engine::Demand::everything(),
+                                               {.seed = input.seed}, diagnostics);
     fmt::print(stderr, "{}", format(diagnostics));
     if (!simulation) return bad_input;
 
     const model::System& system = loaded->system;
     std::map<std::string_view, Compiled> compiled;
     std::size_t synapses = 0, cells = 0, groups = 0;
-    for (int i = 0; i < simulation->connections(); ++i) {
-        compiled[simulation->connection_id(i)] = {simulation->synapses(i), simulation->connection_form(i)};
+    const auto& connections = simulation->layout().connections;
+    for (int i = 0; i < std::ssize(connections); ++i) {
+        compiled[connections[i].id] = {simulation->synapses(i), simulation->connection_form(i)};
         synapses += simulation->synapses(i);
     }
     for (const auto& p : system.processes)

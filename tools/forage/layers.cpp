@@ -6,15 +6,15 @@
 namespace forage::tool {
 namespace {
 
-int find_module(const engine::Simulation& simulation, std::string_view type) {
-    for (int i = 0; i < simulation.modules(); ++i)
-        if (simulation.module_type(i) == type) return i;
+int find_module(const engine::Layout& layout, std::string_view type) {
+    for (int i = 0; i < std::ssize(layout.modules); ++i)
+        if (layout.modules[i].type.name == type) return i;
     return -1;
 }
 
-int find_output(const engine::Simulation& simulation, int module, std::string_view port) {
+int find_output(const engine::Layout& layout, int module, std::string_view port) {
     if (module < 0) return -1;
-    const auto& outputs = simulation.module_ports(module).outputs;
+    const auto& outputs = layout.modules[module].ports.outputs;
     for (std::size_t i = 0; i < outputs.size(); ++i)
         if (outputs[i].port == port && outputs[i].shape.cells > 0) return static_cast<int>(i);
     return -1;
@@ -22,12 +22,12 @@ int find_output(const engine::Simulation& simulation, int module, std::string_vi
 
 }  // namespace
 
-Layers::Layers(const engine::Simulation& simulation)
-    : adaptive_(find_module(simulation, "moduleAL")),
-      contextual_(find_module(simulation, "moduleCL")),
-      discrepancy_(find_output(simulation, adaptive_, "descripancy")),
-      prototype_(find_output(simulation, adaptive_, "prototype")),
-      empty_(find_output(simulation, contextual_, "empty")) {}
+Layers::Layers(const engine::Layout& layout)
+    : adaptive_(find_module(layout, "moduleAL")),
+      contextual_(find_module(layout, "moduleCL")),
+      discrepancy_(find_output(layout, adaptive_, "descripancy")),
+      prototype_(find_output(layout, adaptive_, "prototype")),
+      empty_(find_output(layout, contextual_, "empty")) {}
 
 double Layers::discrepancy(const engine::Simulation& simulation) const {
     return simulation.module_output(adaptive_, discrepancy_)[0];
@@ -39,7 +39,7 @@ double Layers::prototype_peak(const engine::Simulation& simulation) const {
 
 MemoryFill Layers::memory(const engine::Simulation& simulation) const {
     if (empty_ < 0) return {};
-    const auto& shape = simulation.module_ports(contextual_).outputs[static_cast<std::size_t>(empty_)].shape;
+    const auto& shape = simulation.layout().modules[contextual_].ports.outputs[empty_].shape;
     MemoryFill out{0, 0, static_cast<std::size_t>(shape.height), static_cast<std::size_t>(shape.cells)};
     if (!simulation.has_written(contextual_, empty_)) return out;  // the layer is not open yet
     const ConstColumn empty = simulation.module_output(contextual_, empty_);
@@ -54,7 +54,7 @@ MemoryFill Layers::memory(const engine::Simulation& simulation) const {
 void Layers::declare(engine::Demand& out) const {
     for (const auto& [module, port] : {std::pair(adaptive_, discrepancy_), std::pair(adaptive_, prototype_),
                                        std::pair(contextual_, empty_)})
-        if (port >= 0) out.outputs.push_back({module, port});
+        if (port >= 0) out.read_output(module, port);
 }
 
 }  // namespace forage::tool

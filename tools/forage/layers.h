@@ -18,11 +18,10 @@ struct MemoryFill {
     void checkpoint(Archive& archive) { archive(sequences, segments, all_sequences, all_segments); }
 };
 
-/// The first adaptive and the first contextual layer of a system, if it has them. To be asked about the
-/// simulation that it was made for.
+/// The first adaptive and the first contextual layer of a system, if it has them.
 class Layers {
   public:
-    explicit Layers(const engine::Simulation& simulation);
+    explicit Layers(const engine::Layout& layout);
 
     bool adaptive() const { return adaptive_ >= 0; }
     double discrepancy(
@@ -34,7 +33,7 @@ class Layers {
     /// Counted on its display of empty segments, without which nothing is known (all 0): a row is a sequence.
     MemoryFill memory(const engine::Simulation&) const;
 
-    /// Adds the modules' outputs that are looked at.
+    /// Demands the outputs of modules that it reads.
     void declare(engine::Demand& out) const;
 
   private:

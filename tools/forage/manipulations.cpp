@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text_file.h"
 #include "core/model/lookup.h"
 #include "core/observe/cell.h"
 #include "core/observe/pattern_file.h"
-#include "core/base/text_file.h"
 #include "tools/forage/schedule.h"
 
 namespace forage::tool {
@@ -74,7 +74,7 @@ std::string take_cell(std::string_view& list, std::pair<int, int>& place, double
     return {};
 }
 
-void add_cells(const Spec& w, std::string_view what, const engine::Simulation& s, int group,
+void add_cells(const Spec& w, std::string_view what, const engine::Layout& s, int group,
                std::vector<double>& pattern, Diagnostics& diagnostics) {
     std::string_view rest = trim(w.cells.text);
     do {
@@ -122,11 +122,11 @@ Spec parse_manipulation(Spec::Mode mode, std::string_view text) {
     return out;
 }
 
-int manipulated_group(const model::Expression& group, std::string_view what, const engine::Simulation& s,
+int manipulated_group(const model::Expression& group, std::string_view what, const engine::Layout& s,
                       Diagnostics& diagnostics) {
     const auto column = observe::find_column(s, group.text, what, diagnostics, group.at);
     if (!column) return -1;
-    if (column->state == s.type(column->group).output()) return column->group;
+    if (column->state == s.groups[column->group].type.output()) return column->group;
     diagnostics.error(group.at,
                       fmt::format("{} '{}': only the activity of a group can be changed", what, group.text),
                       "leave out the state");
@@ -134,7 +134,7 @@ int manipulated_group(const model::Expression& group, std::string_view what, con
 }
 
 std::vector<observe::Manipulation> manipulations(const std::vector<Spec>& wishes, const Loaded& loaded,
-                                                 const engine::Simulation& s, Diagnostics& diagnostics) {
+                                                 const engine::Layout& s, Diagnostics& diagnostics) {
     struct Made {
         const Spec* wish;
         observe::Manipulation::Settings settings;
@@ -157,7 +157,7 @@ std::vector<observe::Manipulation> manipulations(const std::vector<Spec>& wishes
         settings.from = condition(w.from), settings.until = condition(w.until);
         if (group < 0) continue;
         if (!w.patterns.empty()) {
-            settings.patterns = observe::read_patterns(w.patterns.text, s.shape(group), diagnostics);
+            settings.patterns = observe::read_patterns(w.patterns.text, s.groups[group].shape, diagnostics);
             if (!settings.patterns.empty()) all.push_back({&w, std::move(settings)});
             continue;
         }
@@ -167,7 +167,7 @@ std::vector<observe::Manipulation> manipulations(const std::vector<Spec>& wishes
                 same = &other;
         if (!same) {
             const double untouched = settings.mode == observe::Manipulation::Mode::multiply ? 1 : 0;
-            settings.patterns.emplace_back(static_cast<std::size_t>(s.shape(group).cells), untouched);
+            settings.patterns.emplace_back(static_cast<std::size_t>(s.groups[group].shape.cells), untouched);
             same = &all.emplace_back(Made{&w, std::move(settings)});
         }
         add_cells(w, what, s, group, same->settings.patterns.front(), diagnostics);

@@ -16,15 +16,15 @@ namespace forage::tool {
 /// wrong.
 model::ManipulationSpec parse_manipulation(model::ManipulationSpec::Mode mode, std::string_view text);
 
-/// Ties them to a system. Cells of one group with the same settings make one pattern; the cells that it does
-/// not name are 0 in a clamp and stay as they are otherwise. Clamps come first, then what is added, then what
-/// is multiplied. Reports what cannot be.
+/// The manipulations of a system. Cells of one group with the same settings make one pattern; the cells that
+/// it does not name are 0 in a clamp and stay as they are otherwise. Clamps come first, then what is added,
+/// then what is multiplied. Reports what cannot be.
 std::vector<observe::Manipulation> manipulations(const std::vector<model::ManipulationSpec>& wishes,
-                                                 const Loaded& loaded, const engine::Simulation& simulation,
+                                                 const Loaded& loaded, const engine::Layout& layout,
                                                  Diagnostics& diagnostics);
 
-/// The group whose activity a person means; -1 when there is none, which is reported. `what`: "--clamp".
-int manipulated_group(const model::Expression& group, std::string_view what, const engine::Simulation& simulation,
+/// The group whose activity a user means; -1 when there is none, which is reported. `what`: "--clamp".
+int manipulated_group(const model::Expression& group, std::string_view what, const engine::Layout& layout,
                       Diagnostics& diagnostics);
 
 }  // namespace forage::tool

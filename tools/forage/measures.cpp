@@ -27,9 +27,9 @@ std::optional<TrialMeasures::Peaks> TrialMeasures::peaks() const {
     return out;
 }
 
-Measures::Measures(const bug::World& world, std::size_t robot, const engine::Simulation& simulation)
+Measures::Measures(const bug::World& world, std::size_t robot, const engine::Layout& layout)
     : world_(world), robot_(robot), patches_(bug::patches_of(world.scene()->floors())) {
-    if (world.bugs() == 1) layers_ = Layers(simulation);
+    if (world.bugs() == 1) layers_ = Layers(layout);
 }
 
 void Measures::follow(const engine::Simulation& simulation) {

@@ -44,7 +44,7 @@ class Measures {
     /// Reads the pictures of the world's floors. The first layers of a system are those of the only robot;
     /// with several robots nothing is measured of layers. Throws std::runtime_error when a picture cannot be
     /// read.
-    Measures(const bug::World& world, std::size_t robot, const engine::Simulation& simulation);
+    Measures(const bug::World& world, std::size_t robot, const engine::Layout& layout);
 
     /// After each cycle of system and world.
     void follow(const engine::Simulation& simulation);
@@ -55,7 +55,7 @@ class Measures {
     /// "cyan > red": what came into view, by colour.
     std::string route(const TrialMeasures& trial) const;
 
-    /// Adds what it looks at.
+    /// Demands what it reads.
     void declare(engine::Demand& out) const {
         if (layers_) layers_->declare(out);
     }

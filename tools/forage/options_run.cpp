@@ -212,14 +212,14 @@ void add_run(CLI::App& app, RunOptions& o) {
            [&o](const std::string& text) {
                o.on_nan = text == "warn" ? OnNan::warn : text == "stop" ? OnNan::stop : OnNan::ignore;
            },
-           "When a number becomes NaN or infinite: 'warn' once and go on, 'stop', or 'ignore' it; 'warn' and "
-           "'stop' look at "
-           "all groups, so that none is left out [warn, but only in groups that somebody reads]")
+           "When a number becomes NaN or infinite in a group that is computed: 'warn' once and go on, "
+           "'stop', "
+           "or 'ignore' it [warn]")
         ->check(one_of({"warn", "stop", "ignore"}))
         ->option_text("HOW");
-    run.add_flag(
-        "--hash", o.hash,
-        "Give a digest of the state at the end: equal runs have the same one. No group is left out then");
+    run.add_flag("--hash", o.hash,
+                 "Give a digest of the state at the end: equal runs have the same one. All groups are "
+                 "computed for it");
     run.add_flag("--realtime", o.real_time, "No faster than the clock: one second of the world per second");
     run.add_flag("-q,--quiet", o.quiet, "Print errors only");
 }

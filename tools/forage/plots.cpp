@@ -90,7 +90,7 @@ std::string RowPlot::draw(plot::Format format, const PlotContext& context) const
 }
 
 LivePlots LivePlots::make(const std::vector<model::Expression>& wishes, const model::System& system,
-                          const engine::Simulation& simulation, Diagnostics& diagnostics) {
+                          const engine::Layout& layout, Diagnostics& diagnostics) {
     LivePlots out;
     for (const auto& [text, at] : wishes) {
         const std::string option = at.file ? "plot" : "--plot";
@@ -105,12 +105,12 @@ LivePlots LivePlots::make(const std::vector<model::Expression>& wishes, const mo
             Diagnostics told;  // by check_structure()
             if (wish->kind == PlotSpec::Kind::connection)
                 if (const auto* c = find_connection(system, wish->what, option, told))
-                    for (int i = 0; i < simulation.connections(); ++i)
-                        if (simulation.connection_id(i) == c->id) out.connections_.push_back(i);
+                    for (int i = 0; i < std::ssize(layout.connections); ++i)
+                        if (layout.connections[i].id == c->id) out.connections_.push_back(i);
             out.others_.push_back(std::move(*wish));
             continue;
         }
-        auto source = observe::find_source(simulation, wish->what, option, diagnostics, at);
+        auto source = observe::find_source(layout, wish->what, option, diagnostics, at);
         if (!source) continue;
         out.plots_.emplace_back(std::move(*wish), source->what());
         out.sources_.push_back(std::move(*source));
@@ -128,7 +128,7 @@ void LivePlots::follow(const engine::Simulation& simulation) {
 
 void LivePlots::declare(engine::Demand& out) const {
     for (const auto& s : sources_) s.declare(out);
-    out.connections.insert(out.connections.end(), connections_.begin(), connections_.end());
+    for (const int c : connections_) out.read_synapses(c);
 }
 
 }  // namespace forage::tool

@@ -55,10 +55,10 @@ class LivePlots {
   public:
     /// Reports what is not there.
     static LivePlots make(const std::vector<model::Expression>& wishes, const model::System& system,
-                          const engine::Simulation& simulation, Diagnostics& diagnostics);
+                          const engine::Layout& layout, Diagnostics& diagnostics);
     /// After each cycle.
     void follow(const engine::Simulation& simulation);
-    /// Adds what they look at.
+    /// Demands what they show.
     void declare(engine::Demand& out) const;
 
     void checkpoint(Archive& archive) {

@@ -46,7 +46,7 @@ std::pair<std::string, std::string> take_apart(const std::string& text) {
 
 }  // namespace
 
-std::vector<RecordingFile> recorded_files(const RunOptions& options, const engine::Simulation& simulation,
+std::vector<RecordingFile> recorded_files(const RunOptions& options, const engine::Layout& layout,
                                           Diagnostics& diagnostics) {
     std::vector<RecordingFile> out;
     const auto find = [&](const std::string& name) {
@@ -63,7 +63,7 @@ std::vector<RecordingFile> recorded_files(const RunOptions& options, const engin
                               "-o chooses the directory; names have letters, digits, '.', '-' and '_'");
             continue;
         }
-        auto source = observe::find_source(simulation, text, option, diagnostics, asked.column.at);
+        auto source = observe::find_source(layout, text, option, diagnostics, asked.column.at);
         if (!source) continue;
         const observe::Recorded& what = source->what();
         if (!seen.insert(file + "\n" + what.name + "\n" + what.group_id).second) continue;  // named twice

@@ -19,8 +19,8 @@ struct RecordingFile {
     std::string archive;      ///< the .npz file that it becomes a part of; empty for others
 };
 
-/// The files for what a person wants recorded. Reports what is not there or cannot be put together.
-std::vector<RecordingFile> recorded_files(const RunOptions& options, const engine::Simulation& simulation,
+/// The files for what a user wants recorded. Reports what is not there or cannot be put together.
+std::vector<RecordingFile> recorded_files(const RunOptions& options, const engine::Layout& layout,
                                           Diagnostics& diagnostics);
 
 class Recordings {

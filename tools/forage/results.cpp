@@ -175,8 +175,9 @@ std::string summary(const RunOptions& o, const Loaded& loaded, const Outcome& ou
                          : fmt::format("{} to {}", plot::Film::frame_name(o.video, 1),
                                        plot::Film::frame_name(o.video, outcome.frames)));
     if (!outcome.pruned.empty())
-        line("left out", fmt::format("{} of {} groups, which nobody reads; --hash updates all",
-                                     outcome.pruned.size(), outcome.groups));
+        line("pruned", fmt::format("{} of {} groups, which nothing reads; --hash computes all",
+                                   outcome.pruned.size(), outcome.groups));
+    if (o.hash) line("computed", fmt::format("all {} groups, as --hash demands", outcome.groups));
     if (!outcome.diverged.empty()) line("diverged", outcome.diverged);
     if (!outcome.state.empty()) line("state", outcome.state);
     if (outcome.resumable) line("to go on", "forage resume " + o.directory);

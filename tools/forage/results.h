@@ -26,7 +26,7 @@ struct Outcome {
     bool resumable = false;  ///< there is a checkpoint to go on from
     std::size_t frames = 0;  ///< of the film
     int groups = 0;          ///< of the system
-    std::vector<std::string> pruned;  ///< those of them that nobody reads
+    std::vector<std::string> pruned;  ///< those of them that nothing reads
     std::vector<std::string> files;
     std::vector<Recordings::Entry> recordings;
     std::vector<Trials> trials;  ///< of each robot of the world

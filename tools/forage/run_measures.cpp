@@ -30,30 +30,33 @@ std::optional<double> mean_of_trials(const model::Measure& m, const bug::World& 
 }  // namespace
 
 RunMeasures::RunMeasures(std::span<const model::Measure> wishes, const Loaded& loaded,
-                         const engine::Simulation& simulation, Diagnostics& diagnostics) {
+                         const engine::Layout& layout, Diagnostics& diagnostics) {
     const bool trials = has_trials(loaded);
-    const observe::SimTime start{0, 0, 1};
     for (const auto& m : wishes) {
         Entry e{m, std::nullopt, std::nullopt, std::nullopt};
         if (m.kind == Kind::first) {
             e.condition =
-                observe::parse_condition(simulation, trials, m.what.text, "measure", diagnostics, m.what.at);
-            if (e.condition && e.condition->sees_cells() && e.condition->holds(simulation, start))
-                diagnostics.warning(
-                    m.what.at,
-                    fmt::format("measure '{}' holds before the first cycle, when all cells are 0",
-                                m.what.text),
-                    "add a time from which it counts, for example 'cycle > 100 and ...'");
+                observe::parse_condition(layout, trials, m.what.text, "measure", diagnostics, m.what.at);
             ++waiting_;
         } else if (m.kind == Kind::final) {
             e.quantity =
-                observe::parse_quantity(simulation, trials, m.what.text, "measure", diagnostics, m.what.at);
+                observe::parse_quantity(layout, trials, m.what.text, "measure", diagnostics, m.what.at);
         } else if (!trials) {
             diagnostics.error(m.at, fmt::format("measure '{}': this experiment has no trials", m.name),
                               "trials are those of a robot that its world puts back to the start");
         }
         entries_.push_back(std::move(e));
     }
+}
+
+void RunMeasures::check(const engine::Simulation& simulation, Diagnostics& diagnostics) const {
+    const observe::SimTime start{0, 0, 1};
+    for (const auto& e : entries_)
+        if (e.condition && e.condition->sees_cells() && e.condition->holds(simulation, start))
+            diagnostics.warning(e.wish.what.at,
+                                fmt::format("measure '{}' holds before the first cycle, when all cells are 0",
+                                            e.wish.what.text),
+                                "add a time from which it counts, for example 'cycle > 100 and ...'");
 }
 
 void RunMeasures::see(const engine::Simulation& simulation, const observe::SimTime& now) {

@@ -14,10 +14,12 @@ namespace forage::tool {
 class RunMeasures {
   public:
     RunMeasures() = default;
-    /// Ties the wishes to a system. Reports what cannot be measured, and conditions on cells that hold before
-    /// the first cycle, when all cells are 0: they are probably not meant so.
-    RunMeasures(std::span<const model::Measure> wishes, const Loaded& loaded,
-                const engine::Simulation& simulation, Diagnostics& diagnostics);
+    /// Measures of a system. Reports what cannot be measured.
+    RunMeasures(std::span<const model::Measure> wishes, const Loaded& loaded, const engine::Layout& layout,
+                Diagnostics& diagnostics);
+    /// Warns of conditions on cells that hold before the first cycle, when all cells are 0: they are
+    /// probably mistakes.
+    void check(const engine::Simulation& simulation, Diagnostics& diagnostics) const;
 
     /// Whether a condition has not held yet: only then there is something to see.
     bool waiting() const { return waiting_ > 0; }
@@ -28,7 +30,7 @@ class RunMeasures {
     std::vector<std::optional<double>> values(const Loaded& loaded, const engine::Simulation& simulation,
                                               const observe::SimTime& now) const;
 
-    /// Adds the groups that they look at.
+    /// Demands what they read.
     void declare(engine::Demand& out) const;
 
     void checkpoint(Archive& archive) {

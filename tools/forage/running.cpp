@@ -17,22 +17,13 @@
 namespace forage::tool {
 namespace {
 
-std::string describe(const engine::NotFinite& what, const engine::Simulation& simulation) {
-    const auto shape = simulation.shape(what.group);
+std::string describe(const engine::NotFinite& what, const engine::Layout& layout) {
+    const auto& [path, id, shape, type] = layout.groups[what.group];
     const auto place = shape.cells == shape.width * shape.height
                            ? fmt::format("({}, {})", what.cell % shape.width + 1, what.cell / shape.width + 1)
                            : fmt::format("{}", what.cell + 1);
     return fmt::format("in cycle {} '{}' of '{}' becomes {} in cell {}", what.cycle,
-                       simulation.type(what.group).states[static_cast<std::size_t>(what.state)].name,
-                       simulation.path(what.group), what.value, place);
-}
-
-/// Leaves out what nobody asked for. A digest is of everything, and so is a question for numbers that are not
-/// finite, but it does without inputs.
-void prune(const RunOptions& o, engine::Simulation& simulation, const engine::Demand& observed) {
-    const bool seek_everywhere = o.on_nan && *o.on_nan != OnNan::ignore;
-    if (!o.hash && !seek_everywhere) simulation.prune(observed);
-    if (!o.hash) simulation.keep_inputs(observed.inputs);
+                       type.states[what.state].name, path, what.value, place);
 }
 
 }  // namespace
@@ -46,12 +37,9 @@ void Running::cycle() {
     if (schedule.waiting()) schedule.apply(simulation, now());
     if (run_measures.waiting()) run_measures.see(simulation, now());
     for (auto& m : manipulations) m.look(simulation, now());
-    if (clamp.idle() && manipulations.empty())
-        simulation.update_groups_and_deliver();
-    else
-        simulation.update_groups();
+    simulation.update_groups();
     if (simulation.not_finite() && diverged.empty())
-        diverged = describe(*simulation.not_finite(), simulation);
+        diverged = describe(*simulation.not_finite(), simulation.layout());
     clamp.apply(simulation);
     for (auto& m : manipulations) m.apply(simulation);
     simulation.update_modules();
@@ -74,7 +62,7 @@ void Running::checkpoint(Archive& archive) {
     archive(plots);
     for (auto& p : paths) archive(p);
     archive(diverged);
-    if (!diverged.empty()) simulation.watch(false);
+    if (!diverged.empty()) simulation.check_finite(false);
     if (recordings) archive(*recordings);
 }
 
@@ -88,45 +76,50 @@ std::optional<Running> prepare(const Sources& sources, const RunOptions& o, Diag
     else if (!o.video.empty())
         check_output(o.video, "film.gif", diagnostics);
     if (sources.drive) check_drive(*sources.drive, loaded->system, diagnostics);
-    auto simulation = engine::Simulation::build(
-        loaded->system, loaded->registry, {.seed = o.input.seed,
-         .threads = std::min(o.threads, cores()),
-         .environment = loaded->world.get()},
-        diagnostics);
-    if (!simulation) return std::nullopt;
-    auto scheduled = schedule(o.at, *loaded, *simulation, diagnostics);
+    auto layout = engine::make_layout(loaded->system, loaded->registry, diagnostics, loaded->world.get());
+    if (!layout) return std::nullopt;
+    auto scheduled = schedule(o.at, *loaded, *layout, diagnostics);
     std::optional<observe::Condition> until;
     if (!o.until.empty())
-        until = observe::parse_condition(*simulation, has_trials(*loaded), o.until.text,
+        until = observe::parse_condition(*layout, has_trials(*loaded), o.until.text,
                                          o.until.at.file ? "until" : "--until", diagnostics, o.until.at);
-    auto clamped = clamp(o.clamp, *simulation, diagnostics);
-    auto manipulated = manipulations(o.manipulations, *loaded, *simulation, diagnostics);
-    auto files = recorded_files(o, *simulation, diagnostics);
+    auto clamped = clamp(o.clamp, *layout, diagnostics);
+    auto manipulated = manipulations(o.manipulations, *loaded, *layout, diagnostics);
+    auto files = recorded_files(o, *layout, diagnostics);
     for (const auto& wish : o.plots)
         if (!loaded->world && model::trim(wish.text) == "trajectory")
             diagnostics.error(wish.at, "a trajectory needs a world", "add --world FILE.world");
-    auto plots = LivePlots::make(o.plots, loaded->system, *simulation, diagnostics);
-    check_checkpoints(o, *loaded, *simulation, diagnostics);
-    RunMeasures run_measures(o.measures, *loaded, *simulation, diagnostics);
-    if (diagnostics.failed()) return std::nullopt;
+    auto plots = LivePlots::make(o.plots, loaded->system, *layout, diagnostics);
+    check_checkpoints(o, *layout, diagnostics);
+    RunMeasures run_measures(o.measures, *loaded, *layout, diagnostics);
     try {
         std::vector<Measures> measures;
-        if (loaded->world)
+        if (loaded->world && !diagnostics.failed())
             for (std::size_t i = 0; i < loaded->world->bugs(); ++i)
-                measures.emplace_back(*loaded->world, i, *simulation);
-        engine::Demand observed;
-        scheduled.declare(observed);
-        if (until) until->declare(observed);
-        clamped.declare(observed);
-        for (const auto& m : manipulated) m.declare(observed);
+                measures.emplace_back(*loaded->world, i, *layout);
+        engine::Demand demand;
+        scheduled.declare(demand);
+        if (until) until->declare(demand);
+        clamped.declare(demand);
+        for (const auto& m : manipulated) m.declare(demand);
         for (const auto& f : files)
-            for (const auto& s : f.sources) s.declare(observed);
-        plots.declare(observed);
-        run_measures.declare(observed);
-        for (const auto& m : measures) m.declare(observed);
-        prune(o, *simulation, observed);
+            for (const auto& s : f.sources) s.declare(demand);
+        plots.declare(demand);
+        run_measures.declare(demand);
+        for (const auto& m : measures) m.declare(demand);
+        if (o.hash) demand.read_everything();  // a digest is one of all numbers
+
+        auto simulation = engine::Simulation::build(
+            loaded->system, std::move(*layout), demand,
+            {.seed = o.input.seed,
+             .threads = std::min(o.threads, cores()),
+             .environment = loaded->world.get()}, diagnostics);
+        if (!simulation) return std::nullopt;
+        scheduled.check(*simulation, diagnostics);
+        run_measures.check(*simulation, diagnostics);
+        if (diagnostics.failed()) return std::nullopt;
         simulation->start();
-        simulation->watch(o.on_nan != OnNan::ignore);
+        simulation->check_finite(o.on_nan != OnNan::ignore);
         const double seconds_per_cycle =
             loaded->world ? loaded->world->seconds_per_cycle() : 1 / cycles_per_second(loaded->system);
         Running out{{},
@@ -210,9 +203,10 @@ void note(const Running& running, Outcome& outcome) {
     outcome.seconds = running.seconds();
     outcome.diverged = running.diverged;
     outcome.shared_cycles = running.simulation.shared_cycles();
-    outcome.groups = running.simulation.groups();
+    const auto& groups = running.simulation.layout().groups;
+    outcome.groups = static_cast<int>(groups.size());
     for (int g = 0; g < outcome.groups; ++g)
-        if (running.simulation.pruned(g)) outcome.pruned.push_back(running.simulation.path(g));
+        if (running.simulation.pruned(g)) outcome.pruned.push_back(groups[g].path);
     for (const auto& e : running.schedule.entries()) outcome.changes.push_back({e.text, e.cycle});
     for (std::size_t i = 0; i < running.measures.size(); ++i)
         outcome.trials.push_back(

@@ -36,7 +36,7 @@ struct Running {
     LivePlots plots;
     std::optional<Recordings> recordings;  ///< none without a directory
     std::vector<PathLog> paths;            ///< one per robot, when they are wanted
-    std::string diverged;  ///< where numbers began to be not finite; empty: they are, or nobody looks
+    std::string diverged;  ///< where numbers began to be not finite; empty: all are finite, or they are not checked
     std::unique_ptr<plot::Film> film;  ///< none when it is not wanted
     std::uint64_t film_every = 1;      ///< cycles
 
@@ -54,8 +54,8 @@ struct Running {
     bool done() const { return until && until->holds(simulation, now()); }
 };
 
-/// Builds and starts everything but the recordings. Groups that nobody reads are left out. Whatever is wrong
-/// with what a person gave is found here, before the first cycle and before anything is written; empty when
+/// Builds and starts everything but the recordings. Groups that nothing reads are pruned. Whatever is wrong
+/// with what a user gave is found here, before the first cycle and before anything is written; empty when
 /// `diagnostics` got an error.
 std::optional<Running> prepare(const Sources& sources, const RunOptions& options, Diagnostics& diagnostics);
 

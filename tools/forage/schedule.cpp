@@ -10,26 +10,23 @@ std::optional<model::ScheduledChange> parse_timed(std::string_view text) {
         quoted ^= text[i] == '"';
         if (!quoted && text[i] == ':' && text[i + 1] == ' ')
             return model::ScheduledChange{{std::string(model::trim(text.substr(0, i)))},
-                                    {std::string(model::trim(text.substr(i + 1)))}};
+                                          {std::string(model::trim(text.substr(i + 1)))}};
     }
     return std::nullopt;
 }
 
 observe::Schedule schedule(const std::vector<model::ScheduledChange>& wishes, const Loaded& loaded,
-                           const engine::Simulation& simulation, Diagnostics& diagnostics) {
+                           const engine::Layout& layout, Diagnostics& diagnostics) {
     observe::Schedule out;
-    std::vector<model::Assignment> changes;
     for (const auto& [when, what] : wishes) {
         const std::string_view option = when.at.file ? "at" : "--at";
         auto condition =
-            observe::parse_condition(simulation, has_trials(loaded), when.text, option, diagnostics, when.at);
+            observe::parse_condition(layout, has_trials(loaded), when.text, option, diagnostics, when.at);
         auto change =
             model::parse_assignment(loaded.system, loaded.registry, what.text, option, diagnostics, what.at);
-        if (change) changes.push_back(*change);
         if (condition && change)
             out.add(std::move(*condition), std::move(*change), when.text + ": " + what.text);
     }
-    simulation.check(changes, diagnostics);
     return out;
 }
 

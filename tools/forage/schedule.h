@@ -1,4 +1,4 @@
-// Changes of parameters over a run, as a person writes them.
+// Changes of parameters over a run, as users write them.
 #pragma once
 
 #include <optional>
@@ -14,9 +14,9 @@ namespace forage::tool {
 /// colon that a blank follows, outside of double quotes.
 std::optional<model::ScheduledChange> parse_timed(std::string_view text);
 
-/// Changes of parameters, tied to a system. Reports what cannot be.
+/// Changes of parameters of a system. Reports what cannot be, apart from what Simulation::check() finds.
 observe::Schedule schedule(const std::vector<model::ScheduledChange>& wishes, const Loaded& loaded,
-                           const engine::Simulation& simulation, Diagnostics& diagnostics);
+                           const engine::Layout& layout, Diagnostics& diagnostics);
 
 /// Whether conditions may speak of trials.
 bool has_trials(const Loaded& loaded);

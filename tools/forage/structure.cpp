@@ -40,8 +40,8 @@ std::vector<double> strengths(const model::Connection& c, const connectivity::Sy
                                      [](const auto& s) { return s.name == "weight"; });
     if (weight == type.states.end()) return out;
     ConstColumn learned(nullptr, 0);
-    for (int i = 0; simulation && i < simulation->connections(); ++i)
-        if (simulation->connection_id(i) == c.id)
+    for (int i = 0; simulation && i < std::ssize(simulation->layout().connections); ++i)
+        if (simulation->layout().connections[i].id == c.id)
             new (&learned)
                 ConstColumn(simulation->synapse_state(i, static_cast<int>(weight - type.states.begin())));
     for (std::size_t i = 0; i < out.size(); ++i)

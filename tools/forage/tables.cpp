@@ -6,44 +6,46 @@
 
 #include <fmt/format.h>
 
-#include "core/model/lookup.h"
 #include "core/base/named_file.h"
+#include "core/model/lookup.h"
 #include "modules/replay/replay.h"
 #include "tools/forage/manipulations.h"
 
 namespace forage::tool {
 namespace {
 
+/// The path of a group without its process.
+std::string name_of(const engine::Layout::Group& g) { return g.path.substr(g.path.find('/') + 1); }
+
 /// The groups that a row names.
-std::vector<int> groups_of(const replay::DriveTable::Row& row, const Location& at,
-                           const engine::Simulation& s, Diagnostics& diagnostics) {
+std::vector<int> groups_of(const replay::DriveTable::Row& row, const Location& at, const engine::Layout& s,
+                           Diagnostics& diagnostics) {
     if (row.process != "*") {
         const int group = manipulated_group({row.process + "/" + row.target, at}, "clamp", s, diagnostics);
         return group < 0 ? std::vector<int>() : std::vector{group};
     }
     std::vector<int> out;
-    for (int g = 0; g < s.groups(); ++g)
-        if (s.path(g).substr(s.path(g).find('/') + 1) == row.target) out.push_back(g);
+    for (int g = 0; g < std::ssize(s.groups); ++g)
+        if (name_of(s.groups[g]) == row.target) out.push_back(g);
     std::vector<std::string> names;
-    for (int g = 0; out.empty() && g < s.groups(); ++g)
-        names.push_back(s.path(g).substr(s.path(g).find('/') + 1));
+    for (const auto& g : s.groups) names.push_back(name_of(g));
     if (out.empty())
         diagnostics.error(at, fmt::format("no process has a group '{}'", row.target),
                           suggest(row.target, names));
     return out;
 }
 
-void add_table(const replay::DriveTable& table, const engine::Simulation& s, observe::Clamp& out,
+void add_table(const replay::DriveTable& table, const engine::Layout& s, observe::Clamp& out,
                Diagnostics& diagnostics) {
     const auto file = std::make_shared<SourceFile>(SourceFile{table.name(), table.beginning()});
     for (const auto& row : table.rows()) {
         const Location at{file, row.line, row.column};
         for (const int group : groups_of(row, at, s, diagnostics)) {
-            if (row.values.size() == static_cast<std::size_t>(s.shape(group).cells)) {
+            if (row.values.size() == static_cast<std::size_t>(s.groups[group].shape.cells)) {
                 out.add(row.cycle, group, row.values);
                 continue;
             }
-            const auto fault = replay::DriveTable::misfit(row, s.path(group), s.shape(group));
+            const auto fault = replay::DriveTable::misfit(row, s.groups[group].path, s.groups[group].shape);
             diagnostics.error(at, fault.message, fault.hint);
         }
     }
@@ -51,12 +53,12 @@ void add_table(const replay::DriveTable& table, const engine::Simulation& s, obs
 
 }  // namespace
 
-observe::Clamp clamp(const std::vector<std::string>& wishes, const engine::Simulation& simulation,
+observe::Clamp clamp(const std::vector<std::string>& wishes, const engine::Layout& layout,
                      Diagnostics& diagnostics) {
     observe::Clamp out;
     for (const auto& wish : wishes) {
         try {
-            add_table(replay::DriveTable::read(wish), simulation, out, diagnostics);
+            add_table(replay::DriveTable::read(wish), layout, out, diagnostics);
         } catch (const FileError& e) {
             std::error_code none;
             if (std::filesystem::exists(std::filesystem::symlink_status(wish, none)))

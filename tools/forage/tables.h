@@ -13,7 +13,7 @@ namespace forage::tool {
 
 /// The tables of --clamp: files of rows, each of which holds until the next one of its group. Reports what
 /// cannot be.
-observe::Clamp clamp(const std::vector<std::string>& wishes, const engine::Simulation& simulation,
+observe::Clamp clamp(const std::vector<std::string>& wishes, const engine::Layout& layout,
                      Diagnostics& diagnostics);
 
 /// Reports the rows of --drive that no moduleReplay of the system plays.

@@ -138,13 +138,14 @@ TEST_CASE("The first number that is not finite is found, with any number of thre
             const auto p = model::add_process(s, "P");
             for (const char* name : {"A", "B", "C"}) model::add_group(s, p, name, 40, 1, "one");
             for (const char* name : {"D", "E"}) model::add_group(s, p, name, 40, 1, "bursting");
-            auto simulation = run(s, types, {.threads = threads, .parallel_threshold_ns = 0, .min_task_ns = 0});
-            simulation.watch(true);
+            auto simulation =
+                run(s, types, {.threads = threads, .parallel_threshold_ns = 0, .min_task_ns = 0});
+            simulation.check_finite(true);
             for (int t = 0; t < 9; ++t) simulation.step();
             REQUIRE(simulation.not_finite());
             const auto& found = *simulation.not_finite();
-            CHECK(simulation.type(found.group).name == "bursting");
-            for (int g = 0; g < found.group; ++g) CHECK(simulation.type(g).name == "one");
+            CHECK(simulation.layout().groups[found.group].type.name == "bursting");
+            for (int g = 0; g < found.group; ++g) CHECK(simulation.layout().groups[g].type.name == "one");
             CHECK(found.state == 0);
             CHECK(found.cell == 2);
             CHECK(found.cycle == 5);

@@ -24,7 +24,7 @@ model::System large(int side, int delay, const std::string& type = "synapseFixed
 std::string refusal(const model::System& system) {
     Diagnostics diagnostics;
     const Registry types = registry();
-    CHECK_FALSE(engine::Simulation::build(system, types, {}, diagnostics));
+    CHECK_FALSE(engine::Simulation::build(system, types, engine::Demand::everything(), {}, diagnostics));
     CHECK(diagnostics.errors() == 1);
     return format(diagnostics);
 }

@@ -82,7 +82,7 @@ TEST_CASE("A disabled module is neither started nor updated") {
     model::find_process(w.system, w.process)->module_enabled = false;
     auto s = run(w.system, w.types);
     for (int t = 0; t < 3; ++t) s.step();
-    CHECK(s.modules() == 0);
+    CHECK(s.layout().modules.empty());
     CHECK(w.log->starts == 0);
     CHECK(w.log->seen.empty());
     CHECK(activity(s, "P/B")[0] == 0);
@@ -91,7 +91,7 @@ TEST_CASE("A disabled module is neither started nor updated") {
 TEST_CASE("A simulation that is not started does not step") {
     WriterSystem w;
     Diagnostics diagnostics;
-    auto s = engine::Simulation::build(w.system, w.types, {}, diagnostics);
+    auto s = engine::Simulation::build(w.system, w.types, engine::Demand::everything(), {}, diagnostics);
     REQUIRE(s);
     CHECK_THROWS_AS(s->step(), engine::RunError);
     s->start();
@@ -141,11 +141,12 @@ TEST_CASE("Groups, modules and connections are in byte order of their ids, not i
     }
     const Registry types = registry();
     const auto s = run(system, types);
-    REQUIRE((s.groups() == 5 && s.modules() == 5 && s.connections() == 5));
+    const auto& layout = s.layout();
+    REQUIRE((layout.groups.size() == 5 && layout.modules.size() == 5 && layout.connections.size() == 5));
     const char* order[] = {"10", "9", "B", "a", "b"};
     for (int i = 0; i < 5; ++i) {
-        CHECK(s.id(i) == std::string("g") + order[i]);
-        CHECK(s.module_process(i) == std::string("P") + order[i]);
-        CHECK(s.connection_id(i) == std::string("c") + order[i]);
+        CHECK(layout.groups[i].id == std::string("g") + order[i]);
+        CHECK(layout.modules[i].process == std::string("P") + order[i]);
+        CHECK(layout.connections[i].id == std::string("c") + order[i]);
     }
 }

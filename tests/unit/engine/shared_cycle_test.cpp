@@ -17,8 +17,8 @@ namespace {
 /// Every state of every group; one NaN is like another.
 std::vector<std::uint64_t> states(const engine::Simulation& s) {
     std::vector<std::uint64_t> out;
-    for (int g = 0; g < s.groups(); ++g)
-        for (int i = 0; i < static_cast<int>(s.type(g).states.size()); ++i)
+    for (int g = 0; g < std::ssize(s.layout().groups); ++g)
+        for (int i = 0; i < static_cast<int>(s.layout().groups[g].type.states.size()); ++i)
             for (const double v : s.state(g, i))
                 out.push_back(std::isnan(v) ? ~0ull : std::bit_cast<std::uint64_t>(v));
     return out;
@@ -146,16 +146,17 @@ TEST_CASE("Groups and connections divided between threads have the bits of whole
     model::find_process(large.system, large.process)->module = echo;
     const Registry registry = types();
     auto one = run(large.system, registry),
-         many =
-             run(large.system, registry, {.threads = GENERATE(2, 3, 5), .parallel_threshold_ns = 0, .min_task_ns = 0});
+         many = run(large.system, registry,
+                    {.threads = GENERATE(2, 3, 5), .parallel_threshold_ns = 0, .min_task_ns = 0});
     REQUIRE(many.threads() > 1);
     std::size_t active = 0;
     for (int cycle = 0; cycle < 30; ++cycle) {
         one.step(), many.step();
         REQUIRE(states(one) == states(many));
         for (const auto& id : large.groups)
-            for (int g = 0; g < one.groups(); ++g)
-                active += one.id(g) == id && (activity(one, one.path(g)) != 0).any();
+            for (int g = 0; g < std::ssize(one.layout().groups); ++g)
+                active += one.layout().groups[g].id == id &&
+                          (activity(one, one.layout().groups[g].path) != 0).any();
     }
     CHECK(active > 25 * large.groups.size());
     CHECK((one.shared_cycles() == 0 && many.shared_cycles() == 30));
@@ -190,8 +191,9 @@ TEST_CASE("What is not finite is found in every part of a divided group") {
     model::set_parameter(model::find_group(s, b)->neuron, "vmPrs", "1");
     const Registry registry = types();
     const Index cell = GENERATE(0, 63, 64, 250, 384, 391, 396);
-    auto simulation = run(s, registry, {.threads = GENERATE(1, 2), .parallel_threshold_ns = 0, .min_task_ns = 0});
-    simulation.watch(true);
+    auto simulation =
+        run(s, registry, {.threads = GENERATE(1, 2), .parallel_threshold_ns = 0, .min_task_ns = 0});
+    simulation.check_finite(true);
     for (int cycle = 0; cycle < 4; ++cycle) simulation.step();
     simulation.writable_state(group(simulation, "P/B"), 0)[cell] = std::numeric_limits<double>::infinity();
     for (int cycle = 0; cycle < 2; ++cycle) simulation.step();
@@ -235,7 +237,8 @@ TEST_CASE("An update that fails is told before a delivery that fails, and of del
     Registry registry = types();
     registry.add(synapse_type<FailingSynapse>());
     registry.add(neuron_type<Failing<false>>());
-    auto simulation = run(s, registry, {.threads = GENERATE(1, 2), .parallel_threshold_ns = 0, .min_task_ns = 0});
+    auto simulation =
+        run(s, registry, {.threads = GENERATE(1, 2), .parallel_threshold_ns = 0, .min_task_ns = 0});
     for (int t = 0; t < 3; ++t) simulation.step();
     CHECK_THROWS_WITH(simulation.step(),
                       update_fails ? "failing of group 'Brain/Last' failed in cycle 3: out of luck"
@@ -251,7 +254,8 @@ TEST_CASE("After a cycle that failed groups are delivered to when their sources 
     connect(s, z, b, InputKind::excitatory, "synapseFixedWeight").arborization.shape = model::RectArbor{1, 1};
     Registry registry = types();
     registry.add(neuron_type<Unlucky>());
-    auto simulation = run(s, registry, {.threads = GENERATE(1, 2, 3), .parallel_threshold_ns = 0, .min_task_ns = 0});
+    auto simulation =
+        run(s, registry, {.threads = GENERATE(1, 2, 3), .parallel_threshold_ns = 0, .min_task_ns = 0});
     for (const bool fails : {false, true, false, false, true, true, true, false, false}) {
         out_of_luck = fails;
         if (fails) {
@@ -276,7 +280,8 @@ TEST_CASE("What becomes ready at once is shared, where that is worth it") {
     Registry registry = types();
     registry.add(synapse_type<Slow>());
     const bool worth = GENERATE(true, false);
-    auto simulation = run(s, registry, {.threads = 2, .parallel_threshold_ns = 0, .min_task_ns = worth ? 0 : 1e9});
+    auto simulation =
+        run(s, registry, {.threads = 2, .parallel_threshold_ns = 0, .min_task_ns = worth ? 0 : 1e9});
     deliverers.clear();
     for (int cycle = 0; cycle < 3; ++cycle) simulation.step();
     CHECK((worth ? deliverers.size() == 2 : !deliverers.empty()));

@@ -105,8 +105,8 @@ std::vector<std::uint64_t> trace(engine::Simulation s, int cycles) {
     std::vector<std::uint64_t> out;
     for (int t = 0; t < cycles; ++t) {
         s.step();
-        for (int g = 0; g < s.groups(); ++g)
-            for (const double v : s.state(g, s.type(g).output())) out.push_back(bits(v));
+        for (int g = 0; g < std::ssize(s.layout().groups); ++g)
+            for (const double v : s.state(g, s.layout().groups[g].type.output())) out.push_back(bits(v));
     }
     return out;
 }
@@ -120,8 +120,8 @@ std::vector<std::uint64_t> trace(const model::System& system, engine::Simulation
 /// Every state of every synapse.
 std::vector<std::uint64_t> synapse_states(const engine::Simulation& s) {
     std::vector<std::uint64_t> out;
-    for (int c = 0; c < s.connections(); ++c)
-        for (int i = 0; i < static_cast<int>(s.synapse_type(c).states.size()); ++i)
+    for (int c = 0; c < std::ssize(s.layout().connections); ++c)
+        for (int i = 0; i < static_cast<int>(s.layout().connections[c].type.states.size()); ++i)
             for (const double v : s.synapse_state(c, i)) out.push_back(bits(v));
     return out;
 }
@@ -171,7 +171,8 @@ TEST_CASE("Every form of a connection gives the same bits as the list of synapse
     for (unsigned seed = 1; seed <= 80; ++seed) {
         const auto system = random_system(seed, 8, 3);
         auto fastest = run(system, types);
-        for (int c = 0; c < fastest.connections(); ++c) ++forms[std::string(fastest.connection_form(c))];
+        for (int c = 0; c < std::ssize(fastest.layout().connections); ++c)
+            ++forms[std::string(fastest.connection_form(c))];
         REQUIRE(trace(std::move(fastest), 40) == trace(system, {.general_forms = true}, 40));
     }
     for (const char* form :
@@ -209,11 +210,11 @@ TEST_CASE("What rests is not computed again, and changes no bit") {
             if (g.neuron.type == "neuronRandomSpike") model::set_parameter(g.neuron, "probability", "1");
         auto rests = run(system, types), works = run(system, types);
         for (int t = 0; t < 60; ++t) {
-            for (int g = 0; g < works.groups(); ++g) works.group_changed(g);
+            for (int g = 0; g < std::ssize(works.layout().groups); ++g) works.invalidate(g);
             rests.step(), works.step();
-            for (int g = 0; g < rests.groups(); ++g) {
-                INFO("seed " << seed << ", cycle " << t << ", " << rests.path(g));
-                for (int i = 0; i < static_cast<int>(rests.type(g).states.size()); ++i)
+            for (int g = 0; g < std::ssize(rests.layout().groups); ++g) {
+                INFO("seed " << seed << ", cycle " << t << ", " << rests.layout().groups[g].path);
+                for (int i = 0; i < static_cast<int>(rests.layout().groups[g].type.states.size()); ++i)
                     REQUIRE((rests.state(g, i) == works.state(g, i) ||
                              (rests.state(g, i).isNaN() && works.state(g, i).isNaN()))
                                 .all());
@@ -238,13 +239,19 @@ TEST_CASE("A cycle in one step, which delivers early, is the same as phase by ph
         auto phases = run(system, types), whole = run(system, types);
         // Cycles by two threads and early ones in turns, as the trial has it.
         auto tried = run(system, types, {.threads = 2, .parallel_threshold_ns = 1e-9});
-        auto shared = run(system, types, {.threads = 3, .parallel_threshold_ns = 0, .min_task_ns = min_task_ns});
+        auto shared =
+            run(system, types, {.threads = 3, .parallel_threshold_ns = 0, .min_task_ns = min_task_ns});
         Diagnostics diagnostics;
-        auto forgetful = std::move(*engine::Simulation::build(system, types, {}, diagnostics));
-        forgetful.keep_inputs(std::array{1});
+        engine::Demand one_input;
+        for (int g = 0; g < std::ssize(phases.layout().groups); ++g) one_input.read_group(g);
+        one_input.read_input(1);
+        auto forgetful = std::move(*engine::Simulation::build(system, types, one_input, {}, diagnostics));
         forgetful.start();
+        auto phased = std::move(*engine::Simulation::build(system, types, one_input, {}, diagnostics));
+        phased.start();
         for (int t = 0; t < 40; ++t) {
             phases.update_groups(), phases.update_modules(), phases.update_connections();
+            phased.update_groups(), phased.update_modules(), phased.update_connections();
             whole.step(), forgetful.step(), tried.step();
             if (t % 7 == 3)  // early or late, cycle by cycle
                 shared.update_groups(), shared.update_modules(), shared.update_connections();
@@ -254,10 +261,11 @@ TEST_CASE("A cycle in one step, which delivers early, is the same as phase by ph
             const auto same = [](const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) {
                 return ((a == b) || (a.isNaN() && b.isNaN())).all();
             };
-            for (int g = 0; g < phases.groups(); ++g) {
-                for (int i = 0; i < static_cast<int>(phases.type(g).states.size()); ++i) {
+            for (int g = 0; g < std::ssize(phases.layout().groups); ++g) {
+                for (int i = 0; i < static_cast<int>(phases.layout().groups[g].type.states.size()); ++i) {
                     REQUIRE(same(phases.state(g, i), whole.state(g, i)));
                     REQUIRE(same(phases.state(g, i), forgetful.state(g, i)));
+                    REQUIRE(same(phases.state(g, i), phased.state(g, i)));
                     REQUIRE(same(phases.state(g, i), tried.state(g, i)));
                     REQUIRE(same(phases.state(g, i), shared.state(g, i)));
                 }
@@ -268,26 +276,25 @@ TEST_CASE("A cycle in one step, which delivers early, is the same as phase by ph
             REQUIRE(same(phases.input(1, InputKind::excitatory), forgetful.input(1, InputKind::excitatory)));
         }
         CHECK_THROWS_AS(forgetful.input(0, InputKind::excitatory), std::logic_error);
-        CHECK_THROWS_AS(forgetful.keep_inputs({}), std::logic_error);
     }
 }
 
-TEST_CASE("Who has something delivered early changes nothing before the cycle ends") {
+TEST_CASE("Where nothing is to be overwritten, parameters change between cycles only") {
     model::System s;
     const auto p = model::add_process(s, "P");
-    model::add_group(s, p, "A", 3, 1, "one");
+    model::add_group(s, p, "A", 3, 1, "neuronLinearThreshold");
     const Registry types = registry();
-    auto simulation = run(s, types);
-    simulation.update_groups_and_deliver();
-    CHECK_THROWS_AS(simulation.output(0), std::logic_error);
-    CHECK_THROWS_AS(simulation.writable_state(0, 0), std::logic_error);
-    CHECK_THROWS_AS(simulation.group_changed(0), std::logic_error);
-    simulation.update_modules(), simulation.update_connections();
-    simulation.output(0).setZero();
     Diagnostics diagnostics;
-    auto other = engine::Simulation::build(s, types, {}, diagnostics);
-    other->keep_inputs({});
-    CHECK_THROWS_AS(other->keep_inputs({}), std::logic_error);
+    auto simulation = engine::Simulation::build(s, types, {}, {}, diagnostics);
+    REQUIRE(simulation);
+    simulation->start();
+    const auto change = model::parse_assignment(s, types, "P/A.excGain=2", "set", diagnostics);
+    REQUIRE(change);
+    simulation->update_groups();
+    CHECK_THROWS_AS(simulation->set(*change), std::logic_error);
+    CHECK_THROWS_AS(simulation->output(0), std::logic_error);
+    simulation->update_modules(), simulation->update_connections();
+    CHECK_NOTHROW(simulation->set(*change));
 }
 
 TEST_CASE("What is changed from outside wakes what rests") {
@@ -362,13 +369,14 @@ TEST_CASE("The number of threads changes no bit") {
          four = run(system, types, {.threads = 4, .parallel_threshold_ns = 0, .min_task_ns = 0});
     REQUIRE((one.threads() == 1 && four.threads() == 4));
     std::map<std::string, std::size_t, std::less<>> synapses;
-    for (int c = 0; c < one.connections(); ++c)
+    for (int c = 0; c < std::ssize(one.layout().connections); ++c)
         synapses[std::string(one.connection_form(c))] += one.synapses(c);
     INFO(synapses["sliced"] << " synapses in slices, " << synapses["plastic"] << " plastic");
     CHECK((synapses["sliced"] > 10'000 && synapses["sliced"] < 100'000 && synapses["plastic"] > 1000));
     for (int t = 0; t < 12; ++t) one.step(), four.step();
     CHECK(synapse_states(one) == synapse_states(four));
-    CHECK(one.synapse_state(one.connections() - 1, 0).maxCoeff() > 0);  // unheard, but not idle
+    CHECK(one.synapse_state(static_cast<int>(one.layout().connections.size()) - 1, 0).maxCoeff() >
+          0);  // unheard, but not idle
     REQUIRE(trace(std::move(one), 12) == trace(std::move(four), 12));
 }
 

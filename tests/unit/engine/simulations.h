@@ -36,31 +36,33 @@ inline Registry registry() {
 inline engine::Simulation run(const model::System& system, const Registry& types,
                               engine::Simulation::Options options = {}) {
     Diagnostics diagnostics;
-    auto simulation = engine::Simulation::build(system, types, options, diagnostics);
+    auto simulation =
+        engine::Simulation::build(system, types, engine::Demand::everything(), options, diagnostics);
     INFO(format(diagnostics));
     REQUIRE(simulation);
     simulation->start();
     return std::move(*simulation);
 }
 
-inline int group(const engine::Simulation& s, std::string_view path) {
-    for (int g = 0; g < s.groups(); ++g)
-        if (s.path(g) == path) return g;
+inline int group(const engine::Layout& layout, std::string_view path) {
+    for (int g = 0; g < std::ssize(layout.groups); ++g)
+        if (layout.groups[g].path == path) return g;
     FAIL("no group " << path);
     return -1;
 }
+inline int group(const engine::Simulation& s, std::string_view path) { return group(s.layout(), path); }
 
 inline Eigen::ArrayXd state(const engine::Simulation& s, std::string_view path, std::string_view name) {
     const int g = group(s, path);
-    for (int i = 0; i < static_cast<int>(s.type(g).states.size()); ++i)
-        if (s.type(g).states[static_cast<std::size_t>(i)].name == name) return s.state(g, i);
+    for (int i = 0; i < static_cast<int>(s.layout().groups[g].type.states.size()); ++i)
+        if (s.layout().groups[g].type.states[static_cast<std::size_t>(i)].name == name) return s.state(g, i);
     FAIL("no state " << name);
     return {};
 }
 
 inline Eigen::ArrayXd activity(const engine::Simulation& s, std::string_view path) {
     const int g = group(s, path);
-    return s.state(g, s.type(g).output());
+    return s.state(g, s.layout().groups[g].type.output());
 }
 
 inline model::DistanceFunction uniform(double v) { return {model::UniformFunction{v}, {}}; }

@@ -25,7 +25,7 @@ struct Counting {
     }
     std::optional<observe::Condition> parse(const std::string& text, Diagnostics& diagnostics,
                                             bool trials = true) const {
-        return observe::parse_condition(simulation, trials, text, "--at", diagnostics);
+        return observe::parse_condition(simulation.layout(), trials, text, "--at", diagnostics);
     }
     bool holds(const std::string& text, const observe::SimTime& now = {}) const {
         Diagnostics diagnostics;

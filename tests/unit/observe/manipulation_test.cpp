@@ -35,7 +35,8 @@ observe::Condition from_cycle(double n) {
     model::add_group(system, model::add_process(system, "P"), "A", 2, 1, "one");
     const auto s = run(system, registry());
     Diagnostics diagnostics;
-    return *observe::parse_condition(s, false, "cycle " + to_text(ParameterValue(n)), "", diagnostics);
+    return *observe::parse_condition(s.layout(), false, "cycle " + to_text(ParameterValue(n)), "",
+                                     diagnostics);
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ void record(const std::string& path, RecordingFormat format, const std::vector<s
     std::vector<Source> sources;
     RowFileHeader header{{}, sampling.every, {{"seed", "1"}}};
     for (const auto& n : names) {
-        sources.push_back(*find_source(simulation, n, "test", diagnostics));
+        sources.push_back(*find_source(simulation.layout(), n, "test", diagnostics));
         header.sources.push_back(sources.back().what());
     }
     Recorder recorder(open_row_file(format, path, header), sources, sampling);

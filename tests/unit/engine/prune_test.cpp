@@ -1,4 +1,5 @@
-// Groups that nobody reads are left out, and nobody else notices. tests/property has random systems.
+// Groups on which nothing that is demanded depends are pruned, which changes nothing else. tests/property has
+// random systems.
 #include "tests/unit/engine/simulations.h"
 
 using namespace forage;
@@ -6,20 +7,40 @@ using namespace forage::test;
 
 namespace {
 
-/// Neither started nor with anything left out.
-engine::Simulation build(const model::System& system, const Registry& types) {
+using Demanded = std::vector<std::string>;  ///< groups of process P
+
+engine::Layout layout_of(const model::System& system, const Registry& types) {
     Diagnostics diagnostics;
-    auto simulation = engine::Simulation::build(system, types, {}, diagnostics);
+    auto layout = engine::make_layout(system, types, diagnostics);
+    INFO(format(diagnostics));
+    REQUIRE(layout);
+    return std::move(*layout);
+}
+
+/// A demand for activities.
+engine::Demand reading(const engine::Layout& layout, const Demanded& groups) {
+    engine::Demand out;
+    for (const auto& name : groups) out.read_group(group(layout, "P/" + name));
+    return out;
+}
+
+/// Not started.
+engine::Simulation build(const model::System& system, const Registry& types, const engine::Demand& demand) {
+    Diagnostics diagnostics;
+    auto simulation = engine::Simulation::build(system, types, demand, {}, diagnostics);
     INFO(format(diagnostics));
     REQUIRE(simulation);
     return std::move(*simulation);
 }
+engine::Simulation build(const model::System& system, const Registry& types, const Demanded& groups) {
+    return build(system, types, reading(layout_of(system, types), groups));
+}
 
-/// "A B": the groups of process P that are left out, in alphabetical order of their ids.
+/// "A B": the groups of process P that are pruned, in alphabetical order of their ids.
 std::string pruned(const engine::Simulation& s) {
     std::string out;
-    for (int g = 0; g < s.groups(); ++g)
-        if (s.pruned(g)) out += (out.empty() ? "" : " ") + s.path(g).substr(2);
+    for (int g = 0; g < std::ssize(s.layout().groups); ++g)
+        if (s.pruned(g)) out += (out.empty() ? "" : " ") + s.layout().groups[g].path.substr(2);
     return out;
 }
 
@@ -67,71 +88,73 @@ struct Chain {
         model::find_process(system, process)->module = use;
     }
     Asking asking;
-    static constexpr int learning = 3;  ///< the connection
+    static constexpr int learning = 3;  ///< the connection that learns
 };
 
 }  // namespace
 
-TEST_CASE("Without being told to, a simulation leaves nothing out") {
+TEST_CASE("A demand for everything prunes nothing") {
     const Chain chain;
     CHECK(pruned(run(chain.system, chain.types)).empty());
+    engine::Demand closed = reading(layout_of(chain.system, chain.types), {"A"});
+    CHECK(pruned(build(chain.system, chain.types, closed)) == "B C D E F G");
+    closed.read_everything();
+    CHECK(pruned(build(chain.system, chain.types, closed)).empty());
 }
 
-TEST_CASE("A group is read when it is observed, or leads to one that is, by way of others too") {
+TEST_CASE("A group is computed when it is demanded, or leads to one that is, by way of others too") {
     const Chain chain;
-    const auto observing = [&](std::vector<std::string> groups) {
-        auto s = build(chain.system, chain.types);
-        engine::Demand observed;
-        for (const auto& id : groups) observed.groups.push_back(group(s, "P/" + id));
-        s.prune(observed);
-        return pruned(s);
+    const auto pruned_for = [&](const Demanded& groups) {
+        return pruned(build(chain.system, chain.types, groups));
     };
-    CHECK(observing({}) == "");  // a run that computes nothing is of no use
-    CHECK(observing({"C"}) == "D E F G");
-    CHECK(observing({"B"}) == "C D E F G");
-    CHECK(observing({"D", "F"}) == "B C E G");
-    CHECK(observing({"E", "G"}) == "B C D F");
+    CHECK(pruned_for({}) == "");  // a run that computes nothing is of no use
+    CHECK(pruned_for({"C"}) == "D E F G");
+    CHECK(pruned_for({"B"}) == "C D E F G");
+    CHECK(pruned_for({"D", "F"}) == "B C E G");
+    CHECK(pruned_for({"E", "G"}) == "B C D F");
 }
 
-TEST_CASE("What is left out stays out: there is no second choice") {
+TEST_CASE("Whatever of a group is demanded, the group is computed; only what is named can be read") {
     const Chain chain;
-    auto s = build(chain.system, chain.types);
-    s.prune({{group(s, "P/A")}, {}, {}});
-    CHECK_THROWS_AS(s.prune({{group(s, "P/B")}, {}, {}}), std::logic_error);
-
-    auto whole = build(chain.system, chain.types);
-    engine::Demand all;
-    for (int g = 0; g < whole.groups(); ++g) all.groups.push_back(g);
-    whole.prune(all);  // nothing, which is a choice as well
-    CHECK_THROWS_AS(whole.prune({{group(whole, "P/A")}, {}, {}}), std::logic_error);
-    CHECK(pruned(whole).empty());
+    const auto layout = layout_of(chain.system, chain.types);
+    const int b = group(layout, "P/B"), c = group(layout, "P/C");
+    engine::Demand demand;
+    demand.read_input(b), demand.overwrite_group(c);
+    auto s = build(chain.system, chain.types, demand);
+    CHECK(pruned(s) == "D E F G");
+    s.start();
+    s.step(), s.step();
+    CHECK(s.input(b, InputKind::excitatory)[0] == 1);
+    CHECK_THROWS_WITH(
+        s.input(c, InputKind::excitatory),
+        Catch::Contains("the input of group 'P/C' is pruned") && Catch::Contains("Demand::read_input()"));
+    s.update_groups();
+    s.output(c).setConstant(7);
+    CHECK_THROWS_WITH(s.output(b), Catch::Contains("group 'P/B' is not to be overwritten") &&
+                                       Catch::Contains("Demand::overwrite_group()"));
+    CHECK_THROWS_AS(s.writable_state(b, 0), std::logic_error);
+    s.update_modules(), s.update_connections();
+    CHECK(activity(s, "P/C")[0] == 7);
 }
 
-TEST_CASE("Groups that read each other, and that nobody else reads, are left out together") {
+TEST_CASE("Groups that read each other, and that nothing else reads, are pruned together") {
     Chain chain;
     connect(chain.system, chain.c, chain.b, InputKind::inhibitory, "synapseFixedWeight", "5");
-    auto s = build(chain.system, chain.types);
-    s.prune({.groups = {group(s, "P/D")}});
-    CHECK(pruned(s) == "B C E F G");
-    auto other = build(chain.system, chain.types);
-    other.prune({.groups = {group(other, "P/B")}});
-    CHECK(pruned(other) == "D E F G");
+    CHECK(pruned(build(chain.system, chain.types, {"D"})) == "B C E F G");
+    CHECK(pruned(build(chain.system, chain.types, {"B"})) == "D E F G");
 }
 
 TEST_CASE("A connection of a kind that the target's type does not read leads nowhere") {
     Chain chain;
     connect(chain.system, chain.g, chain.f, InputKind::excitatory, "synapseFixedWeight", "5");
-    auto s = build(chain.system, chain.types);
-    CHECK_FALSE(s.type(group(s, "P/F")).reads[0]);
-    s.prune({.groups = {group(s, "P/F")}});
-    CHECK(pruned(s) == "A B C D E G");
+    CHECK_FALSE(layout_of(chain.system, chain.types).connections.back().effective);
+    CHECK(pruned(build(chain.system, chain.types, {"F"})) == "A B C D E G");
 }
 
 TEST_CASE("What a module takes as an input is read; its outputs are, when their groups are") {
     Chain chain;
     chain.use_module(chain.b, chain.f, chain.g);
-    auto s = build(chain.system, chain.types);
-    s.prune({.groups = {group(s, "P/G")}});
+    auto s = build(chain.system, chain.types, {"G"});
     CHECK(pruned(s) == "C D E F");
     s.start();
     CHECK(*chain.asking.read == std::vector<bool>{false, true, false});
@@ -139,16 +162,18 @@ TEST_CASE("What a module takes as an input is read; its outputs are, when their 
     CHECK(*chain.asking.read == std::vector<bool>{false, true, false});
     CHECK(s.has_written(0, 0));
     CHECK_FALSE(s.has_written(0, 1));
-    CHECK_THROWS_WITH(s.module_output(0, 0), Catch::Contains("output 'first' of process 'P' was left out"));
+    CHECK_THROWS_WITH(s.module_output(0, 0), Catch::Contains("output 'first' of process 'P' is pruned") &&
+                                                 Catch::Contains("Demand::read_output()"));
     CHECK(s.module_output(0, 1).size() == 2);
     CHECK(s.module_output(0, 2).size() == 0);  // unset
 }
 
-TEST_CASE("An output of a module can be looked at without its group") {
+TEST_CASE("An output of a module can be read without its group") {
     Chain chain;
     chain.use_module(chain.a, chain.f, chain.g);
-    auto s = build(chain.system, chain.types);
-    s.prune({.outputs = {{0, 0}}});
+    engine::Demand demand;
+    demand.read_output(0, 0);
+    auto s = build(chain.system, chain.types, demand);
     CHECK(pruned(s) == "B C D E F G");
     s.start();
     CHECK(*chain.asking.read == std::vector<bool>{true, false, false});
@@ -156,22 +181,21 @@ TEST_CASE("An output of a module can be looked at without its group") {
     CHECK(s.module_output(0, 0)[1] == 4);
 }
 
-TEST_CASE("A module is told that all its outputs are read, unless they are unset, when nothing is left out") {
+TEST_CASE("A module is told that all its outputs are read, unless they are unset, when nothing is pruned") {
     Chain chain;
     chain.use_module(chain.a, chain.f, chain.g);
     auto s = run(chain.system, chain.types);
     CHECK(*chain.asking.read == std::vector<bool>{true, true, false});
-    auto other = build(chain.system, chain.types);
-    other.prune({.groups = {group(other, "P/F"), group(other, "P/G")}});
-    other.start();
+    build(chain.system, chain.types, {"F", "G"}).start();
     CHECK(*chain.asking.read == std::vector<bool>{true, true, false});
 }
 
-TEST_CASE("Demand synapses learn as ever; others to groups that are left out cannot be looked at") {
+TEST_CASE("Synapses that are demanded learn as ever; others to pruned groups cannot be read") {
     const Chain chain;
     auto all = run(chain.system, chain.types);
-    auto s = build(chain.system, chain.types);
-    s.prune({.connections = {Chain::learning}});
+    engine::Demand demand;
+    demand.read_synapses(Chain::learning);
+    auto s = build(chain.system, chain.types, demand);
     CHECK(pruned(s) == "B C D F G");
     s.start();
     for (int t = 0; t < 9; ++t) all.step(), s.step();
@@ -179,37 +203,35 @@ TEST_CASE("Demand synapses learn as ever; others to groups that are left out can
     CHECK((s.synapse_state(Chain::learning, 0) == all.synapse_state(Chain::learning, 0)).all());
     CHECK((activity(s, "P/E") == activity(all, "P/E")).all());
 
-    auto without = build(chain.system, chain.types);
-    without.prune({.groups = {group(without, "P/A")}});
-    CHECK_THROWS_AS(without.synapse_state(Chain::learning, 0), std::logic_error);
+    auto without = build(chain.system, chain.types, {"A"});
+    CHECK_THROWS_WITH(without.synapse_state(Chain::learning, 0), Catch::Contains("Demand::read_synapses()"));
 }
 
-TEST_CASE("Who looks at a group that is left out is told so") {
+TEST_CASE("Reading what is pruned is an error that names it and says how to demand it") {
     const Chain chain;
-    auto s = build(chain.system, chain.types);
-    s.prune({.groups = {group(s, "P/B")}});
+    auto s = build(chain.system, chain.types, {"B"});
     s.start();
     s.step();
-    const int c = group(s, "P/C");
-    const auto told = Catch::Contains("group 'P/C' was left out of the run, as nobody was to read it");
+    const int c = group(s.layout(), "P/C");
+    const auto told = Catch::Contains(
+        "group 'P/C' is pruned: nothing that was demanded depends on it. To read it, call "
+        "Demand::read_group()");
     CHECK_THROWS_WITH(s.state(c, 0), told);
     CHECK_THROWS_WITH(s.input(c, InputKind::excitatory), told);
     CHECK_THROWS_WITH(s.output(c), told);
     CHECK_THROWS_WITH(s.writable_state(c, 0), told);
     CHECK_THROWS_AS(s.state(c, 0), std::logic_error);
     CHECK(activity(s, "P/B").size() == 2);
-    CHECK_THROWS_AS(s.prune({}), std::logic_error);  // too late
 }
 
-TEST_CASE("A checkpoint is of a run that leaves out the same") {
+TEST_CASE("A checkpoint is one of a run that prunes the same") {
     const Chain chain;
-    const auto observing = [&](const char* path) {
-        auto s = build(chain.system, chain.types);
-        s.prune({.groups = {group(s, path)}});
+    const auto started = [&](const Demanded& groups) {
+        auto s = build(chain.system, chain.types, groups);
         s.start();
         return s;
     };
-    auto one = observing("P/D"), same = observing("P/D"), other = observing("P/C");
+    auto one = started({"D"}), same = started({"D"}), other = started({"C"});
     auto all = run(chain.system, chain.types);
     for (int t = 0; t < 5; ++t) one.step(), all.step();
     Archive written;
@@ -220,5 +242,5 @@ TEST_CASE("A checkpoint is of a run that leaves out the same") {
     CHECK((activity(same, "P/D") == activity(all, "P/D")).all());
     CHECK((activity(one, "P/D") == activity(all, "P/D")).all());
     Archive wrong{std::string_view(written.bytes())};
-    CHECK_THROWS_WITH(other.checkpoint(wrong), Catch::Contains("what is left out differs"));
+    CHECK_THROWS_WITH(other.checkpoint(wrong), Catch::Contains("what is pruned differs"));
 }

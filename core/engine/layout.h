@@ -1,0 +1,61 @@
+// The groups, modules and connections of a system, numbered before anything is compiled.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/system.h"
+#include "core/types/registry.h"
+
+namespace forage::engine {
+
+/// What can be read of a system, in the order of update: byte order of ids (of the process, for a module).
+/// Demand and Simulation know a group, a module or a connection by its index here. A layout never changes.
+struct Layout {
+    struct Group {
+        std::string path;  ///< "Process/Group", with "#id" where that is ambiguous
+        std::string id;
+        GroupShape shape;
+        NeuronType type;
+    };
+    /// A module that is enabled.
+    struct Module {
+        std::string process;  ///< name of the process that holds it
+        std::string process_id;
+        ModuleType type;
+        ModulePorts ports;                             ///< without a random stream, which needs a seed
+        std::vector<int> input_groups, output_groups;  ///< groups behind the ports; -1: unset
+    };
+    struct Connection {
+        std::string id, name;
+        SynapseType type;
+        InputKind kind = InputKind::excitatory;
+        int source = 0, target = 0;  ///< groups
+        /// Whether the target's type reads this kind of input.
+        bool effective = true;
+    };
+    std::vector<Group> groups;
+    std::vector<Module> modules;
+    std::vector<Connection> connections;
+};
+
+/// The layout of a system. Reports what model::validate() finds; empty when that has errors. Modules are
+/// checked against `environment`, which may be null.
+std::optional<Layout> make_layout(const model::System& system, const Registry& registry,
+                                  Diagnostics& diagnostics, Environment* environment = nullptr);
+
+/// The parts of a system that a layout describes, in the same order.
+struct UpdateOrder {
+    explicit UpdateOrder(const model::System& system);
+    std::vector<const model::Group*> groups;
+    std::vector<const model::Process*> modules;  ///< processes with an enabled module
+    std::vector<const model::Connection*> connections;
+};
+
+/// The cross references of a module, in the order of its ports: that of the type's declaration, or that of
+/// the file for a type that takes any. The target of an unset one is empty.
+std::vector<model::CrossReference> cross_references(const model::ModuleUse& use, const ModuleType& type,
+                                                    bool outputs);
+
+}  // namespace forage::engine
