@@ -34,7 +34,7 @@ TEST_CASE("Cells that fire at random do so as often, and as strongly, as recorde
     add_synapses(registry);
     replay::Replay player;
     if (std::filesystem::exists(path / "drive.csv"))
-        player.table = std::make_shared<replay::DriveTable>(replay::DriveTable::read(path / "drive.csv"));
+        player.file = path / "drive.csv";
     registry.add(module_type(player));
     Diagnostics diagnostics;
     const auto system = xml::read_system(path / "input.iqr", diagnostics);

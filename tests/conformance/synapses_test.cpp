@@ -89,7 +89,7 @@ TEST_CASE("Weights and potentials of synapses are those recorded") {
         add_neurons(registry);
         add_synapses(registry);
         replay::Replay player;
-        player.table = std::make_shared<replay::DriveTable>(replay::DriveTable::read(c.path / "drive.csv"));
+        player.file = c.path / "drive.csv";
         registry.add(module_type(player));
         Diagnostics diagnostics;
         const auto system = xml::read_system(c.path / "input.iqr", diagnostics);

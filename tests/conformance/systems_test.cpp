@@ -24,7 +24,7 @@ Registry types(const Path& drive) {
     add_synapses(registry);
     add_modules(registry);
     replay::Replay player;
-    player.table = std::make_shared<replay::DriveTable>(replay::DriveTable::read(drive));
+    player.file = drive;
     registry.add(module_type(player));
     auto robot = module_type(player);
     robot.name = "moduleGazeboBug";  // the recording stands in for the robot

@@ -21,7 +21,7 @@ Registry registry_for(const Case& c) {
     add_synapses(registry);
     replay::Replay player;
     if (std::filesystem::exists(c.path / "drive.csv"))
-        player.table = std::make_shared<replay::DriveTable>(replay::DriveTable::read(c.path / "drive.csv"));
+        player.file = c.path / "drive.csv";
     registry.add(module_type(player));
     registry.add(module_type<Echo>());
     add_modules(registry);

@@ -156,8 +156,8 @@ TEST_CASE("The original's systems run in the original's worlds") {
             Registry registry;
             add_neurons(registry), add_synapses(registry), add_modules(registry);
             registry.add(bug::gazebo_bug_type());
-            auto simulation =
-                engine::Simulation::build(*system, registry, engine::Demand::everything(), {}, diagnostics);
+            auto simulation = engine::Simulation::build(*system, registry, engine::Demand::everything(),
+                                                        {.environment = world.get()}, diagnostics);
             if (!simulation) {  // it wants a robot of another name
                 CHECK(format(diagnostics).find("there is no robot '") != std::string::npos);
                 continue;
