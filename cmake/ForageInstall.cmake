@@ -13,7 +13,9 @@ install(FILES README.md LICENSE DESTINATION ${FORAGE_DOC_DIR})
 # Includes of headers are written from the project's root: <forage/plugin.h> for users, "core/..." in the headers.
 install(DIRECTORY tools/api/forage/ DESTINATION ${FORAGE_HEADER_DIR} FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY core/base core/types core/model DESTINATION ${FORAGE_HEADER_DIR}/core FILES_MATCHING PATTERN "*.h" PATTERN philox.h EXCLUDE PATTERN huge_pages.h EXCLUDE)
-install(FILES core/engine/demand.h core/engine/first_failure.h core/engine/layout.h core/engine/parallel_tuner.h core/engine/simulation.h DESTINATION ${FORAGE_HEADER_DIR}/core/engine)
+install(FILES core/engine/first_failure.h core/engine/simulation.h DESTINATION ${FORAGE_HEADER_DIR}/core/engine)
+install(FILES core/engine/plan/demand.h core/engine/plan/layout.h DESTINATION ${FORAGE_HEADER_DIR}/core/engine/plan)
+install(FILES core/engine/parallel/parallel_tuner.h DESTINATION ${FORAGE_HEADER_DIR}/core/engine/parallel)
 
 # Plugins need Eigen alone; programs that run systems need what Forage itself is made with.
 set(directories INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${FORAGE_HEADER_DIR})

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "core/base/exception_message.h"
-#include "core/engine/plan.h"
+#include "core/engine/plan/plan.h"
 #include "core/engine/simulation.h"
 
 namespace forage::engine {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/engine/plan.h"
+#include "core/engine/plan/plan.h"
 
 namespace forage::engine {
 

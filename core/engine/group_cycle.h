@@ -15,7 +15,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/engine/plan.h"
+#include "core/engine/plan/plan.h"
 
 namespace forage::engine {
 

@@ -1,7 +1,7 @@
 // What a group receives at the end of a cycle: from modules, and through its connections.
 #pragma once
 
-#include "core/engine/plan.h"
+#include "core/engine/plan/plan.h"
 
 namespace forage::engine {
 

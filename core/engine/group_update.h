@@ -1,7 +1,7 @@
 // A group's update: all of it, or in parts by several threads.
 #pragma once
 
-#include "core/engine/plan.h"
+#include "core/engine/plan/plan.h"
 
 namespace forage::engine {
 

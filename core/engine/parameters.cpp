@@ -7,7 +7,7 @@
 
 #include "core/base/named_file.h"
 #include "core/engine/group_cycle.h"
-#include "core/engine/plan.h"
+#include "core/engine/plan/plan.h"
 #include "core/engine/simulation.h"
 
 namespace forage::engine {

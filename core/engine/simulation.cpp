@@ -11,8 +11,8 @@
 #include "core/engine/group_cycle.h"
 #include "core/engine/group_delivery.h"
 #include "core/engine/group_update.h"
-#include "core/engine/parallel_executor.h"
-#include "core/engine/plan.h"
+#include "core/engine/parallel/parallel_executor.h"
+#include "core/engine/plan/plan.h"
 
 namespace forage::engine {
 namespace {

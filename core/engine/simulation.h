@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/engine/demand.h"
 #include "core/engine/first_failure.h"
-#include "core/engine/layout.h"
-#include "core/engine/parallel_tuner.h"
+#include "core/engine/parallel/parallel_tuner.h"
+#include "core/engine/plan/demand.h"
+#include "core/engine/plan/layout.h"
 #include "core/model/edit.h"
 #include "core/model/system.h"
 #include "core/types/registry.h"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "core/engine/layout.h"
+#include "core/engine/plan/layout.h"
 
 namespace forage::observe {
 

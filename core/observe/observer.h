@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/archive.h"
-#include "core/engine/demand.h"
+#include "core/engine/plan/demand.h"
 #include "core/engine/simulation.h"
 #include "core/observe/sim_time.h"
 
@@ -20,7 +20,7 @@ class Run;
 struct RunView {
     engine::Simulation& simulation;
     Environment* environment;  ///< null when the run has none
-    SimTime time;              ///< before_cycle() and after_groups(): the cycle that runs; after_cycle(): the one to come
+    SimTime time;  ///< before_cycle() and after_groups(): the cycle that runs; after_cycle(): the one to come
     Run& run;
 };
 
@@ -32,25 +32,27 @@ struct RunView {
 ///     modules and connections are updated, the environment advances
 ///     after_cycle()    recorders, plots, trial logs, films, checkpoints
 ///
-/// Observers are called in the order in which they were added to the run. docs/how-to/write-an-observer.md shows one.
+/// Observers are called in the order in which they were added to the run. docs/how-to/write-an-observer.md
+/// shows one.
 class Observer {
   public:
     virtual ~Observer() = default;
 
-    /// Adds everything that this observer reads or overwrites to `demand`. The run does not compute what no observer and no
-    /// module demands.
+    /// Adds everything that this observer reads or overwrites to `demand`. The run does not compute what no
+    /// observer and no module demands.
     virtual void declare(engine::Demand& /*demand*/) const {}
 
     virtual void before_cycle(RunView&) {}
     virtual void after_groups(RunView&) {}
     virtual void after_cycle(RunView&) {}
 
-    /// Begins the files that grow during the run. Called once, before the first cycle of a run that is not resumed. Throws
-    /// std::runtime_error.
+    /// Begins the files that grow during the run. Called once, before the first cycle of a run that is not
+    /// resumed. Throws std::runtime_error.
     virtual void begin_files(ResultFiles&) {}
     /// The names of the files that finish() will write, as far as they are known before the run.
     virtual std::vector<std::string> file_names() const { return {}; }
-    /// Writes what the observer leaves behind. Called once, after the last cycle, also of a run that failed or was stopped.
+    /// Writes what the observer leaves behind. Called once, after the last cycle, also of a run that failed
+    /// or was stopped.
     virtual void finish(RunView&, ResultFiles&) {}
 
     /// Reads or writes what the observer must remember to go on after a stop.

@@ -5,8 +5,8 @@
 #include <limits>
 #include <random>
 
-#include "core/engine/kernel.h"
-#include "core/engine/slices.h"
+#include "core/engine/kernels/kernel.h"
+#include "core/engine/kernels/slices.h"
 #include "tests/support/catch.h"
 
 using namespace forage;

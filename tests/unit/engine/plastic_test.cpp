@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/engine/sliding_targets.h"
-#include "core/engine/source_order.h"
+#include "core/engine/kernels/sliding_targets.h"
+#include "core/engine/kernels/source_order.h"
 #include "tests/unit/engine/simulations.h"
 
 using namespace forage;

@@ -1,5 +1,5 @@
 // Whether threads share a cycle is decided by trying, on a clock that the test sets.
-#include "core/engine/parallel_tuner.h"
+#include "core/engine/parallel/parallel_tuner.h"
 #include "tests/support/catch.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "core/engine/thread_pool.h"
+#include "core/engine/parallel/thread_pool.h"
 
 #include <stdexcept>
 #include <string>

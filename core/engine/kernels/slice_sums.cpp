@@ -1,4 +1,4 @@
-#include "core/engine/slice_sums.h"
+#include "core/engine/kernels/slice_sums.h"
 
 #include <bit>
 #include <cstdint>

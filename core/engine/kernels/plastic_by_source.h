@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/engine/plastic_kernel.h"
-#include "core/engine/sliding_targets.h"
-#include "core/engine/source_order.h"
-#include "core/engine/target_frame.h"
+#include "core/engine/kernels/plastic_kernel.h"
+#include "core/engine/kernels/sliding_targets.h"
+#include "core/engine/kernels/source_order.h"
+#include "core/engine/kernels/target_frame.h"
 
 namespace forage::engine {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/engine/target_frame.h"
+#include "core/engine/kernels/target_frame.h"
 
 namespace forage::engine {
 

@@ -1,7 +1,7 @@
 // The sums of slices: the inner loop of lists.
 #pragma once
 
-#include "core/engine/slices.h"
+#include "core/engine/kernels/slices.h"
 
 namespace forage::engine {
 

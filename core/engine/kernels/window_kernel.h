@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/connectivity/regular.h"
-#include "core/engine/kernel.h"
-#include "core/engine/window_columns.h"
+#include "core/engine/kernels/kernel.h"
+#include "core/engine/kernels/window_columns.h"
 
 namespace forage::engine {
 

@@ -1,4 +1,4 @@
-#include "core/engine/slices.h"
+#include "core/engine/kernels/slices.h"
 
 #include <algorithm>
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/engine/first_failure.h"
-#include "core/engine/plan.h"
-#include "core/engine/ready_groups.h"
-#include "core/engine/thread_pool.h"
+#include "core/engine/parallel/ready_groups.h"
+#include "core/engine/parallel/thread_pool.h"
+#include "core/engine/plan/plan.h"
 
 namespace forage::engine {
 

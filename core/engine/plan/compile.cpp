@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/base/exception_message.h"
-#include "core/engine/plan.h"
+#include "core/engine/plan/plan.h"
 #include "core/model/validate.h"
 
 namespace forage::engine {

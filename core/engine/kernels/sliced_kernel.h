@@ -4,10 +4,10 @@
 #include <array>
 #include <cstdint>
 
-#include "core/engine/by_target.h"
-#include "core/engine/kernel.h"
-#include "core/engine/slices.h"
 #include "core/base/huge_pages.h"
+#include "core/engine/kernels/by_target.h"
+#include "core/engine/kernels/kernel.h"
+#include "core/engine/kernels/slices.h"
 
 namespace forage::engine {
 

@@ -1,10 +1,10 @@
-#include "core/engine/sliced_kernel.h"
+#include "core/engine/kernels/sliced_kernel.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "core/engine/slice_sums.h"
 #include "core/base/simd.h"
+#include "core/engine/kernels/slice_sums.h"
 
 namespace forage::engine {
 namespace {

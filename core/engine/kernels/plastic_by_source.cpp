@@ -1,4 +1,4 @@
-#include "core/engine/plastic_by_source.h"
+#include "core/engine/kernels/plastic_by_source.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,8 +6,8 @@
 #include <cstring>
 #include <numeric>
 
-#include "core/engine/finite.h"
 #include "core/base/simd.h"
+#include "core/engine/finite.h"
 
 namespace forage::engine {
 namespace {

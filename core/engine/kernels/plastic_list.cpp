@@ -1,4 +1,4 @@
-#include "core/engine/plastic_list.h"
+#include "core/engine/kernels/plastic_list.h"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
-#include "core/engine/ready_groups.h"
+#include "core/engine/parallel/ready_groups.h"
 
 #include <algorithm>
 
 #include "core/engine/early_delivery.h"
-#include "core/engine/plan.h"
+#include "core/engine/plan/plan.h"
 
 namespace forage::engine {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/engine/layout.h"
+#include "core/engine/plan/layout.h"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "core/engine/target_frame.h"
+#include "core/engine/kernels/target_frame.h"
 
 namespace forage::engine {
 

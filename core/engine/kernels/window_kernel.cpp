@@ -1,4 +1,4 @@
-#include "core/engine/window_kernel.h"
+#include "core/engine/kernels/window_kernel.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "core/engine/parallel_executor.h"
+#include "core/engine/parallel/parallel_executor.h"
 
 #include <algorithm>
 

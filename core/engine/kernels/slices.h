@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/engine/by_target.h"
 #include "core/base/huge_pages.h"
+#include "core/engine/kernels/by_target.h"
 
 namespace forage::engine {
 

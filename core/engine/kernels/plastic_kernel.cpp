@@ -1,7 +1,7 @@
-#include "core/engine/plastic_kernel.h"
+#include "core/engine/kernels/plastic_kernel.h"
 
-#include "core/engine/plastic_by_source.h"
-#include "core/engine/plastic_list.h"
+#include "core/engine/kernels/plastic_by_source.h"
+#include "core/engine/kernels/plastic_list.h"
 
 namespace forage::engine {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/engine/arena.h"
-#include "core/engine/kernel.h"
+#include "core/engine/kernels/kernel.h"
 
 namespace forage::engine {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/engine/source_order.h"
+#include "core/engine/kernels/source_order.h"
 
 namespace forage::engine {
 

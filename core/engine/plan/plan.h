@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "core/engine/arena.h"
-#include "core/engine/demand.h"
-#include "core/engine/kernel.h"
-#include "core/engine/layout.h"
-#include "core/engine/plastic_kernel.h"
+#include "core/engine/kernels/kernel.h"
+#include "core/engine/kernels/plastic_kernel.h"
+#include "core/engine/plan/demand.h"
+#include "core/engine/plan/layout.h"
 
 namespace forage::engine {
 

@@ -1,4 +1,4 @@
-#include "core/engine/sliding_targets.h"
+#include "core/engine/kernels/sliding_targets.h"
 
 #include <algorithm>
 #include <numeric>

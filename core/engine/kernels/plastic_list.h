@@ -1,7 +1,7 @@
 // Plastic synapses in synapse order: the general form.
 #pragma once
 
-#include "core/engine/plastic_kernel.h"
+#include "core/engine/kernels/plastic_kernel.h"
 
 namespace forage::engine {
 

@@ -1,4 +1,4 @@
-#include "core/engine/source_order.h"
+#include "core/engine/kernels/source_order.h"
 
 #include <algorithm>
 #include <numeric>

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "core/connectivity/connect.h"
 #include "core/base/column.h"
+#include "core/connectivity/connect.h"
 
 namespace forage::engine {
 

@@ -1,13 +1,13 @@
-#include "core/engine/kernel.h"
+#include "core/engine/kernels/kernel.h"
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
-#include "core/engine/by_target.h"
-#include "core/engine/sliced_kernel.h"
-#include "core/engine/window_kernel.h"
 #include "core/base/simd.h"
+#include "core/engine/kernels/by_target.h"
+#include "core/engine/kernels/sliced_kernel.h"
+#include "core/engine/kernels/window_kernel.h"
 
 namespace forage::engine {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/engine/window_columns.h"
+#include "core/engine/kernels/window_columns.h"
 
 #include <algorithm>
 #include <cstring>
