@@ -69,13 +69,13 @@ struct Experiment {
     std::string note;           ///< for people
     std::string system, world;  ///< files, as seen from the working directory; no world when empty
     Location system_at, world_at;
-    std::optional<double> world_pace;  ///< s of the world per s of the clock, instead of the world's own
+    std::optional<double> real_time_factor;  ///< s of the world per s of the clock, instead of the world's own
     bool noise = true;
 
     std::optional<std::uint64_t> cycles, trials;  ///< the length: one of these, or `seconds`
     std::optional<double> seconds;
     Location length_at;
-    double longest_trial = 300;  ///< s
+    double trial_timeout = 300;  ///< s
     Expression until;                  ///< a condition that ends a run before its time; none when empty
 
     std::vector<std::uint64_t> seeds = {1};

@@ -8,8 +8,8 @@ void Clamp::add(std::int64_t cycle, int group, std::vector<double> values) {
     waiting_.emplace(cycle, Entry{group, std::move(values)});
 }
 
-void Clamp::apply(engine::Simulation& simulation) {
-    const auto now = static_cast<std::int64_t>(simulation.cycle());
+void Clamp::after_groups(RunView& run) {
+    const auto now = static_cast<std::int64_t>(run.time.cycle);
     while (!waiting_.empty() && waiting_.begin()->first <= now) {
         Entry& entry = waiting_.begin()->second;
         const auto held =
@@ -21,7 +21,7 @@ void Clamp::apply(engine::Simulation& simulation) {
         waiting_.erase(waiting_.begin());
     }
     for (const Entry& e : held_)
-        simulation.output(e.group) = ConstColumn(e.values.data(), static_cast<Index>(e.values.size()));
+        run.simulation.output(e.group) = ConstColumn(e.values.data(), static_cast<Index>(e.values.size()));
 }
 
 void Clamp::declare(engine::Demand& out) const {

@@ -5,11 +5,11 @@
 #include <map>
 #include <vector>
 
-#include "core/engine/simulation.h"
+#include "core/observe/observer.h"
 
 namespace forage::observe {
 
-class Clamp {
+class Clamp final : public Observer {
   public:
     /// From `cycle` on the group's activity is `values`, one per cell, until other values of a later cycle
     /// replace them. Of values for one cycle the last ones count.
@@ -17,10 +17,8 @@ class Clamp {
 
     /// There is nothing to apply, and will not be.
     bool idle() const { return waiting_.empty() && held_.empty(); }
-    /// Between update_groups() and update_modules() of each cycle.
-    void apply(engine::Simulation& simulation);
-    /// Demands the groups that it overwrites.
-    void declare(engine::Demand& out) const;
+    void after_groups(RunView& run) override;
+    void declare(engine::Demand& out) const override;
 
   private:
     struct Entry {

@@ -7,15 +7,9 @@
 #include <vector>
 
 #include "core/observe/column.h"
+#include "core/observe/sim_time.h"
 
 namespace forage::observe {
-
-/// What a condition may look at beside the system: a moment between two cycles.
-struct SimTime {
-    std::uint64_t cycle = 0;  ///< the one to come
-    double seconds = 0;       ///< of the world, since the start
-    int trial = 0;            ///< the running one, from 1; while the robot is put back, the one to come
-};
 
 /// A number that changes over a run: time, a cell, or a mean over cells.
 struct Quantity {

@@ -4,17 +4,17 @@ namespace forage::observe {
 
 Manipulation::Manipulation(Settings settings) : s_(std::move(settings)), waited_(s_.every - 1) {}
 
-void Manipulation::look(const engine::Simulation& simulation, const SimTime& now) {
-    if (!begun_) begun_ = !s_.from || s_.from->holds(simulation, now);
-    if (begun_ && s_.until && !over_) over_ = s_.until->holds(simulation, now);
+void Manipulation::before_cycle(RunView& run) {
+    if (!begun_) begun_ = !s_.from || s_.from->holds(run.simulation, run.time);
+    if (begun_ && s_.until && !over_) over_ = s_.until->holds(run.simulation, run.time);
 }
 
-void Manipulation::apply(engine::Simulation& simulation) {
+void Manipulation::after_groups(RunView& run) {
     if (!begun_ || over_ || ++waited_ < s_.every) return;
     waited_ = 0;
     const auto& pattern = s_.patterns[s_.backwards ? s_.patterns.size() - 1 - next_ : next_];
     const ConstColumn values(pattern.data(), static_cast<Index>(pattern.size()));
-    Column activity = simulation.output(s_.group);
+    Column activity = run.simulation.output(s_.group);
     switch (s_.mode) {
         case Mode::clamp:
             activity = values;

@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "core/observe/condition.h"
+#include "core/observe/observer.h"
 
 namespace forage::observe {
 
 /// Applies a list of patterns to the activity of one group, right after the group's update: one pattern in
 /// every `every`-th cycle, and nothing in between.
-class Manipulation {
+class Manipulation final : public Observer {
   public:
     enum class Mode {
         clamp,     ///< the activity becomes the pattern
@@ -30,16 +31,11 @@ class Manipulation {
     };
     explicit Manipulation(Settings settings);
 
-    /// Before each cycle: begins and ends when its conditions first hold.
-    void look(const engine::Simulation& simulation, const SimTime& now);
-    /// Between update_groups() and update_modules() of each cycle.
-    void apply(engine::Simulation& simulation);
-
-    /// Demands the group that it overwrites, and what its conditions read.
-    void declare(engine::Demand& out) const;
-
-    /// How far it is.
-    void checkpoint(Archive& archive) { archive(begun_, over_, waited_, next_, played_); }
+    /// Begins and ends when its conditions first hold.
+    void before_cycle(RunView& run) override;
+    void after_groups(RunView& run) override;
+    void declare(engine::Demand& demand) const override;
+    void checkpoint(Archive& archive) override { archive(begun_, over_, waited_, next_, played_); }
 
   private:
     Settings s_;

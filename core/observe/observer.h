@@ -42,6 +42,9 @@ class Observer {
     /// observer and no module demands.
     virtual void declare(engine::Demand& /*demand*/) const {}
 
+    /// Reports what cannot be done in the compiled system. Called once, before the first cycle.
+    virtual void check(const engine::Simulation&, Diagnostics&) const {}
+
     virtual void before_cycle(RunView&) {}
     virtual void after_groups(RunView&) {}
     virtual void after_cycle(RunView&) {}

@@ -1,16 +1,21 @@
 // Changes of parameters that wait for their moment.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/model/edit.h"
+#include "core/model/experiment.h"
 #include "core/observe/condition.h"
+#include "core/observe/observer.h"
 
 namespace forage::observe {
 
-class Schedule {
+/// Changes parameters in the cycles in which their conditions first hold.
+class Schedule final : public Observer {
   public:
     struct Entry {
         Condition when;
@@ -23,22 +28,17 @@ class Schedule {
         ++waiting_;
     }
 
-    bool waiting() const { return waiting_ > 0; }
-    /// Before each cycle. Makes, in the order in which they were added, the changes whose condition holds for
-    /// the first time: they act in the cycle to come. Throws what Simulation::set() throws.
-    void apply(engine::Simulation& simulation, const SimTime& now);
-
-    /// Reports what Simulation::check() finds wrong with the changes.
-    void check(const engine::Simulation& simulation, Diagnostics& diagnostics) const;
-
     const std::vector<Entry>& entries() const { return entries_; }
-    /// Demands what its conditions read.
-    void declare(engine::Demand& out) const {
-        for (const auto& e : entries_) e.when.declare(out);
-    }
 
-    /// What has acted.
-    void checkpoint(Archive& archive) {
+    void declare(engine::Demand& demand) const override {
+        for (const auto& e : entries_) e.when.declare(demand);
+    }
+    /// Reports what Simulation::check() finds wrong with the changes.
+    void check(const engine::Simulation& simulation, Diagnostics& diagnostics) const override;
+    /// Makes, in the order in which they were added, the changes whose condition holds for the first time: they act in the
+    /// cycle to come. Throws what Simulation::set() throws.
+    void before_cycle(RunView& run) override;
+    void checkpoint(Archive& archive) override {
         for (auto& e : entries_) archive.same(e.text, "a change"), archive(e.cycle);
         archive(waiting_);
     }
@@ -47,5 +47,14 @@ class Schedule {
     std::vector<Entry> entries_;
     std::size_t waiting_ = 0;
 };
+
+/// Splits "WHEN: WHERE.parameter=value"; empty when `text` is not of this form. WHEN ends at the first colon that a blank
+/// follows, outside of double quotes.
+std::optional<model::ScheduledChange> parse_scheduled_change(std::string_view text);
+
+/// Ties changes to a system. Reports what cannot be. `trials`: whether the run has any.
+std::unique_ptr<Schedule> make_schedule(const std::vector<model::ScheduledChange>& changes,
+                                        const model::System& system, const Registry& registry,
+                                        const engine::Layout& layout, bool trials, Diagnostics& diagnostics);
 
 }  // namespace forage::observe

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace forage {
@@ -11,7 +12,7 @@ namespace forage {
 /// being written.
 class ResultFiles {
   public:
-    /// `directory`: where the files go; it must exist.
+    /// `directory`: where the files go; it must exist. Without one (empty), nothing is written.
     explicit ResultFiles(std::string directory) : directory_(std::move(directory)) {}
 
     const std::string& directory() const { return directory_; }
@@ -28,6 +29,10 @@ class ResultFiles {
     };
     void add_recording(Recording recording) { recordings_.push_back(std::move(recording)); }
 
+    /// Adds a line to the summary of the run, such as "film" and "a.gif: 30 frames".
+    void note(std::string name, std::string text) { notes_.emplace_back(std::move(name), std::move(text)); }
+
+    const std::vector<std::pair<std::string, std::string>>& notes() const { return notes_; }
     const std::vector<std::string>& names() const { return names_; }
     const std::vector<Recording>& recordings() const { return recordings_; }
     const std::vector<std::string>& problems() const { return problems_; }
@@ -35,6 +40,7 @@ class ResultFiles {
   private:
     std::string directory_;
     std::vector<std::string> names_, problems_;
+    std::vector<std::pair<std::string, std::string>> notes_;
     std::vector<Recording> recordings_;
 };
 

@@ -34,7 +34,7 @@ class ExperimentReader {
         });
         each(root, "world", [&](const XMLElement& e) {
             experiment_.world = file(e, "file"), experiment_.world_at = at(e, "file");
-            experiment_.world_pace = number(e, "pace");
+            experiment_.real_time_factor = number(e, "pace");
             experiment_.noise = text(e, "noise") != "false";
         });
         each(root, "length", [&](const XMLElement& e) { length(e); });
@@ -121,7 +121,7 @@ class ExperimentReader {
         experiment_.cycles = whole(e, "cycles");
         experiment_.trials = whole(e, "trials");
         experiment_.seconds = number(e, "seconds");
-        experiment_.longest_trial = number(e, "longest-trial").value_or(experiment_.longest_trial);
+        experiment_.trial_timeout = number(e, "longest-trial").value_or(experiment_.trial_timeout);
         if (e.FindAttribute("until")) experiment_.until = wish(e, "until");
     }
 

@@ -27,7 +27,7 @@
 #include "synapses/synapses.h"
 #include "tests/bench/report.h"
 #include "tests/support/golden.h"
-#include "tools/forage/layers.h"
+#include "core/run/layers.h"
 
 namespace {
 
@@ -72,7 +72,7 @@ struct Loop {
         engine::Demand demand = engine::Demand::everything();
         if (c.update == Update::what_is_read) {
             demand = {};
-            tool::Layers(*layout).declare(demand);  // for the measures of trials
+            Layers(*layout).declare(demand);  // for the measures of trials
         }
         simulation = engine::Simulation::build(*system, std::move(*layout), demand,
                                                {.environment = world.get()}, diagnostics);

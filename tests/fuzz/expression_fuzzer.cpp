@@ -11,26 +11,27 @@
 #include "neurons/neurons.h"
 #include "synapses/synapses.h"
 #include "tests/fuzz/holds.h"
-#include "tools/forage/manipulations.h"
-#include "tools/forage/plot_spec.h"
-#include "tools/forage/schedule.h"
+#include "core/observe/manipulation_spec.h"
+#include "core/observe/schedule.h"
+#include "tools/plot/plot_spec.h"
 
 namespace {
 
 using namespace forage;
 
 struct Small {
-    tool::Loaded loaded;
+    model::System system;
+    Registry registry;
     std::optional<engine::Simulation> simulation;
 
     Small() {
         Diagnostics diagnostics;
-        loaded.system =
+        system =
             *xml::read_system(FORAGE_SOURCE_DIR "/tests/diagnostics/sound/system.iqr", diagnostics);
-        add_neurons(loaded.registry);
-        add_synapses(loaded.registry);
-        add_modules(loaded.registry);
-        simulation = engine::Simulation::build(loaded.system, loaded.registry, engine::Demand::everything(),
+        add_neurons(registry);
+        add_synapses(registry);
+        add_modules(registry);
+        simulation = engine::Simulation::build(system, registry, engine::Demand::everything(),
                                                {1}, diagnostics);
         test::holds(simulation.has_value(), "the small system is sound");
         simulation->start();
@@ -41,9 +42,9 @@ using Mode = model::ManipulationSpec::Mode;
 
 void manipulate(const Small& small, Mode mode, const std::string& text, Diagnostics& diagnostics) {
     try {
-        const auto wish = tool::parse_manipulation(mode, text);
+        const auto wish = observe::parse_manipulation(mode, text);
         if (wish.patterns.empty())  // else it names a file
-            tool::manipulations({wish}, small.loaded, small.simulation->layout(), diagnostics);
+            observe::make_manipulations({wish}, small.simulation->layout(), true, diagnostics);
     } catch (const std::invalid_argument& e) {
         diagnostics.error({}, e.what());
     }
@@ -72,9 +73,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 q->in(simulation, {3, 0.1, 1});
             break;
         case 3:
-            if (const auto timed = tool::parse_timed(text))
-                tool::schedule({*timed}, small.loaded, simulation.layout(), diagnostics)
-                    .check(simulation, diagnostics);
+            if (const auto timed = observe::parse_scheduled_change(text))
+                observe::make_schedule({*timed}, small.system, small.registry, simulation.layout(), true, diagnostics)
+                    ->check(simulation, diagnostics);
             break;
         case 4:
             if (auto source = observe::find_source(simulation.layout(), text, "--record", diagnostics)) {
@@ -83,12 +84,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             }
             break;
         case 5:
-            if (const auto plot = tool::parse_plot(text, "--plot", diagnostics))
+            if (const auto plot = plot::parse_plot(text, "--plot", diagnostics))
                 test::holds(!plot->file(plot::Format::png).empty(), "a picture has a name");
             break;
         case 6: {
-            auto system = small.loaded.system;
-            model::set(system, small.loaded.registry, text, diagnostics);
+            auto system = small.system;
+            model::set(system, small.registry, text, diagnostics);
             break;
         }
         default:

@@ -7,7 +7,7 @@
 #include <sys/wait.h>
 
 #include "tools/forage/commands.h"
-#include "tools/forage/files.h"
+#include "core/base/output_files.h"
 
 extern char** environ;
 

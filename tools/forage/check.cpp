@@ -40,13 +40,14 @@ std::vector<std::string> notes(const model::System& system) {
 
 }  // namespace
 
-int check(const Input& input) {
+int check(const RunInput& input) {
     Diagnostics diagnostics;
     const auto loaded = load(input, diagnostics);
     std::optional<engine::Simulation> simulation;
     if (loaded)
-        simulation = engine::Simulation::build(loaded->system, loaded->registry, engine::Demand::everything(),
-                                               {input.seed}, diagnostics);
+        if (auto layout = engine::make_layout(loaded->system, loaded->registry, diagnostics, loaded->world.get()))
+            simulation = engine::Simulation::build(loaded->system, std::move(*layout), engine::Demand::everything(),
+                                                   {.seed = input.seed}, diagnostics);
     fmt::print(stderr, "{}", format(diagnostics));
     if (!simulation) {
         std::string name = input.system;  // it may hold anything, and the terminal must not obey it

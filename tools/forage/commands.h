@@ -8,54 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "tools/forage/load.h"
+#include "tools/api/prepare.h"
 
 namespace forage::tool {
 
 enum ExitStatus { fine = 0, run_failed = 1, bad_input = 2 };
 
-/// How a run records what it is asked to record.
-struct RecordOptions {
-    std::string format = "csv";          ///< csv, npy, npz, h5 or dat, where no file is named
-    std::uint64_t from = 0;              ///< the first cycle
-    std::optional<std::uint64_t> until;  ///< the last cycle
-    bool mean = false;                   ///< over as many cycles as there are from row to row
-};
-
-/// How often a run writes checkpoints.
-struct CheckpointInterval {
-    double amount = 0;        ///< above 0
-    bool in_seconds = false;  ///< of the world, instead of cycles
-};
-
-/// What is done when a number becomes NaN or infinite.
-enum class OnNan { warn, stop, ignore };
-
 struct RunOptions {
-    Input input;
-    std::vector<std::string> arguments;  ///< of the command line, which these options come from
-    RecordOptions record;
-    std::vector<model::Expression> plots;  ///< as plot_spec.h
-    std::string picture_format = "png";
-    std::optional<std::uint64_t> cycles;
-    std::optional<double> seconds;
-    std::optional<std::uint64_t> trials;
-    Location length_at;          ///< no file: on the command line
-    double longest_trial = 300;  ///< s of the world
-    model::Expression until;     ///< a condition that ends the run before its time; none when empty
-    std::vector<model::RecordingSpec> recordings;
-    std::vector<model::ScheduledChange> at;
-    std::vector<model::Measure> measures;
-    std::vector<std::string> clamp;  ///< tables
-    std::vector<model::ManipulationSpec> manipulations;
-    int threads = 1;
-    std::string directory = "forage-out";
-    bool paths = true;  ///< follow the robots
-    std::string video;  ///< .gif or .png file to film the world to; none when empty
-    std::optional<CheckpointInterval> checkpoint_every;  ///< none without
-    OnNan on_nan = OnNan::warn;
-    bool hash = false;  ///< give a digest of the state at the end
-    bool real_time = false, quiet = false;
+    RunSpec spec;
+    bool real_time = false;  ///< no faster than the clock
+    bool quiet = false;
 };
 
 struct ResumeOptions {
@@ -76,9 +38,9 @@ struct ConvertOptions {
 
 struct PlotOptions {
     std::string source;               ///< a directory of results, a recording, or a system
-    std::vector<std::string> wishes;  ///< as plot_spec.h
+    std::vector<std::string> plots;  ///< what to draw
     std::string directory;            ///< empty: beside the source, or here for a system
-    std::string picture_format = "png";
+    std::string plot_format = "png";
 };
 
 struct ExperimentOptions {
@@ -107,6 +69,8 @@ struct BuildPluginOptions {
 };
 
 int run(const RunOptions& options);
+/// Brings a run to its end with progress and a summary. Returns the exit status.
+int run_to_end(const RunOptions& options, PreparedRun& prepared);
 /// Goes on with a run that was stopped, from its last checkpoint: what it leaves behind is then what it would
 /// have left without a stop.
 int resume(const ResumeOptions& options, const RunParser& parse);
@@ -116,11 +80,11 @@ int experiment(const ExperimentOptions& options);
 /// Lists the exercises of the tutorial, or runs one.
 int tutorial(const TutorialOptions& options);
 int convert(const ConvertOptions& options);
-int check(const Input& input);
+int check(const RunInput& input);
 /// Checks a world, lists what is in it and draws it from above.
 int world(const WorldCommand& options);
 /// Prints the tree of processes, groups and connections, with sizes and how each connection is computed.
-int describe(const Input& input);
+int describe(const RunInput& input);
 /// Writes a page that shows the pictures and tables of a directory of results: plain HTML, nothing from the
 /// net.
 int view(const std::string& directory);

@@ -10,7 +10,7 @@
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
 #include "tools/forage/commands.h"
-#include "tools/forage/files.h"
+#include "core/base/output_files.h"
 
 namespace forage::tool {
 namespace {

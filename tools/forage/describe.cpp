@@ -59,13 +59,14 @@ void print_module(const model::ModuleUse& module, bool enabled, const model::Sys
 
 }  // namespace
 
-int describe(const Input& input) {
+int describe(const RunInput& input) {
     Diagnostics diagnostics;
     const auto loaded = load(input, diagnostics);
     std::optional<engine::Simulation> simulation;
     if (loaded)
-        simulation = engine::Simulation::build(loaded->system, loaded->registry, engine::Demand::everything(),
-                                               {.seed = input.seed}, diagnostics);
+        if (auto layout = engine::make_layout(loaded->system, loaded->registry, diagnostics, loaded->world.get()))
+            simulation = engine::Simulation::build(loaded->system, std::move(*layout), engine::Demand::everything(),
+                                                   {.seed = input.seed}, diagnostics);
     fmt::print(stderr, "{}", format(diagnostics));
     if (!simulation) return bad_input;
 

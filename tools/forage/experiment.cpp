@@ -6,12 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "core/base/cores.h"
 #include "core/base/named_file.h"
+#include "core/base/output_files.h"
+#include "core/run/experiment/runs.h"
+#include "core/run/experiment/tables.h"
 #include "tools/forage/commands.h"
-#include "tools/forage/cores.h"
-#include "tools/forage/experiment_runs.h"
-#include "tools/forage/experiment_tables.h"
-#include "tools/forage/files.h"
+#include "tools/forage/progress.h"
 #include "tools/forage/stop.h"
 
 namespace forage::tool {
@@ -30,6 +31,16 @@ bool files_are_there(const model::Experiment& e, Diagnostics& diagnostics) {
     return all;
 }
 
+/// "12/30 runs, 1 failed, 3 min left".
+std::string progress_text(const ExperimentCallbacks::Progress& p) {
+    std::string text = fmt::format("{}/{} runs", p.finished, p.all);
+    if (p.failed > 0) text += fmt::format(", {} failed", p.failed);
+    if (p.seconds_left)
+        text += *p.seconds_left < 100 ? fmt::format(", {:.0f} s left", *p.seconds_left)
+                                      : fmt::format(", {:.0f} min left", *p.seconds_left / 60);
+    return text;
+}
+
 }  // namespace
 
 int experiment(const ExperimentOptions& o) {
@@ -38,11 +49,11 @@ int experiment(const ExperimentOptions& o) {
     const std::string directory = o.directory.empty() ? default_directory(o.file) : o.directory;
     std::vector<PlannedRun> runs;
     Sources sources;
+    const PrepareRun prepare_run = [&](const RunSpec& spec, Diagnostics& d) { return prepare(sources, spec, d); };
     if (wanted && files_are_there(*wanted, diagnostics)) {
-        runs = planned_runs(*wanted, directory);
-        for (auto& run : runs) run.options.input.plugins = o.plugins;
-        sources = read(runs.front().options.input, diagnostics);
-        check_experiment(*wanted, sources, runs, diagnostics);
+        runs = planned_runs(*wanted, directory, o.plugins);
+        sources = read_sources(runs.front().spec.input, diagnostics);
+        check_experiment(*wanted, prepare_run, runs, diagnostics);
     }
     if (diagnostics.failed() || !o.quiet) fmt::print(stderr, "{}", format(diagnostics));
     if (diagnostics.failed()) return bad_input;
@@ -66,7 +77,15 @@ int experiment(const ExperimentOptions& o) {
     Progress progress(!o.quiet);
     for (const auto& table : {results_file, summary_file})  // one that is there is whole
         std::remove(table.c_str());
-    const auto results = make_runs(*wanted, sources, runs, o.jobs > 0 ? o.jobs : cores(), o.fresh, progress);
+    ExperimentCallbacks callbacks;
+    callbacks.interrupted = [] { return noted_signal() != 0; };
+    callbacks.progress = [&](const ExperimentCallbacks::Progress& p) {
+        if (progress.due()) progress.draw(p.done, progress_text(p));
+    };
+    const auto results =
+        run_experiment(*wanted, prepare_run, runs, source_digests(runs.front().spec.input, sources),
+                       o.jobs > 0 ? o.jobs : cores(), o.fresh, callbacks);
+    progress.clear();
     if (!results) {
         fmt::print(stderr, "stopped {}; the same command goes on with the runs that are not finished\n",
                    stopped_by(noted_signal()));

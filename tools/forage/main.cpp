@@ -60,7 +60,7 @@ int program(int argc, char** argv) {
     ExperimentOptions experiment_options;
     ConvertOptions convert_options;
     PlotOptions plot_options;
-    Input check_input, describe_input;
+    forage::RunInput check_input, describe_input;
     std::string type;
     add_run(app, run_options);
     ResumeOptions resume_options;
@@ -126,7 +126,9 @@ int program(int argc, char** argv) {
             return bad_input;
         }
         if (argc == 2 && std::string_view(argv[1]) == "help") return fmt::print("{}", app.help()), fine;
-        app.parse(argc, argv);
+        auto words = current_names({argv + 1, argv + argc});
+        std::reverse(words.begin(), words.end());  // as CLI11 takes them
+        app.parse(words);
     } catch (const CLI::ParseError& e) {  // also a call for help
         const bool no_command = app.get_subcommands().empty() && !std::string_view(argv[1]).starts_with("-");
         if (e.get_exit_code() == 0 && !no_command) return app.exit(e);
@@ -138,7 +140,7 @@ int program(int argc, char** argv) {
     }
     try {
         if (app.got_subcommand("run")) {
-            run_options.arguments.assign(argv + 1, argv + argc);
+            run_options.spec.arguments.assign(argv + 1, argv + argc);
             return run(run_options);
         }
         if (app.got_subcommand("resume")) return resume(resume_options, parse_run);

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "tools/forage/commands.h"
-#include "tools/forage/files.h"
+#include "core/base/output_files.h"
 #include "tools/forage/templates.h"
 
 namespace forage::tool {

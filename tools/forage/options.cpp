@@ -58,12 +58,23 @@ CLI::Validator one_of(std::vector<std::string> names) {
         set);
 }
 
+std::vector<std::string> current_names(std::vector<std::string> words) {
+    static constexpr std::pair<std::string_view, std::string_view> renamed[] = {
+        {"--as", "--plot-format"},   {"--at", "--schedule"}, {"--drive", "--replay"},
+        {"--every", "--record-every"}, {"--longest-trial", "--trial-timeout"}, {"--world-pace", "--real-time-factor"}};
+    for (auto& word : words)
+        for (const auto& [old, current] : renamed)
+            if (word == old || word.starts_with(std::string(old) + "="))
+                word = std::string(current) + word.substr(old.size());
+    return words;
+}
+
 CLI::Option* repeated(CLI::Option* option) {
     return option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-CLI::Option* add_picture_format(CLI::App& command, std::string& format) {
-    return command.add_option("--as", format, "Format of pictures: png, svg or pdf [png]")
+CLI::Option* add_plot_format(CLI::App& command, std::string& format) {
+    return command.add_option("--plot-format", format, "Format of pictures: png, svg or pdf [png]")
         ->check(one_of({"png", "svg", "pdf"}))
         ->option_text("FORMAT");
 }
@@ -76,7 +87,7 @@ void add_plugins(CLI::App& command, std::vector<std::string>& plugins) {
         ->option_text("PATH");
 }
 
-void add_input(CLI::App& command, Input& input) {
+void add_input(CLI::App& command, RunInput& input) {
     command
         .add_option_function<std::vector<std::string>>(
             "SYSTEM",
@@ -149,14 +160,14 @@ void add_plot(CLI::App& app, PlotOptions& o) {
         "  trajectory                      the robot's paths\n"
         "A source is 'Process/Group:state(x1..x2,y1..y2)'; state and cells may be left out.\n"
         "Example:\n"
-        "  forage plot systems/reactive_foraging.iqr diagram 'connection:US to Approach' --as svg");
+        "  forage plot systems/reactive_foraging.iqr diagram 'connection:US to Approach' --plot-format svg");
     plot.add_option("FROM", o.source, "Directory of results, recording (.csv, .npy, .h5) or system (.iqr)")
         ->required()
         ->option_text("DIR|FILE");
-    plot.add_option("PLOT", o.wishes, "What to draw; without any, what there is")->option_text("PLOT...");
+    plot.add_option("PLOT", o.plots, "What to draw; without any, what there is")->option_text("PLOT...");
     plot.add_option("-o,--output", o.directory, "Directory for pictures [beside what they show]")
         ->option_text("DIR");
-    add_picture_format(plot, o.picture_format);
+    add_plot_format(plot, o.plot_format);
 }
 
 void add_convert(CLI::App& app, ConvertOptions& o) {

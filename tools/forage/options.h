@@ -16,12 +16,15 @@ CLI::Validator count();     ///< a whole number, at least 1
 CLI::Validator seed();      ///< a whole number, at least 0
 CLI::Validator threads();   ///< a whole number from 1 to 1024
 CLI::Validator one_of(std::vector<std::string> names);
+/// The words of a command line with the options of version 0.1 under their current names: the old names remain understood for
+/// one version.
+std::vector<std::string> current_names(std::vector<std::string> words);
 /// An option that may be repeated, with one value each time.
 CLI::Option* repeated(CLI::Option* option);
-CLI::Option* add_picture_format(CLI::App& command, std::string& format);
+CLI::Option* add_plot_format(CLI::App& command, std::string& format);
 void add_plugins(CLI::App& command, std::vector<std::string>& plugins);
 /// Systems, world, settings and plugins.
-void add_input(CLI::App& command, Input& input);
+void add_input(CLI::App& command, RunInput& input);
 
 void add_run(CLI::App& app, RunOptions& o);
 void add_resume(CLI::App& app, ResumeOptions& o);

@@ -8,9 +8,9 @@
 
 #include "core/model/lookup.h"
 #include "core/types/parameter.h"
-#include "tools/forage/manipulations.h"
+#include "core/observe/manipulation_spec.h"
+#include "core/observe/schedule.h"
 #include "tools/forage/options.h"
-#include "tools/forage/schedule.h"
 
 namespace forage::tool {
 namespace {
@@ -30,7 +30,7 @@ CheckpointInterval parse_interval(const std::string& text) {
     return out;
 }
 
-void add_manipulations(CLI::App& run, RunOptions& o) {
+void add_manipulations(CLI::App& run, RunSpec& o) {
     using Mode = model::ManipulationSpec::Mode;
     const auto add = [&](const char* option, Mode mode, const char* description, const char* text) {
         repeated(run.add_option_function<std::vector<std::string>>(
@@ -40,11 +40,11 @@ void add_manipulations(CLI::App& run, RunOptions& o) {
                              const bool table =
                                  each.find('=') == std::string::npos || std::filesystem::exists(each);
                              if (mode == Mode::clamp && table) {
-                                 o.clamp.push_back(each);
+                                 o.clamp_tables.push_back(each);
                                  continue;
                              }
                              try {
-                                 o.manipulations.push_back(parse_manipulation(mode, each));
+                                 o.manipulations.push_back(observe::parse_manipulation(mode, each));
                              } catch (const std::invalid_argument& e) {
                                  throw CLI::ValidationError(option, e.what());
                              }
@@ -57,7 +57,7 @@ void add_manipulations(CLI::App& run, RunOptions& o) {
         "Overwrite the activity of a group: 'Process/Group(x,y)=value' for one of its cells, with all others "
         "0; 'Process/Group=FILE' with a list of patterns, one in each cycle, over and over; behind either, "
         "'; every N' cycles, '; step N' patterns, '; times N' through the list, '; backwards', '; from "
-        "WHEN', '; until WHEN' (as for --at). Or a table of rows cycle,process,group,v0,v1,... May be "
+        "WHEN', '; until WHEN' (as for --schedule). Or a table of rows cycle,process,group,v0,v1,... May be "
         "repeated",
         "PATTERN|FILE");
     add("--add", Mode::add, "The same, added to the activity after any clamp; other cells stay", "PATTERN");
@@ -65,7 +65,7 @@ void add_manipulations(CLI::App& run, RunOptions& o) {
         "PATTERN");
 }
 
-void add_recording(CLI::App& run, RunOptions& o) {
+void add_recording(CLI::App& run, RunSpec& o) {
     auto* record =
         repeated(run.add_option_function<std::vector<std::string>>(
                      "-r,--record",
@@ -84,7 +84,7 @@ void add_recording(CLI::App& run, RunOptions& o) {
         ->option_text("FORMAT")
         ->needs(record);
     run.add_option_function<std::uint64_t>(
-           "--every",
+           "--record-every",
            [&o](const std::uint64_t& every) {
                for (auto& r : o.recordings) r.every = every;
            },
@@ -93,7 +93,7 @@ void add_recording(CLI::App& run, RunOptions& o) {
         ->option_text("K")
         ->needs(record);
     run.add_flag("--record-mean", o.record.mean, "Record the mean of K cycles instead of every K-th")
-        ->needs("--every");
+        ->needs("--record-every");
     run.add_option("--record-from", o.record.from, "Record from this cycle on [0]")
         ->transform(seed())
         ->option_text("CYCLE")
@@ -110,33 +110,34 @@ void add_recording(CLI::App& run, RunOptions& o) {
                  "Draw a picture: 'time:SOURCE', 'space:SOURCE@CYCLES', 'movie:SOURCE', 'connection:NAME' "
                  "or 'diagram', see 'forage plot --help'; may be repeated"))
         ->option_text("PLOT");
-    add_picture_format(run, o.picture_format);
+    add_plot_format(run, o.plot_format);
 }
 
 }  // namespace
 
-void add_run(CLI::App& app, RunOptions& o) {
+void add_run(CLI::App& app, RunOptions& options) {
+    RunSpec& o = options.spec;
     auto& run = *app.add_subcommand("run", "Run a system, in a world if one is given");
     run.footer(
         "Without --cycles, --seconds or --trials it runs for 60 seconds of the world.\n"
         "Example:\n"
         "  forage run systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world --trials 30\n"
-        "  ... --at 'trial 10: Motor In to Motor.weight=0.5' --at 'max(Bug/Light) > 0.9: "
+        "  ... --schedule 'trial 10: Motor In to Motor.weight=0.5' --schedule 'max(Bug/Light) > 0.9: "
         "Bug/Light.threshold=1'");
     add_input(run, o.input);
-    auto* cycles = run.add_option("-c,--cycles", o.cycles, "Stop after so many cycles")
+    auto* cycles = run.add_option("-c,--cycles", o.length.cycles, "Stop after so many cycles")
                        ->transform(count())
                        ->option_text("N");
-    auto* seconds = run.add_option("--seconds", o.seconds, "Stop after so many seconds of the world")
+    auto* seconds = run.add_option("--seconds", o.length.seconds, "Stop after so many seconds of the world")
                         ->check(positive())
                         ->option_text("S");
-    auto* trials = run.add_option("-t,--trials", o.trials,
+    auto* trials = run.add_option("-t,--trials", o.length.trials,
                                   "Stop after so many trials; a trial ends when the robot is reset")
                        ->transform(count())
                        ->option_text("N");
     cycles->excludes(seconds)->excludes(trials);
     seconds->excludes(trials);
-    run.add_option("--longest-trial", o.longest_trial,
+    run.add_option("--trial-timeout", o.length.trial_timeout,
                    "Give up when a trial takes longer, in seconds of the world [300]")
         ->check(positive())
         ->option_text("S")
@@ -145,19 +146,19 @@ void add_run(CLI::App& app, RunOptions& o) {
         ->transform(seed())
         ->option_text("N");
     add_recording(run, o);
-    run.add_option("--until", o.until.text, "Stop before its time when a condition holds, as for --at")
+    run.add_option("--until", o.length.until.text, "Stop before its time when a condition holds, as for --schedule")
         ->option_text("WHEN");
     repeated(
         run.add_option_function<std::vector<std::string>>(
-            "--at",
+            "--schedule",
             [&o](const std::vector<std::string>& texts) {
                 for (const auto& text : texts) {
-                    if (const auto wish = parse_timed(text)) {
-                        o.at.push_back(*wish);
+                    if (const auto wish = observe::parse_scheduled_change(text)) {
+                        o.changes.push_back(*wish);
                         continue;
                     }
                     throw CLI::ValidationError(
-                        "--at", fmt::format("'{}' is not a condition, a colon, a blank and a change, such as "
+                        "--schedule", fmt::format("'{}' is not a condition, a colon, a blank and a change, such as "
                                             "'trial >= 200: Selection/Adaptive.excGain=0'",
                                             text));
                 }
@@ -166,13 +167,13 @@ void add_run(CLI::App& app, RunOptions& o) {
             "comparisons of cycle, trial, seconds, cells 'Process/Group(x,y)' and mean(Process/Group), also "
             "sum, min and max, joined by && and ||; may be repeated"))
         ->option_text("'WHEN: WHERE=VALUE'");
-    run.add_option("--drive", o.input.drive,
+    run.add_option("--replay", o.input.replay,
                    "Table that modules of type moduleReplay play: cycle,process,target,v0,v1,...")
         ->option_text("FILE");
     add_manipulations(run, o);
     run.add_option("-o,--output", o.directory, "Directory for results [forage-out]; '' for none")
         ->option_text("DIR");
-    run.add_option("--world-pace", o.input.world_pace,
+    run.add_option("--real-time-factor", o.input.real_time_factor,
                    "Seconds of the world per second of the clock, instead of the world's own")
         ->check(positive())
         ->option_text("X")
@@ -217,11 +218,11 @@ void add_run(CLI::App& app, RunOptions& o) {
            "or 'ignore' it [warn]")
         ->check(one_of({"warn", "stop", "ignore"}))
         ->option_text("HOW");
-    run.add_flag("--hash", o.hash,
+    run.add_flag("--hash", o.digest,
                  "Give a digest of the state at the end: equal runs have the same one. All groups are "
                  "computed for it");
-    run.add_flag("--realtime", o.real_time, "No faster than the clock: one second of the world per second");
-    run.add_flag("-q,--quiet", o.quiet, "Print errors only");
+    run.add_flag("--realtime", options.real_time, "No faster than the clock: one second of the world per second");
+    run.add_flag("-q,--quiet", options.quiet, "Print errors only");
 }
 
 void add_resume(CLI::App& app, ResumeOptions& o) {
@@ -243,6 +244,7 @@ RunOptions parse_run(std::vector<std::string> arguments) {
     CLI::App app;
     RunOptions options;
     add_run(app, options);
+    arguments = current_names(std::move(arguments));
     std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
     app.parse(arguments);
     return options;

@@ -8,17 +8,19 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/named_file.h"
+#include "core/base/output_files.h"
 #include "core/observe/recording.h"
 #include "tools/forage/commands.h"
-#include "tools/forage/files.h"
-#include "tools/forage/plots.h"
-#include "tools/forage/structure.h"
+#include "tools/plot/plots.h"
+#include "tools/plot/structure.h"
 #include "tools/plot/trajectory.h"
 
 namespace forage::tool {
 namespace {
 
 namespace fs = std::filesystem;
+using plot::PlotSpec;
+using plot::RowPlot;
 using Kind = PlotSpec::Kind;
 
 /// What a person points at: results, a recording or a system.
@@ -28,8 +30,8 @@ struct Source {
         observe::Recorded what;  ///< with the name and label that run.json knows
     };
     std::vector<Entry> recordings;
-    Input input;  ///< the system and world that were run, as far as they are known
-    PlotContext context;
+    RunInput input;  ///< the system and world that were run, as far as they are known
+    plot::PlotContext context;
     std::string directory;  ///< of the results; empty when there are none
 };
 
@@ -245,8 +247,8 @@ int plot(const PlotOptions& o) {
     }
     std::vector<PlotSpec> wishes;
     bool structure = false, trajectory = false;
-    for (const auto& text : o.wishes.empty() ? usual_wishes(source) : o.wishes)
-        if (auto wish = parse_plot(text, "forage plot", diagnostics)) {
+    for (const auto& text : o.plots.empty() ? usual_wishes(source) : o.plots)
+        if (auto wish = plot::parse_plot(text, "forage plot", diagnostics)) {
             structure |= wish->kind == Kind::diagram || wish->kind == Kind::connection;
             trajectory |= wish->kind == Kind::trajectory;
             wishes.push_back(std::move(*wish));
@@ -263,13 +265,13 @@ int plot(const PlotOptions& o) {
             source.input.world.clear();
         if (!source.input.system.empty()) loaded = load(source.input, diagnostics);
         for (const auto& w : wishes)
-            if (loaded) check_structure(w, loaded->system, "forage plot", diagnostics);
+            if (loaded) plot::check_structure(w, loaded->system, "forage plot", diagnostics);
         if (loaded && trajectory && (!loaded->world || !fs::exists(source.directory + "/trajectory.csv")))
             diagnostics.error({}, "a trajectory needs the results of a run in a world");
     }
     if (diagnostics.failed()) return say();
 
-    const plot::Format format = *plot::format_of("x." + o.picture_format);
+    const plot::Format format = *plot::format_of("x." + o.plot_format);
     const std::string beside = fs::path(o.source).parent_path().string();
     const std::string directory = !o.directory.empty()                          ? o.directory
                                   : !source.directory.empty()                   ? source.directory
@@ -287,7 +289,7 @@ int plot(const PlotOptions& o) {
         const plot::Picture picture =
             w.kind == Kind::trajectory
                 ? plot::trajectory_plot(*loaded->world, read_paths(source.directory), source.context.run)
-                : structure_plot(w, loaded->system, loaded->registry, nullptr, source.input.seed,
+                : plot::structure_plot(w, loaded->system, loaded->registry, nullptr, source.input.seed,
                                  source.context.run);
         written.push_back(w.file(format));
         make_directory(directory);

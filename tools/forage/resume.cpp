@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "tools/forage/checkpoint.h"
-#include "tools/forage/checkpoint_file.h"
+#include "core/run/checkpoint_file.h"
+#include "core/observe/row_file.h"
 #include "tools/forage/commands.h"
 
 namespace forage::tool {
@@ -54,17 +54,17 @@ void check_files(const CheckpointOrigin& origin, const InputFiles& now, Diagnost
 
 /// The run as it was when the checkpoint was written. Throws what is wrong with the checkpoint; empty when
 /// `diagnostics` got an error.
-std::optional<Running> restore(const Found& found, const RunOptions& options, const Sources& sources,
+std::optional<PreparedRun> restore(const Found& found, const RunSpec& spec, const Sources& sources,
                                Diagnostics& diagnostics) {
     if (diagnostics.failed()) return std::nullopt;
-    auto running = prepare(sources, options, diagnostics);
-    if (!running) return std::nullopt;
-    check_files(found.origin, input_files(options, sources), diagnostics);
+    auto prepared = prepare(sources, spec, diagnostics);
+    if (!prepared) return std::nullopt;
+    check_files(found.origin, input_files(spec, sources), diagnostics);
     if (diagnostics.failed()) return std::nullopt;
     Archive archive(found.state);
-    archive(*running);
+    archive(prepared->run);
     if (!archive.left().empty()) throw ArchiveError("there is more in the checkpoint than the run keeps");
-    return running;
+    return prepared;
 }
 
 }  // namespace
@@ -89,21 +89,21 @@ int resume(const ResumeOptions& o, const RunParser& parse) {
             std::error_code moved;
             fs::current_path(found->origin.working_directory, moved);  // or stay, when it is gone
             RunOptions options = parse(found->origin.arguments);
-            options.arguments = found->origin.arguments;
-            options.directory = directory;
+            options.spec.arguments = found->origin.arguments;
+            options.spec.directory = directory;
             options.quiet |= o.quiet;
-            if (o.threads > 0) options.threads = o.threads;
+            if (o.threads > 0) options.spec.threads = o.threads;
             Diagnostics diagnostics;
-            const Sources sources = read(options.input, diagnostics);
-            auto running = restore(*found, options, sources, diagnostics);
+            const Sources sources = read_sources(options.spec.input, diagnostics);
+            auto prepared = restore(*found, options.spec, sources, diagnostics);
             if (diagnostics.failed() || !options.quiet) fmt::print(stderr, "{}", format(diagnostics));
-            if (!running) return bad_input;
+            if (!prepared) return bad_input;
             if (!refused.empty()) fmt::print(stderr, "warning: {}\n", refused);
             if (!refused.empty() || !options.quiet)
-                fmt::print(stderr, "going on from cycle {}\n", running->simulation.cycle());
+                fmt::print(stderr, "going on from cycle {}\n", prepared->run.cycle());
             // One that is newer, and damaged or not wanted, must not be kept instead of this one.
             if (path != checkpoint_path(directory)) fs::remove(checkpoint_path(directory));
-            return carry_on(options, sources, *running);
+            return run_to_end(options, *prepared);
         } catch (const CheckpointError& e) {
             refused += (refused.empty() ? "" : "\n") + std::string(e.what());
         } catch (const ArchiveError& e) {

@@ -1,155 +1,63 @@
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <thread>
-#include <utility>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include "tools/forage/checkpoint.h"
-#include "tools/forage/checkpoint_file.h"
+#include "core/run/checkpoint_file.h"
 #include "tools/forage/commands.h"
-#include "tools/forage/files.h"
-#include "tools/forage/length.h"
-#include "tools/forage/pictures.h"
 #include "tools/forage/progress.h"
-#include "tools/forage/result_names.h"
-#include "tools/forage/results.h"
-#include "tools/forage/running.h"
 #include "tools/forage/stop.h"
+#include "tools/forage/summary.h"
 
 namespace forage::tool {
-namespace {
 
-/// Notices, once a second, that the directory for results is not there any more: what is written into open
-/// files would be lost.
-class Watch {
-  public:
-    explicit Watch(std::string directory) : directory_(std::move(directory)) {}
-    bool gone() const { return !directory_.empty() && access(directory_.c_str(), F_OK) != 0; }
-    std::string current_exception_message() const { return fmt::format("the directory '{}' is not there any more", directory_); }
-    void look() {
-        const auto now = std::chrono::steady_clock::now();
-        if (now < next_) return;
-        next_ = now + std::chrono::seconds(1);
-        if (gone()) throw std::runtime_error(current_exception_message());
-    }
-
-  private:
-    std::string directory_;
-    std::chrono::steady_clock::time_point next_;
-};
-
-/// Runs until the end, or until something stops it. Throws what a cycle or a recording throws.
-void loop(const RunOptions& o, Running& r, const Length& length, Checkpoints& checkpoints, Watch& watch,
-          Progress& progress, Outcome& outcome) {
-    auto& simulation = r.simulation;
-    const double begun = r.seconds();
-    bool told = !r.diverged.empty();  // before the run went on
-    while (!length.over(simulation.cycle()) && !r.done()) {
-        r.cycle();
-        watch.look();
-        if (!r.diverged.empty() && !told) {
-            told = true;
-            progress.clear();
-            if (o.on_nan == OnNan::stop) throw std::runtime_error("stopped: " + r.diverged);
-            fmt::print(stderr, "warning: {}\n  hint: --on-nan stop ends the run there\n", r.diverged);
-        }
-        checkpoints.follow(r);
-        if (o.real_time)
-            if (const double ahead = r.seconds() - begun - progress.elapsed(); ahead > 0)
-                std::this_thread::sleep_for(std::chrono::duration<double>(ahead));
-        if (progress.due())
-            progress.draw({length.done(simulation.cycle()), simulation.cycle(), r.seconds(), length.text()});
-        outcome.stopped = noted_signal() ? stopped_by(noted_signal()) : length.hopeless();
-        if (noted_signal()) checkpoints.stop(r);
-        if (!outcome.stopped.empty()) return;
-    }
-}
-
-/// Writes what a run leaves behind; what cannot be written does not keep the rest from being written. Returns
-/// what went wrong.
-std::vector<std::string> write_results(const RunOptions& o, Running& r, Outcome& outcome) {
-    const auto earlier = files_of_last_run(o.directory);
-    auto problems = write_tables(o, r, outcome);
-    for (auto& problem : write_pictures(o, r, outcome)) problems.push_back(std::move(problem));
-    try {
-        write_file(o.directory + "/run.json", run_json(o, r.loaded, outcome));
-        outcome.files.emplace_back("run.json");
-    } catch (const std::exception& e) {
-        problems.emplace_back(e.what());
-    }
-    for (const auto& name : earlier)
-        if (std::find(outcome.files.begin(), outcome.files.end(), name) == outcome.files.end())
-            std::remove((o.directory + "/" + name).c_str());
-    return problems;
-}
-
-}  // namespace
-
-int run(const RunOptions& options) {
+int run(const RunOptions& o) {
     Diagnostics diagnostics;
-    if (!(options.recordings.empty() && options.plots.empty()) && options.directory.empty())
-        diagnostics.error({}, "--record and --plot need a directory to write to",
-                          "leave out -o '' or name one");
-    const Sources sources = read(options.input, diagnostics);
-    auto running = prepare(sources, options, diagnostics);
-    if (diagnostics.failed() || !options.quiet) fmt::print(stderr, "{}", format(diagnostics));
-    if (!running) return bad_input;
+    const RunSpec& spec = o.spec;
+    if (!(spec.recordings.empty() && spec.plots.empty()) && spec.directory.empty())
+        diagnostics.error({}, "--record and --plot need a directory to write to", "leave out -o '' or name one");
+    const Sources sources = read_sources(spec.input, diagnostics);
+    auto prepared = prepare(sources, spec, diagnostics);
+    if (diagnostics.failed() || !o.quiet) fmt::print(stderr, "{}", format(diagnostics));
+    if (!prepared) return bad_input;
     try {
-        check_result_names(options, *running);
-        if (!options.directory.empty()) remove_checkpoints(options.directory);  // of another run
-        if (running->recordings) running->recordings->begin();
+        begin(*prepared);
     } catch (const std::exception& e) {
         fmt::print(stderr, "error: {}\n  hint: choose another directory for the results with -o\n", e.what());
         return bad_input;
     }
-    return carry_on(options, sources, *running);
+    return run_to_end(o, *prepared);
 }
 
-int carry_on(const RunOptions& options, const Sources& sources, Running& running) {
+int run_to_end(const RunOptions& o, PreparedRun& prepared) {
     note_signals();
-    const Length length(options, running.loaded.world.get(), running.seconds_per_cycle);
-    Progress progress(!options.quiet);
-    Outcome outcome;
-    outcome.length = length.cycles();
-    outcome.first_cycle = running.simulation.cycle();
-    std::vector<std::string> problems;
-    Watch watch(options.directory);
-    try {
-        Checkpoints checkpoints(options, sources, running);
-        loop(options, running, length, checkpoints, watch, progress, outcome);
-    } catch (const std::exception& e) {
-        outcome.stopped = e.what();
-        problems.emplace_back(e.what());
-    }
-    if (running.film) try {
-            outcome.frames = running.film->finish();
-        } catch (const std::exception& e) {
-            problems.emplace_back(e.what());
-        }
-    note(running, outcome);
-    outcome.clock = std::max(progress.elapsed(), 1e-9);
-    progress.clear();
-    if (options.hash) try {
-            outcome.state = state_digest(running);
-        } catch (const std::exception& e) {
-            problems.emplace_back(e.what());
-        }
+    Run& run = prepared.run;
+    Progress progress(!o.quiet);
+    const double begun = run.seconds();
+    RunCallbacks callbacks;
+    callbacks.diverged = [&](const std::string& what) {
+        progress.clear();
+        fmt::print(stderr, "warning: {}\n  hint: --on-nan stop ends the run there\n", what);
+    };
+    callbacks.after_cycle = [&] {
+        if (o.real_time)
+            if (const double ahead = run.seconds() - begun - progress.elapsed(); ahead > 0)
+                std::this_thread::sleep_for(std::chrono::duration<double>(ahead));
+        if (progress.due())
+            progress.draw({prepared.stop.fraction_done(run), run.cycle(), run.seconds(), prepared.stop.progress(run)});
+    };
+    callbacks.interrupted = [] { return noted_signal() ? stopped_by(noted_signal()) : std::string(); };
 
-    if (watch.gone())
-        problems = {watch.current_exception_message()};
-    else if (!options.directory.empty())
-        for (auto& problem : write_results(options, running, outcome))
-            if (std::find(problems.begin(), problems.end(), problem) == problems.end())
-                problems.push_back(std::move(problem));
-    const bool finished = problems.empty() && !noted_signal();
-    if (options.checkpoint_every && finished) remove_checkpoints(options.directory);
-    outcome.resumable = options.checkpoint_every && !finished && has_checkpoint(options.directory);
-    if (!options.quiet) fmt::print("{}", summary(options, running.loaded, outcome));
-    for (const auto& problem : problems) fmt::print(stderr, "error: {}\n", problem);
-    if (!problems.empty()) return run_failed;
+    const RunOutcome outcome = forage::run_to_end(prepared, callbacks);
+    progress.clear();
+    const std::string& directory = prepared.spec.directory;
+    const bool finished = outcome.problems.empty() && !noted_signal();
+    if (prepared.checkpoints && finished) remove_checkpoints(directory);
+    const bool resumable = prepared.checkpoints && !finished && has_checkpoint(directory);
+    if (!o.quiet) fmt::print("{}", summary(prepared, outcome, resumable));
+    for (const auto& problem : outcome.problems) fmt::print(stderr, "error: {}\n", problem);
+    if (!outcome.problems.empty()) return run_failed;
     return noted_signal() ? 128 + noted_signal() : fine;
 }
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/forage/commands.h"
-#include "tools/forage/files.h"
+#include "core/base/output_files.h"
 #include "tools/plot/canvas.h"
 
 namespace forage::tool {

@@ -5,7 +5,7 @@
 
 #include "bug_interface/world/sdf_reader.h"
 #include "tools/forage/commands.h"
-#include "tools/forage/files.h"
+#include "core/base/output_files.h"
 #include "tools/plot/world_map.h"
 
 namespace forage::tool {

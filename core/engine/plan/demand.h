@@ -11,6 +11,10 @@ namespace forage::engine {
 /// be demanded. A demand for nothing prunes nothing, unless modules read groups.
 class Demand {
   public:
+    struct Output {
+        int module, port;
+    };
+
     /// Everything may be read and overwritten at any time, for interactive use.
     static Demand everything() {
         Demand out;
@@ -31,9 +35,22 @@ class Demand {
     bool overwrites(int group) const { return overwrites_everything_ || contains(overwritten_, group); }
     bool overwrites_anything() const { return overwrites_everything_ || !overwritten_.empty(); }
 
-    struct Output {
-        int module, port;
-    };
+    /// Whether everything in `other` is demanded here, too.
+    bool covers(const Demand& other) const {
+        const auto in = [](const std::vector<int>& all) { return [&all](int n) { return contains(all, n); }; };
+        const auto read = [&](const Output& o) {
+            return std::any_of(outputs_.begin(), outputs_.end(),
+                               [&](const Output& mine) { return mine.module == o.module && mine.port == o.port; });
+        };
+        const bool reads = reads_everything_ ||
+                           (!other.reads_everything_ && std::ranges::all_of(other.groups_, in(groups_)) &&
+                            std::ranges::all_of(other.inputs_, in(inputs_)) &&
+                            std::ranges::all_of(other.synapses_, in(synapses_)) &&
+                            std::ranges::all_of(other.outputs_, read));
+        return reads && (overwrites_everything_ ||
+                         (!other.overwrites_everything_ && std::ranges::all_of(other.overwritten_, in(overwritten_))));
+    }
+
     const std::vector<int>& groups() const { return groups_; }
     const std::vector<Output>& outputs() const { return outputs_; }
     const std::vector<int>& synapses() const { return synapses_; }

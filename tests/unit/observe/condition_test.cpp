@@ -27,7 +27,7 @@ struct Counting {
                                             bool trials = true) const {
         return observe::parse_condition(simulation.layout(), trials, text, "--at", diagnostics);
     }
-    bool holds(const std::string& text, const observe::SimTime& now = {}) const {
+    bool holds(const std::string& text, const SimTime& now = {}) const {
         Diagnostics diagnostics;
         const auto condition = parse(text, diagnostics);
         INFO(text << format(diagnostics));
@@ -49,7 +49,7 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 TEST_CASE("Conditions compare time, trials and cells") {
     Counting s;
-    const observe::SimTime now{100, 4.0, 7};
+    const SimTime now{100, 4.0, 7};
     for (const char* text : {"cycle 100",
                              "cycle 99",
                              "cycle >= 100",

@@ -1,0 +1,128 @@
+#include "core/base/output_files.h"
+
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace forage {
+
+void refuse_no_file(const std::string& path) {
+    std::error_code none;
+    if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
+        throw std::runtime_error(fmt::format("cannot write '{}': it is no file", path));
+}
+
+void check_output(const std::string& path, const std::string& example, Diagnostics& diagnostics) {
+    namespace fs = std::filesystem;
+    const std::string directory = fs::path(path).parent_path().string();
+    std::error_code none;
+    if (!directory.empty() && !fs::is_directory(directory, none))
+        diagnostics.error({}, fmt::format("there is no directory '{}' for '{}'", directory, path),
+                          "make it first, or name another");
+    else if (access(directory.empty() ? "." : directory.c_str(), W_OK | X_OK) != 0)
+        diagnostics.error({}, fmt::format("cannot write '{}': {}", path, std::strerror(errno)),
+                          "name a file in a directory that you may write to");
+    else if (fs::exists(path, none) && !fs::is_regular_file(path, none))
+        diagnostics.error({}, fmt::format("cannot write '{}': it is no file", path),
+                          fmt::format("name a file, such as {}", example));
+}
+
+std::string partial(const std::string& path) { return path + ".part"; }
+
+void finish(const std::string& path) {
+    std::error_code error;
+    std::filesystem::rename(partial(path), path, error);
+    if (error) throw std::runtime_error(fmt::format("cannot write '{}': {}", path, error.message()));
+}
+
+namespace {
+
+void write_partial(const std::string& path, std::string_view text) {
+    refuse_no_file(path);
+    std::ofstream out(partial(path), std::ios::binary);
+    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    out.close();
+    if (!out) {
+        const std::string reason = std::strerror(errno);
+        std::error_code ignored;
+        std::filesystem::remove(partial(path), ignored);
+        throw std::runtime_error(fmt::format("cannot write '{}': {}", path, reason));
+    }
+}
+
+void flush(const std::string& path, int flags) {
+    const int file = open(path.c_str(), flags | O_CLOEXEC);
+    const bool fine = file >= 0 && fsync(file) == 0;
+    const std::string reason = std::strerror(errno);
+    if (file >= 0) close(file);
+    if (!fine) throw std::runtime_error(fmt::format("cannot write '{}' to the disk: {}", path, reason));
+}
+
+/// The names in the directory of `path`.
+void flush_directory(const std::string& path) {
+    const auto directory = std::filesystem::path(path).parent_path().string();
+    flush(directory.empty() ? "." : directory, O_RDONLY | O_DIRECTORY);
+}
+
+}  // namespace
+
+void write_file(const std::string& path, std::string_view text) {
+    write_partial(path, text);
+    finish(path);
+}
+
+void write_durably(const std::string& path, std::string_view text, const std::string& keep) {
+    write_partial(path, text);
+    flush(partial(path), O_RDONLY);
+    if (!keep.empty() && std::filesystem::exists(path)) std::filesystem::rename(path, keep);
+    finish(path);
+    flush_directory(path);
+}
+
+void flush_to_disk(const std::string& path) {
+    flush(path, O_RDONLY);
+    flush_directory(path);
+}
+
+std::string digest(std::string_view text) {
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    return fmt::format("{:016x}", hash);
+}
+
+void make_directory(const std::string& path) {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (error)
+        throw std::runtime_error(fmt::format("cannot make the directory '{}': {}", path, error.message()));
+    if (access(path.c_str(), W_OK) != 0)
+        throw std::runtime_error(fmt::format("cannot write into '{}': {}", path, std::strerror(errno)));
+}
+
+DirectoryHold::DirectoryHold(const std::string& directory)
+    : file_(open(directory.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (file_ < 0 || flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+    close(file_);
+    throw std::runtime_error(fmt::format("another forage is writing into '{}'", directory));
+}
+
+DirectoryHold::~DirectoryHold() {
+    if (file_ >= 0) close(file_);
+}
+
+std::string file_name(std::string_view text) {
+    std::string out(text);
+    for (char& c : out)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-') c = '_';
+    return out;
+}
+
+}  // namespace forage

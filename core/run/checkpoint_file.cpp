@@ -1,0 +1,81 @@
+#include "core/run/checkpoint_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "core/base/archive.h"
+#include "core/base/output_files.h"
+
+namespace forage {
+namespace {
+
+constexpr std::string_view magic = "forage checkpoint\n";
+constexpr std::uint32_t version = 6;  ///< of everything that is in one
+
+}  // namespace
+
+std::string checkpoint_path(const std::string& directory) { return directory + "/checkpoint.forage"; }
+std::string previous_checkpoint_path(const std::string& directory) {
+    return directory + "/checkpoint.previous.forage";
+}
+
+void write_checkpoint(const std::string& directory, std::string_view content) {
+    Archive head;
+    std::uint32_t number = version;
+    std::uint64_t length = content.size();
+    std::string sum = digest(content);
+    head(number, length, sum);
+    write_durably(checkpoint_path(directory), fmt::format("{}{}{}", magic, head.bytes(), content),
+                  previous_checkpoint_path(directory));
+}
+
+std::string read_checkpoint(const std::string& path) {
+    const auto refuse = [&](const std::string& why) {
+        throw CheckpointError(fmt::format("checkpoint '{}' {}", path, why));
+    };
+    std::error_code none;
+    if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
+        refuse("is not a file");
+    std::ifstream in(path, std::ios::binary);
+    if (!in) refuse(fmt::format("cannot be read: {}", std::strerror(errno)));
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    if (!text.starts_with(magic))
+        refuse(text.size() < magic.size() && magic.starts_with(text) ? "is damaged: it ends too early"
+                                                                     : "is not a checkpoint of forage");
+    Archive head{std::string_view(text).substr(magic.size())};
+    std::uint32_t number = 0;
+    std::uint64_t length = 0;
+    std::string sum;
+    try {
+        head(number);
+        if (number != version)
+            refuse(fmt::format("has version {}, and this forage reads version {}", number, version));
+        head(length, sum);
+    } catch (const ArchiveError&) {
+        refuse("is damaged: it ends too early");
+    }
+    const auto content = head.left();
+    if (content.size() != length)
+        refuse(fmt::format("is damaged: it has {} bytes instead of {}", content.size(), length));
+    if (digest(content) != sum) refuse("is damaged: its checksum is wrong");
+    return std::string(content);
+}
+
+bool has_checkpoint(const std::string& directory) {
+    std::error_code none;
+    return std::filesystem::exists(checkpoint_path(directory), none) ||
+           std::filesystem::exists(previous_checkpoint_path(directory), none);
+}
+
+void remove_checkpoints(const std::string& directory) {
+    std::error_code ignored;
+    std::filesystem::remove(checkpoint_path(directory), ignored);
+    std::filesystem::remove(previous_checkpoint_path(directory), ignored);
+}
+
+}  // namespace forage

@@ -1,0 +1,203 @@
+#include "core/run/experiment/runs.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "core/model/edit.h"
+#include "core/model/validate.h"
+
+namespace forage {
+namespace {
+
+/// Checks one value of a sweep in place of the first one.
+void check_value(const model::Sweep& sweep, const model::Expression& value, const Run& run,
+                 Diagnostics& diagnostics) {
+    const auto assignment =
+        model::parse_assignment(run.system(), run.registry(), sweep.parameter.text + "=" + value.text, "sweep",
+                                diagnostics, value.at);
+    if (!assignment) return;
+    model::System system = run.system();
+    model::set(system, *assignment);
+    Diagnostics found;
+    model::validate(system, run.registry(), found, run.environment());
+    for (const auto& d : found.all())
+        if (d.severity == Severity::error)
+            diagnostics.error(
+                value.at, fmt::format("{} = {}: {}", sweep.parameter.text, value.text, d.message), d.hint);
+}
+
+std::string first_error(const Diagnostics& diagnostics) {
+    for (const auto& d : diagnostics.all())
+        if (d.severity == Severity::error) return d.message;
+    return "unknown";
+}
+
+RunResult failed(std::string why) {
+    RunResult out;
+    out.failure = std::move(why);
+    return out;
+}
+
+/// What all threads work on.
+class Work {
+  public:
+    Work(const model::Experiment& experiment, const PrepareRun& prepare, std::span<const PlannedRun> runs,
+         const std::string& digests, bool fresh, const ExperimentCallbacks& callbacks)
+        : experiment_(experiment),
+          prepare_(prepare),
+          runs_(runs),
+          results_(runs.size()),
+          digests_(digests),
+          callbacks_(callbacks) {
+        for (std::size_t i = 0; i < runs.size(); ++i) {
+            if (!fresh) results_[i] = read_result(runs[i], key(i));
+            if (!results_[i]) open_.push_back(i);
+        }
+        earlier_ = runs.size() - open_.size();
+    }
+
+    std::size_t open() const { return open_.size(); }
+
+    /// Makes runs until there are none left, or the experiment is interrupted. `part`: how far the current one is.
+    void take_part(std::atomic<double>& part) {
+        for (std::size_t i; (i = next_++) < open_.size() && !interrupted();) {
+            auto result = make(open_[i], part);
+            if (!result) return;
+            part = 0;
+            const std::lock_guard lock(results_mutex_);
+            (result->failure.empty() ? done_ : failed_) += 1;
+            results_[open_[i]] = std::move(result);
+        }
+    }
+
+    /// `parts`: of the runs under way; `elapsed` s since the start.
+    ExperimentCallbacks::Progress progress(double parts, double elapsed) const {
+        ExperimentCallbacks::Progress out;
+        const double made = static_cast<double>(done_ + failed_) + parts;
+        out.finished = earlier_ + done_ + failed_, out.failed = failed_, out.all = runs_.size();
+        out.done = (static_cast<double>(earlier_) + made) / static_cast<double>(runs_.size());
+        if (made > 0.02 && elapsed > 1)
+            out.seconds_left = elapsed * (static_cast<double>(open_.size()) - made) / made;
+        return out;
+    }
+
+    std::optional<std::vector<RunResult>> results() {
+        std::vector<RunResult> out;
+        for (auto& r : results_) {
+            if (!r) return std::nullopt;
+            out.push_back(std::move(*r));
+        }
+        return out;
+    }
+
+  private:
+    std::string key(std::size_t run) const { return key_of(runs_[run], experiment_, digests_); }
+    bool interrupted() const { return callbacks_.interrupted && callbacks_.interrupted(); }
+
+    /// Empty when it was interrupted.
+    std::optional<RunResult> make(std::size_t index, std::atomic<double>& part) {
+        const PlannedRun& run = runs_[index];
+        try {
+            forget_result(run);
+            Diagnostics diagnostics;
+            std::optional<PreparedRun> prepared;
+            {
+                const std::lock_guard lock(libraries_);
+                prepared = prepare_(run.spec, diagnostics);
+                ResultFiles files(run.spec.directory);
+                if (prepared)
+                    for (const auto& o : prepared->run.observers()) o->begin_files(files);
+            }
+            if (!prepared) return failed(first_error(diagnostics));
+            return make(index, *prepared, part);
+        } catch (const std::exception& e) {
+            return failed(e.what());
+        }
+    }
+
+    std::optional<RunResult> make(std::size_t index, PreparedRun& prepared, std::atomic<double>& part) {
+        Run& run = prepared.run;
+        RunResult result;
+        bool stopped_by_user = false;
+        while (!prepared.stop.reached(run) && result.stopped.empty() && !stopped_by_user) {
+            run.step();
+            part.store(prepared.stop.fraction_done(run), std::memory_order_relaxed);
+            stopped_by_user = interrupted();
+            result.stopped = prepared.stop.gives_up(run);
+        }
+        result.diverged = run.divergence();
+        result.cycles = run.cycle(), result.seconds = run.seconds();
+        if (run.has_trials()) {
+            const auto& trials = run.environment()->trials(0);
+            result.trials = trials.size();
+            result.reached = static_cast<std::uint64_t>(
+                std::count_if(trials.begin(), trials.end(), [](const Trial& t) { return t.reached_target; }));
+        }
+        result.measures = run.measure(*prepared.measures);
+        ResultFiles files(prepared.spec.directory);
+        {
+            const std::lock_guard lock(libraries_);
+            run.finish(files);
+        }
+        if (stopped_by_user) return std::nullopt;
+        if (!files.problems().empty()) return failed(files.problems().front());
+        write_result(runs_[index], key(index), result, files.names());
+        return result;
+    }
+
+    const model::Experiment& experiment_;
+    const PrepareRun& prepare_;
+    std::span<const PlannedRun> runs_;
+    std::vector<std::optional<RunResult>> results_;
+    std::string digests_;
+    const ExperimentCallbacks& callbacks_;
+    std::vector<std::size_t> open_;  ///< runs that have no result yet
+    std::size_t earlier_ = 0;        ///< runs that had one
+    std::atomic<std::size_t> next_ = 0, done_ = 0, failed_ = 0;
+    std::mutex libraries_;  ///< libraries that read files and draw may not be used by two threads at a time
+    std::mutex results_mutex_;
+};
+
+}  // namespace
+
+void check_experiment(const model::Experiment& e, const PrepareRun& prepare, std::span<const PlannedRun> runs,
+                      Diagnostics& diagnostics) {
+    RunSpec spec = runs.front().spec;
+    spec.directory.clear();  // nothing is written
+    if (const auto prepared = prepare(spec, diagnostics))
+        for (const auto& sweep : e.sweeps)
+            for (const auto& value : sweep.values)
+                if (&value != &sweep.values.front()) check_value(sweep, value, prepared->run, diagnostics);
+}
+
+std::optional<std::vector<RunResult>> run_experiment(const model::Experiment& experiment, const PrepareRun& prepare,
+                                                     std::span<const PlannedRun> runs, const std::string& digests,
+                                                     int jobs, bool fresh, const ExperimentCallbacks& callbacks) {
+    using Clock = std::chrono::steady_clock;
+    Work work(experiment, prepare, runs, digests, fresh, callbacks);
+    std::vector<std::atomic<double>> parts(std::min(static_cast<std::size_t>(jobs), work.open()));
+    std::atomic<std::size_t> busy = parts.size();
+    std::vector<std::thread> threads;
+    const auto begun = Clock::now();
+    for (auto& part : parts)
+        threads.emplace_back([&work, &part, &busy] {
+            work.take_part(part);
+            --busy;
+        });
+    while (busy > 0) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        if (!callbacks.progress) continue;
+        double sum = 0;
+        for (const auto& part : parts) sum += part;
+        callbacks.progress(work.progress(sum, std::chrono::duration<double>(Clock::now() - begun).count()));
+    }
+    for (auto& thread : threads) thread.join();
+    return work.results();
+}
+
+}  // namespace forage

@@ -1,0 +1,159 @@
+#include "core/run/experiment/tables.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace forage {
+namespace {
+
+/// A field of a CSV file (RFC 4180).
+std::string field(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string out = "\"";
+    for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return out + "\"";
+}
+
+template <class T>
+std::string field(const std::optional<T>& value) {
+    return value ? fmt::format("{}", *value) : "";
+}
+
+std::string row(const std::vector<std::string>& fields) {
+    return fmt::format("{}\n", fmt::join(fields, ","));
+}
+
+struct Statistics {
+    std::size_t n = 0;
+    double mean = 0, deviation = 0, least = 0, most = 0;
+};
+
+Statistics statistics(const std::vector<double>& values) {
+    Statistics s;
+    s.n = values.size();
+    if (values.empty()) return s;
+    for (const double v : values) s.mean += v;
+    s.mean /= static_cast<double>(s.n);
+    for (const double v : values) s.deviation += (v - s.mean) * (v - s.mean);
+    s.deviation = s.n > 1 ? std::sqrt(s.deviation / static_cast<double>(s.n - 1)) : 0;
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    s.least = *least, s.most = *most;
+    return s;
+}
+
+/// The runs of one combination of swept values: of all seeds, one after the other.
+struct Combination {
+    std::span<const PlannedRun> runs;
+    std::span<const RunResult> results;
+
+    std::size_t finished() const {
+        return static_cast<std::size_t>(
+            std::count_if(results.begin(), results.end(), [](const auto& r) { return r.failure.empty(); }));
+    }
+    Statistics of(std::size_t measure) const {
+        std::vector<double> values;
+        for (const auto& r : results)
+            if (r.failure.empty() && r.measures[measure]) values.push_back(*r.measures[measure]);
+        return statistics(values);
+    }
+};
+
+std::vector<Combination> combinations(const model::Experiment& e, std::span<const PlannedRun> runs,
+                                      std::span<const RunResult> results) {
+    std::vector<Combination> out;
+    const std::size_t n = e.seeds.size();
+    for (std::size_t first = 0; first < runs.size(); first += n)
+        out.push_back({runs.subspan(first, n), results.subspan(first, n)});
+    return out;
+}
+
+}  // namespace
+
+std::string results_csv(const model::Experiment& e, std::span<const PlannedRun> runs,
+                        std::span<const RunResult> results) {
+    const bool trials =
+        std::any_of(results.begin(), results.end(), [](const auto& r) { return r.trials.has_value(); });
+    std::vector<std::string> header = {"run"};
+    for (const auto& s : e.sweeps) header.push_back(field(s.parameter.text));
+    for (const char* name : {"seed", "status", "cycles", "seconds"}) header.emplace_back(name);
+    if (trials) header.emplace_back("trials"), header.emplace_back("reached");
+    for (const auto& m : e.measures) header.push_back(field(m.name));
+    header.emplace_back("remark");
+    std::string out = row(header);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const RunResult& r = results[i];
+        const bool failed = !r.failure.empty();
+        std::vector<std::string> fields = {runs[i].name};
+        for (const auto& value : runs[i].values) fields.push_back(field(value));
+        fields.push_back(fmt::format("{}", runs[i].spec.input.seed));
+        fields.emplace_back(failed ? "failed" : r.stopped.empty() ? "finished" : "stopped");
+        fields.push_back(failed ? "" : fmt::format("{}", r.cycles));
+        fields.push_back(failed ? "" : fmt::format("{}", r.seconds));
+        if (trials) fields.push_back(field(r.trials)), fields.push_back(field(r.reached));
+        for (std::size_t m = 0; m < e.measures.size(); ++m)
+            fields.push_back(failed ? "" : field(r.measures[m]));
+        fields.push_back(field(failed ? r.failure : r.stopped.empty() ? r.diverged : r.stopped));
+        out += row(fields);
+    }
+    return out;
+}
+
+std::string summary_csv(const model::Experiment& e, std::span<const PlannedRun> runs,
+                        std::span<const RunResult> results) {
+    std::vector<std::string> header;
+    for (const auto& s : e.sweeps) header.push_back(field(s.parameter.text));
+    header.emplace_back("runs");
+    for (const auto& m : e.measures)
+        for (const char* what : {"mean", "sd", "min", "max", "runs"})
+            header.push_back(field(fmt::format("{} {}", m.name, what)));
+    std::string out = row(header);
+    for (const auto& c : combinations(e, runs, results)) {
+        std::vector<std::string> fields;
+        for (const auto& value : c.runs.front().values) fields.push_back(field(value));
+        fields.push_back(fmt::format("{}", c.finished()));
+        for (std::size_t m = 0; m < e.measures.size(); ++m) {
+            const Statistics s = c.of(m);
+            fields.push_back(s.n ? fmt::format("{}", s.mean) : "");
+            fields.push_back(s.n > 1 ? fmt::format("{}", s.deviation) : "");
+            fields.push_back(s.n ? fmt::format("{}", s.least) : "");
+            fields.push_back(s.n ? fmt::format("{}", s.most) : "");
+            fields.push_back(fmt::format("{}", s.n));
+        }
+        out += row(fields);
+    }
+    return out;
+}
+
+std::string summary_text(const model::Experiment& e, std::span<const PlannedRun> runs,
+                         std::span<const RunResult> results) {
+    std::vector<std::vector<std::string>> table(1);
+    for (const auto& s : e.sweeps) table[0].push_back(s.parameter.text);
+    for (const auto& m : e.measures) table[0].push_back(m.name);
+    table[0].emplace_back("runs");
+    for (const auto& c : combinations(e, runs, results)) {
+        auto& line = table.emplace_back(c.runs.front().values);
+        for (std::size_t m = 0; m < e.measures.size(); ++m) {
+            const Statistics s = c.of(m);
+            line.push_back(s.n == 0  ? "none"
+                           : s.n > 1 ? fmt::format("{:.4g} +- {:.2g}", s.mean, s.deviation)
+                                     : fmt::format("{:.4g}", s.mean));
+            if (s.n && s.n < c.finished()) line.back() += fmt::format(" ({} of {})", s.n, c.finished());
+        }
+        line.push_back(fmt::format("{}", c.finished()));
+    }
+    std::string out;
+    for (const auto& line : table) {
+        std::string text;
+        for (std::size_t column = 0; column < line.size(); ++column) {
+            std::size_t width = 0;
+            for (const auto& other : table) width = std::max(width, other[column].size());
+            text += fmt::format("  {:<{}}", line[column], width);
+        }
+        out += text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
+    }
+    return out;
+}
+
+}  // namespace forage

@@ -1,0 +1,51 @@
+#include "core/run/input_files.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "core/base/output_files.h"
+#include "core/model/validate.h"
+
+namespace forage {
+namespace {
+
+void add(InputFiles& all, const Location& where) {
+    if (where.file) all[where.file->path] = digest(where.file->text);
+}
+
+}  // namespace
+
+std::string file_digest(const std::string& path) {
+    std::error_code none;  // what came through a pipe is not there any more
+    if (!std::filesystem::is_regular_file(path, none)) return digest({});
+    std::ifstream in(path, std::ios::binary);
+    return digest({std::string(std::istreambuf_iterator<char>(in), {})});
+}
+
+InputFiles system_files(const model::System& system) {
+    InputFiles out;
+    add(out, system.at);
+    for (const auto& p : system.processes) add(out, p.at);
+    return out;
+}
+
+std::vector<std::string> module_files(const model::System& system, const Registry& registry,
+                                      const std::vector<model::Assignment>& changes) {
+    std::set<std::string> out;
+    for (const auto& p : system.processes) {
+        const ModuleType* type = p.module ? registry.module(p.module->type) : nullptr;
+        if (!type) continue;
+        const auto module = type->make();
+        model::apply(p.module->settings, type->parameters, module->parameters());
+        for (const auto& parameter : type->parameters)
+            if (parameter.is_path) out.insert(std::get<std::string>(parameter.get(module->parameters())));
+    }
+    for (const auto& change : changes)
+        if (change.parameter && change.parameter->is_path) out.insert(std::get<std::string>(change.value));
+    out.erase("");
+    return {out.begin(), out.end()};
+}
+
+}  // namespace forage

@@ -1,0 +1,47 @@
+// Records into memory.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/column.h"
+#include "core/observe/observer.h"
+#include "core/observe/source.h"
+
+namespace forage {
+
+/// Keeps the numbers of a source, a row per recorded cycle.
+class MemoryRecorder final : public Observer {
+  public:
+    using Rows = Eigen::Map<const Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+
+    /// Records every `every`-th cycle, from cycle 0 on.
+    explicit MemoryRecorder(observe::Source source, std::uint64_t every = 1)
+        : source_(std::move(source)), every_(every) {}
+
+    const observe::Recorded& what() const { return source_.what(); }
+    /// The recorded cycles.
+    const std::vector<std::uint64_t>& cycles() const { return cycles_; }
+    /// The numbers: a row per recorded cycle, a column per cell. Valid until the next cycle.
+    Rows rows() const {
+        return {numbers_.data(), static_cast<Index>(cycles_.size()), static_cast<Index>(source_.what().size())};
+    }
+
+    void declare(engine::Demand& demand) const override { source_.declare(demand); }
+    void after_cycle(RunView& view) override {
+        const std::uint64_t cycle = view.time.cycle - 1;
+        if (cycle % every_ != 0) return;
+        cycles_.push_back(cycle);
+        numbers_.resize(numbers_.size() + source_.what().size());
+        source_.read(view.simulation, std::span(numbers_).last(source_.what().size()));
+    }
+    void checkpoint(Archive& archive) override { archive(cycles_, numbers_); }
+
+  private:
+    observe::Source source_;
+    std::uint64_t every_;
+    std::vector<std::uint64_t> cycles_;
+    std::vector<double> numbers_;
+};
+
+}  // namespace forage

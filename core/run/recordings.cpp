@@ -1,0 +1,199 @@
+#include "core/run/recordings.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/observe/npz.h"
+#include "core/base/output_files.h"
+
+namespace forage {
+namespace {
+
+using observe::RecordingFormat;
+
+struct FormatName {
+    std::string_view name;
+    RecordingFormat format;
+    bool archive;  ///< several .npy files in one
+};
+constexpr std::array<FormatName, 5> formats = {{{"csv", RecordingFormat::csv, false},
+                                                {"npy", RecordingFormat::npy, false},
+                                                {"npz", RecordingFormat::npy, true},
+                                                {"h5", RecordingFormat::hdf5, false},
+                                                {"dat", RecordingFormat::sampler, false}}};
+
+/// The format that the end of a file's name asks for; null when there is none.
+const FormatName* format_of(std::string_view file) {
+    for (const auto& f : formats)
+        if (file.size() > f.name.size() + 1 && file.ends_with(f.name) &&
+            file[file.size() - f.name.size() - 1] == '.')
+            return &f;
+    return nullptr;
+}
+
+/// "Process/Group=file.h5" taken apart; no file when none is named.
+std::pair<std::string, std::string> take_apart(const std::string& text) {
+    const auto equals = text.rfind('=');
+    if (equals == std::string::npos || !format_of(text.substr(equals + 1))) return {text, {}};
+    return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+}  // namespace
+
+std::vector<RecordingFile> recorded_files(const std::vector<model::RecordingSpec>& recordings,
+                                          const RecordOptions& options, const engine::Layout& layout,
+                                          Diagnostics& diagnostics) {
+    std::vector<RecordingFile> out;
+    const auto find = [&](const std::string& name) {
+        return std::find_if(out.begin(), out.end(), [&](const auto& f) { return f.name == name; });
+    };
+    std::set<std::string> seen;
+    for (const auto& asked : recordings) {
+        const std::string& wish = asked.column.text;
+        const std::string option = asked.column.at.file ? "record" : "--record";
+        const auto [text, file] = take_apart(wish);
+        if (file != file_name(file)) {
+            diagnostics.error(asked.column.at,
+                              fmt::format("{} \'{}\': '{}' is not a plain file name", option, wish, file),
+                              "-o chooses the directory; names have letters, digits, '.', '-' and '_'");
+            continue;
+        }
+        auto source = observe::find_source(layout, text, option, diagnostics, asked.column.at);
+        if (!source) continue;
+        const observe::Recorded& what = source->what();
+        if (!seen.insert(file + "\n" + what.name + "\n" + what.group_id).second) continue;  // named twice
+        const FormatName& format = *format_of(file.empty() ? "x." + options.format : file);
+        const bool several = observe::holds_several(format.format);
+        std::string stem = file_name(what.name), archive;
+        if (format.archive) archive = file.empty() ? "recording.npz" : file;
+        std::string name =
+            fmt::format("{}.{}", several ? "recording" : stem, format.archive ? "npy" : format.name);
+        if (!file.empty() && !format.archive) name = file;
+        auto at = find(name);
+        if (at != out.end() && !several && file.empty()) {  // two groups of one name
+            name =
+                fmt::format("{}_{}.{}", stem, file_name(what.group_id), format.archive ? "npy" : format.name);
+            at = find(name);
+        }
+        if (at == out.end()) {
+            out.push_back({name, format.format, {}, asked.every, archive});
+            at = out.end() - 1;
+        } else if (!several) {
+            diagnostics.error(
+                asked.column.at,
+                fmt::format("{} \'{}\': a .{} file holds one source", option, wish, format.name),
+                "name another file, or one that ends in .npz, .h5 or .dat");
+            continue;
+        }
+        if (at->every != asked.every) {
+            diagnostics.error(asked.column.at,
+                              fmt::format("{} '{}': '{}' has a row every {} cycles, not every {}", option,
+                                          wish, name, at->every, asked.every),
+                              "name another file for it");
+            continue;
+        }
+        at->sources.push_back(std::move(*source));
+    }
+    return out;
+}
+
+Recordings::Recordings(std::vector<RecordingFile> files, const RecordOptions& options,
+                       const std::string& directory,
+                       const std::vector<std::pair<std::string, std::string>>& attributes)
+    : options_(options), directory_(directory) {
+    for (auto& f : files) {
+        observe::RowFileHeader header{{}, f.every, attributes};
+        for (const auto& s : f.sources) {
+            header.sources.push_back(s.what());
+            entries_.push_back({f.archive.empty() ? f.name : f.archive, s.what().name, s.what().label});
+        }
+        std::string path = directory + "/" + f.name;
+        all_.push_back({std::move(f), std::move(path), std::move(header), std::nullopt});
+    }
+}
+
+void Recordings::open(File& f, const std::optional<observe::RowFilePosition>& go_on) {
+    f.recorder.emplace(observe::open_row_file(f.file.format, partial(f.path), f.header, go_on),
+                       f.file.sources,
+                       observe::Sampling{f.file.every, options_.from, options_.until, options_.mean});
+}
+
+void Recordings::begin_files(ResultFiles&) {
+    try {
+        for (auto& f : all_) open(f, std::nullopt);
+    } catch (...) {
+        for (const auto& f : all_)
+            if (f.recorder) std::remove(partial(f.path).c_str());
+        throw;
+    }
+}
+
+/// A file that was finished, when the run was stopped in order, grows under its other name again.
+void Recordings::reopen(const File& f) const {
+    namespace fs = std::filesystem;
+    if (fs::exists(partial(f.path))) return;
+    const std::string archive = directory_ + "/" + f.file.archive;
+    if (!f.file.archive.empty() && fs::exists(archive)) {
+        const std::string unpacked = partial(f.path + ".unpacked");  // killed now, it would be there in part
+        observe::extract_npz(archive, f.header.sources.front().name, unpacked);
+        fs::rename(unpacked, partial(f.path));
+    } else if (f.file.archive.empty() && fs::exists(f.path)) {
+        fs::rename(f.path, partial(f.path));
+    } else {
+        throw observe::ShortFile(fmt::format("the recording '{}' is not there", f.path));
+    }
+}
+
+void Recordings::checkpoint(Archive& archive) {
+    archive.same(all_.size(), "the number of recordings");
+    std::vector<observe::RowFilePosition> positions;
+    for (auto& f : all_) {
+        archive.same(f.path.substr(directory_.size()), "a recording");
+        auto& position = positions.emplace_back();
+        if (!archive.loading()) position = f.recorder->flush();
+        archive(position);
+        if (!archive.loading()) flush_to_disk(partial(f.path));
+    }
+    if (archive.loading()) {
+        for (const auto& f : all_) reopen(f);  // all are there before any is changed
+        for (std::size_t i = 0; i < all_.size(); ++i) open(all_[i], positions[i]);
+    }
+    for (auto& f : all_) archive(*f.recorder);
+}
+
+void Recordings::finish(RunView&, ResultFiles& files) {
+    for (const auto& name : file_names()) files.attempt([] {}, {name});
+    for (const auto& e : entries_) files.add_recording(e);
+    const auto attempt = [&](const auto& action) { files.attempt(action); };
+    std::map<std::string, std::vector<std::pair<std::string, std::string>>> archives;
+    for (auto& f : all_) {
+        attempt([&] { f.recorder->close(); });
+        // What it holds is whole in any case.
+        if (f.file.archive.empty())
+            attempt([&] { forage::finish(f.path); });
+        else
+            archives[f.file.archive].emplace_back(f.header.sources.front().name, partial(f.path));
+    }
+    for (const auto& [name, arrays] : archives)
+        attempt([&, &name = name, &arrays = arrays] {
+            const std::string path = directory_ + "/" + name;
+            observe::join_npz(partial(path), arrays);
+            forage::finish(path);
+            for (const auto& [array, file] : arrays) std::remove(file.c_str());
+        });
+}
+
+std::vector<std::string> Recordings::file_names() const {
+    std::vector<std::string> out;
+    for (const auto& e : entries_)
+        if (std::find(out.begin(), out.end(), e.file) == out.end()) out.push_back(e.file);
+    return out;
+}
+
+}  // namespace forage

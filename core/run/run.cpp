@@ -1,0 +1,210 @@
+#include "core/run/run.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/output_files.h"
+#include "core/model/edit.h"
+#include "core/run/result_files.h"
+#include "core/run/stop_condition.h"
+
+namespace forage {
+namespace {
+
+/// Cycles per second of a system; one that runs as fast as possible is taken to run 25.
+double cycles_per_second(const model::System& system) {
+    return system.cycles_per_second > 0 ? system.cycles_per_second : 25;
+}
+
+std::string describe(const engine::NotFinite& what, const engine::Layout& layout) {
+    const auto& group = layout.groups[static_cast<std::size_t>(what.group)];
+    const auto cell = group.shape.cells == group.shape.width * group.shape.height
+                          ? fmt::format("({}, {})", what.cell % group.shape.width + 1,
+                                        what.cell / group.shape.width + 1)
+                          : fmt::format("{}", what.cell + 1);
+    return fmt::format("in cycle {} '{}' of '{}' becomes {} in cell {}", what.cycle,
+                       group.type.states[static_cast<std::size_t>(what.state)].name, group.path, what.value, cell);
+}
+
+void throw_errors(const Diagnostics& diagnostics) {
+    if (diagnostics.failed()) throw InputError(format(diagnostics));
+}
+
+}  // namespace
+
+std::optional<Run> Run::make(model::System system, Registry registry, std::unique_ptr<Environment> environment,
+                             const Options& options, Diagnostics& diagnostics) {
+    auto layout = engine::make_layout(system, registry, diagnostics, environment.get());
+    if (!layout) return std::nullopt;
+    return Run(std::move(system), std::move(registry), std::move(environment), std::move(*layout), options);
+}
+
+Run::Run(model::System system, Registry registry, std::unique_ptr<Environment> environment, engine::Layout layout,
+         const Options& options)
+    : system_(std::move(system)),
+      registry_(std::move(registry)),
+      environment_(std::move(environment)),
+      layout_(std::move(layout)),
+      options_(options),
+      seconds_per_cycle_(environment_ ? environment_->seconds_per_cycle() : 1 / cycles_per_second(system_)) {
+    if (options.compute_everything) demand_ = engine::Demand::everything();
+}
+Run::Run(Run&&) noexcept = default;
+Run& Run::operator=(Run&&) noexcept = default;
+Run::~Run() = default;
+
+void Run::add_observer(std::unique_ptr<Observer> observer) {
+    if (simulation_) {
+        engine::Demand wanted;
+        observer->declare(wanted);
+        if (!demand_.covers(wanted))
+            throw InputError(
+                "this run does not compute what the observer reads or overwrites: add it before the first cycle, or compute "
+                "everything");
+    }
+    observers_.push_back(std::move(observer));
+}
+
+void Run::remove(const Observer& observer) {
+    std::erase_if(observers_, [&](const auto& o) { return o.get() == &observer; });
+}
+
+bool Run::start(Diagnostics& diagnostics) {
+    if (simulation_) return true;
+    for (const auto& o : observers_) o->declare(demand_);
+    simulation_ = engine::Simulation::build(system_, layout_, demand_,
+                                            {.seed = options_.seed,
+                                             .threads = options_.threads,
+                                             .environment = environment_.get()},
+                                            diagnostics);
+    if (!simulation_) return false;
+    for (const auto& o : observers_) o->check(*simulation_, diagnostics);
+    if (diagnostics.failed()) return simulation_.reset(), false;
+    simulation_->start();
+    simulation_->check_finite(options_.check_finite);
+    return true;
+}
+
+void Run::start() {
+    if (simulation_) return;
+    Diagnostics diagnostics;
+    start(diagnostics);
+    throw_errors(diagnostics);
+}
+
+SimTime Run::time() const {
+    const int trial = has_trials() ? static_cast<int>(environment_->trials(0).size()) + 1 : 0;
+    return {cycle(), seconds(), trial};
+}
+
+RunView Run::view() { return {*simulation_, environment_.get(), time(), *this}; }
+
+void Run::step() {
+    if (!simulation_) start();
+    auto& simulation = *simulation_;
+    RunView before = view();
+    for (const auto& o : observers_) o->before_cycle(before);
+    simulation.update_groups();
+    if (simulation.not_finite() && divergence_.empty())
+        divergence_ = describe(*simulation.not_finite(), simulation.layout());
+    for (const auto& o : observers_) o->after_groups(before);
+    simulation.update_modules();
+    simulation.update_connections();
+    if (environment_) environment_->step();
+    RunView after = view();
+    for (const auto& o : observers_) o->after_cycle(after);
+}
+
+std::string Run::until(const RunLength& length) {
+    Diagnostics diagnostics;
+    const StopCondition stop = StopCondition::make(length, *this, diagnostics);
+    throw_errors(diagnostics);
+    start();
+    const auto origin = stop.begin(*this);
+    while (!stop.reached(*this, origin)) {
+        step();
+        if (auto why = stop.gives_up(*this); !why.empty()) return why;
+    }
+    return stop.holds(*this) ? fmt::format("'{}' held", length.until.text) : std::string();
+}
+
+std::vector<double> Run::read(std::string_view text) {
+    Diagnostics diagnostics;
+    const auto source = observe::find_source(layout(), text, "read", diagnostics);
+    throw_errors(diagnostics);
+    start();
+    std::vector<double> out(source->what().size());
+    source->read(*simulation_, out);
+    return out;
+}
+
+void Run::write(std::string_view text, std::span<const double> values) {
+    Diagnostics diagnostics;
+    const auto column = observe::find_column(layout(), text, "write", diagnostics);
+    throw_errors(diagnostics);
+    if (column->state < 0) throw InputError(fmt::format("'{}' is an input, which cannot be overwritten", text));
+    start();
+    Column state = simulation_->writable_state(column->group, column->state);
+    if (values.size() != static_cast<std::size_t>(state.size()))
+        throw InputError(fmt::format("'{}' has {} cells, not {}", text, state.size(), values.size()));
+    std::copy(values.begin(), values.end(), state.data());
+}
+
+void Run::set(std::string_view assignment) {
+    Diagnostics diagnostics;
+    const auto change = model::parse_assignment(system_, registry_, assignment, "set", diagnostics);
+    throw_errors(diagnostics);
+    start();
+    simulation_->check({&*change, 1}, diagnostics);
+    throw_errors(diagnostics);
+    simulation_->set(*change);
+}
+
+MemoryRecorder& Run::record(std::string_view text, std::uint64_t every) {
+    Diagnostics diagnostics;
+    auto source = observe::find_source(layout(), text, "record", diagnostics);
+    throw_errors(diagnostics);
+    return add(std::make_unique<MemoryRecorder>(std::move(*source), every));
+}
+
+MeasuredTrials Run::trials(std::size_t robot) const {
+    MeasuredTrials out;
+    if (!environment_ || robot >= environment_->robot_names().size()) return out;
+    for (const auto& o : observers_)
+        if (const auto* recorder = dynamic_cast<const TrialRecorder*>(o.get());
+            recorder && recorder->robot() == robot && simulation_)
+            return recorder->trials(*environment_, *simulation_);
+    for (const auto& t : environment_->trials(robot)) out.finished.push_back({t, {}, {}});
+    return out;
+}
+
+std::vector<std::optional<double>> Run::measure(RunMeasures& measures) {
+    start();
+    RunView now = view();
+    return measures.values(now);
+}
+
+void Run::finish(ResultFiles& files) {
+    if (!simulation_) return;
+    RunView now = view();
+    for (const auto& o : observers_) o->finish(now, files);
+}
+
+void Run::checkpoint(Archive& archive) {
+    archive(*simulation_);
+    if (environment_) environment_->checkpoint(archive);
+    archive(divergence_);
+    if (!divergence_.empty()) simulation_->check_finite(false);
+    for (const auto& o : observers_) o->checkpoint(archive);
+}
+
+std::string Run::digest() {
+    Archive archive(Archive::Nan::all_the_same);
+    archive(*simulation_);
+    if (environment_) environment_->checkpoint(archive);
+    return forage::digest(archive.bytes());
+}
+
+}  // namespace forage

@@ -1,0 +1,138 @@
+// A run: a system, the environment that it acts in, and the observers that look at both.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/engine/simulation.h"
+#include "core/model/system.h"
+#include "core/observe/observer.h"
+#include "core/run/environment.h"
+#include "core/run/memory_recorder.h"
+#include "core/run/run_measures.h"
+#include "core/run/run_spec.h"
+#include "core/run/trial_recorder.h"
+#include "core/types/registry.h"
+
+namespace forage {
+
+/// What is wrong with files, systems, plugins or expressions; what() is all of it, as `forage check` prints it.
+class InputError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Runs a system cycle by cycle in its environment and calls the observers at fixed points (observer.h). The system is compiled
+/// at the first cycle, or by start(): until then observers may be added freely; later, when what they read and overwrite is
+/// computed.
+class Run {
+  public:
+    struct Options {
+        std::uint64_t seed = 1;
+        int threads = 1;  ///< at most; the numbers do not depend on it
+        /// Compute all groups, so that everything may be read and overwritten at any time. Otherwise only what observers and
+        /// modules demand is computed, with the same numbers.
+        bool compute_everything = true;
+        bool check_finite = true;  ///< search for NaN and infinities: divergence()
+    };
+    /// Checks the system. Empty when `diagnostics` got an error. `environment` may be null.
+    static std::optional<Run> make(model::System system, Registry registry, std::unique_ptr<Environment> environment,
+                                   const Options& options, Diagnostics& diagnostics);
+    Run(Run&&) noexcept;
+    Run& operator=(Run&&) noexcept;
+    ~Run();
+
+    const model::System& system() const { return system_; }
+    const Registry& registry() const { return registry_; }
+    const engine::Layout& layout() const { return simulation_ ? simulation_->layout() : layout_; }
+    Environment* environment() const { return environment_.get(); }
+    bool has_trials() const { return environment_ && environment_->has_trials(0); }
+    std::uint64_t seed() const { return options_.seed; }
+
+    /// Adds an observer, which is called after those added before. Throws InputError when the run is compiled without what the
+    /// observer demands.
+    template <class T>
+    T& add(std::unique_ptr<T> observer) {
+        T& out = *observer;
+        add_observer(std::move(observer));
+        return out;
+    }
+    /// Removes an observer of this run; what it has to write at the end is not written.
+    void remove(const Observer& observer);
+    std::span<const std::unique_ptr<Observer>> observers() const { return observers_; }
+    /// What is computed beside the demands of observers; to be added to before the run starts.
+    engine::Demand& demand() { return demand_; }
+
+    /// Compiles the system for what the observers demand, lets them check it, and starts the modules. Does not start, and returns
+    /// false, when `diagnostics` has an error, be it from before.
+    bool start(Diagnostics& diagnostics);
+    /// The same; throws InputError, and engine::RunError from the start of a module. Nothing happens when the run has started.
+    void start();
+    bool started() const { return simulation_.has_value(); }
+
+    /// One cycle of the system, its environment and the observers. Starts the run if need be. Throws engine::RunError, and what
+    /// an observer throws.
+    void step();
+    /// Runs until `length` is reached, counted from now. Returns why it ended early: the condition held, or a trial took too
+    /// long; empty when it did not.
+    std::string until(const RunLength& length);
+
+    /// The compiled system. Starts the run if need be.
+    engine::Simulation& simulation() { return start(), *simulation_; }
+    const engine::Simulation& simulation() const { return *simulation_; }  ///< started() only
+    std::uint64_t cycle() const { return simulation_ ? simulation_->cycle() : 0; }
+    double seconds_per_cycle() const { return seconds_per_cycle_; }
+    double seconds() const { return static_cast<double>(cycle()) * seconds_per_cycle_; }
+    SimTime time() const;
+    /// Where numbers began to be NaN or infinite, in words; empty while all are finite.
+    const std::string& divergence() const { return divergence_; }
+
+    /// The numbers that an expression names, such as "Bug/Light" or "Bug/Motor:vm(5,1)": of the last cycle, row by row. Throws
+    /// InputError.
+    std::vector<double> read(std::string_view source);
+    /// Overwrites a state of all cells of a group: what the next cycle reads as the state of the last one. Throws InputError,
+    /// also when `values` has not one number per cell.
+    void write(std::string_view column, std::span<const double> values);
+    /// Changes a parameter between two cycles: "Process/Group.parameter=value", "Process.parameter=value" of a module,
+    /// "Connection.parameter=value" of a synapse. Throws InputError.
+    void set(std::string_view assignment);
+
+    /// Records a source in memory, from the next cycle on. Throws InputError.
+    MemoryRecorder& record(std::string_view source, std::uint64_t every = 1);
+    /// The trials of a robot, with the measures of its TrialRecorder; empty in a run without trials.
+    MeasuredTrials trials(std::size_t robot = 0) const;
+
+    /// The values of measures of this run, as it is now.
+    std::vector<std::optional<double>> measure(RunMeasures& measures);
+
+    /// Calls finish() of all observers, in order: what they leave behind goes to `files`.
+    void finish(ResultFiles& files);
+
+    /// Reads or writes all that changes in the run; between cycles, after start().
+    void checkpoint(Archive& archive);
+    /// A digest of all that decides the cycles to come in system and environment: equal runs have equal digests.
+    std::string digest();
+
+  private:
+    Run(model::System system, Registry registry, std::unique_ptr<Environment> environment, engine::Layout layout,
+        const Options& options);
+    void add_observer(std::unique_ptr<Observer> observer);
+    RunView view();
+
+    model::System system_;
+    Registry registry_;
+    std::unique_ptr<Environment> environment_;
+    engine::Layout layout_;  ///< until the system is compiled
+    Options options_;
+    double seconds_per_cycle_;
+    engine::Demand demand_;  ///< of the compiled system
+    std::optional<engine::Simulation> simulation_;
+    std::vector<std::unique_ptr<Observer>> observers_;
+    std::string divergence_;
+};
+
+}  // namespace forage

@@ -1,0 +1,135 @@
+// The file run.json.
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+
+#include <Eigen/Core>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/run/prepared_run.h"
+
+namespace forage {
+namespace {
+
+/// A file that a run has read, with a digest (64-bit FNV-1a) that tells whether it has changed since.
+nlohmann::ordered_json input_file(const std::string& path) {
+    return {{"file", path}, {"fnv1a64", file_digest(path)}};
+}
+
+std::string base_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+/// Versions, files and settings: what is needed to repeat the run.
+nlohmann::ordered_json settings_json(const RunSpec& o, const Run& run, const std::vector<std::string>& plugins,
+                                     const std::vector<std::pair<std::string, std::string>>& libraries) {
+    nlohmann::ordered_json json;
+    json["forage"] = FORAGE_VERSION;
+    json["libraries"]["Eigen"] =
+        fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
+    for (const auto& [name, version] : libraries) json["libraries"][name] = version;
+    json["compiler"] = __VERSION__;
+    json["system"] = input_file(o.input.system);
+    json["system"]["name"] = run.system().name;
+    json["system"]["cycles_per_second"] = run.system().cycles_per_second > 0 ? run.system().cycles_per_second : 25;
+    for (const auto& path : o.input.more) json["more_systems"].push_back(input_file(path));
+    if (const auto* environment = run.environment()) {
+        json["world"] = input_file(o.input.world);
+        json["world"]["seconds_per_cycle"] = environment->seconds_per_cycle();
+        json["world"]["noise"] = o.input.noise;
+        if (o.input.sensor_rates) json["world"]["sensor_rates"] = true;
+        if (o.input.latency) json["world"]["latency"] = o.input.latency;
+        if (o.input.game) json["world"]["game"] = true;
+    }
+    json["seed"] = o.input.seed;
+    if (o.length.trials) json["trials"] = *o.length.trials, json["trial_timeout"] = o.length.trial_timeout;
+    if (o.input.real_time_factor) json["real_time_factor"] = *o.input.real_time_factor;
+    json["set"] = nlohmann::ordered_json::array();
+    for (const auto& setting : o.input.settings) json["set"].push_back(setting.text);
+    json["record"] = nlohmann::ordered_json::array();
+    for (const auto& r : o.recordings) json["record"].push_back(r.column.text);
+    json["every"] = o.recordings.empty() ? 1 : o.recordings.front().every;
+    if (o.record.from) json["record_from"] = o.record.from;
+    if (o.record.until) json["record_until"] = *o.record.until;
+    if (o.record.mean) json["record_mean"] = true;
+    if (o.record.format != "csv") json["record_format"] = o.record.format;
+    for (const auto& plot : o.plots) json["plot"].push_back(plot.text);
+    for (const auto& path : plugins) json["plugins"].push_back(input_file(path));
+    if (!o.input.replay.empty()) json["replay"] = input_file(o.input.replay);
+    for (const auto& change : o.changes) json["schedule"].push_back(change.text());
+    if (!o.length.until.empty()) json["until"] = o.length.until.text;
+    if (!o.clamp_tables.empty()) json["clamp"] = o.clamp_tables;
+    for (const auto& m : o.manipulations)
+        json[std::array{"clamp", "add", "multiply"}[static_cast<std::size_t>(m.mode)]].push_back(m.text);
+    json["lenient"] = o.input.lenient;
+    return json;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> run_attributes(
+    const RunSpec& spec, const Run& run, const std::vector<std::string>& plugins,
+    const std::vector<std::pair<std::string, std::string>>& libraries) {
+    const auto json = settings_json(spec, run, plugins, libraries);
+    std::vector<std::pair<std::string, std::string>> out;
+    for (const auto& [key, value] : json.items())
+        out.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
+    return out;
+}
+
+std::string run_json(const PreparedRun& p, const RunOutcome& outcome) {
+    const Run& run = p.run;
+    auto json = settings_json(p.spec, run, p.plugins, p.libraries);
+    if (const auto cycles = p.stop.cycles()) json["cycles"] = *cycles;
+    auto& result = json["result"];
+    result["cycles"] = run.cycle();
+    result["seconds"] = run.seconds();
+    if (!outcome.stopped.empty()) result["stopped"] = outcome.stopped;
+    if (!run.divergence().empty()) result["diverged"] = run.divergence();
+    if (!outcome.state.empty()) result["state"] = outcome.state;
+    for (const auto& e : p.schedule->entries())
+        result["changes"].push_back(
+            {{"at", e.text}, {"cycle", e.cycle ? nlohmann::ordered_json(*e.cycle) : nlohmann::ordered_json()}});
+    if (const auto* environment = run.environment()) {
+        const auto names = environment->robot_names();
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const auto measured = run.trials(i);
+            const auto& trials = measured.finished;
+            auto& robot = result["robots"].emplace_back();
+            robot["name"] = names[i];
+            robot["trials"] = trials.size();
+            robot["at_target"] = measured.reached();
+            if (!trials.empty()) robot["recent_success"] = measured.recent_success(trials.size());
+        }
+        for (const auto& score : environment->scores())
+            result["score"].push_back(
+                {{"team", score.team}, {"points", score.points}, {"good", score.good}, {"bad", score.bad}});
+    }
+    for (std::size_t g = 0; g < run.layout().groups.size(); ++g)
+        if (run.simulation().pruned(static_cast<int>(g))) result["pruned"].push_back(run.layout().groups[g].path);
+    result["files"] = outcome.files.names();
+    for (const auto& r : outcome.files.recordings())
+        result["recordings"].push_back({{"file", r.file}, {"source", r.source}, {"label", r.label}});
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::vector<std::string> files_of_last_run(const std::string& directory) {
+    std::vector<std::string> out;
+    if (!std::filesystem::is_regular_file(directory + "/run.json")) return out;
+    std::ifstream in(directory + "/run.json");
+    const auto json = nlohmann::json::parse(in, nullptr, false);
+    if (!json.is_object() || !json.contains("forage") || !json.contains("result")) return out;
+    const auto files = json["result"].value("files", nlohmann::json::array());
+    for (const auto& f : files)
+        if (f.is_string() && f.get<std::string>() == file_name(f.get<std::string>())) out.push_back(f);
+    return out;
+}
+
+std::string run_title(const RunInput& input) {
+    std::string systems = base_name(input.system);
+    for (const auto& path : input.more) systems += " and " + base_name(path);
+    return fmt::format("{}{}, seed {}", systems, input.world.empty() ? "" : " in " + base_name(input.world),
+                       input.seed);
+}
+
+}  // namespace forage

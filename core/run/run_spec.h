@@ -1,0 +1,79 @@
+// Everything that decides a run, as plain values.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/experiment.h"
+
+namespace forage {
+
+/// What is read before a run: files, and the settings that tie them together.
+struct RunInput {
+    std::string system, world;                ///< paths; no world when empty
+    std::vector<std::string> more;            ///< further systems, which run together with the first
+    std::vector<model::Expression> settings;  ///< "Process/Group.parameter=value"
+    std::string replay;                       ///< table for moduleReplay; none when empty
+    std::vector<std::string> plugins;         ///< shared objects and folders of them, besides those that are found
+    bool lenient = false;                     ///< unknown parameters and attributes are warnings, not errors
+    std::uint64_t seed = 1;                   ///< decides everything random
+    std::optional<double> real_time_factor;   ///< seconds of the world per second of the clock; empty: the world's own
+    bool noise = true;                        ///< of motors and sensors
+    bool sensor_rates = false;                ///< scans and pictures at the rates of the world's files
+    int latency = 0;                          ///< cycles by which sensed values arrive later
+    bool game = false;                        ///< play the challenge's game
+};
+
+/// How a run records what it is asked to record.
+struct RecordOptions {
+    std::string format = "csv";          ///< csv, npy, npz, h5 or dat, where no file is named
+    std::uint64_t from = 0;              ///< the first cycle
+    std::optional<std::uint64_t> until;  ///< the last cycle
+    bool mean = false;                   ///< record the mean over the cycles from row to row
+};
+
+/// How long a run lasts: cycles, seconds or trials; 60 seconds when none of them is given. A condition may end it earlier.
+struct RunLength {
+    std::optional<std::uint64_t> cycles = {};
+    std::optional<double> seconds = {};        ///< of the world
+    std::optional<std::uint64_t> trials = {};  ///< of the first robot
+    double trial_timeout = 300;                ///< the run gives up when a trial takes longer, s of the world
+    model::Expression until = {};              ///< a condition; none when empty
+    Location at = {};                          ///< where the length is given; no file: on the command line
+};
+
+/// How often a run writes checkpoints.
+struct CheckpointInterval {
+    double amount = 0;        ///< above 0
+    bool in_seconds = false;  ///< of the world, instead of cycles
+};
+
+/// What a run does when a number becomes NaN or infinite. The search covers every group that the run computes.
+enum class OnNan { warn, stop, ignore };
+
+/// A run as the command line or an experiment describes it. docs/reference/expressions.md explains the texts.
+struct RunSpec {
+    RunInput input;
+    RunLength length;
+    RecordOptions record;
+    std::vector<model::RecordingSpec> recordings;
+    std::vector<model::Expression> plots;
+    std::string plot_format = "png";              ///< png, svg or pdf
+    std::vector<model::ScheduledChange> changes;  ///< of parameters while the run lasts
+    std::vector<std::string> clamp_tables;        ///< files
+    std::vector<model::ManipulationSpec> manipulations;
+    std::vector<model::Measure> measures;
+    bool paths = true;  ///< follow the robots
+    std::string video;  ///< .gif or .png file to film the world to; none when empty
+    int threads = 1;    ///< at most; the numbers do not depend on it
+    OnNan on_nan = OnNan::warn;
+    bool digest = false;                  ///< compute everything, and give a digest of the state at the end
+    std::string directory;                ///< for results; none when empty
+    bool discard_checkpoint = false;      ///< start even if the directory holds the checkpoint of an unfinished run
+    std::optional<CheckpointInterval> checkpoint_every;
+    std::vector<std::string> arguments;   ///< of the command line, kept in checkpoints
+};
+
+}  // namespace forage

@@ -1,0 +1,95 @@
+// What is measured of the trials of a robot.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/observe/observer.h"
+#include "core/run/layers.h"
+#include "core/run/trial.h"
+
+namespace forage {
+
+/// A patch that came into view in a trial, and how strongly the adaptive layer responded until the next one.
+struct Sighting {
+    std::size_t patch = 0;      ///< Environment::patch_colours()
+    double prototype_peak = 0;  ///< of the strongest cell of the prototype
+
+    void checkpoint(Archive& archive) { archive(patch, prototype_peak); }
+};
+
+/// What is measured of a trial beyond the robot's path.
+struct TrialMeasures {
+    int start = 0;  ///< the start pose, counted from 1 in the order of the world's Reset_0, Reset_1, ...; 0: unknown
+    std::vector<Sighting> patches;      ///< in the order in which the camera was on them
+    std::optional<double> discrepancy;  ///< of the adaptive layer, at the end
+    std::optional<MemoryFill> memory;   ///< of the contextual layer, at the end
+
+    /// Peaks of the prototype at the last patch (the cue: what to do there leads to the target), and at the strongest of the
+    /// patches before (distractors).
+    struct Peaks {
+        double cue, distractor;
+    };
+    /// Empty with less than two patches or without an adaptive layer.
+    std::optional<Peaks> peaks() const;
+
+    void checkpoint(Archive& archive) { archive(start, patches, discrepancy, memory); }
+};
+
+/// A trial and what was measured in it.
+struct MeasuredTrial : Trial {
+    TrialMeasures measures;
+    std::string route;  ///< the patches that came into view, by colour: "cyan > red"
+};
+
+/// The trials of a robot: the finished ones and, if it had begun, the one that ran at the end.
+struct MeasuredTrials {
+    std::vector<MeasuredTrial> finished;
+    std::optional<MeasuredTrial> running;
+
+    static constexpr std::size_t window = 50;  ///< trials over which the success ratio is taken
+
+    std::size_t reached() const;
+    /// The share of the last `window` of the first `count` finished trials (fewer at the start) that reached the target, 0..1.
+    /// `count` is above 0.
+    double recent_success(std::size_t count) const;
+};
+
+/// The table trials.csv, a row per trial, in m and rad; what does not apply is left empty. docs/reference/results.md explains
+/// the columns.
+std::string trials_csv(const MeasuredTrials& trials);
+
+/// Follows one robot and the learning layers of its system through a run, and writes trials.csv.
+class TrialRecorder final : public Observer {
+  public:
+    /// The layers are those of the only robot; with several robots nothing is measured of them. `file`: the name of the table.
+    /// Throws std::runtime_error when a picture of the world's floors cannot be read.
+    TrialRecorder(const Environment& environment, std::size_t robot, const engine::Layout& layout, std::string file);
+
+    std::size_t robot() const { return robot_; }
+    MeasuredTrials trials(const Environment& environment, const engine::Simulation& simulation) const;
+
+    void declare(engine::Demand& demand) const override {
+        if (layers_) layers_->declare(demand);
+    }
+    void after_cycle(RunView& run) override;
+    std::vector<std::string> file_names() const override { return {file_}; }
+    void finish(RunView& run, ResultFiles& files) override;
+    void checkpoint(Archive& archive) override { archive(finished_, seen_); }
+
+  private:
+    TrialMeasures at_end(const Trial& trial, const engine::Simulation& simulation) const;
+    MeasuredTrial measured(const Trial& trial, const TrialMeasures& measures) const;
+
+    std::size_t robot_;
+    std::string file_;
+    std::vector<Pose2> starts_;
+    std::vector<std::string> colours_;  ///< of the patches
+    std::optional<Layers> layers_;
+    std::vector<TrialMeasures> finished_;
+    std::vector<Sighting> seen_;  ///< in the running trial
+};
+
+}  // namespace forage

@@ -1,0 +1,157 @@
+#include "tools/api/prepare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "bug_interface/versions.h"
+#include "core/base/cores.h"
+#include "core/observe/manipulation_spec.h"
+#include "core/run/checkpoint_file.h"
+#include "core/run/path_recorder.h"
+#include "core/run/recordings.h"
+#include "core/run/score_recorder.h"
+#include "tools/api/tables.h"
+#include "tools/plot/plots.h"
+
+namespace forage {
+namespace {
+
+constexpr double default_seconds = 60;  ///< of the world
+
+/// "_name" in the names of files about this robot, where there are several.
+std::string robot_suffix(const Environment& environment, std::size_t robot) {
+    const auto names = environment.robot_names();
+    return names.size() > 1 ? "_" + file_name(names[robot]) : "";
+}
+
+/// Makes the directory for results and holds it.
+bool open_directory(const std::string& directory, DirectoryHold& hold, Diagnostics& diagnostics) {
+    const char* hint = "choose another directory for the results with -o";
+    try {
+        make_directory(directory);
+        hint = held_hint;
+        hold = DirectoryHold(directory);
+        return true;
+    } catch (const std::exception& e) {
+        diagnostics.error({}, e.what(), hint);
+        return false;
+    }
+}
+
+void check_video(const RunSpec& spec, Diagnostics& diagnostics) {
+    if (spec.video.empty()) return;
+    if (plot::Film::is_name(spec.video))
+        check_output(spec.video, "film.gif", diagnostics);
+    else
+        diagnostics.error({}, fmt::format("--video: '{}' is no name of a film", spec.video),
+                          "it ends with .gif or .png");
+}
+
+void add_world_observers(Run& run, bug::World& world, const RunSpec& spec, bool trajectory, plot::Format format,
+                         const std::string& title) {
+    for (std::size_t i = 0; i < world.robot_names().size(); ++i)
+        run.add(std::make_unique<TrialRecorder>(world, i, run.layout(), "trials" + robot_suffix(world, i) + ".csv"));
+    if (!world.scores().empty()) run.add(std::make_unique<ScoreRecorder>());
+    if (spec.paths && !spec.directory.empty())
+        for (std::size_t i = 0; i < world.robot_names().size(); ++i) {
+            const std::string name = "trajectory" + robot_suffix(world, i);
+            const auto& path = run.add(std::make_unique<PathRecorder>(world, i, name + ".csv"));
+            run.add(std::make_unique<plot::TrajectoryPlotter>(world, path, trajectory, name, format, title));
+        }
+    if (!spec.video.empty())
+        run.add(std::make_unique<plot::FilmRecorder>(world, spec.video, run.seconds_per_cycle(), title));
+}
+
+CheckpointWriter& add_checkpoints(Run& run, const RunSpec& spec, const Sources& sources,
+                                  const observe::Schedule& schedule) {
+    const auto& wanted = *spec.checkpoint_every;
+    const double cycles = wanted.in_seconds ? wanted.amount / run.seconds_per_cycle() : wanted.amount;
+    std::vector<model::Assignment> changes;
+    for (const auto& e : schedule.entries()) changes.push_back(e.change);
+    CheckpointOrigin origin{FORAGE_VERSION, spec.arguments, std::filesystem::current_path().string(),
+                            input_files(spec, sources), {}, 0};
+    return run.add(std::make_unique<CheckpointWriter>(
+        spec.directory, static_cast<std::uint64_t>(std::max(1.0, std::round(std::min(cycles, 1e15)))), std::move(origin),
+        module_files(run.system(), run.registry(), changes)));
+}
+
+}  // namespace
+
+std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given, Diagnostics& diagnostics) {
+    RunSpec spec = given;
+    auto& length = spec.length;
+    if (!length.cycles && !length.trials && !length.seconds) length.seconds = default_seconds;
+    auto loaded = assemble(sources, spec.input, diagnostics);
+    if (!loaded) return std::nullopt;
+    check_video(spec, diagnostics);
+    if (sources.replay) check_replay(*sources.replay, loaded->system, diagnostics);
+    bug::World* world = loaded->world.get();
+    auto made = Run::make(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world),
+                          {.seed = spec.input.seed,
+                           .threads = std::min(spec.threads, cores()),
+                           .compute_everything = false,
+                           .check_finite = spec.on_nan != OnNan::ignore},
+                          diagnostics);
+    if (!made) return std::nullopt;
+    Run& run = *made;
+    StopCondition stop = StopCondition::make(length, run, diagnostics);
+    auto schedule =
+        observe::make_schedule(spec.changes, run.system(), run.registry(), run.layout(), run.has_trials(), diagnostics);
+    auto measures =
+        std::make_unique<RunMeasures>(spec.measures, run.layout(), run.has_trials(), diagnostics);
+    auto clamp = make_clamp(spec.clamp_tables, run.layout(), diagnostics);
+    auto manipulations =
+        observe::make_manipulations(spec.manipulations, run.layout(), run.has_trials(), diagnostics);
+    auto recorded = recorded_files(spec.recordings, spec.record, run.layout(), diagnostics);
+
+    const auto* schedule_added = &run.add(std::move(schedule));
+    auto* measures_added = &run.add(std::move(measures));
+    stop.declare(run.demand());
+    if (!clamp->idle()) run.add(std::move(clamp));
+    for (auto& m : manipulations) run.add(std::move(m));
+    const plot::Format format = *plot::format_of("x." + spec.plot_format);
+    const std::string title = run_title(spec.input);
+    const bool trajectory = plot::add_plots(spec.plots, run, format, title, diagnostics);
+    if (spec.checkpoint_every && spec.directory.empty())
+        diagnostics.error({}, "--checkpoint-every needs a directory to write to", "leave out -o '' or name one");
+    if (spec.checkpoint_every || spec.digest)
+        check_checkpoints(run.layout(), spec.checkpoint_every ? "--checkpoint-every" : "--hash", diagnostics);
+    if (spec.digest) run.demand().read_everything();
+    if (diagnostics.failed()) {
+        run.start(diagnostics);  // reports what else is wrong
+        return std::nullopt;
+    }
+    try {
+        const std::vector<std::pair<std::string, std::string>> libraries = bug::library_versions();
+        DirectoryHold hold;
+        if (world) add_world_observers(run, *world, spec, trajectory, format, title);
+        // Recordings are checkpointed last: nothing on the disk is changed when something else does not fit.
+        if (!spec.directory.empty())
+            run.add(std::make_unique<Recordings>(std::move(recorded), spec.record, spec.directory,
+                                                 run_attributes(spec, run, loaded->plugins, libraries)));
+        if (!run.start(diagnostics)) return std::nullopt;
+        if (!spec.directory.empty() && !open_directory(spec.directory, hold, diagnostics)) return std::nullopt;
+        CheckpointWriter* checkpoints = nullptr;
+        if (spec.checkpoint_every) checkpoints = &add_checkpoints(run, spec, sources, *schedule_added);
+        return PreparedRun{std::move(spec), std::move(hold), std::move(run), std::move(stop), schedule_added, measures_added,
+                           checkpoints, std::move(loaded->plugins), libraries};
+    } catch (const std::exception& e) {
+        diagnostics.error({}, e.what());
+        return std::nullopt;
+    }
+}
+
+void begin(PreparedRun& p) {
+    if (p.spec.directory.empty()) return;
+    ResultFiles files(p.spec.directory);
+    refuse_no_file(files.path("run.json"));
+    for (const auto& o : p.run.observers())
+        for (const auto& name : o->file_names()) refuse_no_file(files.path(name));
+    remove_checkpoints(p.spec.directory);  // of another run
+    for (const auto& o : p.run.observers()) o->begin_files(files);
+}
+
+}  // namespace forage

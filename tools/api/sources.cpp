@@ -1,0 +1,196 @@
+#include "tools/api/sources.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "bug_interface/module/gazebo_bug.h"
+#include "bug_interface/world/sdf_reader.h"
+#include "core/model/build.h"
+#include "core/model/edit.h"
+#include "core/base/named_file.h"
+#include "core/base/output_files.h"
+#include "core/model/validate.h"
+#include "core/plugin/search.h"
+#include "core/xml/reader.h"
+#include "modules/modules.h"
+#include "modules/replay/replay.h"
+#include "neurons/neurons.h"
+#include "synapses/synapses.h"
+
+namespace forage {
+namespace {
+
+std::optional<replay::DriveTable> read_table(const std::string& path, Diagnostics& diagnostics) {
+    if (path.empty()) return std::nullopt;
+    try {
+        return replay::DriveTable::read(path);
+    } catch (const FileError& e) {
+        report(e, diagnostics);
+        return std::nullopt;
+    }
+}
+
+void add(InputFiles& all, const Location& where) {
+    if (where.file) all[where.file->path] = digest(where.file->text);
+}
+
+void add(InputFiles& all, const bug::Model& model) {
+    add(all, model.where);
+    for (const auto& link : model.links) {
+        add(all, link.where);
+        for (const auto& v : link.visuals)
+            if (const auto& picture = v.material.texture; !picture.empty() && !all.contains(picture))
+                all[picture] = file_digest(picture);
+    }
+    for (const auto& inner : model.models) add(all, inner);
+}
+
+InputFiles files_of_system(const Sources& sources) {
+    InputFiles out = system_files(*sources.system);
+    for (const auto& p : sources.plugins) out[p.path] = file_digest(p.path);
+    return out;
+}
+
+/// The files that a world is made of, except its own.
+InputFiles files_of_world(const Sources& sources) {
+    InputFiles out;
+    for (const auto& m : sources.world->models) add(out, m);
+    return out;
+}
+
+std::string without_paths(const InputFiles& files) {
+    std::string out;
+    for (const auto& [path, sum] : files) out += sum;
+    return digest(out);
+}
+
+/// Makes every enabled moduleReplay that names no table of its own play this one.
+void play(const replay::DriveTable& table, model::System& system) {
+    for (auto& p : system.processes) {
+        if (!p.module || p.module->type != "moduleReplay") continue;
+        auto& settings = p.module->settings;
+        const auto file =
+            std::find_if(settings.begin(), settings.end(), [](const auto& s) { return s.name == "file"; });
+        if (file == settings.end())
+            settings.push_back({"file", table.name(), {}, {}});
+        else if (file->value.empty())
+            file->value = table.name(), file->value_at = {};
+    }
+}
+
+/// A system, or a process file as a system of one process.
+std::optional<model::System> read_any(const std::string& path, Diagnostics& diagnostics) {
+    if (std::filesystem::path(path).extension() != ".iqrProcess") return xml::read_system(path, diagnostics);
+    auto file = xml::read_process(path, diagnostics);
+    if (!file) return std::nullopt;
+    model::System system;
+    system.name = file->process.name;
+    system.processes.push_back(std::move(file->process));
+    system.connections = std::move(file->connections);
+    return system;
+}
+
+}  // namespace
+
+Registry shipped_types() {
+    Registry registry;
+    add_neurons(registry);
+    add_synapses(registry);
+    add_modules(registry);
+    registry.add(module_type<replay::Replay>());
+    registry.add(bug::gazebo_bug_type());
+    return registry;
+}
+
+std::vector<plugin::Plugin> load_plugins(const std::vector<std::string>& named, const std::string& system,
+                                         Diagnostics& diagnostics) {
+    const char* path = std::getenv("FORAGE_PLUGIN_PATH");
+    const auto files = plugin::find(named, path ? path : "", system, diagnostics);
+    if (files.empty()) return {};
+    return plugin::load(files, shipped_types(), diagnostics);
+}
+
+Registry known_types(const std::vector<plugin::Plugin>& plugins) {
+    Registry registry = shipped_types();
+    plugin::add(plugins, registry);
+    return registry;
+}
+
+
+Sources read_sources(const RunInput& input, Diagnostics& diagnostics) {
+    diagnostics.lenient = input.lenient;
+    Sources out;
+    out.system = read_any(input.system, diagnostics);
+    for (const std::string& path : input.more) {
+        auto other = read_any(path, diagnostics);
+        if (!out.system || !other) continue;
+        if (other->cycles_per_second != out.system->cycles_per_second)
+            diagnostics.error(
+                other->at,
+                fmt::format("this system runs at {} cycles per second, '{}' at {}", other->cycles_per_second,
+                            input.system, out.system->cycles_per_second),
+                "systems that run together need the same cyclesPerSecond");
+        model::join(*out.system, std::move(*other));
+    }
+    if (!input.world.empty()) out.world = bug::read_world(input.world, diagnostics);
+    out.replay = read_table(input.replay, diagnostics);
+    const int errors_before = diagnostics.errors();
+    out.plugins = load_plugins(input.plugins, input.system, diagnostics);
+    out.plugins_failed = diagnostics.errors() > errors_before;
+    return out;
+}
+
+std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Diagnostics& diagnostics) {
+    Loaded out;
+    if (sources.system) out.system = *sources.system;
+    if (sources.world) {
+        bug::WorldOptions options;
+        options.seed = input.seed;
+        options.cycles_per_second = out.system.cycles_per_second > 0 ? out.system.cycles_per_second : 25;
+        options.real_time_factor = input.real_time_factor;
+        options.noise = input.noise;
+        options.native_rates = input.sensor_rates;
+        options.late = input.latency;
+        options.game = input.game;
+        out.world = bug::World::make(*sources.world, options, diagnostics);
+    }
+    if (sources.replay) play(*sources.replay, out.system);
+    out.registry = shipped_types();
+    plugin::add(sources.plugins, out.registry);
+    for (const auto& p : sources.plugins) out.plugins.push_back(p.path);
+    if (sources.system && !sources.plugins_failed) {
+        for (const auto& wish : input.settings)
+            model::set(out.system, out.registry, wish.text, diagnostics, wish.at);
+        if (diagnostics.failed())
+            model::validate(out.system, out.registry, diagnostics, out.world.get());  // say all of it at once
+    }
+    if (diagnostics.failed()) return std::nullopt;
+    return out;
+}
+
+std::optional<Loaded> load(const RunInput& input, Diagnostics& diagnostics) {
+    return assemble(read_sources(input, diagnostics), input, diagnostics);
+}
+
+InputFiles input_files(const RunSpec& spec, const Sources& sources) {
+    InputFiles out = files_of_system(sources);
+    const auto read = [&](const std::string& path) {
+        if (!path.empty()) out[path] = file_digest(path);
+    };
+    if (sources.world) out.merge(files_of_world(sources)), read(spec.input.world);
+    read(spec.input.replay);
+    for (const auto& table : spec.clamp_tables) read(table);
+    for (const auto& m : spec.manipulations) read(m.patterns.text);
+    return out;
+}
+
+std::string source_digests(const RunInput& input, const Sources& sources) {
+    const std::string system = without_paths(files_of_system(sources));
+    if (!sources.world) return system;
+    return fmt::format("{} {} {}", system, file_digest(input.world), without_paths(files_of_world(sources)));
+}
+
+}  // namespace forage

@@ -1,0 +1,187 @@
+#include "tools/plot/plots.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "core/run/environment.h"
+#include "core/run/result_files.h"
+#include "tools/plot/structure.h"
+#include "tools/plot/trajectory.h"
+
+namespace forage::plot {
+namespace {
+
+constexpr std::size_t most_frames = 120;  ///< of a moving picture whose cycles nobody chose
+constexpr std::size_t most_panels = 400;
+constexpr std::size_t most_marks = 60;
+constexpr double seconds_per_frame = 0.12;
+constexpr double film_frame = 0.1;  ///< s of the world, about
+
+}  // namespace
+
+RowPlot::RowPlot(PlotSpec spec, const observe::Recorded& what) : spec_(std::move(spec)), what_(what) {
+    if (spec_.kind != PlotSpec::Kind::time) return;
+    for (std::size_t i = 0; i < what_.size(); ++i) {
+        const int n = static_cast<int>(i);
+        curves_.emplace_back(what_.mean       ? "mean"
+                             : what_.numbered ? fmt::format("cell {}", what_.cells.x + n)
+                                              : fmt::format("({}, {})", what_.cells.x + n % what_.cells.width,
+                                                            what_.cells.y + n / what_.cells.width));
+    }
+}
+
+void RowPlot::add(std::uint64_t cycle, std::span<const double> numbers) {
+    if (rows_++ == 0) first_ = cycle;
+    last_ = cycle;
+    if (!spec_.wants(cycle)) return;
+    if (spec_.kind != PlotSpec::Kind::time) return add_frame(cycle, numbers);
+    for (std::size_t i = 0; i < curves_.size(); ++i) curves_[i].add(static_cast<double>(cycle), numbers[i]);
+}
+
+void RowPlot::add_frame(std::uint64_t cycle, std::span<const double> numbers) {
+    if (!spec_.cycles.empty()) {
+        if (frames_.size() == most_panels)
+            throw std::runtime_error(
+                fmt::format("'{}' has more than {} pictures: choose a larger step, such as "
+                            "'@0..10000/100'",
+                            spec_.text, most_panels));
+        frames_.push_back({cycle, {numbers.begin(), numbers.end()}});
+    } else if (spec_.kind == PlotSpec::Kind::space) {  // the last one
+        frames_.resize(1);
+        frames_[0].cycle = cycle;
+        frames_[0].values.assign(numbers.begin(), numbers.end());
+    } else if ((rows_ - 1) % keep_every_ == 0) {
+        frames_.push_back({cycle, {numbers.begin(), numbers.end()}});
+        if (frames_.size() < most_frames) return;
+        for (std::size_t i = 1; 2 * i < frames_.size(); ++i) frames_[i] = std::move(frames_[2 * i]);
+        frames_.resize((frames_.size() + 1) / 2);
+        keep_every_ *= 2;
+    }
+}
+
+std::string RowPlot::draw(Format format, const PlotContext& context) const {
+    const std::string quantity =
+        what_.label.empty() ? what_.state.empty() ? "value" : what_.state : what_.label;
+    const std::string& title = what_.name;
+    const auto nothing = [&] {
+        return std::runtime_error(
+            rows_ == 0 ? fmt::format("'{}': there is nothing to draw yet", spec_.text)
+                       : fmt::format("'{}': none of these cycles is there; there are {} of {} to {}",
+                                     spec_.text, rows_, first_, last_));
+    };
+    if (spec_.kind == PlotSpec::Kind::time) {
+        if (curves_.empty() || curves_[0].bins().empty()) throw nothing();
+        TimePlot p;
+        p.title = title, p.subtitle = context.run, p.quantity = quantity;
+        p.cells = what_.cells.height > 1 && !what_.numbered ? "cell, row by row" : "cell";
+        p.curves = curves_;
+        p.seconds_per_cycle = context.seconds_per_cycle;
+        if (context.trials.size() > 1 && context.trials.size() <= most_marks)
+            p.marks = context.trials, p.mark_name = "a trial begins";
+        return render(time_plot(p), format);
+    }
+    if (frames_.empty()) throw nothing();
+    SpacePlot p;
+    p.title = title, p.subtitle = context.run, p.quantity = quantity;
+    p.grid = {what_.cells.x, what_.cells.y, what_.mean ? 1 : what_.cells.width,
+              what_.mean ? 1 : what_.cells.height, what_.numbered};
+    p.blocks_across = spec_.blocks_across, p.blocks_down = spec_.blocks_down;
+    p.frames = frames_;
+    if (spec_.kind == PlotSpec::Kind::space) return render(space_plot(p), format);
+    return render_animation(space_animation(p), seconds_per_frame);
+}
+
+void RowPlotter::after_cycle(RunView& run) {
+    row_.resize(source_.what().size());
+    source_.read(run.simulation, row_);
+    plot_.add(run.time.cycle - 1, row_);
+}
+
+void RowPlotter::finish(RunView& run, ResultFiles& files) {
+    PlotContext context{title_, run.run.seconds_per_cycle(), {}};
+    if (run.environment && !run.environment->robot_names().empty()) {
+        const auto add = [&](const Trial& t) { context.trials.push_back(static_cast<double>(t.first_cycle)); };
+        for (const auto& t : run.environment->trials(0)) add(t);
+        if (const auto running = run.environment->current_trial(0); running.cycles > 0) add(running);
+    }
+    files.write(plot_.spec().file(format_), [&] { return plot_.draw(format_, context); });
+}
+
+StructurePlotter::StructurePlotter(PlotSpec spec, const engine::Layout& layout, const model::System& system,
+                                   Format format, std::string title)
+    : spec_(std::move(spec)), format_(format), title_(std::move(title)) {
+    if (spec_.kind != PlotSpec::Kind::connection) return;
+    Diagnostics told;  // by check_structure()
+    const auto* c = find_connection(system, spec_.what, "plot", told);
+    for (std::size_t i = 0; c && i < layout.connections.size(); ++i)
+        if (layout.connections[i].id == c->id) connections_.push_back(static_cast<int>(i));
+}
+
+void StructurePlotter::finish(RunView& run, ResultFiles& files) {
+    files.write(spec_.file(format_), [&] {
+        return render(structure_plot(spec_, run.run.system(), run.run.registry(), &run.simulation, run.run.seed(),
+                                     title_),
+                      format_);
+    });
+}
+
+void TrajectoryPlotter::finish(RunView&, ResultFiles& files) {
+    std::vector<Path> paths;
+    for (const auto& path : recorder_.paths(world_)) {
+        Path& drawn = paths.emplace_back();
+        for (const auto& p : path.points) drawn.points.emplace_back(p.pose.x, p.pose.y);
+        drawn.reached = path.reached, drawn.finished = path.finished;
+    }
+    const auto leads_somewhere = [](const Path& path) { return path.points.size() > 1; };
+    if (!always_ && std::none_of(paths.begin(), paths.end(), leads_somewhere)) return;
+    files.write(name_ + std::string(ending(format_)),
+                [&] { return render(trajectory_plot(world_, std::move(paths), title_), format_); });
+}
+
+FilmRecorder::FilmRecorder(bug::World& world, std::string name, double seconds_per_cycle, const std::string& title)
+    : name_(std::move(name)),
+      every_(std::max<std::uint64_t>(1, static_cast<std::uint64_t>(film_frame / seconds_per_cycle + 0.5))),
+      film_(world, name_, static_cast<double>(every_) * seconds_per_cycle, title) {}
+
+void FilmRecorder::after_cycle(RunView& run) {
+    if (run.time.cycle % every_ == 0) film_.add();
+}
+
+void FilmRecorder::finish(RunView&, ResultFiles& files) {
+    files.attempt([&] {
+        const std::size_t frames = film_.finish();
+        if (frames > 0)
+            files.note("film", name_.ends_with(".gif") ? fmt::format("{}: {} frames", name_, frames)
+                                                       : fmt::format("{} to {}", Film::frame_name(name_, 1),
+                                                                     Film::frame_name(name_, frames)));
+    });
+}
+
+bool add_plots(const std::vector<model::Expression>& plots, Run& run, Format format, const std::string& title,
+               Diagnostics& diagnostics) {
+    bool trajectory = false;
+    for (const auto& [text, at] : plots) {
+        const std::string option = at.file ? "plot" : "--plot";
+        auto spec = parse_plot(text, option, diagnostics, at);
+        if (!spec) continue;
+        if (spec->kind == PlotSpec::Kind::trajectory) {
+            trajectory = true;
+            if (!run.environment())
+                diagnostics.error(at, "a trajectory needs a world", "add --world FILE.world");
+        } else if (spec->of_cells()) {
+            auto source = observe::find_source(run.layout(), spec->what, option, diagnostics, at);
+            if (source)
+                run.add(std::make_unique<RowPlotter>(std::move(*spec), std::move(*source), format, title));
+        } else {
+            const int errors = diagnostics.errors();
+            check_structure(*spec, run.system(), option, diagnostics, at);
+            if (diagnostics.errors() == errors)
+                run.add(std::make_unique<StructurePlotter>(std::move(*spec), run.layout(), run.system(), format, title));
+        }
+    }
+    return trajectory;
+}
+
+}  // namespace forage::plot

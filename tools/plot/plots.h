@@ -1,0 +1,138 @@
+// Pictures of a run, drawn while it runs or from what it recorded.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bug_interface/simulation/world.h"
+#include "core/model/experiment.h"
+#include "core/model/system.h"
+#include "core/observe/source.h"
+#include "core/run/path_recorder.h"
+#include "core/run/run.h"
+#include "tools/plot/film.h"
+#include "tools/plot/plot_spec.h"
+#include "tools/plot/space.h"
+#include "tools/plot/time.h"
+
+namespace forage::plot {
+
+/// What pictures say of the run that they show.
+struct PlotContext {
+    std::string run;               ///< "dac.iqr in arena.world, seed 1"; empty when it is not known
+    double seconds_per_cycle = 0;  ///< 0: not known
+    std::vector<double> trials;    ///< first cycle of each
+};
+
+/// Takes up the rows of a source and draws them, in bounded memory: a time plot joins neighbours, a moving
+/// picture without cycles leaves frames out, and of a space plot only the wanted cycles are kept.
+class RowPlot {
+  public:
+    RowPlot(PlotSpec spec, const observe::Recorded& what);
+    void add(std::uint64_t cycle, std::span<const double> numbers);
+    /// The picture as the content of a file. Throws std::runtime_error, also when none of the wanted cycles
+    /// was there.
+    std::string draw(Format format, const PlotContext& context) const;
+    const PlotSpec& spec() const { return spec_; }
+
+    /// What it has taken up.
+    void checkpoint(Archive& archive) {
+        for (auto& c : curves_) archive(c);
+        archive(frames_, rows_, keep_every_, first_, last_);
+    }
+
+  private:
+    void add_frame(std::uint64_t cycle, std::span<const double> numbers);
+
+    PlotSpec spec_;
+    observe::Recorded what_;
+    std::vector<Curve> curves_;
+    std::vector<SpaceFrame> frames_;
+    std::uint64_t rows_ = 0, keep_every_ = 1, first_ = 0, last_ = 0;
+};
+
+/// Draws a RowPlot of a run.
+class RowPlotter final : public Observer {
+  public:
+    /// `title`: of the run.
+    RowPlotter(PlotSpec spec, observe::Source source, Format format, std::string title)
+        : plot_(std::move(spec), source.what()), source_(std::move(source)), format_(format), title_(std::move(title)) {}
+
+    void declare(engine::Demand& demand) const override { source_.declare(demand); }
+    void after_cycle(RunView& run) override;
+    std::vector<std::string> file_names() const override { return {plot_.spec().file(format_)}; }
+    void finish(RunView& run, ResultFiles& files) override;
+    void checkpoint(Archive& archive) override { archive(plot_); }
+
+  private:
+    RowPlot plot_;
+    observe::Source source_;
+    Format format_;
+    std::string title_;
+    std::vector<double> row_;
+};
+
+/// Draws a diagram or a connection, as it is at the end of a run.
+class StructurePlotter final : public Observer {
+  public:
+    StructurePlotter(PlotSpec spec, const engine::Layout& layout, const model::System& system, Format format,
+                     std::string title);
+
+    void declare(engine::Demand& demand) const override {
+        for (const int c : connections_) demand.read_synapses(c);
+    }
+    std::vector<std::string> file_names() const override { return {spec_.file(format_)}; }
+    void finish(RunView& run, ResultFiles& files) override;
+
+  private:
+    PlotSpec spec_;
+    Format format_;
+    std::string title_;
+    std::vector<int> connections_;  ///< those that it shows
+};
+
+/// Draws the path of a robot.
+class TrajectoryPlotter final : public Observer {
+  public:
+    /// `recorder`: an observer of the same run. `always`: draw also a robot that stayed where it was. `name`: of the file, without
+    /// ending.
+    TrajectoryPlotter(const bug::World& world, const PathRecorder& recorder, bool always, std::string name,
+                      Format format, std::string title)
+        : world_(world), recorder_(recorder), always_(always), name_(std::move(name)), format_(format),
+          title_(std::move(title)) {}
+
+    std::vector<std::string> file_names() const override { return {name_ + std::string(ending(format_))}; }
+    void finish(RunView& run, ResultFiles& files) override;
+
+  private:
+    const bug::World& world_;
+    const PathRecorder& recorder_;
+    bool always_;
+    std::string name_;
+    Format format_;
+    std::string title_;
+};
+
+/// Films a run: film.h.
+class FilmRecorder final : public Observer {
+  public:
+    /// `world`: the run's environment; `seconds_per_cycle`: of the run.
+    FilmRecorder(bug::World& world, std::string name, double seconds_per_cycle, const std::string& title);
+
+    void after_cycle(RunView& run) override;
+    void finish(RunView& run, ResultFiles& files) override;
+
+  private:
+    std::string name_;
+    std::uint64_t every_;  ///< cycles
+    Film film_;
+};
+
+/// Adds the observers that draw what `plots` ask for. Reports what is not there. Returns whether a trajectory is asked for, which
+/// needs a PathRecorder. `title`: of the run.
+bool add_plots(const std::vector<model::Expression>& plots, Run& run, Format format, const std::string& title,
+               Diagnostics& diagnostics);
+
+}  // namespace forage::plot

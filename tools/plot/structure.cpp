@@ -1,0 +1,122 @@
+#include "tools/plot/structure.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "core/connectivity/connect.h"
+#include "core/model/lookup.h"
+#include "core/model/validate.h"
+#include "tools/plot/connection.h"
+#include "tools/plot/diagram.h"
+
+namespace forage::plot {
+namespace {
+
+const model::Process* find_process(const model::System& system, std::string_view name) {
+    for (const auto& p : system.processes)
+        if (model::trim(p.name) == name || p.id == name) return &p;
+    return nullptr;
+}
+
+std::string_view name_of(InputKind kind) {
+    constexpr std::string_view names[] = {"excitatory", "inhibitory", "modulatory"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
+/// What each synapse makes of activity 1.
+std::vector<double> strengths(const model::Connection& c, const connectivity::Synapses& synapses,
+                              const SynapseType& type, const engine::Simulation* simulation) {
+    std::vector<double> out(synapses.size());
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = synapses.reference - synapses.attenuation[i];
+    if (type.has_gain) {
+        const auto instance = type.make();
+        model::apply(c.synapse->settings, type.parameters, instance->parameters());
+        for (double& v : out) v *= instance->gain();
+        return out;
+    }
+    const auto weight = std::find_if(type.states.begin(), type.states.end(),
+                                     [](const auto& s) { return s.name == "weight"; });
+    if (weight == type.states.end()) return out;
+    ConstColumn learned(nullptr, 0);
+    for (int i = 0; simulation && i < std::ssize(simulation->layout().connections); ++i)
+        if (simulation->layout().connections[i].id == c.id)
+            new (&learned)
+                ConstColumn(simulation->synapse_state(i, static_cast<int>(weight - type.states.begin())));
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] *= learned.size() ? learned[static_cast<Index>(i)] : 0;
+    return out;
+}
+
+Picture picture_of(const model::Connection& c, const model::System& system, const Registry& registry,
+                         const engine::Simulation* simulation, std::uint64_t seed) {
+    const model::GroupIndex groups(system);
+    const auto source = groups.find(c.source), target = groups.find(c.target);
+    const SynapseType* type = c.synapse ? registry.synapse(c.synapse->type) : nullptr;
+    if (!source.group || !target.group || !type)
+        throw std::runtime_error(
+            fmt::format("connection '{}' is not complete: 'forage check' says what is wrong", c.name));
+    Diagnostics diagnostics;
+    auto synapses =
+        connectivity::connect(c, source.group->topology, target.group->topology, seed, diagnostics);
+    if (diagnostics.failed()) throw std::runtime_error(format(diagnostics));
+    ConnectionPlot p;
+    p.source = model::trim(source.group->name), p.target = model::trim(target.group->name);
+    p.source_shape = model::shape(source.group->topology),
+    p.target_shape = model::shape(target.group->topology);
+    p.title = c.name;
+    p.subtitle =
+        fmt::format("{} {} to {}, {} synapses of {}", name_of(c.kind),
+                    model::path(system, *source.process, *source.group),
+                    model::path(system, *target.process, *target.group), synapses.size(), type->label);
+    p.strength = strengths(c, synapses, *type, simulation);
+    p.pre = std::move(synapses.pre), p.post = std::move(synapses.post), p.delay = std::move(synapses.delay);
+    return connection_plot(p);
+}
+
+}  // namespace
+
+const model::Connection* find_connection(const model::System& system, std::string_view name,
+                                         std::string_view option, Diagnostics& diagnostics, Location at) {
+    std::vector<const model::Connection*> found;
+    std::vector<std::string> names, ids;
+    for (const auto& c : system.connections) {
+        names.emplace_back(model::trim(c.name));
+        if (c.id == name) return &c;
+        if (model::trim(c.name) == name) found.push_back(&c), ids.push_back(c.id);
+    }
+    if (found.size() == 1) return found.front();
+    if (found.empty())
+        diagnostics.error(at, fmt::format("{}: there is no connection '{}'", option, name),
+                          suggest(name, names));
+    else
+        diagnostics.error(at, fmt::format("{}: '{}' names {} connections", option, name, found.size()),
+                          fmt::format("use the id: '{}'", fmt::join(ids, "', '")));
+    return nullptr;
+}
+
+void check_structure(const PlotSpec& wish, const model::System& system, std::string_view option,
+                     Diagnostics& diagnostics, Location at) {
+    if (wish.kind == PlotSpec::Kind::connection) find_connection(system, wish.what, option, diagnostics, at);
+    if (wish.kind != PlotSpec::Kind::diagram || wish.what.empty() || find_process(system, wish.what)) return;
+    std::vector<std::string> names;
+    for (const auto& p : system.processes) names.emplace_back(model::trim(p.name));
+    diagnostics.error(at, fmt::format("{} '{}': there is no process '{}'", option, wish.text, wish.what),
+                      suggest(wish.what, names));
+}
+
+Picture structure_plot(const PlotSpec& wish, const model::System& system, const Registry& registry,
+                             const engine::Simulation* simulation, std::uint64_t seed,
+                             const std::string& run) {
+    if (wish.kind == PlotSpec::Kind::connection) {
+        Diagnostics diagnostics;
+        const auto* connection = find_connection(system, wish.what, "connection", diagnostics);
+        if (!connection) throw std::runtime_error(format(diagnostics));
+        return picture_of(*connection, system, registry, simulation, seed);
+    }
+    const auto* process = find_process(system, wish.what);
+    return process ? process_diagram(system, *process) : diagram(system, run);
+}
+
+}  // namespace forage::plot
