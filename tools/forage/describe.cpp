@@ -11,7 +11,7 @@
 namespace forage::tool {
 namespace {
 
-std::string count(std::size_t n, std::string_view what) {
+std::string number_of(std::size_t n, std::string_view what) {
     return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
@@ -41,7 +41,7 @@ struct Compiled {
 
 void print_connection(const model::Connection& c, const std::string& target, const Compiled& compiled) {
     fmt::print("      -> {}: {}, {} ({}), {}{}, '{}'\n", target, name_of(c.kind),
-               count(compiled.synapses, "synapse"), compiled.form, c.synapse->type, settings_of(*c.synapse),
+               number_of(compiled.synapses, "synapse"), compiled.form, c.synapse->type, settings_of(*c.synapse),
                model::trim(c.name));
 }
 
@@ -84,8 +84,8 @@ int describe(const RunInput& input) {
     fmt::print(
         "{}: {}, {} ({}), {} ({})\n", model::trim(system.name),
         system.processes.size() == 1 ? "1 process" : fmt::format("{} processes", system.processes.size()),
-        count(groups, "group"), count(cells, "cell"), count(system.connections.size(), "connection"),
-        count(synapses, "synapse"));
+        number_of(groups, "group"), number_of(cells, "cell"), number_of(system.connections.size(), "connection"),
+        number_of(synapses, "synapse"));
 
     const model::GroupIndex index(system);
     for (const auto& p : system.processes) {

@@ -1,76 +1,50 @@
-// Forage inside another program: load a system, step it, read and write its states.
+// Forage inside another program: open a system with its world, step it, read, record and change it.
 //
-//     auto model = forage::load("system.iqr");
-//     const int motor = model.group("Bug/Motor"), vm = model.state(motor, "vm");
-//     for (int i = 0; i < 1000; ++i) {
-//         model.step();
-//         std::cout << model.state(motor, vm).sum() << '\n';
-//     }
+//     auto run = forage::open("dac_foraging.iqr", {.world = "basic_arena.world", .seed = 1});
+//     const auto& light = run.record("Bug/Light");
+//     run.until({.trials = 30});
+//     std::cout << light.rows().rowwise().mean() << '\n';
+//     for (const auto& trial : run.trials().finished) std::cout << trial.number << ' ' << trial.reached_target << '\n';
 //
-// The public interface is this header and what it includes: forage::engine::Simulation (the cycle, and
-// states as Eigen maps of the simulation's own memory), forage::model (systems as values, to be made or
-// edited in code: "core/model/build.h") and forage::Registry. It keeps its meaning within a version that
-// find_package(Forage VERSION) accepts.
+// The public interface is this header and what it includes: forage::Run, forage::Observer, forage::Environment, the cycle itself
+// (forage::engine::Simulation), systems as values (forage::model, "core/model/build.h") and forage::Registry. It keeps its
+// meaning within a version that find_package(Forage VERSION) accepts.
 #pragma once
 
 #include <cstdint>
-#include <stdexcept>
+#include <memory>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "core/engine/simulation.h"
 #include "core/model/build.h"
+#include "core/run/run.h"
 #include "core/types/registry.h"
 
 namespace forage {
 
-/// What is wrong with files, systems, plugins or assignments: what() is all of it, as `forage check` prints
-/// it.
-class InputError : public std::runtime_error {
-    using std::runtime_error::runtime_error;
+struct OpenOptions {
+    std::string world = {};                        ///< file of the world in which the robots live; none when empty
+    std::uint64_t seed = 1;                        ///< decides everything random
+    std::vector<std::string> settings = {};        ///< "Process/Group.parameter=value", as for `forage run --set`
+    std::vector<std::string> plugins = {};         ///< shared objects and folders of them; nothing else is searched
+    int threads = 1;                               ///< at most; the numbers do not depend on it
+    bool lenient = false;                          ///< unknown parameters and attributes of files are no errors
+    bool noise = true;                             ///< of motors and sensors
+    std::optional<double> real_time_factor = {};   ///< seconds of the world per second of the clock; empty: the world's own
+    /// Compute all groups, so that everything can be read and changed at any time. Otherwise the run computes what observers,
+    /// added before the first cycle, and modules read: faster, with the same numbers.
+    bool compute_everything = true;
 };
 
-struct LoadOptions {
-    std::vector<std::string> plugins = {};  ///< shared objects and folders of them; nothing else is searched
-    std::uint64_t seed = 1;                 ///< decides everything random
-    int threads = 1;                        ///< the numbers do not depend on it
-    bool lenient = false;                   ///< unknown parameters and attributes of files are no errors
-};
+/// Opens a system file (.iqr) with its world: ready for step(). Throws InputError.
+Run open(const std::string& system, const OpenOptions& options = {});
+/// The same for a system that was made in code, and the types that it uses, in an environment of the caller, which may be null.
+/// Throws InputError. Of `options`, world, plugins, lenient, noise and real_time_factor are not looked at.
+Run open(model::System system, Registry types, std::unique_ptr<Environment> environment = nullptr,
+         const OpenOptions& options = {});
 
-/// A system that runs, and whose parts can be named.
-class Model : public engine::Simulation {
-  public:
-    Model(model::System system, Registry types, engine::Simulation simulation);
-
-    const model::System& system() const { return system_; }  ///< as it was built
-    const Registry& types() const { return types_; }
-
-    /// The number of a group by its path, "Process/Group". Throws std::invalid_argument, with what was
-    /// probably meant.
-    int group(std::string_view path) const;
-    /// The number of a group's state by its name: "vm". Throws as the other one.
-    int state(int group, std::string_view name) const;
-    using Simulation::state;
-
-    /// Changes a parameter between two cycles: "Process/Group.parameter=value", "Process.parameter=value" of
-    /// a module, "Connection.parameter=value" of a synapse. Throws InputError.
-    void set(std::string_view assignment);
-    using Simulation::set;
-
-  private:
-    model::System system_;
-    Registry types_;
-};
-
-/// The types that need no robot, and those of plugins. Throws InputError.
+/// The types that ship, and those of plugins. Throws InputError.
 Registry types(const std::vector<std::string>& plugins = {});
-
-/// Builds a system and starts its modules: ready for step(). Throws InputError, and engine::RunError from
-/// the start of a module. `options.plugins` is not looked at.
-Model build(model::System system, Registry types, const LoadOptions& options = {});
-
-/// Reads a system file (.iqr) and builds it. Throws as build().
-Model load(const std::string& path, const LoadOptions& options = {});
 
 }  // namespace forage
