@@ -18,15 +18,18 @@ ALLOWED = {
     'core/engine': {'core/base', 'core/connectivity', 'core/model', 'core/types'},
     'core/xml': {'core/base', 'core/connectivity', 'core/model', 'core/types'},
     'core/observe': {'core/base', 'core/engine', 'core/xml', 'core/connectivity', 'core/model', 'core/types'},
+    'core/run': {'core/base', 'core/types', 'core/model', 'core/engine', 'core/observe'},
     'core/plugin': {'core/base', 'core/model', 'core/types'},
     # Shipped types use what a plugin can use, and nothing of each other's.
     'neurons': {'core/base', 'core/types'},
     'synapses': {'core/base', 'core/types'},
     'modules': {'core/base', 'core/types'},
-    'bug_interface': {'core/base', 'core/types', 'core/model', 'core/xml'},
-    # What other projects see.
-    'tools/api': {'core/base', 'core/engine', 'core/xml', 'core/plugin', 'core/connectivity', 'core/model', 'core/types', 'neurons',
-                  'synapses', 'modules'},
+    'bug_interface': {'core/base', 'core/types', 'core/model', 'core/xml', 'core/run'},
+    # Pictures, and what other projects see.
+    'tools/plot': {'core/base', 'core/types', 'core/model', 'core/connectivity', 'core/engine', 'core/observe', 'core/run',
+                   'bug_interface'},
+    'tools/api': {'core/base', 'core/types', 'core/model', 'core/engine', 'core/xml', 'core/plugin', 'core/observe', 'core/run',
+                  'neurons', 'synapses', 'modules', 'bug_interface', 'tools/plot'},
 }
 ALLOWED['tools'] = set(ALLOWED)
 ROOMS = set(ALLOWED)
@@ -36,7 +39,7 @@ OWNED = [
     (r'tinyxml2\.h', {'core/xml'}),
     (r'Random123/', {'core/base'}),
     (r'(hdf5|H5\w*)(_hl)?\.h|zip\.h', {'core/observe'}),
-    (r'cairo', {'tools'}),
+    (r'cairo', {'tools/plot'}),
     (r'(bullet/|bt[A-Z]\w*\.h|Bullet\w*/|LinearMath/|opencv2?/|png\.h)', {'bug_interface'}),
 ]
 

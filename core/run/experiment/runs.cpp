@@ -169,7 +169,14 @@ void check_experiment(const model::Experiment& e, const PrepareRun& prepare, std
                       Diagnostics& diagnostics) {
     RunSpec spec = runs.front().spec;
     spec.directory.clear();  // nothing is written
-    if (const auto prepared = prepare(spec, diagnostics))
+    auto prepared = prepare(spec, diagnostics);
+    if (!prepared) {  // the swept values are checked all the same
+        RunSpec bare;
+        bare.input = spec.input;
+        Diagnostics told;
+        prepared = prepare(bare, told);
+    }
+    if (prepared)
         for (const auto& sweep : e.sweeps)
             for (const auto& value : sweep.values)
                 if (&value != &sweep.values.front()) check_value(sweep, value, prepared->run, diagnostics);

@@ -1,6 +1,7 @@
 #include "core/observe/condition.h"
 
 #include "core/observe/schedule.h"
+#include "core/run/run.h"
 #include "tests/unit/engine/simulations.h"
 
 using namespace forage;
@@ -122,7 +123,8 @@ TEST_CASE("Mistakes in conditions are told with what there is") {
 TEST_CASE("A change is made once, in the first cycle before which its condition holds, in order") {
     Counting s;
     Diagnostics diagnostics;
-    observe::Schedule schedule;
+    auto owned = std::make_unique<observe::Schedule>();
+    observe::Schedule& schedule = *owned;
     const auto add = [&](const std::string& when, const std::string& change) {
         auto assignment = model::parse_assignment(s.system, s.types, change, "--at", diagnostics);
         REQUIRE(assignment);
@@ -132,16 +134,16 @@ TEST_CASE("A change is made once, in the first cycle before which its condition 
     add("cycle 6", "P/B.excGain=5");
     add("cycle 6", "P/B.excGain=4");
     add("cycle 1000", "P/B.excGain=9");
+    Run run = *Run::make(s.system, s.types, nullptr, {}, diagnostics);
+    run.add(std::move(owned));
     std::vector<double> seen;
-    for (std::uint64_t t = 0; t < 8; ++t) {
-        schedule.apply(s.simulation, {t, 0, 0});
-        s.simulation.step();
-        seen.push_back(activity(s.simulation, "P/B")[0]);
+    for (int t = 0; t < 8; ++t) {
+        run.step();
+        seen.push_back(run.read("P/B")[0]);
     }
     // A is 3 in cycle 2, so that cycle 3 is the first with gain 2.
     CHECK(seen == std::vector<double>{0, 1, 1, 2, 2, 2, 4, 4});
     CHECK(schedule.entries()[0].cycle == 3u);
     CHECK(schedule.entries()[2].cycle == 6u);
     CHECK_FALSE(schedule.entries()[3].cycle);
-    CHECK(schedule.waiting());
 }

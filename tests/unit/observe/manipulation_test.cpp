@@ -1,5 +1,6 @@
 #include "core/observe/manipulation.h"
 
+#include "core/run/run.h"
 #include "tests/unit/engine/simulations.h"
 
 using namespace forage;
@@ -13,18 +14,13 @@ namespace {
 std::vector<double> played(Manipulation::Settings settings, int cycles) {
     model::System system;
     model::add_group(system, model::add_process(system, "P"), "A", 2, 1, "one");
-    auto s = run(system, registry());
-    Manipulation manipulation(std::move(settings));
+    Diagnostics diagnostics;
+    Run run = *Run::make(system, registry(), nullptr, {}, diagnostics);
+    run.add(std::make_unique<Manipulation>(std::move(settings)));
+    const auto& a = run.record("P/A");
+    for (int t = 0; t < cycles; ++t) run.step();
     std::vector<double> out;
-    for (int t = 0; t < cycles; ++t) {
-        manipulation.look(s, {s.cycle(), 0, 0});
-        s.update_groups();
-        manipulation.apply(s);
-        s.update_modules();
-        s.update_connections();
-        const auto a = activity(s, "P/A");
-        out.push_back(10 * a[0] + a[1]);
-    }
+    for (int t = 0; t < cycles; ++t) out.push_back(10 * a.rows()(t, 0) + a.rows()(t, 1));
     return out;
 }
 
@@ -33,7 +29,7 @@ const std::vector<std::vector<double>> list = {{2, 3}, {4, 5}, {6, 7}, {8, 9}, {
 observe::Condition from_cycle(double n) {
     model::System system;
     model::add_group(system, model::add_process(system, "P"), "A", 2, 1, "one");
-    const auto s = run(system, registry());
+    const auto s = test::run(system, registry());
     Diagnostics diagnostics;
     return *observe::parse_condition(s.layout(), false, "cycle " + to_text(ParameterValue(n)), "",
                                      diagnostics);
