@@ -61,7 +61,7 @@ class Condition {
 };
 
 /// Reads a condition. Reports what it cannot be, with what there is; `what` says where the text stands
-/// ("--at"). `trials`: whether the run has any.
+/// ("--schedule"). `trials`: whether the run has any.
 std::optional<Condition> parse_condition(const engine::Layout& layout, bool trials, std::string_view text,
                                          std::string_view what, Diagnostics& diagnostics, Location at = {});
 

@@ -55,8 +55,9 @@ std::string loop(PreparedRun& p, const RunCallbacks& callbacks, DirectoryWatch& 
 }
 
 void write_results(PreparedRun& p, RunOutcome& outcome) {
-    const auto earlier = files_of_last_run(p.spec.directory);
     auto& files = outcome.files;
+    if (p.spec.directory.empty()) return p.run.finish(files);  // a film has a place of its own
+    const auto earlier = files_of_last_run(p.spec.directory);
     p.run.finish(files);
     files.write("run.json", [&] { return run_json(p, outcome); });
     for (const auto& name : earlier)
@@ -90,7 +91,7 @@ RunOutcome run_to_end(PreparedRun& p, const RunCallbacks& callbacks) {
         }
     if (watch.gone()) {
         out.problems = {watch.message()};
-    } else if (!p.spec.directory.empty()) {
+    } else {
         write_results(p, out);
         for (const auto& text : out.files.problems()) problem(text);
     }

@@ -80,7 +80,7 @@ def recording(forage, folder):
         "81 cells, csv": motor + ("--format", "csv"),
         "81 cells, npy": motor + ("--format", "npy"),
         "81 cells, h5": motor + ("--format", "h5"),
-        "81 cells, csv, every 10th cycle": motor + ("--format", "csv", "--every", "10"),
+        "81 cells, csv, every 10th cycle": motor + ("--format", "csv", "--record-every", "10"),
     }.items():
         result("recording/" + name, "cycle / without", per_cycle("-o", folder / "recording", *extra) / plain, "")
 

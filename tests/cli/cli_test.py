@@ -124,7 +124,7 @@ class Run(Cli):
         self.assertFalse(filecmp.cmp(self.here / "a/Bug_Light_act.csv", self.here / "c/Bug_Light_act.csv", shallow=False))
 
     def test_recording_has_a_header_and_a_row_for_every_kth_cycle(self):
-        self.run_robot("--cycles", 100, "--record", "Bug/GPS", "--every", 10)
+        self.run_robot("--cycles", 100, "--record", "Bug/GPS", "--record-every", 10)
         rows = self.table("out/Bug_GPS_act.csv")
         self.assertEqual(rows[0], ["cycle", "x1_y1", "x2_y1", "x3_y1"])
         self.assertEqual([int(r[0]) for r in rows[1:]], list(range(0, 100, 10)))
@@ -198,9 +198,9 @@ class Run(Cli):
     def test_at_changes_a_parameter_in_exactly_one_cycle(self):
         (self.here / "small.iqr").write_text(SMALL_SYSTEM)
         (self.here / "d.csv").write_text("-1,*,out,1,2\n4,*,out,3,2\n")
-        done = self.forage("run", "small.iqr", "--cycles", 9, "--drive", "d.csv", "-r", "P/A", "-o", "out",
-                           "--at", "cycle 2: P/A.excGain=10", "--at", "P/A(1,1) > 20 && cycle > 3: P/A.excGain = 0",
-                           "--at", "0.28 s: P/A.excGain=0.5", "--at", "cycle 9: P/A.excGain=7")
+        done = self.forage("run", "small.iqr", "--cycles", 9, "--replay", "d.csv", "-r", "P/A", "-o", "out",
+                           "--schedule", "cycle 2: P/A.excGain=10", "--schedule", "P/A(1,1) > 20 && cycle > 3: P/A.excGain = 0",
+                           "--schedule", "0.28 s: P/A.excGain=0.5", "--schedule", "cycle 9: P/A.excGain=7")
         self.assertEqual([r[1] for r in self.table("out/P_A_act.csv")[1:]], ["1", "1", "10", "10", "10", "30", "0", "1.5", "1.5"])
         self.assertIn("in cycle 6, at P/A(1,1) > 20 && cycle > 3: P/A.excGain = 0", done.stdout)
         self.assertIn("not changed    at cycle 9: P/A.excGain=7: it never was", done.stdout)
@@ -213,7 +213,7 @@ class Run(Cli):
         (self.here / "p.txt").write_text("# three patterns\n1 2\n\n3, 4\n\n\n5 6")
 
         def a(*options):
-            self.forage("run", "small.iqr", "--cycles", 8, "--drive", "d.csv", "-r", "P/A", "-o", "out", "-q", *options)
+            self.forage("run", "small.iqr", "--cycles", 8, "--replay", "d.csv", "-r", "P/A", "-o", "out", "-q", *options)
             return [float(r[1]) for r in self.table("out/P_A_act.csv")[1:]], [float(r[2]) for r in self.table("out/P_A_act.csv")[1:]]
 
         self.assertEqual(a("--clamp", "P/A(2,1)=9; from cycle 2; until cycle 4"), ([1, 1, 0, 0, 1, 1, 1, 1], [2, 2, 9, 9, 2, 2, 2, 2]))
@@ -227,10 +227,10 @@ class Run(Cli):
         for rows, message in (("1 2\n3\n", "p.txt:2:1: error: 1 number in a row, not 2"), ("1 2\n3 x\n\n", "p.txt:2:3: error: 'x' is not a number"),
                               ("1 2\n3 4\n\n", "p.txt:2:1: error: a pattern ends here after 2 rows, not 1"), ("\n", "p.txt: error: there are no patterns")):
             (self.here / "p.txt").write_text(rows)
-            self.assertIn(message, self.forage("run", "small.iqr", "--cycles", 1, "--drive", "d.csv", "--clamp", "P/A=p.txt", status=2).stderr)
+            self.assertIn(message, self.forage("run", "small.iqr", "--cycles", 1, "--replay", "d.csv", "--clamp", "P/A=p.txt", status=2).stderr)
 
     def test_at_a_trial(self):
-        self.run_robot("--trials", 3, "-r", "Bug/Motor", "--at", "trial 3: Motor In to Motor.weight=0", "--longest-trial", 20)
+        self.run_robot("--trials", 3, "-r", "Bug/Motor", "--schedule", "trial 3: Motor In to Motor.weight=0", "--trial-timeout", 20)
         cycle = json.loads((self.here / "out/run.json").read_text())["result"]["changes"][0]["cycle"]
         trials = self.table("out/trials.csv")[1:]
         third = int(trials[2][7])  # first_cycle
@@ -241,7 +241,7 @@ class Run(Cli):
         self.assertFalse(any(any(row) for c, row in motor.items() if c > cycle))
 
     def test_the_exercise_stands_still_and_the_run_ends(self):
-        done = self.run_robot("--trials", 2, "--longest-trial", 20, system=EXERCISE)
+        done = self.run_robot("--trials", 2, "--trial-timeout", 20, system=EXERCISE)
         self.assertIn("did not end within 20 s", done.stdout)
         self.assertIn("0.00 m apart", done.stdout)
 
@@ -306,7 +306,7 @@ class Run(Cli):
         system.write_text(SMALL_SYSTEM)
         (self.here / "drive.csv").write_text("cycle,process,target,v0...\n0,P,out,1,2\n3,P,out,5,0\n")
         (self.here / "clamp.csv").write_text("cycle,process,target,v0...\n2,P,B,7,8\n")
-        self.forage("run", system, "--cycles", 6, "--drive", "drive.csv", "--clamp", "clamp.csv", "-r", "P/A", "-r", "P/B", "-o", "out")
+        self.forage("run", system, "--cycles", 6, "--replay", "drive.csv", "--clamp", "clamp.csv", "-r", "P/A", "-r", "P/B", "-o", "out")
         a = self.table("out/P_A_act.csv")[1:]
         b = self.table("out/P_B_act.csv")[1:]
         self.assertEqual(a, [["0", "0", "0"], ["1", "1", "2"], ["2", "1", "2"], ["3", "1", "2"], ["4", "5", "0"], ["5", "5", "0"]])
@@ -317,7 +317,7 @@ class Mistakes(Cli):
     def test_usage_is_status_2_with_a_hint(self):
         for arguments in (["rum"], ["run"], ["run", SYSTEM, "--cycles", "0"], ["run", SYSTEM, "--cycles", "5", "--trials", "2"],
                           ["run", SYSTEM, "--seed", "x"], ["run", SYSTEM, "--seed", "-1"], ["run", SYSTEM, "--seconds", "nan"],
-                          ["run", SYSTEM, "--seconds", "-1"], ["run", SYSTEM, "--every", "2"], ["run", SYSTEM, "--threads", "0"]):
+                          ["run", SYSTEM, "--seconds", "-1"], ["run", SYSTEM, "--record-every", "2"], ["run", SYSTEM, "--threads", "0"]):
             done = self.forage(*arguments, status=2)
             self.assertIn("error:", done.stderr)
             self.assertIn("hint:", done.stderr)
@@ -355,7 +355,7 @@ class Mistakes(Cli):
             (["--set", "Bug/Light.thresold=1"], "did you mean 'threshold'"),
             (["--set", "Bug/Light.threshold=high"], "is not a number"),
             (["--set", "nonsense"], "not an assignment"),
-            (["--drive", "absent.csv"], "absent.csv: error: there is no such file"),
+            (["--replay", "absent.csv"], "absent.csv: error: there is no such file"),
             (["--record", "Light"], "did you mean 'Bug/Light'"),
             (["--set", "US.threshold=1"], "did you mean 'Reactive Layer/US'"),
             (["--set", "Approach.threshold=1"], "did you mean 'Reactive Layer/Approach' or 'Selection/Approach'"),
@@ -369,13 +369,13 @@ class Mistakes(Cli):
             (["--multiply", "Bug/Motor(1,1)=1; every 0"], "'every' needs a whole number, at least 1"),
             (["--add", "Bug/Motor(1,1)=1; from trail 2"], "there is no group 'trail 2'"),
             (["--add", "Bug/Motor=absent.txt"], "absent.txt: error: there is no such file"),
-            (["--at", "trial 5"], "'trial 5' is not a condition, a colon, a blank and a change, such as 'trial >= 200:"),
-            (["--at", "trial 5: Bug/Light.thresold=1"], "did you mean 'threshold'"),
-            (["--at", "trail 5: Bug/Light.threshold=1"], "there is no group 'trail 5'"),
-            (["--at", "max(Bug/Ligth) > 5: Bug/Light.threshold=1"], "did you mean 'Bug/Light'"),
-            (["--at", "cycle 5: Bug.device_name=x"], "'device_name' is read at start only"),
-            (["--at", "cycle 5: Bug.placeSigma=0"], "must be above 0"),
-            (["--at", "cycle 5: Bug.enableModule=false"], "cannot be switched on or off"),
+            (["--schedule", "trial 5"], "'trial 5' is not a condition, a colon, a blank and a change, such as 'trial >= 200:"),
+            (["--schedule", "trial 5: Bug/Light.thresold=1"], "did you mean 'threshold'"),
+            (["--schedule", "trail 5: Bug/Light.threshold=1"], "there is no group 'trail 5'"),
+            (["--schedule", "max(Bug/Ligth) > 5: Bug/Light.threshold=1"], "did you mean 'Bug/Light'"),
+            (["--schedule", "cycle 5: Bug.device_name=x"], "'device_name' is read at start only"),
+            (["--schedule", "cycle 5: Bug.placeSigma=0"], "must be above 0"),
+            (["--schedule", "cycle 5: Bug.enableModule=false"], "cannot be switched on or off"),
         ):
             done = self.run_robot("--cycles", 1, *arguments, status=2)
             self.assertIn("error:", done.stderr)
@@ -394,14 +394,14 @@ class Mistakes(Cli):
             ("", "there are no rows in it"),
         ):
             (self.here / "t.csv").write_text(rows + "\n")
-            self.assertIn(message, self.forage("run", "small.iqr", "--cycles", 1, "--drive", "t.csv", status=2).stderr)
+            self.assertIn(message, self.forage("run", "small.iqr", "--cycles", 1, "--replay", "t.csv", status=2).stderr)
         (self.here / "t.csv").write_text("\ufeffcycle,process,target\n# a remark\n 0 , P , out , 1 , 2 \r\n")
-        self.forage("run", "small.iqr", "--cycles", 1, "--drive", "t.csv")
-        self.assertIn("no process has an enabled moduleReplay", self.run_robot("--cycles", 1, "--drive", "t.csv", status=2).stderr)
+        self.forage("run", "small.iqr", "--cycles", 1, "--replay", "t.csv")
+        self.assertIn("no process has an enabled moduleReplay", self.run_robot("--cycles", 1, "--replay", "t.csv", status=2).stderr)
         (self.here / "t.csv").write_text("0,*,B,1,2\n")
-        self.forage("run", "small.iqr", "--cycles", 1, "--drive", "d.csv", "--clamp", "t.csv", status=2)  # no d.csv
+        self.forage("run", "small.iqr", "--cycles", 1, "--replay", "d.csv", "--clamp", "t.csv", status=2)  # no d.csv
         (self.here / "d.csv").write_text("0,*,out,1,2\n")
-        self.forage("run", "small.iqr", "--cycles", 1, "--drive", "d.csv", "--clamp", "t.csv")
+        self.forage("run", "small.iqr", "--cycles", 1, "--replay", "d.csv", "--clamp", "t.csv")
 
     def test_a_file_that_a_system_names_is_beside_it(self):
         (self.here / "sub").mkdir()
@@ -484,7 +484,7 @@ class Others(Cli):
         for word in ("run", "check", "types"):
             self.assertIn(word, text)
         text = self.forage("run", "--help").stdout
-        for option in ("--world", "--cycles", "--seconds", "--trials", "--seed", "--set", "--record", "--every", "--output", "--realtime", "--quiet"):
+        for option in ("--world", "--cycles", "--seconds", "--trials", "--seed", "--set", "--record", "--record-every", "--output", "--realtime", "--quiet"):
             self.assertIn(option, text)
 
     def test_types_are_listed_and_described(self):
@@ -526,7 +526,7 @@ class Others(Cli):
             text = f"source {script}; COMP_WORDS=({' '.join(map(shlex.quote, words))}); COMP_CWORD={len(words) - 1}; _forage; echo \"${{COMPREPLY[@]}}\""
             return subprocess.run(["bash", "-c", text], cwd=self.here, capture_output=True, text=True).stdout.split()
         self.assertEqual(complete("forage", "de"), ["describe"])
-        self.assertEqual(complete("forage", "run", "--tri"), ["--trials"])
+        self.assertEqual(complete("forage", "run", "--tri"), ["--trials", "--trial-timeout"])
         self.assertEqual(complete("forage", "run", "--format", "n"), ["npy", "npz"])
         self.assertEqual(complete("forage", "run", "c."), ["c.bash"])
         for shell in ("zsh", "fish"):

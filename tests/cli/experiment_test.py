@@ -148,8 +148,8 @@ class Results(Experiment):
     def test_a_run_is_what_forage_run_does(self):
         self.forage("experiment", "robot.xml", "-o", "out")
         self.forage("run", SYSTEM, "--world", WORLD, "--trials", 3, "--seed", 2, "--set", "Reactive Layer/US.threshold=0.8",
-                    "--set", "Motor In to Motor.weight=0.9", "--at", "trial 3: Reactive Layer/US.threshold=0.5",
-                    "-r", "Bug/Motor", "--every", 50, "-o", "alone")
+                    "--set", "Motor In to Motor.weight=0.9", "--schedule", "trial 3: Reactive Layer/US.threshold=0.5",
+                    "-r", "Bug/Motor", "--record-every", 50, "-o", "alone")
         for name in ("trials.csv", "Bug_Motor_act.csv"):
             self.assertEqual((self.here / "alone" / name).read_bytes(),
                              (self.here / "out/runs/threshold-0.8_weight-0.9_seed-2" / name).read_bytes())

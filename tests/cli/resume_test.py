@@ -24,9 +24,9 @@ EVERYTHING = ("run", DAC, "--world", WORLD, "--seed", "3", "--hash", "-q",
               "-r", "Selection/Motor In", "-r", "mean:Selection/Approach=mean.csv", "-r", "Adaptive/CS:pot=cs.npy",
               "-r", "Adaptive/Weights Display=all.npz", "-r", "Adaptive/prototype=all.npz",
               "-r", "Adaptive/CR=layers.h5", "-r", "Adaptive/discrepancy=layers.h5", "-r", "Bug/Light=light.dat",
-              "--every", "7", "--record-mean",
+              "--record-every", "7", "--record-mean",
               "-p", "time:Adaptive/discrepancy", "-p", "space:Bug/Light@100,900", "-p", "movie:Adaptive/CS",
-              "--at", "max(Bug/Light) > 0.3: Adaptive.eta=0.02", "--at", "cycle 1000: Selection/Explore.probability=0.3",
+              "--schedule", "max(Bug/Light) > 0.3: Adaptive.eta=0.02", "--schedule", "cycle 1000: Selection/Explore.probability=0.3",
               "--add", "Bug/Light(3,1)=0.01; every 13; from cycle 200; times 30")
 
 
@@ -141,7 +141,7 @@ class Resume(Stopped):
         system, drive = self.here / "small.iqr", self.here / "drive.csv"
         system.write_text(SMALL_SYSTEM)
         drive.write_text("cycle,process,target,v0...\n0,P,out,1,2\n")
-        process = self.start("run", "small.iqr", "--drive", "drive.csv", "-r", "P/A", "--cycles", 100000, "--realtime",
+        process = self.start("run", "small.iqr", "--replay", "drive.csv", "-r", "P/A", "--cycles", 100000, "--realtime",
                              "--checkpoint-every", 5, "-o", "out")
         self.until_there_is("out/checkpoint.previous.forage")
         self.assertIsNone(self.stop(process, 0))
@@ -161,7 +161,7 @@ class Resume(Stopped):
         self.assertRegex(done.stderr, "P_A_act.csv' is not there")
         for wrong in ("0", "-3", "2.5", "x", "0 s", ""):
             self.forage("run", "small.iqr", "--checkpoint-every", wrong, status=2)
-        done = self.forage("run", "small.iqr", "--drive", "drive.csv", "--checkpoint-every", "10", "-o", "", status=2)
+        done = self.forage("run", "small.iqr", "--replay", "drive.csv", "--checkpoint-every", "10", "-o", "", status=2)
         self.assertIn("needs a directory", done.stderr)
 
 
@@ -179,7 +179,7 @@ class Resume(Stopped):
     def test_a_file_of_a_module_that_has_changed_is_refused_and_one_that_the_run_wrote_is_not(self):
         weights = self.here / "learned.weights"
         arguments = ("run", DAC, "--world", WORLD, "--seed", 2, "--cycles", 4000, "-q", "--hash",
-                     "--set", f"Adaptive.File Name={weights}", "--at", "cycle 300: Adaptive.write=true")
+                     "--set", f"Adaptive.File Name={weights}", "--schedule", "cycle 300: Adaptive.write=true")
         self.forage(*arguments, "-o", "through")
         whole = weights.read_bytes()
         weights.unlink()
@@ -360,7 +360,7 @@ class Faults(Stopped):
         text = SMALL_SYSTEM.replace('name="excGain" value="1"', 'name="excGain" value="1e300"')
         (self.here / "small.iqr").write_text(text)
         (self.here / "drive.csv").write_text("cycle,process,target,v0...\n0,P,out,1,1\n3,P,out,1,1e10\n")
-        arguments = ("run", "small.iqr", "--drive", "drive.csv", "--cycles", 10, "-r", "P/A", "-o", "out")
+        arguments = ("run", "small.iqr", "--replay", "drive.csv", "--cycles", 10, "-r", "P/A", "-o", "out")
         where = r"in cycle 4 'vm' of 'P/A' becomes inf in cell \(2, 1\)"
         done = self.forage(*arguments)
         self.assertRegex(done.stderr, rf"(?m)^warning: {where}\n  hint: --on-nan stop.*\n\Z")

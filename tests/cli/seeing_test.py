@@ -44,7 +44,7 @@ def png_size(data):
 
 @unittest.skipUnless(numpy, "NumPy and h5py are absent")
 class Formats(Cli):
-    ARGUMENTS = ("--cycles", 100, "-r", "Bug/Light", "-r", "Bug/Motor:vm(4..6,1..2)", "-r", "mean:Bug/Light(1..8,1)", "--every", 3, "--record-from", 10, "--record-until", 90)
+    ARGUMENTS = ("--cycles", 100, "-r", "Bug/Light", "-r", "Bug/Motor:vm(4..6,1..2)", "-r", "mean:Bug/Light(1..8,1)", "--record-every", 3, "--record-from", 10, "--record-until", 90)
 
     def csv(self, name, out="csv"):
         return numpy.array([[float(v) for v in row] for row in self.table(f"{out}/{name}")[1:]])
@@ -124,8 +124,8 @@ class Formats(Cli):
         self.assertEqual(len(self.table("out/Bug_GPS_act.csv")), 6)
 
     def test_means_over_cycles(self):
-        self.run_robot("--cycles", 100, "-r", "Bug/Light", "--every", 1, out="all")
-        self.run_robot("--cycles", 100, "-r", "Bug/Light", "--every", 7, "--record-mean")
+        self.run_robot("--cycles", 100, "-r", "Bug/Light", "--record-every", 1, out="all")
+        self.run_robot("--cycles", 100, "-r", "Bug/Light", "--record-every", 7, "--record-mean")
         means = self.csv("Bug_Light_act.csv", "out")
         self.assertEqual(list(means[:, 0]), list(range(0, 98, 7)))
         rows = self.csv("Bug_Light_act.csv", "all")[:98, 1:].reshape(14, 7, 32)
@@ -198,7 +198,7 @@ class Mistakes(Cli):
             (["-p", "space:Bug/Light;block=3"], "is no option of a plot"),
             (["-p", "connection:Light to UR"], "did you mean 'Light to US'"),
             (["-p", "diagram:Bugg"], "did you mean 'Bug'"),
-            (["-p", "time:Bug/Light", "--as", "gif"], "--as"),
+            (["-p", "time:Bug/Light", "--plot-format", "gif"], "--plot-format"),
         ):
             done = self.run_robot("--cycles", 1, *arguments, status=2)
             self.assertIn("error:", done.stderr)
@@ -225,10 +225,10 @@ class Pictures(Cli):
     def test_a_run_and_its_recording_give_the_same_pictures(self):
         for form in ("png", "svg", "pdf"):
             plots = [a for p in self.PLOTS for a in ("-p", p)]
-            self.run_robot("--trials", 2, *plots, "-p", "diagram", "-r", "Bug/Light", "-r", "Bug/GPS", "-r", "Bug/Place Cells=cells.h5", "--as", form)
+            self.run_robot("--trials", 2, *plots, "-p", "diagram", "-r", "Bug/Light", "-r", "Bug/GPS", "-r", "Bug/Place Cells=cells.h5", "--plot-format", form)
             made = sorted(p.name for p in (self.here / "out").iterdir() if p.suffix == "." + form)
             self.assertEqual(len(made), 7)
-            self.forage("plot", "out", *self.PLOTS, "diagram", "trajectory", "-o", "again", "--as", form)
+            self.forage("plot", "out", *self.PLOTS, "diagram", "trajectory", "-o", "again", "--plot-format", form)
             self.assertEqual(filecmp.cmpfiles(self.here / "out", self.here / "again", made, shallow=False), (made, [], []))
 
     def test_without_a_wish_it_draws_what_there_is(self):
@@ -269,7 +269,7 @@ class Pictures(Cli):
                 png_size(picture.read_bytes())
 
     def test_svg_is_xml_and_shows_every_group(self):
-        self.forage("plot", SYSTEM, "diagram", "--as", "svg")
+        self.forage("plot", SYSTEM, "diagram", "--plot-format", "svg")
         text = (self.here / "diagram.svg").read_text()
         if shutil.which("xmllint"):
             self.assertEqual(subprocess.run(["xmllint", "--noout", "--nonet", self.here / "diagram.svg"]).returncode, 0)

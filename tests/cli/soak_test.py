@@ -13,7 +13,7 @@ import time
 
 FORAGE, PROJECT = (pathlib.Path(p).resolve() for p in sys.argv[1:3])
 CYCLES = int(sys.argv[3]) if len(sys.argv) > 3 else 40_000
-RECORD = ("-r", "Adaptive/CR", "-r", "mean:Adaptive/Weights Display=weights.npy", "--every", CYCLES // 1000, "-p", "time:Adaptive/discrepancy")
+RECORD = ("-r", "Adaptive/CR", "-r", "mean:Adaptive/Weights Display=weights.npy", "--record-every", CYCLES // 1000, "-p", "time:Adaptive/discrepancy")
 VARIANTS = {
     "one thread, no results": (),
     "four threads, recorded": ("--threads", 4, *RECORD),

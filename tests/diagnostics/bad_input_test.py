@@ -38,7 +38,7 @@ COMMANDS = {
     ("bad_worlds", ".world"): ["check", "system.iqr", "--world", "{}"],
     ("bad_experiments", ".xml"): ["experiment", "{}", "-q", "-o", "out"],
     ("bad_tables", ".clamp"): ["run", "system.iqr", "-o", "", "--clamp", "{}"],
-    ("bad_tables", ".drive"): ["run", "replay.iqr", "-o", "", "--drive", "{}"],
+    ("bad_tables", ".drive"): ["run", "replay.iqr", "-o", "", "--replay", "{}"],
     ("bad_tables", ".patterns"): ["run", "system.iqr", "-o", "", "--clamp", "P/A={}"],
     ("bad_recordings", ".csv"): ["plot", "{}", "-o", "out"],
     ("bad_recordings", ".npy"): ["plot", "{}", "-o", "out"],
@@ -203,7 +203,7 @@ class BadInput(unittest.TestCase):
             "convert system.iqr out.iqr --import part.iqrProcess",
             "check learning.iqr --set Adaptive.read=true --set Adaptive.File\N{NO-BREAK SPACE}Name=weights.weights",
             "run system.iqr --cycles 5 -o out --clamp table.csv --clamp P/A=patterns.txt --record P/A",
-            "run replay.iqr --cycles 5 -o out --drive table.csv",
+            "run replay.iqr --cycles 5 -o out --replay table.csv",
             "experiment experiment.xml -o out",
         ):
             with self.subTest(arguments):

@@ -29,7 +29,7 @@ def command(kind, file):
         "world": ["check", "system.iqr", "--world", file],
         "experiment": ["experiment", file, "-q", "-o", "out"],
         "clamp": ["run", "system.iqr", "-o", "", "--clamp", file],
-        "drive": ["run", "replay.iqr", "-o", "", "--drive", file],
+        "drive": ["run", "replay.iqr", "-o", "", "--replay", file],
         "patterns": ["run", "system.iqr", "-o", "", "--clamp", f"P/A={file}"],
         "weights": ["check", "learning.iqr", "--set", "Adaptive.read=true", "--set", f"Adaptive.File Name={file}"],
         "recording": ["plot", file, "-o", "out"],
@@ -156,12 +156,12 @@ add_kinds()
 
 @case
 def at_parentheses_very_deep(here):
-    return Case(["run", "system.iqr", "-o", "", "--cycles", "5", "--at", "(" * 60_000 + "cycle 5: P/A.threshold=1"])
+    return Case(["run", "system.iqr", "-o", "", "--cycles", "5", "--schedule", "(" * 60_000 + "cycle 5: P/A.threshold=1"])
 
 
 @case
 def at_parts_very_many(here):
-    return Case(["run", "system.iqr", "-o", "", "--cycles", "5", "--at", " or ".join(["cycle 5"] * 10_000) + ": P/A.threshold=1"])
+    return Case(["run", "system.iqr", "-o", "", "--cycles", "5", "--schedule", " or ".join(["cycle 5"] * 10_000) + ": P/A.threshold=1"])
 
 
 @case

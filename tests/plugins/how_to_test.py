@@ -64,7 +64,7 @@ class HowTo(unittest.TestCase):
         return commands
 
     def test_every_page_is_followed_to_its_last_block(self):
-        for page in ("write-a-neuron", "embed"):
+        for page in ("write-a-neuron", "embed", "write-an-observer"):
             text = (PAGES / f"{page}.md").read_text()
             self.assertEqual(len(re.findall(r"^```\w+$", text, re.MULTILINE)), len(list(BLOCK.finditer(text))), page)
 
@@ -73,6 +73,9 @@ class HowTo(unittest.TestCase):
 
     def test_embed(self):
         self.assertGreaterEqual(self.follow("embed"), 3)
+
+    def test_write_an_observer(self):
+        self.assertGreaterEqual(self.follow("write-an-observer"), 4)
 
     def test_projects_of_all_kinds_build_and_pass_their_test(self):
         for kind in ("neuron", "synapse", "module"):

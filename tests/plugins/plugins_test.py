@@ -170,7 +170,7 @@ class Twins(Plugins):
         system = f"system{twin}.iqr"
         (self.here / system).write_text(TWINS.format(twin=twin))
         change = "cycle 100: P/B.vmPrs=0.3"  # parameters of plugins change while they run, too
-        self.forage("run", system, "--plugin", BROKEN.parent / "twins.so", "-c", 300, "--at", change, "-o", f"out{twin}",
+        self.forage("run", system, "--plugin", BROKEN.parent / "twins.so", "-c", 300, "--schedule", change, "-o", f"out{twin}",
                     *[word for column in ("A", "B", "B:vm", "D") for word in ("--record", f"P/{column}")])
         return {p.name: p.read_bytes() for p in (self.here / f"out{twin}").glob("*.csv")}
 

@@ -69,7 +69,7 @@ class ClosedLoop {
             step();
         }
     }
-    /// Changes a parameter from now on; as --at.
+    /// Changes a parameter from now on; as --schedule.
     void set(std::string_view assignment) {
         Diagnostics diagnostics;
         const auto change = model::parse_assignment(parsed_, registry, assignment, "test", diagnostics);

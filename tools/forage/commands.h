@@ -15,7 +15,7 @@ namespace forage::tool {
 enum ExitStatus { fine = 0, run_failed = 1, bad_input = 2 };
 
 struct RunOptions {
-    RunSpec spec;
+    RunSpec spec = {.directory = "forage-out"};
     bool real_time = false;  ///< no faster than the clock
     bool quiet = false;
 };

@@ -60,7 +60,7 @@ std::string summary(const PreparedRun& p, const RunOutcome& outcome, bool resuma
     for (std::size_t g = 0; g < groups; ++g) pruned += simulation.pruned(static_cast<int>(g));
     if (pruned)
         line("pruned", fmt::format("{} of {} groups, which nothing reads; --hash computes all", pruned, groups));
-    if (p.spec.digest) line("computed", fmt::format("all {} groups, for --hash", groups));
+    if (p.spec.digest) line("computed", fmt::format("all {} groups, as --hash demands", groups));
     if (!run.divergence().empty()) line("diverged", run.divergence());
     if (!outcome.state.empty()) line("state", outcome.state);
     if (resumable) line("to go on", "forage resume " + p.spec.directory);

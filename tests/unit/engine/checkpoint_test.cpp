@@ -65,7 +65,7 @@ TEST_CASE("Members of modules and parameters that were changed belong to a check
     auto one = run(s.system, s.types), other = run(s.system, s.types);
     for (int t = 0; t < 5; ++t) one.step();
     Diagnostics diagnostics;
-    const auto change = model::parse_assignment(s.system, s.types, "P.gain=10", "--at", diagnostics);
+    const auto change = model::parse_assignment(s.system, s.types, "P.gain=10", "--schedule", diagnostics);
     REQUIRE(change);
     one.set(*change);
     Archive out;

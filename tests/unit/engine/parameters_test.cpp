@@ -39,7 +39,7 @@ struct Small {
     }
     model::Assignment read(const std::string& text) const {
         Diagnostics diagnostics;
-        const auto a = model::parse_assignment(system, types, text, "--at", diagnostics);
+        const auto a = model::parse_assignment(system, types, text, "--schedule", diagnostics);
         INFO(format(diagnostics));
         REQUIRE(a);
         return *a;

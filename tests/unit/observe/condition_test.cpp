@@ -26,7 +26,7 @@ struct Counting {
     }
     std::optional<observe::Condition> parse(const std::string& text, Diagnostics& diagnostics,
                                             bool trials = true) const {
-        return observe::parse_condition(simulation.layout(), trials, text, "--at", diagnostics);
+        return observe::parse_condition(simulation.layout(), trials, text, "--schedule", diagnostics);
     }
     bool holds(const std::string& text, const SimTime& now = {}) const {
         Diagnostics diagnostics;
@@ -126,7 +126,7 @@ TEST_CASE("A change is made once, in the first cycle before which its condition 
     auto owned = std::make_unique<observe::Schedule>();
     observe::Schedule& schedule = *owned;
     const auto add = [&](const std::string& when, const std::string& change) {
-        auto assignment = model::parse_assignment(s.system, s.types, change, "--at", diagnostics);
+        auto assignment = model::parse_assignment(s.system, s.types, change, "--schedule", diagnostics);
         REQUIRE(assignment);
         schedule.add(*s.parse(when, diagnostics), *assignment, when + ": " + change);
     };
