@@ -62,7 +62,7 @@ Robot::Robot(const Model& model, std::size_t number_, std::uint64_t seed_, Heigh
         }
         for (const Visual& v : limb.link->visuals)
             if (v.shape.kind != ShapeKind::plane)
-                sights.push_back({number,
+                visuals.push_back({number,
                                   limb.hinge,
                                   limb.home * v.pose,
                                   {{v.shape.kind, Pose::Identity(), v.shape.size}, v.material},
@@ -102,19 +102,19 @@ void Robot::surround(std::span<const Solid> still, std::span<const MovingSolid> 
     snapshot.image_width = camera_sensor->width, snapshot.image_height = camera_sensor->height;
 }
 
-void Robot::Scan::run(const Pose2& body, std::uint64_t sample, bool with_noise, const Stage& stage,
+void Robot::Scan::run(const Pose2& body, std::uint64_t sample, bool with_noise, const BodyPoses& poses,
                       std::span<double> cells) {
     around.resize(still);
-    std::size_t framed = stage.bodies.size();
+    std::size_t framed = poses.bodies.size();
     Frame frame(0, 0, 1, 0);
     const double farthest = scanner.farthest();
     for (const MovingOutline& m : moving) {
-        if (!stage.present[m.body]) continue;
-        const Pose2& there = stage.bodies[m.body];
-        const double near = farthest + m.far(stage), dx = there.x - body.x, dy = there.y - body.y;
+        if (!poses.present[m.body]) continue;
+        const Pose2& there = poses.bodies[m.body];
+        const double near = farthest + m.far(poses), dx = there.x - body.x, dy = there.y - body.y;
         if (dx * dx + dy * dy > near * near) continue;
         if (framed != m.body) framed = m.body, frame = Frame(there);
-        around.push_back(m.at(stage, frame));
+        around.push_back(m.at(poses, frame));
     }
     scanner.scan(body, around, ranges);
     if (with_noise) scanner.add_noise(ranges, noise, sample);
@@ -134,11 +134,11 @@ void Robot::checkpoint(Archive& archive) {
     for (BugSnapshot& s : history) archive(s.image);
 }
 
-void Robot::sense(bool with_noise, std::uint64_t sample, const Stage& stage) {
+void Robot::sense(bool with_noise, std::uint64_t sample, const BodyPoses& poses) {
     snapshot.pose = pose;
-    if (proximity) proximity->run(pose, sample, with_noise, stage, snapshot.proximity);
-    if (target) target->run(pose, sample, with_noise, stage, snapshot.target);
-    if (gripper && wants_gripper_scan) gripper->run(pose, sample, with_noise, stage, snapshot.gripper);
+    if (proximity) proximity->run(pose, sample, with_noise, poses, snapshot.proximity);
+    if (target) target->run(pose, sample, with_noise, poses, snapshot.target);
+    if (gripper && wants_gripper_scan) gripper->run(pose, sample, with_noise, poses, snapshot.gripper);
 }
 
 bool Robot::due(double now) const {
@@ -147,17 +147,17 @@ bool Robot::due(double now) const {
            (wants_image && camera_clock && camera_clock->due(now));
 }
 
-void Robot::sense_due(double now, bool with_noise, const Stage& stage, std::span<const MovingSight> all) {
+void Robot::sense_due(double now, bool with_noise, const BodyPoses& poses, std::span<const MovingVisual> all) {
     const auto look = [&](std::optional<Scan>& scan, std::vector<double>& cells) {
         if (!scan || !scan->clock.due(now)) return false;
-        scan->run(pose, scan->clock.look(now), with_noise, stage, cells);
+        scan->run(pose, scan->clock.look(now), with_noise, poses, cells);
         return true;
     };
     if (look(proximity, snapshot.proximity) || !proximity) snapshot.pose = pose;
     look(target, snapshot.target);
     if (wants_gripper_scan) look(gripper, snapshot.gripper);
     if (wants_image && camera_clock && camera_clock->due(now))
-        render(with_noise, camera_clock->look(now), stage, all);
+        render(with_noise, camera_clock->look(now), poses, all);
 }
 
 void Robot::make_camera(std::shared_ptr<const Scene> scene) {
@@ -169,27 +169,27 @@ void Robot::make_camera(std::shared_ptr<const Scene> scene) {
     snapshot.image.resize(values);
 }
 
-void Robot::render(bool with_noise, std::uint64_t sample, const Stage& stage,
-                   std::span<const MovingSight> all) {
+void Robot::render(bool with_noise, std::uint64_t sample, const BodyPoses& poses,
+                   std::span<const MovingVisual> all) {
     if (!camera || rendered == sample) return;
-    take_picture(with_noise, sample, stage, all, snapshot.image);
+    take_picture(with_noise, sample, poses, all, snapshot.image);
     rendered = sample;
 }
 
-std::span<const std::uint8_t> Robot::view(bool with_noise, std::uint64_t sample, const Stage& stage,
-                                          std::span<const MovingSight> all) {
+std::span<const std::uint8_t> Robot::view(bool with_noise, std::uint64_t sample, const BodyPoses& poses,
+                                          std::span<const MovingVisual> all) {
     if (!camera) return {};
     view_.resize(picture_.size());
-    take_picture(with_noise, sample, stage, all, view_);
+    take_picture(with_noise, sample, poses, all, view_);
     return view_;
 }
 
-void Robot::take_picture(bool with_noise, std::uint64_t sample, const Stage& stage,
-                         std::span<const MovingSight> all, std::vector<std::uint8_t>& out) {
+void Robot::take_picture(bool with_noise, std::uint64_t sample, const BodyPoses& poses,
+                         std::span<const MovingVisual> all, std::vector<std::uint8_t>& out) {
     moving_.clear();
-    for (const MovingSight& sight : all)
-        if (!(sight.body == number && sight.of_body) && stage.present[sight.body])
-            moving_.push_back(&sight.visual);
+    for (const MovingVisual& moving : all)
+        if (!(moving.body == number && moving.of_body) && poses.present[moving.body])
+            moving_.push_back(&moving.visual);
     camera->render(pose, moving_, picture_);
     if (with_noise) {
         camera->quantise(picture_, out, image_random, sample);

@@ -15,7 +15,7 @@
 #include "bug_interface/sensing/range_scan.h"
 #include "bug_interface/simulation/heights.h"
 #include "bug_interface/simulation/sensor_clock.h"
-#include "bug_interface/simulation/stage.h"
+#include "bug_interface/simulation/body_poses.h"
 #include "bug_interface/simulation/trials.h"
 #include "bug_interface/simulation/voice.h"
 
@@ -40,7 +40,7 @@ struct BugSnapshot {
 
 /// A part of World, which alone makes, moves and asks robots; the members are public for it. They are used in
 /// this order: the constructor; surround(), when all robots are there; then in every cycle sense() and
-/// render() look at the world from where the stage has it. What is said of a member holds from then on.
+/// render() look at the world at the body poses. What is said of a member holds from then on.
 class Robot {
   public:
     /// A range scanner and what it sees.
@@ -55,7 +55,7 @@ class Robot {
 
         /// Scans from `body` into `cells`, one for each ray. `sample` counts the scans: the same one has the
         /// same noise.
-        void run(const Pose2& body, std::uint64_t sample, bool with_noise, const Stage& stage,
+        void run(const Pose2& body, std::uint64_t sample, bool with_noise, const BodyPoses& poses,
                  std::span<double> cells);
     };
     /// A part of it that moves on hinges or is fixed beside the round body.
@@ -84,23 +84,23 @@ class Robot {
     /// by whoever asks; a robot does not see its own body, but its gripper. `step`: of the physics, s.
     void surround(std::span<const Solid> still, std::span<const MovingSolid> moving, double step);
     /// Writes pose and scans of `sample` into the snapshot.
-    void sense(bool with_noise, std::uint64_t sample, const Stage& stage);
+    void sense(bool with_noise, std::uint64_t sample, const BodyPoses& poses);
     /// Whether a sensor looks now that has a rate of its own. `now`: s of the world.
     bool due(double now) const;
     /// What is due now looks and writes into the snapshot. The pose comes with the proximity sensor, as in
     /// the original.
-    void sense_due(double now, bool with_noise, const Stage& stage, std::span<const MovingSight> sights);
+    void sense_due(double now, bool with_noise, const BodyPoses& poses, std::span<const MovingVisual> visuals);
     /// Has no effect without a camera sensor, or when it is made already.
     void make_camera(std::shared_ptr<const Scene> scene);
-    /// Writes the picture of `sample` into the snapshot, unless it is there already. `sights`: what moves,
+    /// Writes the picture of `sample` into the snapshot, unless it is there already. `visuals`: what moves,
     /// with visuals placed in the world.
     /// Has no effect before make_camera().
-    void render(bool with_noise, std::uint64_t sample, const Stage& stage,
-                std::span<const MovingSight> sights);
-    /// What the camera sees in `stage`, for onlookers: the snapshot stays as it is. Valid until the next
+    void render(bool with_noise, std::uint64_t sample, const BodyPoses& poses,
+                std::span<const MovingVisual> visuals);
+    /// What the camera sees at `poses`, for onlookers: the snapshot stays as it is. Valid until the next
     /// call; empty before make_camera().
-    std::span<const std::uint8_t> view(bool with_noise, std::uint64_t sample, const Stage& stage,
-                                       std::span<const MovingSight> sights);
+    std::span<const std::uint8_t> view(bool with_noise, std::uint64_t sample, const BodyPoses& poses,
+                                       std::span<const MovingVisual> visuals);
     /// Turns the hinges for a substep of `step` s, as far as nothing is in the way.
     void move_gripper(Physics& physics, double step);
 
@@ -113,7 +113,7 @@ class Robot {
     std::uint64_t seed;  ///< of the world
     Body body;
     std::vector<MovingSolid> solids;    ///< its collision shapes
-    std::vector<MovingSight> sights;    ///< what cameras see of it
+    std::vector<MovingVisual> visuals;    ///< what cameras see of it
     std::vector<Limb> limbs;            ///< of `body.parts`
     Pose link_pose = Pose::Identity();  ///< of the body's link in the model; sensors stand on it
     std::vector<RangeSensor> range_sensors;
@@ -139,8 +139,8 @@ class Robot {
     std::weak_ptr<void> claim;              ///< held by the module that drives it
 
   private:
-    void take_picture(bool with_noise, std::uint64_t sample, const Stage& stage,
-                      std::span<const MovingSight> sights, std::vector<std::uint8_t>& out);
+    void take_picture(bool with_noise, std::uint64_t sample, const BodyPoses& poses,
+                      std::span<const MovingVisual> visuals, std::vector<std::uint8_t>& out);
 
     std::vector<float> picture_;
     std::vector<std::uint8_t> view_;

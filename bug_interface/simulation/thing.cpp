@@ -35,7 +35,7 @@ Thing thing_of(const Model& model) {
     each_link(at_origin, Pose::Identity(), [&](const Link& link, const Pose& pose) {
         for (const Visual& v : link.visuals)
             if (v.shape.kind != ShapeKind::plane)
-                thing.sights.push_back({0,
+                thing.visuals.push_back({0,
                                         -1,
                                         pose * v.pose,
                                         {{v.shape.kind, Pose::Identity(), v.shape.size}, v.material},

@@ -7,7 +7,7 @@
 #include "bug_interface/motion/physics.h"
 #include "bug_interface/sensing/outline.h"
 #include "bug_interface/simulation/heights.h"
-#include "bug_interface/simulation/stage.h"
+#include "bug_interface/simulation/body_poses.h"
 #include "bug_interface/world/description.h"
 
 namespace forage::bug {
@@ -17,7 +17,7 @@ struct Thing {
     std::string name;
     Pose2 start;                      ///< where the file puts it
     std::vector<Solid> solids;        ///< its collision shapes, in its frame
-    std::vector<MovingSight> sights;  ///< `body` is 0 here
+    std::vector<MovingVisual> visuals;  ///< `body` is 0 here
     bool resource = false;            ///< whether it has the target plugin: robots collect it
 };
 

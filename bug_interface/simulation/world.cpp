@@ -43,7 +43,7 @@ void World::advance_bodies() {
         if (!game_.empty()) game_.substep(*physics_, time() + description_.step, description_.step);
         if (options_.native_rates) sense_when_due();
     }
-    set_stage();
+    update_body_poses();
     ++cycle_;
 }
 
@@ -124,17 +124,17 @@ bool World::in_reset(std::size_t bug) {
 }
 
 /// Where everything is now. A robot that is being reset shows up somewhere.
-void World::set_stage() {
+void World::update_body_poses() {
     for (std::size_t i = 0; i < robots_.size(); ++i) {
         Robot& robot = robots_[i];
-        stage_.bodies[i] = robot.pose = resetting(i) ? robot.reset->glimpse() : physics_->pose(i);
-        for (std::size_t h = 0; h < robot.hinges.size(); ++h) stage_.hinges[i][h] = robot.hinges.frame(h);
+        body_poses_.bodies[i] = robot.pose = resetting(i) ? robot.reset->glimpse() : physics_->pose(i);
+        for (std::size_t h = 0; h < robot.hinges.size(); ++h) body_poses_.hinges[i][h] = robot.hinges.frame(h);
     }
     for (std::size_t i = robots_.size(); i < bodies_.size(); ++i) {
-        stage_.bodies[i] = physics_->pose(i);
-        stage_.present[i] = physics_->present(i);
+        body_poses_.bodies[i] = physics_->pose(i);
+        body_poses_.present[i] = physics_->present(i);
     }
-    sights_placed_ = false;
+    visuals_placed_ = false;
     if (description_.game) colour_resources();
 }
 
@@ -143,10 +143,10 @@ void World::colour_resources() {
     static const Material bad = *named_material("Gazebo/Yellow");
     for (const Game::Resource& r : game_.resources()) {
         std::size_t part = 0;
-        for (MovingSight& sight : sights_) {
-            if (sight.body != r.thing) continue;
-            sight.visual.material =
-                r.good ? things_[r.thing - robots_.size()].sights[part].visual.material : bad;
+        for (MovingVisual& moving : moving_visuals_) {
+            if (moving.body != r.thing) continue;
+            moving.visual.material =
+                r.good ? things_[r.thing - robots_.size()].visuals[part].visual.material : bad;
             ++part;
         }
     }
@@ -163,8 +163,8 @@ void World::checkpoint(Archive& archive) {
     archive.same(robots_.size(), "the number of robots");
     archive(cycle_, substep_);
     for (Robot& robot : robots_) robot.checkpoint(archive);
-    archive(stage_, game_, *physics_);
-    sights_placed_ &= !archive.loading();
+    archive(body_poses_, game_, *physics_);
+    visuals_placed_ &= !archive.loading();
     if (archive.loading() && description_.game) colour_resources();
 }
 

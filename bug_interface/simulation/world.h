@@ -134,8 +134,8 @@ class World final : public Environment {
     std::optional<Pose2> thing_pose(std::size_t i) const;
     const Game& game() const { return game_; }
     const Robot& robot(std::size_t bug) const { return robots_[bug]; }
-    const Stage& stage() const { return stage_; }  ///< at the last snapshot
-    std::span<const MovingSight> moving_sights() const { return sights_; }
+    const BodyPoses& body_poses() const { return body_poses_; }  ///< at the last snapshot
+    std::span<const MovingVisual> moving_visuals() const { return moving_visuals_; }
     /// What stands still, for cameras and maps: made when it is first asked for, so not by two threads at a
     /// time. Throws std::runtime_error when a floor's picture cannot be read.
     std::shared_ptr<const Scene> scene() const;
@@ -154,12 +154,12 @@ class World final : public Environment {
     void drive(std::size_t bug);
     bool drive_freely(std::uint64_t last);  ///< all substeps before `last` at once, when that is the same
     bool is_free(std::size_t bug, double seconds);
-    void set_stage();
+    void update_body_poses();
     void sense_when_due();
     void colour_resources();
     void hear();
     void remember();
-    std::span<const MovingSight> placed_sights();
+    std::span<const MovingVisual> placed_visuals();
     void make_camera(std::size_t bug);
     std::uint64_t substeps_before(std::uint64_t cycle) const;
 
@@ -176,9 +176,9 @@ class World final : public Environment {
     std::vector<std::size_t> by_name_;  ///< the robots, in byte order of their names
     std::vector<Voice*> voices_;
     Game game_;
-    Stage stage_;
-    std::vector<MovingSight> sights_;   ///< of all that moves
-    bool sights_placed_ = false;        ///< whether their visuals are where they are on stage
+    BodyPoses body_poses_;
+    std::vector<MovingVisual> moving_visuals_;   ///< of all that moves
+    bool visuals_placed_ = false;        ///< whether their visuals are at the body poses
     std::vector<MotorCommand> drives_;  ///< of this substep, with noise
     std::unique_ptr<Physics> physics_;
     mutable std::shared_ptr<const Scene> scene_;

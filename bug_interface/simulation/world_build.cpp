@@ -82,9 +82,9 @@ bool World::build(Diagnostics& diagnostics) {
     physics_ = std::make_unique<Physics>(obstacles_of(description_, heights_), bodies_, description_.step,
                                          Physics::Contacts::when_near, heights_.meets());
     drives_.resize(bodies_.size());
-    stage_.bodies.resize(bodies_.size()), stage_.present.assign(bodies_.size(), 1);
-    stage_.hinges.resize(bodies_.size());
-    for (std::size_t i = 0; i < robots_.size(); ++i) stage_.hinges[i].resize(robots_[i].hinges.size());
+    body_poses_.bodies.resize(bodies_.size()), body_poses_.present.assign(bodies_.size(), 1);
+    body_poses_.hinges.resize(bodies_.size());
+    for (std::size_t i = 0; i < robots_.size(); ++i) body_poses_.hinges[i].resize(robots_[i].hinges.size());
     place_all(diagnostics);
     add_game();
     surround();
@@ -98,7 +98,7 @@ bool World::build(Diagnostics& diagnostics) {
     }
     std::sort(by_name_.begin(), by_name_.end(),
               [&](std::size_t a, std::size_t b) { return robots_[a].name < robots_[b].name; });
-    set_stage();
+    update_body_poses();
     return true;
 }
 
@@ -180,12 +180,12 @@ void World::surround() {
     std::vector<MovingSolid> moving;
     for (const Robot& robot : robots_) {
         moving.insert(moving.end(), robot.solids.begin(), robot.solids.end());
-        sights_.insert(sights_.end(), robot.sights.begin(), robot.sights.end());
+        moving_visuals_.insert(moving_visuals_.end(), robot.visuals.begin(), robot.visuals.end());
     }
     for (std::size_t i = 0; i < things_.size(); ++i) {
         const std::size_t body = robots_.size() + i;
         for (const Solid& solid : things_[i].solids) moving.push_back({body, -1, solid, false});
-        for (MovingSight sight : things_[i].sights) sight.body = body, sights_.push_back(sight);
+        for (MovingVisual moving : things_[i].visuals) moving.body = body, moving_visuals_.push_back(moving);
     }
     for (Robot& robot : robots_) robot.surround(still, moving, description_.step);
 }

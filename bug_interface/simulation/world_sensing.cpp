@@ -9,13 +9,13 @@ void World::sense_when_due() {
     const double now = static_cast<double>(substep_ + 1) * description_.step;
     const auto due = [&](const Robot& robot) { return robot.due(now); };
     if (std::none_of(robots_.begin(), robots_.end(), due)) return;
-    set_stage();
-    for (Robot& robot : robots_) robot.sense_due(now, options_.noise, stage_, placed_sights());
+    update_body_poses();
+    for (Robot& robot : robots_) robot.sense_due(now, options_.noise, body_poses_, placed_visuals());
 }
 
 void World::scan() {
     if (!options_.native_rates || cycle_ == 0)
-        for (Robot& robot : robots_) robot.sense(options_.noise, cycle_, stage_);
+        for (Robot& robot : robots_) robot.sense(options_.noise, cycle_, body_poses_);
     hear();
 }
 
@@ -24,14 +24,14 @@ void World::hear() {
     bool said = false;
     for (const Robot& robot : robots_) said |= robot.voice.speaking;
     if (!said) return;
-    deliver(voices_, stage_.bodies, by_name_);
+    deliver(voices_, body_poses_.bodies, by_name_);
     for (Robot& robot : robots_) robot.snapshot.heard = sum(robot.voice, by_name_);
 }
 
 void World::render() {
     if (!options_.native_rates)
         for (Robot& robot : robots_)
-            if (robot.wants_image) robot.render(options_.noise, cycle_, stage_, placed_sights());
+            if (robot.wants_image) robot.render(options_.noise, cycle_, body_poses_, placed_visuals());
     remember();
 }
 
@@ -56,13 +56,13 @@ std::shared_ptr<const Scene> World::scene() const {
     return scene_;
 }
 
-/// What cameras see of all that moves, where it is on stage.
-std::span<const MovingSight> World::placed_sights() {
-    if (!sights_placed_)
-        for (MovingSight& sight : sights_)
-            if (stage_.present[sight.body]) sight.visual.solid.pose = sight.at(stage_);
-    sights_placed_ = true;
-    return sights_;
+/// What cameras see of all that moves, at the body poses.
+std::span<const MovingVisual> World::placed_visuals() {
+    if (!visuals_placed_)
+        for (MovingVisual& moving : moving_visuals_)
+            if (body_poses_.present[moving.body]) moving.visual.solid.pose = moving.at(body_poses_);
+    visuals_placed_ = true;
+    return moving_visuals_;
 }
 
 void World::make_camera(std::size_t bug) {
@@ -73,20 +73,20 @@ std::span<const std::uint8_t> World::image(std::size_t bug) {
     make_camera(bug);
     Robot& robot = robots_[bug];
     if (robot.wants_image && !options_.native_rates) return robot.snapshot.image;  // step() renders it
-    return robot.view(options_.noise, cycle_, stage_, placed_sights());
+    return robot.view(options_.noise, cycle_, body_poses_, placed_visuals());
 }
 
 void World::need_image(std::size_t bug, bool needed) {
     Robot& robot = robots_[bug];
     robot.wants_image = needed;
     make_camera(bug);
-    if (needed) robot.render(options_.noise, cycle_, stage_, placed_sights());
+    if (needed) robot.render(options_.noise, cycle_, body_poses_, placed_visuals());
     if (cycle_ == 0) remember();
 }
 
 void World::need_gripper_scan(std::size_t bug, bool needed) {
     robots_[bug].wants_gripper_scan = needed;
-    if (needed && cycle_ == 0) robots_[bug].sense(options_.noise, 0, stage_);
+    if (needed && cycle_ == 0) robots_[bug].sense(options_.noise, 0, body_poses_);
     if (cycle_ == 0) remember();
 }
 

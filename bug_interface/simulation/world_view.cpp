@@ -20,19 +20,19 @@ std::optional<std::size_t> World::find(std::string_view bug) const {
 
 std::vector<DrawnSolid> World::drawing() const {
     auto out = drawing_of(description_);
-    for (const MovingSight& sight : sights_) {
-        if (sight.body < robots_.size() || !stage_.present[sight.body]) continue;
-        Solid solid = sight.visual.solid;
-        solid.pose = sight.at(stage_);
-        out.push_back({solid, sight.visual.material.diffuse});
+    for (const MovingVisual& moving : moving_visuals_) {
+        if (moving.body < robots_.size() || !body_poses_.present[moving.body]) continue;
+        Solid solid = moving.visual.solid;
+        solid.pose = moving.at(body_poses_);
+        out.push_back({solid, moving.visual.material.diffuse});
     }
     return out;
 }
 
 std::optional<Pose2> World::thing_pose(std::size_t i) const {
     const std::size_t body = robots_.size() + i;
-    if (!stage_.present[body]) return {};
-    return stage_.bodies[body];
+    if (!body_poses_.present[body]) return {};
+    return body_poses_.bodies[body];
 }
 
 Eigen::Vector2d World::looks_at(std::size_t bug) const {

@@ -237,9 +237,9 @@ TEST_CASE("Teams: green robots with names of team A, red ones of team B, where t
         const Pose2& at = places.at(name);
         CHECK((world->pose(i).x == at.x && world->pose(i).y == at.y));
         CHECK(world->pose(i).yaw == Approx(at.yaw));
-        const auto body = std::find_if(world->robot(i).sights.begin(), world->robot(i).sights.end(),
-                                       [](const MovingSight& s) { return s.of_body; });
-        REQUIRE(body != world->robot(i).sights.end());
+        const auto body = std::find_if(world->robot(i).visuals.begin(), world->robot(i).visuals.end(),
+                                       [](const MovingVisual& s) { return s.of_body; });
+        REQUIRE(body != world->robot(i).visuals.end());
         const Colour& colour = body->visual.material.diffuse;
         const bool green = name.starts_with("TeamA");
         CHECK((colour[0] == (green ? 0 : 1) && colour[1] == (green ? 1 : 0) && colour[2] == 0));

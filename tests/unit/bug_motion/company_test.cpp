@@ -171,7 +171,7 @@ TEST_CASE("A resource brought home counts, grows stale, turns yellow and dissolv
     const auto first = world->thing_pose(0);
     CHECK(std::hypot(first->x + 1, first->y - 1) <= 0.5);
     const auto is_yellow = [&](std::size_t thing) {
-        for (const MovingSight& s : world->moving_sights())
+        for (const MovingVisual& s : world->moving_visuals())
             if (s.body == world->bugs() + thing) return s.visual.material.diffuse[0] == 1;
         return false;
     };

@@ -12,7 +12,7 @@
 namespace forage::bug {
 
 /// Bodies are counted: the robots of the world, then its loose things.
-struct Stage {
+struct BodyPoses {
     std::vector<Pose2> bodies;
     std::vector<char> present;  ///< of each body; one that is taken away is neither seen nor touched
     std::vector<std::vector<Pose2>>
@@ -28,19 +28,19 @@ struct MovingOutline {
     Outline outline;  ///< in the body's frame, with its hinges at 0
 
     /// Where it is when its body stands at `frame`.
-    Outline at(const Stage& stage, const Frame& frame) const {
-        return frame.moved(hinge < 0 ? outline : moved(outline, displaced(stage)));
+    Outline at(const BodyPoses& poses, const Frame& frame) const {
+        return frame.moved(hinge < 0 ? outline : moved(outline, displaced(poses)));
     }
     /// How far any of it is from the middle of its body at most, m.
-    double far(const Stage& stage) const {
+    double far(const BodyPoses& poses) const {
         const auto from_middle = [](const auto& at) { return std::sqrt(at.x * at.x + at.y * at.y); };
         const double home = from_middle(outline) + reach(outline);
-        return hinge < 0 ? home : home + from_middle(displaced(stage));
+        return hinge < 0 ? home : home + from_middle(displaced(poses));
     }
 
   private:
-    const Pose2& displaced(const Stage& stage) const {
-        return stage.hinges[body][static_cast<std::size_t>(hinge)];
+    const Pose2& displaced(const BodyPoses& poses) const {
+        return poses.hinges[body][static_cast<std::size_t>(hinge)];
     }
 };
 
@@ -56,17 +56,17 @@ struct MovingSolid {
 Pose in_space(const Pose2& pose);
 
 /// Something visible that moves with a body.
-struct MovingSight {
+struct MovingVisual {
     std::size_t body = 0;
     int hinge = -1;
     Pose pose = Pose::Identity();  ///< in the body's frame, with its hinges at 0
     VisualSolid visual;
     bool of_body = false;  ///< of a robot's body itself, which its own camera looks away from
 
-    Pose at(const Stage& stage) const {
-        const Pose there = in_space(stage.bodies[body]);
+    Pose at(const BodyPoses& poses) const {
+        const Pose there = in_space(poses.bodies[body]);
         return hinge < 0 ? there * pose
-                         : there * in_space(stage.hinges[body][static_cast<std::size_t>(hinge)]) * pose;
+                         : there * in_space(poses.hinges[body][static_cast<std::size_t>(hinge)]) * pose;
     }
 };
 
