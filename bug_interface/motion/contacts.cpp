@@ -103,13 +103,13 @@ void Physics::Engine::solve(double step, std::span<State> states, std::span<Velo
     find_contacts(states);
     if (touching_.empty()) return;
     info_.m_timeStep = scalar(step);
-    const auto is_loose = [&](const btCollisionObject* o) {
-        return known_[static_cast<std::size_t>(o->getUserIndex())].loose;
+    const auto is_movable = [&](const btCollisionObject* o) {
+        return known_[static_cast<std::size_t>(o->getUserIndex())].movable;
     };
-    const bool loose = std::any_of(touching_.begin(), touching_.end(), [&](const auto* contact) {
-        return is_loose(contact->getBody0()) || is_loose(contact->getBody1());
+    const bool movable = std::any_of(touching_.begin(), touching_.end(), [&](const auto* contact) {
+        return is_movable(contact->getBody0()) || is_movable(contact->getBody1());
     });
-    info_.m_numIterations = loose ? 60 : 30;  // rows of things need more
+    info_.m_numIterations = movable ? 60 : 30;  // rows of things need more
     solver_.solveGroup(solved_.data(), static_cast<int>(solved_.size()), touching_.data(),
                        static_cast<int>(touching_.size()), nullptr, 0, info_, nullptr, &dispatcher_);
     for (std::size_t i = 0; i < states.size(); ++i) {
@@ -164,8 +164,8 @@ void Physics::Engine::find_contacts(std::span<State> states) {
             point.m_combinedFriction = std::min(a.friction[static_cast<std::size_t>(shape_a)],
                                                 b.friction[static_cast<std::size_t>(shape_b)]);
             if (point.getDistance() < touching) {
-                if (a.loose && b.driven) ++states[first - obstacles_].touches;
-                if (b.loose && a.driven) ++states[second - obstacles_].touches;
+                if (a.movable && b.driven) ++states[first - obstacles_].touches;
+                if (b.movable && a.driven) ++states[second - obstacles_].touches;
             }
         }
         if (contact->getNumContacts() > 0) touching_.push_back(contact);

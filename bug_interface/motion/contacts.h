@@ -25,7 +25,7 @@ class Physics::Engine {
     Engine(const Engine&) = delete;
     Engine& operator=(const Engine&) = delete;
 
-    /// Changes the velocities of the bodies that are involved, and counts what loose things touch.
+    /// Changes the velocities of the bodies that are involved, and counts what movable things touch.
     void solve(double step, std::span<State> states, std::span<Velocity> velocities);
     /// Parts of a body have been moved within it.
     void reshape(std::size_t body, std::span<const Part> parts);
@@ -33,7 +33,7 @@ class Physics::Engine {
   private:
     /// What Bullet's objects are numbered by.
     struct Shapes {
-        bool driven = false, loose = false;
+        bool driven = false, movable = false;
         LayerMask obstacle = 0;   ///< its layers; of a body 0
         std::vector<int> layers;  ///< of its shapes
         std::vector<btScalar> friction;

@@ -4,7 +4,7 @@
 
 #include "bug_interface/simulation/checks.h"
 #include "bug_interface/simulation/surroundings.h"
-#include "bug_interface/simulation/thing.h"
+#include "bug_interface/simulation/movable_object.h"
 #include "bug_interface/simulation/trials.h"
 
 namespace forage::bug {
@@ -41,7 +41,7 @@ void check_heights(const Model& model, double top, Diagnostics& diagnostics) {
         low = std::min(low, s.pose.translation().z() - s.size.z() / 2);
         high = std::max(high, s.pose.translation().z() + s.size.z() / 2);
     }
-    if (low < top && !(is_loose(model) && high <= 0)) return;
+    if (low < top && !(is_movable(model) && high <= 0)) return;
     diagnostics.warning(
         model.where,
         fmt::format("'{}' is {:.3g} to {:.3g} m high up: nothing touches it and no ray meets it", model.name,

@@ -34,10 +34,10 @@ std::string describe(const World& world) {
     }
     if (names.empty()) line("robot", "none");
     std::size_t away = 0;
-    for (std::size_t i = 0; i < world.things(); ++i) {
-        if (const auto pose = world.thing_pose(i))
-            line(world.thing(i).resource ? "resource" : "loose",
-                 fmt::format("{} at {}", world.thing(i).name, at(*pose)));
+    for (std::size_t i = 0; i < world.movable_objects(); ++i) {
+        if (const auto pose = world.movable_object_pose(i))
+            line(world.movable_object(i).resource ? "resource" : "loose",
+                 fmt::format("{} at {}", world.movable_object(i).name, at(*pose)));
         else
             ++away;
     }

@@ -43,13 +43,13 @@ void Game::begin(Physics& physics) {
 }
 
 void Game::take_away(Physics& physics, Resource& r) {
-    physics.lift(r.thing);
+    physics.lift(r.body);
     r.away = true, r.held = false, r.age = 0, r.contacts = 0;
 }
 
 void Game::substep(Physics& physics, double time, double step) {
     if (over()) return;
-    for (Resource& r : resources_) r.contacts += physics.touches(r.thing);
+    for (Resource& r : resources_) r.contacts += physics.touches(r.body);
     if (++since_look_ >= steps_per_look) {
         since_look_ = 0;
         look(physics, time);
@@ -69,7 +69,7 @@ void Game::look(Physics& physics, double time) {
     for (Resource& r : resources_) {
         r.held = std::exchange(r.contacts, 0) > held_contacts;
         if (r.away) continue;
-        const Pose2& at = physics.pose(r.thing);
+        const Pose2& at = physics.pose(r.body);
         for (const int team : {1, 0}) {  // where homes overlap, B's counts
             const Pose2& home = homes_[static_cast<std::size_t>(team)];
             if (std::hypot(at.x - home.x, at.y - home.y) >= home_radius) continue;
@@ -78,7 +78,7 @@ void Game::look(Physics& physics, double time) {
             if (rules_)
                 take_away(physics, r);
             else
-                physics.place(r.thing, r.start);
+                physics.place(r.body, r.start);
             break;
         }
     }
@@ -110,8 +110,8 @@ void Game::appear(Physics& physics, const GameSite& site, std::uint32_t draw) {
     const double angle = 2 * std::numbers::pi * random_.uniform(count_, 2 * draw, place),
                  radius = spread * random_.uniform(count_, 2 * draw + 1, place);
     const Pose2 at{site.x + radius * std::cos(angle), site.y + radius * std::sin(angle), 0};
-    if (!physics.has_room(free->thing, at)) return;
-    physics.place(free->thing, at);
+    if (!physics.has_room(free->body, at)) return;
+    physics.place(free->body, at);
     free->away = false, free->good = true, free->held = false, free->age = 0, free->contacts = 0;
 }
 

@@ -32,7 +32,7 @@ struct Delivery {
 class Game {
   public:
     struct Resource {
-        std::size_t thing = 0;  ///< its number among the bodies
+        std::size_t body = 0;  ///< its number among the bodies
         Pose2 start;            ///< where it goes back to
         bool away = false, good = true, held = false;
         int age = 0;       ///< s

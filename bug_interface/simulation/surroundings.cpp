@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bug_interface/simulation/thing.h"
+#include "bug_interface/simulation/movable_object.h"
 
 namespace forage::bug {
 namespace {
@@ -85,7 +85,7 @@ std::vector<Eigen::Vector2d> targets_of(const WorldDescription& world) {
 std::vector<DrawnSolid> drawing_of(const WorldDescription& world) {
     std::vector<DrawnSolid> out;
     for (const Model& model : world.models)
-        if (!robot_link(model) && !is_loose(model))
+        if (!robot_link(model) && !is_movable(model))
             each_link(model, Pose::Identity(), [&](const Link& link, const Pose& pose) {
                 for (const Visual& v : link.visuals)
                     if (v.shape.kind != ShapeKind::plane)

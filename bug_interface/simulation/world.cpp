@@ -144,9 +144,9 @@ void World::colour_resources() {
     for (const Game::Resource& r : game_.resources()) {
         std::size_t part = 0;
         for (MovingVisual& moving : moving_visuals_) {
-            if (moving.body != r.thing) continue;
+            if (moving.body != r.body) continue;
             moving.visual.material =
-                r.good ? things_[r.thing - robots_.size()].visuals[part].visual.material : bad;
+                r.good ? movable_objects_[r.body - robots_.size()].visuals[part].visual.material : bad;
             ++part;
         }
     }

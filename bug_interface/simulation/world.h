@@ -13,7 +13,7 @@
 #include "bug_interface/simulation/patches.h"
 #include "bug_interface/simulation/robot.h"
 #include "bug_interface/simulation/surroundings.h"
-#include "bug_interface/simulation/thing.h"
+#include "bug_interface/simulation/movable_object.h"
 #include "bug_interface/simulation/trials.h"
 #include "bug_interface/world/description.h"
 #include "core/base/diagnostic.h"
@@ -128,10 +128,10 @@ class World final : public Environment {
     std::optional<ResetPlan> reset_plan() const { return plan_; }             ///< start poses and bounds
     /// For drawing: what stands still, and where loose things are now.
     std::vector<DrawnSolid> drawing() const;
-    std::size_t things() const { return things_.size(); }
-    const Thing& thing(std::size_t i) const { return things_[i]; }
+    std::size_t movable_objects() const { return movable_objects_.size(); }
+    const MovableObject& movable_object(std::size_t i) const { return movable_objects_[i]; }
     /// Where a loose thing is; empty when it is away.
-    std::optional<Pose2> thing_pose(std::size_t i) const;
+    std::optional<Pose2> movable_object_pose(std::size_t i) const;
     const Game& game() const { return game_; }
     const Robot& robot(std::size_t bug) const { return robots_[bug]; }
     const BodyPoses& body_poses() const { return body_poses_; }  ///< at the last snapshot
@@ -146,7 +146,7 @@ class World final : public Environment {
     World(const WorldDescription& description, const WorldOptions& options);
     bool build(Diagnostics& diagnostics);
     void add_robot(const Model& model, Diagnostics& diagnostics);
-    void add_things(Diagnostics& diagnostics);
+    void add_movable_objects(Diagnostics& diagnostics);
     void add_game();
     void place_all(Diagnostics& diagnostics);
     void surround();
@@ -171,7 +171,7 @@ class World final : public Environment {
     std::vector<Eigen::Vector2d> targets_;
     Heights heights_;
     std::vector<Robot> robots_;
-    std::vector<Thing> things_;
+    std::vector<MovableObject> movable_objects_;
     std::vector<Body> bodies_;          ///< of the robots, then of the things
     std::vector<std::size_t> by_name_;  ///< the robots, in byte order of their names
     std::vector<Voice*> voices_;

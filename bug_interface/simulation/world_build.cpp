@@ -72,12 +72,12 @@ bool World::build(Diagnostics& diagnostics) {
     targets_ = targets_of(description_);
     for (const Model& model : description_.models)
         if (robot_link(model)) add_robot(model, diagnostics);
-    add_things(diagnostics);
+    add_movable_objects(diagnostics);
     if (diagnostics.errors() > errors_before) return false;
     check_places(description_, plan_, highest(robots_), diagnostics);
 
     for (const Robot& robot : robots_) bodies_.push_back(robot.body);
-    std::rotate(bodies_.begin(), bodies_.begin() + static_cast<std::ptrdiff_t>(things_.size()),
+    std::rotate(bodies_.begin(), bodies_.begin() + static_cast<std::ptrdiff_t>(movable_objects_.size()),
                 bodies_.end());
     physics_ = std::make_unique<Physics>(obstacles_of(description_, heights_), bodies_, description_.step,
                                          Physics::Contacts::when_near, heights_.meets());
@@ -113,7 +113,7 @@ void World::place_all(Diagnostics& diagnostics) {
                 fmt::format("{}'{}' starts inside of something, and may be stuck there", what, name),
                 "give it another <pose>");
     };
-    if (description_.game && !things_.empty())
+    if (description_.game && !movable_objects_.empty())
         for (const GameSite& site : description_.game->sites)
             if (!physics_->has_room(robots_.size(), {site.x, site.y, 0}))
                 diagnostics.warning(site.where,
@@ -122,11 +122,11 @@ void World::place_all(Diagnostics& diagnostics) {
     for (std::size_t i = 0; i < robots_.size(); ++i) physics_->place(i, robots_[i].pose);
     for (std::size_t i = 0; i < robots_.size(); ++i)
         if (!physics_->has_room(i, physics_->pose(i))) warn(robots_[i].name, "robot ");
-    for (std::size_t i = 0; i < things_.size(); ++i)  // alone: what is loose makes room for each other
-        if (!(description_.game && things_[i].resource) &&
-            !physics_->has_room(robots_.size() + i, things_[i].start))
-            warn(things_[i].name, "");
-    for (std::size_t i = 0; i < things_.size(); ++i) physics_->place(robots_.size() + i, things_[i].start);
+    for (std::size_t i = 0; i < movable_objects_.size(); ++i)  // alone: what is movable makes room for each other
+        if (!(description_.game && movable_objects_[i].resource) &&
+            !physics_->has_room(robots_.size() + i, movable_objects_[i].start))
+            warn(movable_objects_[i].name, "");
+    for (std::size_t i = 0; i < movable_objects_.size(); ++i) physics_->place(robots_.size() + i, movable_objects_[i].start);
 }
 
 void World::add_robot(const Model& model, Diagnostics& diagnostics) {
@@ -139,18 +139,18 @@ void World::add_robot(const Model& model, Diagnostics& diagnostics) {
     robot.trials.emplace(targets_);
 }
 
-void World::add_things(Diagnostics& diagnostics) {
-    std::vector<Model> loose;
+void World::add_movable_objects(Diagnostics& diagnostics) {
+    std::vector<Model> movable;
     for (const Model& model : description_.models)
-        if (is_loose(model)) loose.push_back(model);
+        if (is_movable(model)) movable.push_back(model);
     if (description_.game) {
-        const auto has = std::count_if(loose.begin(), loose.end(),
+        const auto has = std::count_if(movable.begin(), movable.end(),
                                        [](const Model& m) { return has_plugin(m, "libtarget_plugin.so"); });
-        for (int i = static_cast<int>(has); i < description_.game->most; ++i) loose.push_back(resource(i));
+        for (int i = static_cast<int>(has); i < description_.game->most; ++i) movable.push_back(resource(i));
     }
-    for (const Model& model : loose) {
-        things_.push_back(thing_of(model));
-        bodies_.push_back(body_of(model, things_.back(), heights_, diagnostics));
+    for (const Model& model : movable) {
+        movable_objects_.push_back(movable_object_of(model));
+        bodies_.push_back(body_of(model, movable_objects_.back(), heights_, diagnostics));
         if (bodies_.back().radius > 0 || !bodies_.back().parts.empty()) continue;
         diagnostics.error(model.where,
                           fmt::format("'{}' has no shape that things could bump into", model.name),
@@ -166,8 +166,8 @@ void World::add_game() {
         if (model.name == "Home_B") homes[1] = in_plane(model.pose);
     }
     std::vector<Game::Resource> resources;
-    for (std::size_t i = 0; i < things_.size(); ++i)
-        if (things_[i].resource) resources.push_back({robots_.size() + i, things_[i].start});
+    for (std::size_t i = 0; i < movable_objects_.size(); ++i)
+        if (movable_objects_[i].resource) resources.push_back({robots_.size() + i, movable_objects_[i].start});
     game_ = Game(description_.game, homes, std::move(resources), options_.seed);
     game_.begin(*physics_);
 }
@@ -182,10 +182,10 @@ void World::surround() {
         moving.insert(moving.end(), robot.solids.begin(), robot.solids.end());
         moving_visuals_.insert(moving_visuals_.end(), robot.visuals.begin(), robot.visuals.end());
     }
-    for (std::size_t i = 0; i < things_.size(); ++i) {
+    for (std::size_t i = 0; i < movable_objects_.size(); ++i) {
         const std::size_t body = robots_.size() + i;
-        for (const Solid& solid : things_[i].solids) moving.push_back({body, -1, solid, false});
-        for (MovingVisual moving : things_[i].visuals) moving.body = body, moving_visuals_.push_back(moving);
+        for (const Solid& solid : movable_objects_[i].solids) moving.push_back({body, -1, solid, false});
+        for (MovingVisual moving : movable_objects_[i].visuals) moving.body = body, moving_visuals_.push_back(moving);
     }
     for (Robot& robot : robots_) robot.surround(still, moving, description_.step);
 }

@@ -29,7 +29,7 @@ std::vector<DrawnSolid> World::drawing() const {
     return out;
 }
 
-std::optional<Pose2> World::thing_pose(std::size_t i) const {
+std::optional<Pose2> World::movable_object_pose(std::size_t i) const {
     const std::size_t body = robots_.size() + i;
     if (!body_poses_.present[body]) return {};
     return body_poses_.bodies[body];

@@ -75,7 +75,7 @@ class Pen {
         world->advance_bodies();
         for (std::size_t i = 0; i < bodies(); ++i) measure(i);
     }
-    std::size_t bodies() const { return world->bugs() + world->things(); }
+    std::size_t bodies() const { return world->bugs() + world->movable_objects(); }
 
     std::unique_ptr<World> world;
     std::map<std::string, double> deepest;  ///< of "robot wall", "crate crate", ..., m
@@ -84,7 +84,7 @@ class Pen {
   private:
     std::string kind(std::size_t body) const {
         if (body < world->bugs()) return "robot";
-        return world->thing(body - world->bugs()).name.substr(0, 4) == "ball" ? "ball" : "crate";
+        return world->movable_object(body - world->bugs()).name.substr(0, 4) == "ball" ? "ball" : "crate";
     }
     /// In the world; the middle of a robot or ball first.
     std::vector<Outline> shapes(std::size_t body) const {
@@ -139,7 +139,7 @@ TEST_CASE(
                    ball("ball_2", {1, -1.2, 0}), ball("ball_3", {-1.2, 0, 0})}));
     World& world = *pen.world;
     std::vector<Pose2> before;
-    for (std::size_t i = 0; i < world.things(); ++i) before.push_back(*world.thing_pose(i));
+    for (std::size_t i = 0; i < world.movable_objects(); ++i) before.push_back(*world.movable_object_pose(i));
     const RandomStream random(17, "push");
     const std::uint64_t steps = steps_to_do();
     for (std::uint64_t t = 0; t < steps; ++t) {
@@ -166,9 +166,9 @@ TEST_CASE(
     CHECK(pen.fastest_turn < 30);
     CHECK(pen.farthest < 1.6);
     int moved = 0;
-    for (std::size_t i = 0; i < world.things(); ++i)
+    for (std::size_t i = 0; i < world.movable_objects(); ++i)
         moved +=
-            std::hypot(world.thing_pose(i)->x - before[i].x, world.thing_pose(i)->y - before[i].y) > 0.02;
+            std::hypot(world.movable_object_pose(i)->x - before[i].x, world.movable_object_pose(i)->y - before[i].y) > 0.02;
     CHECK(moved >= 4);
 }
 
@@ -182,7 +182,7 @@ TEST_CASE("A gripped ball stays gripped at walls, gets into none, and is let go 
             for (int i = 0; i < steps; ++i) {
                 pen.step();
                 if (!check) continue;
-                const Pose2 &r = world.pose(0), b = *world.thing_pose(0);
+                const Pose2 &r = world.pose(0), b = *world.movable_object_pose(0);
                 const Eigen::Vector2d at = Eigen::Rotation2Dd(-r.yaw) * Eigen::Vector2d(b.x - r.x, b.y - r.y);
                 INFO("run " << run << ", " << at.x() << " " << at.y() << ", " << command.forward << " "
                             << command.turn);
@@ -204,7 +204,7 @@ TEST_CASE("A gripped ball stays gripped at walls, gets into none, and is let go 
         world.grip(0, false);
         drive({}, 400, false);
         drive({-0.5, 0}, 600, false);
-        const Pose2 &r = world.pose(0), b = *world.thing_pose(0);
+        const Pose2 &r = world.pose(0), b = *world.movable_object_pose(0);
         CHECK(std::hypot(b.x - r.x, b.y - r.y) > 0.41);
     }
 }

@@ -138,7 +138,7 @@ TEST_CASE("Homes are where the challenge's walls have them painted, or where the
         const auto& homes = world->game().homes();
         CHECK((homes[0].x == -at && homes[0].y == at && homes[1].x == at && homes[1].y == -at));
         CHECK(world->game().left() == 300);
-        CHECK(world->things() == 16);
+        CHECK(world->movable_objects() == 16);
     }
 }
 
@@ -152,8 +152,8 @@ TEST_CASE("The resources of the two-robot arena count at a home without a game")
     for (int cycle = 0; cycle < 3; ++cycle) world->step();
     REQUIRE(world->game().deliveries().size() == 1);
     CHECK(world->game().deliveries().front().team == 0);
-    CHECK(world->thing(0).name == "target_0");
-    CHECK(world->thing_pose(0)->y == 3);  // the others lie in the open
+    CHECK(world->movable_object(0).name == "target_0");
+    CHECK(world->movable_object_pose(0)->y == 3);  // the others lie in the open
 }
 
 TEST_CASE("Resources are blue balls that no sensor of light or proximity sees, but the gripper's rays do") {
@@ -196,7 +196,7 @@ TEST_CASE("What is half a metre high counts as light: the pillar, and the walls 
 TEST_CASE("A robot drives along the line and sees it green; the strips are paint") {
     if (absent(shared_dir() / "original")) return;
     const auto world = made(original("SDIC_tutorial/world/follow_line"));
-    CHECK(world->things() == 0);
+    CHECK(world->movable_objects() == 0);
     CHECK(mean(*world, 1) > 240);
     CHECK(mean(*world, 0) < 15);
     world->command(0, {1, 0});

@@ -69,7 +69,7 @@ TEST_CASE("Every world of the original loads, with its robots, loose things and 
         REQUIRE(expected.contains(file.stem()));
         const Content& content = expected.at(file.stem());
         CHECK(world->bugs() == content.robots);
-        CHECK(world->things() == content.things);
+        CHECK(world->movable_objects() == content.things);
         CHECK(world->targets().size() == content.targets);
         for (std::size_t i = 0; i < world->bugs(); ++i) {
             CHECK(world->has_gripper(i) == content.gripper);

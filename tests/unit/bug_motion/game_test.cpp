@@ -181,7 +181,7 @@ TEST_CASE("Resources appear as often as their sites say, within half a metre, ev
         table.seconds(1);
         for (const Game::Resource& r : table.game.resources()) {
             if (r.away) continue;
-            const Pose2& at = table.physics.pose(r.thing);
+            const Pose2& at = table.physics.pose(r.body);
             const bool second = at.x > 15;
             const double radius = std::hypot(at.x - (second ? 30 : 0), at.y);
             ++appeared[second], sum += radius, farthest = std::max(farthest, radius);

@@ -94,16 +94,16 @@ TEST_CASE("A crate of 40 shapes is pushed like one of a single shape, and seen l
     };
     const auto sliced = made(with({crate(slices)})),
                whole = made(with({crate({box(0, 0, 0, 0.25, 0.3, 0.4)})}));
-    REQUIRE(sliced->things() == 1);
+    REQUIRE(sliced->movable_objects() == 1);
     for (int part = 0; part < 6; ++part) {
         CHECK(sliced->snapshot(0).proximity == whole->snapshot(0).proximity);
         if (part == 2) break;  // touched: from now on the solver's order shows
         drive(*sliced, {0.5, 0}, 5), drive(*whole, {0.5, 0}, 5);
     }
     drive(*sliced, {0.5, 0}, 60), drive(*whole, {0.5, 0}, 60);
-    CHECK(sliced->thing_pose(0)->x > 1.2);
-    CHECK(sliced->thing_pose(0)->x == Approx(whole->thing_pose(0)->x).margin(0.03));
-    CHECK(sliced->thing_pose(0)->y == Approx(whole->thing_pose(0)->y).margin(0.03));
+    CHECK(sliced->movable_object_pose(0)->x > 1.2);
+    CHECK(sliced->movable_object_pose(0)->x == Approx(whole->movable_object_pose(0)->x).margin(0.03));
+    CHECK(sliced->movable_object_pose(0)->y == Approx(whole->movable_object_pose(0)->y).margin(0.03));
 }
 
 TEST_CASE("A gripper whose fingers have 40 shapes each closes and holds like one of single shapes") {
@@ -144,7 +144,7 @@ TEST_CASE("A gripper whose fingers have 40 shapes each closes and holds like one
         drive(*world, {}, 20);
         drive(*world, {0.5, 0.5}, 50);
         CHECK(world->gripper_angle(0, 0) < 0.44);  // the ball is between the fingers
-        const Pose2 &r = world->pose(0), at = *world->thing_pose(0);
+        const Pose2 &r = world->pose(0), at = *world->movable_object_pose(0);
         const Eigen::Vector2d seen = Eigen::Rotation2Dd(-r.yaw) * Eigen::Vector2d(at.x - r.x, at.y - r.y);
         INFO(seen.x() << " " << seen.y());
         CHECK((seen.x() > 0.25 && seen.x() < 0.4 && std::abs(seen.y()) < 0.06));

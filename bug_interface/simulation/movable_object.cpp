@@ -1,4 +1,4 @@
-#include "bug_interface/simulation/thing.h"
+#include "bug_interface/simulation/movable_object.h"
 
 #include <algorithm>
 
@@ -11,12 +11,12 @@ constexpr double gravity = 9.8;  ///< m/s^2
 
 }  // namespace
 
-bool is_loose(const Model& model) {
+bool is_movable(const Model& model) {
     return !model.is_static && !robot_link(model) && !solids_of(model).empty();
 }
 
 WorldDescription without_movers(WorldDescription world) {
-    std::erase_if(world.models, [](const Model& m) { return robot_link(m) || is_loose(m); });
+    std::erase_if(world.models, [](const Model& m) { return robot_link(m) || is_movable(m); });
     return world;
 }
 
@@ -24,27 +24,27 @@ Pose frame_of(const Model& model) {
     return model.links.empty() ? Pose::Identity() : in_space(in_plane(model.links.front().pose));
 }
 
-Thing thing_of(const Model& model) {
-    Thing thing;
-    thing.name = model.name;
+MovableObject movable_object_of(const Model& model) {
+    MovableObject object;
+    object.name = model.name;
     Model at_origin = model;
     at_origin.pose = frame_of(model).inverse();
-    thing.start = in_plane(model.pose * frame_of(model));
-    thing.solids = solids_of(at_origin);
-    thing.resource = has_plugin(model, "libtarget_plugin.so");
+    object.start = in_plane(model.pose * frame_of(model));
+    object.solids = solids_of(at_origin);
+    object.resource = has_plugin(model, "libtarget_plugin.so");
     each_link(at_origin, Pose::Identity(), [&](const Link& link, const Pose& pose) {
         for (const Visual& v : link.visuals)
             if (v.shape.kind != ShapeKind::plane)
-                thing.visuals.push_back({0,
+                object.visuals.push_back({0,
                                         -1,
                                         pose * v.pose,
                                         {{v.shape.kind, Pose::Identity(), v.shape.size}, v.material},
                                         false});
     });
-    return thing;
+    return object;
 }
 
-Body body_of(const Model& model, const Thing& thing, Heights& heights, Diagnostics& diagnostics) {
+Body body_of(const Model& model, const MovableObject& object, Heights& heights, Diagnostics& diagnostics) {
     Body body;
     body.driven = false, body.radius = 0, body.mass = 0, body.inertia = 0;
     double friction = 1;
@@ -57,14 +57,14 @@ Body body_of(const Model& model, const Thing& thing, Heights& heights, Diagnosti
         }
     });
     double reach_mean = 0;
-    for (std::size_t i = 0; i < thing.solids.size(); ++i) {
-        const Solid& solid = thing.solids[i];
+    for (std::size_t i = 0; i < object.solids.size(); ++i) {
+        const Solid& solid = object.solids[i];
         const double middle = solid.pose.translation().z(), half = solid.size.z() / 2;
         const int layer = heights.layer(std::max(0.0, middle - half), middle + half, places[i], diagnostics);
         const auto outline = cut(solid, middle);
         if (!outline) continue;
         reach_mean = std::max(reach_mean, reach(*outline));
-        if (thing.solids.size() == 1 && outline->round && std::hypot(outline->x, outline->y) < 1e-9) {
+        if (object.solids.size() == 1 && outline->round && std::hypot(outline->x, outline->y) < 1e-9) {
             body.radius = outline->radius, body.layer = layer, body.friction = friction;
             continue;
         }

@@ -13,7 +13,7 @@
 namespace forage::bug {
 
 /// A loose model. Its frame is that of its first link, laid flat.
-struct Thing {
+struct MovableObject {
     std::string name;
     Pose2 start;                      ///< where the file puts it
     std::vector<Solid> solids;        ///< its collision shapes, in its frame
@@ -22,16 +22,16 @@ struct Thing {
 };
 
 /// Whether a model is loose: not static, no robot, and solid.
-bool is_loose(const Model& model);
+bool is_movable(const Model& model);
 /// A world without robots and loose things, for what stands still.
 WorldDescription without_movers(WorldDescription world);
-Thing thing_of(const Model& model);
+MovableObject movable_object_of(const Model& model);
 
 /// The body of a loose model. The floor slows it down by its friction; it does not roll. An error when its
 /// heights are too many.
-Body body_of(const Model& model, const Thing& thing, Heights& heights, Diagnostics& diagnostics);
+Body body_of(const Model& model, const MovableObject& object, Heights& heights, Diagnostics& diagnostics);
 
-/// Where a model's frame as a thing is, seen from the model.
+/// Where a model's frame as a object is, seen from the model.
 Pose frame_of(const Model& model);
 
 }  // namespace forage::bug

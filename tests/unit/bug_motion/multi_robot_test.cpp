@@ -162,13 +162,13 @@ TEST_CASE("A resource brought home counts, grows stale, turns yellow and dissolv
     const auto world = make_world(text);
     const auto present = [&] {
         std::size_t n = 0;
-        for (std::size_t i = 0; i < world->things(); ++i) n += world->thing_pose(i).has_value();
+        for (std::size_t i = 0; i < world->movable_objects(); ++i) n += world->movable_object_pose(i).has_value();
         return n;
     };
     CHECK(present() == 0);
     for (int cycle = 0; cycle < 27; ++cycle) world->step();
     CHECK(present() == 1);
-    const auto first = world->thing_pose(0);
+    const auto first = world->movable_object_pose(0);
     CHECK(std::hypot(first->x + 1, first->y - 1) <= 0.5);
     const auto is_yellow = [&](std::size_t thing) {
         for (const MovingVisual& s : world->moving_visuals())

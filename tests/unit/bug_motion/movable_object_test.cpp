@@ -71,7 +71,7 @@ struct Court {
     }
     /// Of the ball, seen from the robot.
     Eigen::Vector2d seen() const {
-        const Pose2 &r = world->pose(0), b = *world->thing_pose(0);
+        const Pose2 &r = world->pose(0), b = *world->movable_object_pose(0);
         return Eigen::Rotation2Dd(-r.yaw) * Eigen::Vector2d(b.x - r.x, b.y - r.y);
     }
 };
