@@ -241,8 +241,8 @@ void GazeboBug::update(ModuleFrame& frame) {
                                        motor_.width, motor_.height, trans_speed, rot_speed));
     if (gripper && frame.input(gripper_command).size() == 1)
         world_->grip(bug_, frame.input(gripper_command)[0] > 0.5);
-    const auto& said = frame.input(audio_out);
-    world_->say(bug_, comkey, {said.data(), static_cast<std::size_t>(said.size())});
+    const auto& message = frame.input(audio_out);
+    world_->transmit(bug_, comkey, {message.data(), static_cast<std::size_t>(message.size())});
     copy_scans(frame);
     copy_pose(frame);
     if (image_.cells > 0) copy_image(frame);
@@ -257,7 +257,7 @@ void GazeboBug::copy_scans(ModuleFrame& frame) const {
     if (frame.is_read(target)) copy(seen.target, frame.output(target));
     if (gripper && frame.is_read(gripper_scan)) copy(seen.gripper, frame.output(gripper_scan));
     if (frame.is_read(audio_in))
-        std::copy(seen.heard.begin(), seen.heard.end(), frame.output(audio_in).data());
+        std::copy(seen.received.begin(), seen.received.end(), frame.output(audio_in).data());
 }
 
 void GazeboBug::copy_pose(ModuleFrame& frame) const {

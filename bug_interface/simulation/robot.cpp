@@ -123,7 +123,7 @@ void Robot::Scan::run(const Pose2& body, std::uint64_t sample, bool with_noise, 
 
 void Robot::checkpoint(Archive& archive) {
     archive.same(name, "a robot");
-    archive(pose, command, hinges, voice);
+    archive(pose, command, hinges, transceiver);
     if (reset) archive(*reset);
     archive(*trials, snapshot, history);
     for (std::optional<Scan>* scan : {&proximity, &target, &gripper})

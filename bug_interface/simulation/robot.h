@@ -17,7 +17,7 @@
 #include "bug_interface/simulation/sensor_clock.h"
 #include "bug_interface/simulation/body_poses.h"
 #include "bug_interface/simulation/trials.h"
-#include "bug_interface/simulation/voice.h"
+#include "bug_interface/simulation/communication.h"
 
 namespace forage::bug {
 
@@ -29,13 +29,13 @@ struct BugSnapshot {
     std::vector<double> target;  ///< of scanner "laser_target", the same way: the light
     std::vector<double>
         gripper;         ///< of scanner "laser_gripper", the same way; up to date only where asked for
-    SoundCells heard{};  ///< the sum of what all others said, as loud as it is here
+    Message received{};  ///< the sum of the messages of all other robots, attenuated
     std::vector<std::uint8_t>
         image;  ///< rows from the top, red, green, blue; up to date only where asked for
     int image_width = 0, image_height = 0;  ///< pixels; 0: no camera
 
     /// Without the image, which may be there for onlookers only.
-    void checkpoint(Archive& archive) { archive(pose, proximity, target, gripper, heard); }
+    void checkpoint(Archive& archive) { archive(pose, proximity, target, gripper, received); }
 };
 
 /// A part of World, which alone makes, moves and asks robots; the members are public for it. They are used in
@@ -129,7 +129,7 @@ class Robot {
     std::optional<Scan> proximity, target,
         gripper;                   ///< of the sensors "laser", "laser_target", "laser_gripper"
     std::optional<Camera> camera;  ///< made when a picture is first asked for
-    Voice voice;
+    Transceiver transceiver;
     BugSnapshot snapshot;
     std::vector<BugSnapshot> history;  ///< the last ones, where modules get them late
     bool wants_image = false;          ///< whether World::step() renders

@@ -89,10 +89,10 @@ class World final : public Environment {
     }  ///< rad
     /// Whether the gripper's rays are scanned.
     void need_gripper_scan(std::size_t bug, bool needed);
-    /// What a robot says in this cycle to all with the same key, who hear it in the next. To be told in every
+    /// Transmits `cells` to all robots with the same key, which receive them in the next cycle. Called once per
     /// cycle.
-    void say(std::size_t bug, std::string_view key, std::span<const double> cells) {
-        robots_[bug].voice.say(key, cells, robots_[bug].snapshot.pose);
+    void transmit(std::size_t bug, std::string_view key, std::span<const double> cells) {
+        robots_[bug].transceiver.transmit(key, cells, robots_[bug].snapshot.pose);
     }
     /// A robot obeys one module: empty when it has one already. The claim ends with the returned object.
     std::shared_ptr<void> claim(std::size_t bug);
@@ -157,7 +157,7 @@ class World final : public Environment {
     void update_body_poses();
     void sense_when_due();
     void colour_resources();
-    void hear();
+    void exchange_messages();
     void remember();
     std::span<const MovingVisual> placed_visuals();
     void make_camera(std::size_t bug);
@@ -174,7 +174,7 @@ class World final : public Environment {
     std::vector<MovableObject> movable_objects_;
     std::vector<Body> bodies_;          ///< of the robots, then of the things
     std::vector<std::size_t> by_name_;  ///< the robots, in byte order of their names
-    std::vector<Voice*> voices_;
+    std::vector<Transceiver*> transceivers_;
     Game game_;
     BodyPoses body_poses_;
     std::vector<MovingVisual> moving_visuals_;   ///< of all that moves

@@ -92,8 +92,8 @@ bool World::build(Diagnostics& diagnostics) {
         Robot& robot = robots_[i];
         robot.pose = physics_->pose(i);
         robot.trials->begin(robot.pose, 0);
-        robot.voice.heard.assign(robots_.size(), {});
-        voices_.push_back(&robot.voice);
+        robot.transceiver.received.assign(robots_.size(), {});
+        transceivers_.push_back(&robot.transceiver);
         by_name_.push_back(i);
     }
     std::sort(by_name_.begin(), by_name_.end(),

@@ -16,16 +16,16 @@ void World::sense_when_due() {
 void World::scan() {
     if (!options_.native_rates || cycle_ == 0)
         for (Robot& robot : robots_) robot.sense(options_.noise, cycle_, body_poses_);
-    hear();
+    exchange_messages();
 }
 
-/// What was said in the cycle that ends is heard now.
-void World::hear() {
-    bool said = false;
-    for (const Robot& robot : robots_) said |= robot.voice.speaking;
-    if (!said) return;
-    deliver(voices_, body_poses_.bodies, by_name_);
-    for (Robot& robot : robots_) robot.snapshot.heard = sum(robot.voice, by_name_);
+/// Messages that were transmitted in the cycle that ends are received now.
+void World::exchange_messages() {
+    bool sent = false;
+    for (const Robot& robot : robots_) sent |= robot.transceiver.transmitting;
+    if (!sent) return;
+    deliver(transceivers_, body_poses_.bodies, by_name_);
+    for (Robot& robot : robots_) robot.snapshot.received = sum_received(robot.transceiver, by_name_);
 }
 
 void World::render() {

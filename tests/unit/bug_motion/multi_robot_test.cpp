@@ -1,4 +1,4 @@
-// Several robots in a world: what they say, when they sense, and the game they play.
+// Several robots in a world: communication, sensor rates, latency and the game.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -47,28 +47,28 @@ std::vector<double> sound(double level) {
 
 }  // namespace
 
-TEST_CASE("What a robot says is heard in the next cycle, quieter with distance, by those with its key") {
+TEST_CASE("A message is received in the next cycle, attenuated with distance, by robots with the same key") {
     WorldOptions options;
     options.noise = false;
     const auto world = make_world(crowd({{0, 0, 0}, {2, 0, 0}, {-3, 1, 0}, {0, -3, 0}}), options);
     const std::vector<double> nothing(36, 0);
-    world->say(0, "blue", sound(0.8));
-    world->say(1, "blue", nothing), world->say(2, "blue", nothing), world->say(3, "red", nothing);
-    CHECK(world->snapshot(1).heard[3] == 0);
+    world->transmit(0, "blue", sound(0.8));
+    world->transmit(1, "blue", nothing), world->transmit(2, "blue", nothing), world->transmit(3, "red", nothing);
+    CHECK(world->snapshot(1).received[3] == 0);
     world->step();
     const double reach = 10 * std::sqrt(2.0);
-    CHECK(world->snapshot(0).heard[3] == 0);  // not itself
-    CHECK(world->snapshot(1).heard[3] == Approx(0.8 * (reach - 2) / reach));
-    CHECK(world->snapshot(2).heard[3] == Approx(0.8 * (reach - std::hypot(3, 1)) / reach));
-    CHECK(world->snapshot(3).heard[3] == 0);  // another key
-    world->say(0, "blue", nothing), world->say(1, "blue", sound(0.5)), world->say(2, "blue", sound(0.25));
+    CHECK(world->snapshot(0).received[3] == 0);  // not itself
+    CHECK(world->snapshot(1).received[3] == Approx(0.8 * (reach - 2) / reach));
+    CHECK(world->snapshot(2).received[3] == Approx(0.8 * (reach - std::hypot(3, 1)) / reach));
+    CHECK(world->snapshot(3).received[3] == 0);  // another key
+    world->transmit(0, "blue", nothing), world->transmit(1, "blue", sound(0.5)), world->transmit(2, "blue", sound(0.25));
     world->step();
-    CHECK(world->snapshot(1).heard[3] ==
-          Approx(0.25 * (reach - std::hypot(5, 1)) / reach));  // silence is said once
-    CHECK(world->snapshot(0).heard[3] ==
+    CHECK(world->snapshot(1).received[3] ==
+          Approx(0.25 * (reach - std::hypot(5, 1)) / reach));  // a silent message is transmitted once
+    CHECK(world->snapshot(0).received[3] ==
           Approx(0.5 * (reach - 2) / reach + 0.25 * (reach - std::hypot(3, 1)) / reach));
-    world->step();  // nobody says anything more, not even silence
-    CHECK(world->snapshot(0).heard[3] > 0.5);
+    world->step();  // no robot transmits, not even silence
+    CHECK(world->snapshot(0).received[3] > 0.5);
 }
 
 TEST_CASE("Sensors at their own rates hold what they saw until their time has come") {
