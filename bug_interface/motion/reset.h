@@ -46,13 +46,13 @@ class Reset {
     Phase substep(const Pose2& pose);
     bool running() const { return left_ > 0; }
     /// Where the robot shows up when it is looked at during a reset.
-    Pose2 glimpse() { return draw(glimpses_++); }
+    Pose2 reset_pose() { return draw(reset_poses_++); }
     /// Where the next trial starts: the n-th start of a seed is the same whatever happened in the trials
     /// before.
     Pose2 start() { return draw(first_start + starts_++); }
 
     const ResetPlan& plan() const { return plan_; }
-    void checkpoint(Archive& archive) { archive(left_, glimpses_, starts_); }
+    void checkpoint(Archive& archive) { archive(left_, reset_poses_, starts_); }
 
     static constexpr int substeps = 1001;  ///< that a reset takes
 
@@ -62,7 +62,7 @@ class Reset {
     int left_ = 0;
     static constexpr std::uint64_t first_start = std::uint64_t{1} << 63;  // apart from the glimpses
     Pose2 draw(std::uint64_t index) const;
-    std::uint64_t glimpses_ = 0, starts_ = 0;
+    std::uint64_t reset_poses_ = 0, starts_ = 0;
 };
 
 }  // namespace forage::bug

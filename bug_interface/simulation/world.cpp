@@ -41,7 +41,7 @@ void World::advance_bodies() {
         for (std::size_t i = 0; i < robots_.size(); ++i)
             if (!resetting(i)) robots_[i].trials->follow(physics_->pose(i));
         if (!game_.empty()) game_.substep(*physics_, time() + description_.step, description_.step);
-        if (options_.native_rates) sense_when_due();
+        if (options_.sensor_rates) sense_when_due();
     }
     update_body_poses();
     ++cycle_;
@@ -62,7 +62,7 @@ void World::drive(std::size_t bug) {
 }
 
 bool World::drive_freely(std::uint64_t last) {
-    if (options_.native_rates || !game_.empty()) return false;  // somebody looks in between
+    if (options_.sensor_rates || !game_.empty()) return false;  // somebody looks in between
     const std::uint64_t steps = last - substep_;
     const double seconds = static_cast<double>(steps) * description_.step,
                  noise = options_.noise ? speed_noise : 0;
@@ -127,7 +127,7 @@ bool World::in_reset(std::size_t bug) {
 void World::update_body_poses() {
     for (std::size_t i = 0; i < robots_.size(); ++i) {
         Robot& robot = robots_[i];
-        body_poses_.bodies[i] = robot.pose = resetting(i) ? robot.reset->glimpse() : physics_->pose(i);
+        body_poses_.bodies[i] = robot.pose = resetting(i) ? robot.reset->reset_pose() : physics_->pose(i);
         for (std::size_t h = 0; h < robot.hinges.size(); ++h) body_poses_.hinges[i][h] = robot.hinges.frame(h);
     }
     for (std::size_t i = robots_.size(); i < bodies_.size(); ++i) {

@@ -27,8 +27,8 @@ struct WorldOptions {
     std::optional<double>
         real_time_factor;  ///< seconds of the world per second of the clock; default: what the file asks for
     bool noise = true;     ///< of motors, scanners and cameras; resets are drawn all the same
-    bool native_rates = false;  ///< scans and pictures at the rates of their sensors, instead of every cycle
-    int late = 0;               ///< cycles by which what is sensed reaches the modules later
+    bool sensor_rates = false;  ///< scans and pictures at the rates of their sensors, instead of every cycle
+    int latency = 0;               ///< cycles by which what is sensed reaches the modules later
     bool game = false;          ///< play the challenge's game, also where the world has no rules
 };
 

@@ -14,7 +14,7 @@ void World::sense_when_due() {
 }
 
 void World::scan() {
-    if (!options_.native_rates || cycle_ == 0)
+    if (!options_.sensor_rates || cycle_ == 0)
         for (Robot& robot : robots_) robot.sense(options_.noise, cycle_, body_poses_);
     exchange_messages();
 }
@@ -29,15 +29,15 @@ void World::exchange_messages() {
 }
 
 void World::render() {
-    if (!options_.native_rates)
+    if (!options_.sensor_rates)
         for (Robot& robot : robots_)
             if (robot.wants_image) robot.render(options_.noise, cycle_, body_poses_, placed_visuals());
     remember();
 }
 
 void World::remember() {
-    if (options_.late <= 0) return;
-    const auto size = static_cast<std::size_t>(options_.late) + 1;
+    if (options_.latency <= 0) return;
+    const auto size = static_cast<std::size_t>(options_.latency) + 1;
     for (Robot& robot : robots_) {
         if (cycle_ == 0)
             robot.history.assign(size, robot.snapshot);
@@ -72,7 +72,7 @@ void World::make_camera(std::size_t bug) {
 std::span<const std::uint8_t> World::image(std::size_t bug) {
     make_camera(bug);
     Robot& robot = robots_[bug];
-    if (robot.wants_image && !options_.native_rates) return robot.snapshot.image;  // step() renders it
+    if (robot.wants_image && !options_.sensor_rates) return robot.snapshot.image;  // step() renders it
     return robot.view(options_.noise, cycle_, body_poses_, placed_visuals());
 }
 

@@ -120,8 +120,8 @@ std::optional<Loaded> assemble(const Sources& sources, const Input& input, Diagn
         options.cycles_per_second = cycles_per_second(out.system);
         options.real_time_factor = input.world_pace;
         options.noise = input.noise;
-        options.native_rates = input.sensor_rates;
-        options.late = input.latency;
+        options.sensor_rates = input.sensor_rates;
+        options.latency = input.latency;
         options.game = input.game;
         out.world = bug::World::make(*sources.world, options, diagnostics);
     }

@@ -73,7 +73,7 @@ TEST_CASE("A message is received in the next cycle, attenuated with distance, by
 
 TEST_CASE("Sensors at their own rates hold what they saw until their time has come") {
     WorldOptions options;
-    options.native_rates = true, options.real_time_factor = 0.25;  // 10 ms of the world per cycle
+    options.sensor_rates = true, options.real_time_factor = 0.25;  // 10 ms of the world per cycle
     const auto world = make_world(crowd({{0, 0, 0}}), options);
     world->command(0, {1, 0});
     int changes = 0;
@@ -94,7 +94,7 @@ TEST_CASE("Each sensor has a rate of its own") {
         s.rate = s.name == "laser" ? 20 : s.name == "laser_target" ? 50 : 10, s.noise = 0.01;
     link.cameras.front().rate = 5;
     WorldOptions options;
-    options.native_rates = true, options.real_time_factor = 0.25;  // 10 ms of the world per cycle
+    options.sensor_rates = true, options.real_time_factor = 0.25;  // 10 ms of the world per cycle
     const auto world = make_world(text, options);
     const auto robot = world->find("A_1").value();
     world->need_gripper_scan(robot, true), world->need_image(robot, true);
@@ -121,7 +121,7 @@ TEST_CASE("Onlookers see what a camera sees now: without a module, at a slow rat
     WorldDescription text = alone();
     body_link(text).cameras.front().rate = 0.1;
     WorldOptions options, slow;
-    slow.native_rates = true, slow.late = 5;
+    slow.sensor_rates = true, slow.latency = 5;
     for (const bool read_by_module : {false, true}) {
         const auto a = make_world(text, options), b = make_world(text, slow);
         const auto robot = a->find("A_1").value();
@@ -137,9 +137,9 @@ TEST_CASE("Onlookers see what a camera sees now: without a module, at a slow rat
 }
 
 TEST_CASE("What is sensed can come some cycles later") {
-    WorldOptions prompt, late;
-    late.late = 3;
-    const auto a = make_world(crowd({{0, 0, 0}}), prompt), b = make_world(crowd({{0, 0, 0}}), late);
+    WorldOptions prompt, delayed;
+    delayed.latency = 3;
+    const auto a = make_world(crowd({{0, 0, 0}}), prompt), b = make_world(crowd({{0, 0, 0}}), delayed);
     a->command(0, {1, 0.3}), b->command(0, {1, 0.3});
     a->need_image(0, true), b->need_image(0, true);
     std::vector<BugSnapshot> seen{a->snapshot(0)};
