@@ -10,7 +10,8 @@ constexpr double silence = 1e-5;
 
 }  // namespace
 
-void Transceiver::transmit(std::string_view new_key, std::span<const double> cells, const Pose2& sender_pose) {
+void Transceiver::transmit(std::string_view new_key, std::span<const double> cells,
+                           const Pose2& sender_pose) {
     if (key != new_key) key = new_key;
     has_key = true, position = sender_pose;
     const bool was_audible = audible;

@@ -22,8 +22,8 @@ struct Transceiver {
     static constexpr double min_range = 0.1;                 ///< m
     static constexpr double max_range = 14.142135623730951;  ///< m: 10 sqrt(2)
 
-    /// Transmits `cells` in this cycle from `sender_pose`. The message is silent when no cell is above 1e-5; a
-    /// silent message is transmitted only when the one before it was not silent. Cells beyond message_cells
+    /// Transmits `cells` in this cycle from `sender_pose`. The message is silent when no cell is above 1e-5;
+    /// a silent message is transmitted only when the one before it was not silent. Cells beyond message_cells
     /// are ignored, missing ones are 0.
     void transmit(std::string_view key, std::span<const double> cells, const Pose2& sender_pose);
 

@@ -1,4 +1,4 @@
-// Loose things: what is neither fixed nor a robot, and moves when it is pushed.
+// Movable objects: models that are neither static nor robots, and that move when they are pushed.
 #pragma once
 
 #include <string>
@@ -6,32 +6,29 @@
 
 #include "bug_interface/motion/physics.h"
 #include "bug_interface/sensing/outline.h"
-#include "bug_interface/simulation/heights.h"
 #include "bug_interface/simulation/body_poses.h"
+#include "bug_interface/simulation/heights.h"
 #include "bug_interface/world/description.h"
 
 namespace forage::bug {
 
-/// A loose model. Its frame is that of its first link, laid flat.
+/// A movable object. Its frame is that of its first link, projected onto the floor.
 struct MovableObject {
     std::string name;
-    Pose2 start;                      ///< where the file puts it
-    std::vector<Solid> solids;        ///< its collision shapes, in its frame
-    std::vector<MovingVisual> visuals;  ///< `body` is 0 here
-    bool resource = false;            ///< whether it has the target plugin: robots collect it
+    Pose2 start;                        ///< in the world file
+    std::vector<Solid> solids;          ///< collision shapes in the frame of the object
+    std::vector<MovingVisual> visuals;  ///< their `body` is 0 here
+    bool resource = false;              ///< whether it has the target plugin: robots collect it
 };
 
-/// Whether a model is loose: not static, no robot, and solid.
+/// Whether a model is movable: it is not static, is not a robot and has a solid collision shape.
 bool is_movable(const Model& model);
-/// A world without robots and loose things, for what stands still.
-WorldDescription without_movers(WorldDescription world);
+/// The world without robots and movable objects.
+WorldDescription static_part(WorldDescription world);
 MovableObject movable_object_of(const Model& model);
 
-/// The body of a loose model. The floor slows it down by its friction; it does not roll. An error when its
-/// heights are too many.
+/// The body of a movable model. The friction of the floor decelerates it; balls do not roll. Reports an error
+/// when the world has too many heights.
 Body body_of(const Model& model, const MovableObject& object, Heights& heights, Diagnostics& diagnostics);
-
-/// Where a model's frame as a object is, seen from the model.
-Pose frame_of(const Model& model);
 
 }  // namespace forage::bug

@@ -1,8 +1,8 @@
-#include "bug_interface/simulation/world.h"
-
 #include <array>
 
 #include <fmt/format.h>
+
+#include "bug_interface/simulation/world.h"
 
 namespace forage::bug {
 
@@ -38,8 +38,9 @@ std::optional<Pose2> World::movable_object_pose(std::size_t i) const {
 Eigen::Vector2d World::looks_at(std::size_t bug) const {
     const Robot& robot = robots_[bug];
     const Eigen::Vector2d here(robot.pose.x, robot.pose.y);
-    if (!robot.camera_sensor) return here;
-    const Pose camera = robot.link_pose * robot.camera_sensor->pose;
+    const auto& sensor = robot.sensors.camera_sensor();
+    if (!sensor) return here;
+    const Pose camera = robot.sensors.link_pose() * sensor->pose;
     const Eigen::Vector3d axis = camera.linear().col(0), at = camera.translation();
     if (axis.z() >= 0) return here;
     const Eigen::Vector3d floor = at - at.z() / axis.z() * axis;
@@ -77,8 +78,8 @@ std::string World::score_csv() const {
     std::array<int, 2> score{};
     for (const auto& d : game_.deliveries()) {
         score[static_cast<std::size_t>(d.team)] += d.points;
-        out += fmt::format("{:.3f},{},{},{},{},{}\n", d.time, Game::team_name(d.team), d.good ? "good" : "bad",
-                           d.points, score[0], score[1]);
+        out += fmt::format("{:.3f},{},{},{},{},{}\n", d.time, Game::team_name(d.team),
+                           d.good ? "good" : "bad", d.points, score[0], score[1]);
     }
     return out;
 }

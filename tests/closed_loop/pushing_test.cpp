@@ -69,7 +69,7 @@ class Pen {
         for (const Model& m : text.models)
             if (m.is_static)
                 for (const Solid& solid : solids_of(m))
-                    if (const auto outline = cut(solid, 0.08)) walls_.push_back(*outline);
+                    if (const auto outline = cross_section(solid, 0.08)) walls_.push_back(*outline);
     }
     void step() {
         world->advance_bodies();
@@ -96,13 +96,13 @@ class Pen {
             middle.radius = kind(body) == "robot" ? 0.2 : 0.08;
             out.push_back(middle);
         }
-        for (const Part& part : world->physics().parts(body)) out.push_back(moved(part.outline, pose));
+        for (const Part& part : world->physics().parts(body)) out.push_back(Transform2(pose) * part.outline);
         return out;
     }
     void measure(std::size_t body) {
         const Physics& physics = world->physics();
         fastest = std::max(fastest, physics.speed(body));
-        fastest_turn = std::max(fastest_turn, std::abs(physics.turning(body)));
+        fastest_turn = std::max(fastest_turn, std::abs(physics.angular_velocity(body)));
         const Pose2& at = physics.pose(body);
         if (!(std::abs(at.x) < 1e3 && std::abs(at.y) < 1e3 && std::abs(at.yaw) < 4))
             farthest = 1e9;  // NaN too
@@ -167,8 +167,8 @@ TEST_CASE(
     CHECK(pen.farthest < 1.6);
     int moved = 0;
     for (std::size_t i = 0; i < world.movable_objects(); ++i)
-        moved +=
-            std::hypot(world.movable_object_pose(i)->x - before[i].x, world.movable_object_pose(i)->y - before[i].y) > 0.02;
+        moved += std::hypot(world.movable_object_pose(i)->x - before[i].x,
+                            world.movable_object_pose(i)->y - before[i].y) > 0.02;
     CHECK(moved >= 4);
 }
 

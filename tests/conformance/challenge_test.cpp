@@ -47,7 +47,7 @@ std::unique_ptr<World> with_robot_at(const std::string& name, const Pose2& place
 }
 
 const RangeSensor& sensor(const World& world, const std::string& name) {
-    const auto& all = world.robot(0).range_sensors;
+    const auto& all = world.robot(0).sensors.range_sensors();
     const auto found = std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.name == name; });
     REQUIRE(found != all.end());
     return *found;
@@ -76,7 +76,7 @@ TEST_CASE("The robots' bodies, ray sensors and cameras are those of the specific
         CHECK((robot.body.radius == 0.2 && robot.body.mass == 5 && robot.body.inertia == 1));
         CHECK(robot.body.friction == 0.1);
         const auto height = [&](const RangeSensor& s) {
-            return (robot.link_pose * s.pose).translation().z();
+            return (robot.sensors.link_pose() * s.pose).translation().z();
         };
         const RangeSensor &near = sensor(*world, "laser"), &light = sensor(*world, "laser_target");
         CHECK((near.rays == 32 && near.first_angle == -3 && near.last_angle == 3));
@@ -86,11 +86,11 @@ TEST_CASE("The robots' bodies, ray sensors and cameras are those of the specific
         CHECK((light.rays == 32 && light.first_angle == -3 && light.last_angle == 3));
         CHECK((light.min_range == 0.26 && light.max_range == 2.5 && light.noise == 0.02 && light.rate == 25));
         CHECK(height(light) == Approx(0.35));
-        REQUIRE(robot.camera_sensor);
-        const CameraSensor& camera = *robot.camera_sensor;
+        REQUIRE(robot.sensors.camera_sensor());
+        const CameraSensor& camera = *robot.sensors.camera_sensor();
         CHECK((camera.width == 32 && camera.height == 28 && camera.noise == 0.001 && camera.rate == 30));
         CHECK(camera.horizontal_fov == (dac ? 0.8047 : 1.0047));
-        CHECK((robot.link_pose * camera.pose).translation().z() == Approx(0.35));
+        CHECK((robot.sensors.link_pose() * camera.pose).translation().z() == Approx(0.35));
         const Pose2& at = world->pose(0);
         const Eigen::Vector2d seen = world->looks_at(0) - Eigen::Vector2d(at.x, at.y);
         CHECK(seen.norm() == Approx(dac ? 0.3781 : 0.671).margin(0.001));
@@ -159,8 +159,8 @@ TEST_CASE("The resources of the two-robot arena count at a home without a game")
 TEST_CASE("Resources are blue balls that no sensor of light or proximity sees, but the gripper's rays do") {
     if (absent(shared_dir() / "original")) return;
     const auto world = with_robot_at("SDIC_challenge/SDIC_two_robot_arena", {-0.58, 3, 0});
-    world->need_gripper_scan(0, true);
-    world->scan();  // target_4 at (-0.2, 3), 0.38 m ahead
+    world->request_gripper_scan(0, true);
+    world->scan();                                       // target_4 at (-0.2, 3), 0.38 m ahead
     for (std::size_t ahead = 10; ahead < 22; ++ahead) {  // to the right stands the pillar
         CHECK(world->snapshot(0).proximity[ahead] == 0);
         CHECK(world->snapshot(0).target[ahead] == 0);
@@ -238,7 +238,7 @@ TEST_CASE("Teams: green robots with names of team A, red ones of team B, where t
         CHECK((world->pose(i).x == at.x && world->pose(i).y == at.y));
         CHECK(world->pose(i).yaw == Approx(at.yaw));
         const auto body = std::find_if(world->robot(i).visuals.begin(), world->robot(i).visuals.end(),
-                                       [](const MovingVisual& s) { return s.of_body; });
+                                       [](const MovingVisual& s) { return s.of_body_link; });
         REQUIRE(body != world->robot(i).visuals.end());
         const Colour& colour = body->visual.material.diffuse;
         const bool green = name.starts_with("TeamA");

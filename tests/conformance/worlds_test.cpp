@@ -8,8 +8,8 @@
 #include "bug_interface/module/gazebo_bug.h"
 #include "bug_interface/simulation/world.h"
 #include "bug_interface/world/sdf_reader.h"
-#include "core/engine/simulation.h"
 #include "core/base/random.h"
+#include "core/engine/simulation.h"
 #include "core/xml/reader.h"
 #include "modules/modules.h"
 #include "neurons/neurons.h"
@@ -90,7 +90,7 @@ TEST_CASE("The gripper's rays see its own palm and fingers as in the original") 
     options.noise = false;
     const auto world = bug::World::make(*description, options, diagnostics);
     REQUIRE(world);
-    world->need_gripper_scan(0, true);
+    world->request_gripper_scan(0, true);
     const auto sees = [&](const std::vector<double>& cells) {
         const auto& seen = world->snapshot(0).gripper;
         REQUIRE(seen.size() == 16);
@@ -120,7 +120,7 @@ TEST_CASE("Robots driven at random in the original's worlds stay in them") {
         const auto world = bug::World::make(*description, {}, diagnostics);
         REQUIRE(world);
         const RandomStream random(5, "drive");
-        for (std::size_t i = 0; i < world->bugs(); ++i) world->need_gripper_scan(i, true);
+        for (std::size_t i = 0; i < world->bugs(); ++i) world->request_gripper_scan(i, true);
         for (std::uint64_t cycle = 0; cycle < 1500; ++cycle) {
             for (std::size_t i = 0; i < world->bugs(); ++i) {
                 const auto n = static_cast<std::uint32_t>(3 * i);

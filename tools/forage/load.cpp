@@ -8,9 +8,9 @@
 
 #include "bug_interface/module/gazebo_bug.h"
 #include "bug_interface/world/sdf_reader.h"
+#include "core/base/named_file.h"
 #include "core/model/build.h"
 #include "core/model/edit.h"
-#include "core/base/named_file.h"
 #include "core/model/validate.h"
 #include "core/plugin/search.h"
 #include "core/xml/reader.h"

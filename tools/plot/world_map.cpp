@@ -224,8 +224,8 @@ void WorldMap::draw_targets(Canvas& canvas) const {
 void WorldMap::draw_rays(Canvas& canvas, std::size_t robot) const {
     cairo_t* c = canvas.cairo();
     const auto& pose = world_.pose(robot);
-    const auto& seen = world_.robot(robot).snapshot;  // not late, as those of modules may be
-    for (const bug::RangeSensor& sensor : world_.robot(robot).range_sensors) {
+    const auto& seen = world_.robot(robot).sensors.snapshot();
+    for (const bug::RangeSensor& sensor : world_.robot(robot).sensors.range_sensors()) {
         const bool light = sensor.name == "laser_target";
         const auto& cells = light ? seen.target : seen.proximity;
         if ((!light && sensor.name != "laser") || cells.size() != static_cast<std::size_t>(sensor.rays))
@@ -257,7 +257,7 @@ void WorldMap::draw_robot(Canvas& canvas, std::size_t robot, bool rays) const {
     const bug::BodyPoses& poses = world_.body_poses();
     for (const bool gripper : {true, false})
         for (const bug::MovingVisual& moving : world_.moving_visuals()) {
-            if (moving.body != robot || moving.of_body == gripper) continue;
+            if (moving.body != robot || moving.of_body_link == gripper) continue;
             bug::Solid solid = moving.visual.solid;
             solid.pose = moving.at(poses);
             draw_solid(canvas, {solid, moving.visual.material.diffuse});

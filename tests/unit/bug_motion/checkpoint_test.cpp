@@ -84,7 +84,7 @@ TEST_CASE("A world goes on from a checkpoint of any cycle, in trials and resets,
     options.seed = 5;
     const auto make = [&] {
         auto world = test::make_world(test::description("basic_arena"), options);
-        world->need_image(0, true);
+        world->request_image(0, true);
         return world;
     };
     const auto step = [](World& world) {

@@ -20,7 +20,7 @@ constexpr std::array<Pose2, 2> far_homes = {Pose2{-100, 100, 0}, Pose2{100, -100
 
 Body ball() {
     Body b;
-    b.radius = 0.08, b.mass = 0.01, b.driven = false, b.slowing = 0.98;
+    b.radius = 0.08, b.mass = 0.01, b.driven = false, b.deceleration = 0.98;
     return b;
 }
 
@@ -52,7 +52,7 @@ struct Table {
     }
     std::ptrdiff_t present() const {
         return std::count_if(game.resources().begin(), game.resources().end(),
-                             [](const Game::Resource& r) { return !r.away; });
+                             [](const Game::Resource& r) { return !r.removed; });
     }
 };
 
@@ -94,16 +94,16 @@ TEST_CASE("A resource is good for 30 seconds, bad for 20 more, then gone, and ca
     rules.most = 1, rules.duration = 1000;
     Table table(1, rules);
     const auto& r = table.game.resources()[0];
-    CHECK(r.away);
+    CHECK(r.removed);
     for (int life = 0; life < 3; ++life) {
         table.seconds(1);  // it appears
-        REQUIRE((!r.away && r.good && r.age == 0));
+        REQUIRE((!r.removed && r.good && r.age == 0));
         table.seconds(29);
         CHECK((r.good && r.age == 29));
         table.seconds(1);
-        CHECK((!r.good && !r.away));
+        CHECK((!r.good && !r.removed));
         table.seconds(19);
-        CHECK((!r.good && !r.away && r.age == 49));
+        CHECK((!r.good && !r.removed && r.age == 49));
     }  // in the next second it dissolves, and the next one appears
 }
 
@@ -117,10 +117,10 @@ TEST_CASE("A resource that counts scores 2, or -1 when it is bad, and may appear
         table.run(101);
         REQUIRE(table.game.deliveries().size() == 1);
         CHECK(table.game.points(0) == (good ? 2 : -1));
-        CHECK(table.game.resources()[0].away);
+        CHECK(table.game.resources()[0].removed);
         table.seconds(1);
         const auto& again = table.game.resources()[0];
-        CHECK((!again.away && again.good && again.age == 0));
+        CHECK((!again.removed && again.good && again.age == 0));
     }
 }
 
@@ -138,7 +138,7 @@ TEST_CASE("What a robot holds grows no older") {
         for (; steps > 0; --steps) physics.step(drives), game.substep(physics, time += step, step);
     };
     run(1500);
-    REQUIRE_FALSE(game.resources()[0].away);
+    REQUIRE_FALSE(game.resources()[0].removed);
     physics.place(2, {0.28, 0, 0});
     drives[0] = drives[1] = {0.1, 0};
     run(200);
@@ -180,7 +180,7 @@ TEST_CASE("Resources appear as often as their sites say, within half a metre, ev
     for (int i = 0; i < n; ++i) {
         table.seconds(1);
         for (const Game::Resource& r : table.game.resources()) {
-            if (r.away) continue;
+            if (r.removed) continue;
             const Pose2& at = table.physics.pose(r.body);
             const bool second = at.x > 15;
             const double radius = std::hypot(at.x - (second ? 30 : 0), at.y);

@@ -115,7 +115,7 @@ TEST_CASE("The module accepts the groups of the tutorials") {
     CHECK(bench.problem().empty());
     all_groups(bench);
     CHECK(bench.problem() ==
-          "robot 'Bug' has no gripper | set 'gripper' to false, or take a robot with a gripper @gripper");
+          "robot 'Bug' has no gripper | set 'gripper' to false, or use a robot with a gripper @gripper");
     bench.set("gripper", false);
     CHECK(bench.problem().empty());
     bench.group("_gripper") = shape(3, 1);
@@ -129,7 +129,8 @@ TEST_CASE("The module says what is wrong with its groups and parameters") {
         Bench b(world.get());
         b.group("_motor") = shape(9, 5);
         CHECK(b.problem() ==
-              "the motor group 'Bug/_motor' is 9 x 5, and must be square and at least 2 wide | 9 x 9 gives "
+              "the motor group 'Bug/_motor' is 9 x 5, but must be square and at least 2 cells wide | 9 x 9 "
+              "gives "
               "four speeds in each direction @_motor");
     }
     {
@@ -150,17 +151,18 @@ TEST_CASE("The module says what is wrong with its groups and parameters") {
         b.group("_image_GS") = shape(28, 27);
         CHECK(b.problem() ==
               "the image groups differ in size: 'Bug/_image_GS' is 28 x 27, 'Bug/_image_RH' is 28 x 28 | "
-              "make all three the same @_image_GS");
+              "give all three the same size @_image_GS");
     }
     {
         Bench b(world.get());
         b.group("_image_RH") = shape(33, 28);
-        CHECK(b.problem().find("is 33 x 28, and may be 32 x 28 at most") != std::string::npos);
+        CHECK(b.problem().find("is 33 x 28, but must be at most 32 x 28") != std::string::npos);
     }
     {
         Bench b(world.get());
         b.group("_gripper") = shape(2, 1);
-        CHECK(b.problem().find("must be 1 x 1 | or set 'gripper' to false @_gripper") != std::string::npos);
+        CHECK(b.problem().find("must be 1 x 1 | change its size, or set 'gripper' to false @_gripper") !=
+              std::string::npos);
     }
     {
         Bench b(world.get());

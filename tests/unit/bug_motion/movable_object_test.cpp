@@ -19,7 +19,7 @@ constexpr double pi = std::numbers::pi, dt = 0.001;
 
 Body ball(double radius = 0.08, double mass = 0.01) {
     Body b;
-    b.radius = radius, b.mass = mass, b.driven = false, b.slowing = 0.98;
+    b.radius = radius, b.mass = mass, b.driven = false, b.deceleration = 0.98;
     return b;
 }
 
@@ -27,8 +27,8 @@ Body crate(double side, double mass) {
     Body b;
     Outline o;
     o.half_x = o.half_y = side / 2;
-    b.radius = 0, b.mass = mass, b.inertia = mass * side * side / 6, b.driven = false, b.slowing = 0.98;
-    b.slowing_turn = 3;
+    b.radius = 0, b.mass = mass, b.inertia = mass * side * side / 6, b.driven = false, b.deceleration = 0.98;
+    b.angular_deceleration = 3;
     b.parts.push_back({o, 0, 0.1});
     return b;
 }
@@ -63,7 +63,7 @@ struct Court {
         target.pose.translation() = Eigen::Vector3d(ahead, aside, 0);
         text.models.push_back(target);
         world = make_world(text);
-        world->need_gripper_scan(0, true);
+        world->request_gripper_scan(0, true);
     }
     void drive(MotorCommand command, int cycles) {
         world->command(0, command);

@@ -53,7 +53,8 @@ TEST_CASE("A message is received in the next cycle, attenuated with distance, by
     const auto world = make_world(crowd({{0, 0, 0}, {2, 0, 0}, {-3, 1, 0}, {0, -3, 0}}), options);
     const std::vector<double> nothing(36, 0);
     world->transmit(0, "blue", sound(0.8));
-    world->transmit(1, "blue", nothing), world->transmit(2, "blue", nothing), world->transmit(3, "red", nothing);
+    world->transmit(1, "blue", nothing), world->transmit(2, "blue", nothing),
+        world->transmit(3, "red", nothing);
     CHECK(world->snapshot(1).received[3] == 0);
     world->step();
     const double reach = 10 * std::sqrt(2.0);
@@ -61,7 +62,8 @@ TEST_CASE("A message is received in the next cycle, attenuated with distance, by
     CHECK(world->snapshot(1).received[3] == Approx(0.8 * (reach - 2) / reach));
     CHECK(world->snapshot(2).received[3] == Approx(0.8 * (reach - std::hypot(3, 1)) / reach));
     CHECK(world->snapshot(3).received[3] == 0);  // another key
-    world->transmit(0, "blue", nothing), world->transmit(1, "blue", sound(0.5)), world->transmit(2, "blue", sound(0.25));
+    world->transmit(0, "blue", nothing), world->transmit(1, "blue", sound(0.5)),
+        world->transmit(2, "blue", sound(0.25));
     world->step();
     CHECK(world->snapshot(1).received[3] ==
           Approx(0.25 * (reach - std::hypot(5, 1)) / reach));  // a silent message is transmitted once
@@ -97,7 +99,7 @@ TEST_CASE("Each sensor has a rate of its own") {
     options.sensor_rates = true, options.real_time_factor = 0.25;  // 10 ms of the world per cycle
     const auto world = make_world(text, options);
     const auto robot = world->find("A_1").value();
-    world->need_gripper_scan(robot, true), world->need_image(robot, true);
+    world->request_gripper_scan(robot, true), world->request_image(robot, true);
     world->command(robot, {0.5, 1});
     int poses = 0, proximity = 0, target = 0, gripper = 0, pictures = 0;
     BugSnapshot last = world->snapshot(robot);
@@ -125,7 +127,7 @@ TEST_CASE("Onlookers see what a camera sees now: without a module, at a slow rat
     for (const bool read_by_module : {false, true}) {
         const auto a = make_world(text, options), b = make_world(text, slow);
         const auto robot = a->find("A_1").value();
-        if (read_by_module) b->need_image(robot, true);
+        if (read_by_module) b->request_image(robot, true);
         for (int cycle = 0; cycle < 20; ++cycle) {
             for (World* w : {a.get(), b.get()}) w->command(robot, {0.5, 1}), w->step();
             const auto prompt = a->image(robot), seen = b->image(robot);
@@ -141,7 +143,7 @@ TEST_CASE("What is sensed can come some cycles later") {
     delayed.latency = 3;
     const auto a = make_world(crowd({{0, 0, 0}}), prompt), b = make_world(crowd({{0, 0, 0}}), delayed);
     a->command(0, {1, 0.3}), b->command(0, {1, 0.3});
-    a->need_image(0, true), b->need_image(0, true);
+    a->request_image(0, true), b->request_image(0, true);
     std::vector<BugSnapshot> seen{a->snapshot(0)};
     for (int cycle = 1; cycle < 30; ++cycle) {
         a->step(), b->step();
@@ -162,7 +164,8 @@ TEST_CASE("A resource brought home counts, grows stale, turns yellow and dissolv
     const auto world = make_world(text);
     const auto present = [&] {
         std::size_t n = 0;
-        for (std::size_t i = 0; i < world->movable_objects(); ++i) n += world->movable_object_pose(i).has_value();
+        for (std::size_t i = 0; i < world->movable_objects(); ++i)
+            n += world->movable_object_pose(i).has_value();
         return n;
     };
     CHECK(present() == 0);

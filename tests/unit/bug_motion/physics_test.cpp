@@ -173,7 +173,7 @@ TEST_CASE("A robot that is squeezed between two crates and a wall gets into none
         round.round = true, round.x = p.pose(0).x, round.y = p.pose(0).y, round.radius = radius;
         REQUIRE(overlap(wall[0].outline, round).depth < 0.001);
         for (const std::size_t c : {1u, 2u})
-            REQUIRE(overlap(moved(p.parts(c)[0].outline, p.pose(c)), round).depth < 0.001);
+            REQUIRE(overlap(Transform2(p.pose(c)) * p.parts(c)[0].outline, round).depth < 0.001);
     }
 }
 
@@ -297,7 +297,7 @@ TEST_CASE("A lifted robot is in nobody's way and does not move") {
     Physics p({}, std::vector<Body>(2), dt);
     p.place(0, {-1, 0, 0});
     p.place(1, {0, 0, 0});
-    p.lift(1);
+    p.remove(1);
     for (int i = 0; i < 2000; ++i) p.step(std::array{MotorCommand{1, 0}, MotorCommand{1, 0}});
     CHECK(p.pose(0).x == Approx(1));
     CHECK(p.pose(1).x == 0);

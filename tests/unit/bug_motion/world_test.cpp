@@ -149,7 +149,7 @@ TEST_CASE("The same seed gives the same bits, another seed others, and pictures 
     const auto a = make_world(description("basic_arena"), options(25, 7)),
                b = make_world(description("basic_arena"), options(25, 7)),
                other = make_world(description("basic_arena"), options(25, 8));
-    b->need_image(0, true);
+    b->request_image(0, true);
     bool differs = false;
     for (std::uint64_t i = 0; i < 300; ++i) {
         for (const auto& w : {a.get(), b.get(), other.get()}) w->command(0, wander(i)), w->step();
@@ -258,12 +258,12 @@ TEST_CASE("A world is described in a few lines") {
           "  start       Reset_2 at (1.5, -2) heading 1.571\n"
           "  target      (0, 2.5)\n"
           "  bounds      x -2.5 to 2.5, y -2.5 to 2.5\n"
-          "  trials      a robot that leaves the bounds is put back to a start\n"
-          "  time        0.08 s of the world per cycle\n"
-          "  in m and rad; heading 0 looks along x, 1.571 along y\n");
+          "  trials      a robot that leaves the bounds is reset to a start pose\n"
+          "  time        0.08 s of simulated time per cycle\n"
+          "  in m and rad; heading 0 is along x, 1.571 along y\n");
     const std::string open = describe(*make_world(description("open_arena"), options(60)));
     CHECK(open.find("none: there are no start poses") != std::string::npos);
-    CHECK(open.find("0.033 s of the world") != std::string::npos);
+    CHECK(open.find("0.033 s of simulated time") != std::string::npos);
 }
 
 // ---- mistakes in world files ----

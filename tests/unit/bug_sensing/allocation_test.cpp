@@ -15,7 +15,7 @@ TEST_CASE("Sensing allocates nothing") {
     const RandomStream random(1, "Bug");
     std::vector<Outline> outlines;
     for (const Solid& solid : arena.solids())
-        if (const auto outline = cut(solid, scanner.height())) outlines.push_back(*outline);
+        if (const auto outline = cross_section(solid, scanner.height())) outlines.push_back(*outline);
     const VisualSolid other = {{ShapeKind::cylinder, forage::bug::test::at(0, 2.7, 0.1), {0.4, 0.4, 0.2}},
                                {}};
     const std::vector<const VisualSolid*> moving = {&other};

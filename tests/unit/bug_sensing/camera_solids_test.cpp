@@ -191,8 +191,8 @@ std::optional<Entry> entry(ShapeKind kind, const Eigen::Vector3d& half, const Ei
     std::array<double, count> depth, face;
     x.fill(static_cast<float>(ray.x())), y.fill(static_cast<float>(ray.y()));
     z.fill(static_cast<float>(ray.z()));
-    forage::bug::enter(kind, half, origin, Eigen::Matrix3d::Identity(), {x.data(), y.data(), z.data(), count},
-                       {depth.data(), face.data()});
+    forage::bug::intersect(kind, half, origin, Eigen::Matrix3d::Identity(),
+                           {x.data(), y.data(), z.data(), count}, {depth.data(), face.data()});
     for (std::size_t i = 1; i < count; ++i) {
         CHECK(depth[i] == depth[0]);
         CHECK(face[i] == face[0]);
@@ -262,8 +262,8 @@ bool meets(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& o
            const Eigen::Vector3d& ray) {
     const Eigen::Vector3f r = ray.cast<float>();
     double depth, face;
-    forage::bug::enter(kind, half, origin, Eigen::Matrix3d::Identity(), {&r.x(), &r.y(), &r.z(), 1},
-                       {&depth, &face});
+    forage::bug::intersect(kind, half, origin, Eigen::Matrix3d::Identity(), {&r.x(), &r.y(), &r.z(), 1},
+                           {&depth, &face});
     return depth < 20;  // m; the camera sees no farther
 }
 

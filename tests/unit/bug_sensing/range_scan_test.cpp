@@ -28,7 +28,7 @@ RangeSensor one_ray(double angle, double min = 0.1, double max = 3) {
 
 double range_of(const RangeSensor& sensor, const Pose& link, const Pose2& body, const Solid& solid) {
     const RangeScanner scanner(sensor, link);
-    const auto outline = cut(solid, scanner.height());
+    const auto outline = cross_section(solid, scanner.height());
     REQUIRE(outline);
     double range = 0;
     scanner.scan(body, {&*outline, 1}, {&range, 1});
