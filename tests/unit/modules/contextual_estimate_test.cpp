@@ -69,7 +69,7 @@ TEST_CASE("Estimated distances are off by no more than is said, and exact where 
             }
             std::set<Index> needed;
             for (Index n = drawn.below(6); n > 0; --n) needed.insert(drawn.below(count));
-            for (const Index key : needed) store.need(key);
+            for (const Index key : needed) store.require(key);
             store.refine(distances.data());
             for (const Index key : needed)
                 wrong += distances[static_cast<std::size_t>(key)] != exact[static_cast<std::size_t>(key)];
@@ -112,7 +112,7 @@ TEST_CASE("Estimates are given up for a while where most have to be made exact")
         present[0] = 1;
         store.estimate(present, distances.data());
         estimates += store.error() > 0;
-        for (Index key = 0; store.error() > 0 && key < needed; ++key) store.need(key);
+        for (Index key = 0; store.error() > 0 && key < needed; ++key) store.require(key);
         store.refine(distances.data());
     };
     for (int i = 0; i < 1000; ++i) compare(count);
@@ -175,7 +175,7 @@ struct Two {
         acted[action] = 1;
         const ContextualLayer::Inputs in{acted, prototype, goal ? 0.3 : 0, 0, 0.05};
         exact.update(in, settings);
-        estimating.update(in, settings, ContextualLayer::Exact::what_matters);
+        estimating.update(in, settings, ContextualLayer::Exact::selectable);
     }
     bool agree() const {
         const auto &a = exact.memory(), &b = estimating.memory();
@@ -324,8 +324,8 @@ TEST_CASE("A layer that is read back goes on the same, whatever of it is exact")
         for (int k = 0; k < 5; ++k) {
             const ArrayXd seen = drawn.prototype(20).cast<double>();
             const ContextualLayer::Inputs same{ArrayXd::Ones(4), seen, k == 3 ? 0.3 : 0, 0, 0.05};
-            one.update(same, two.settings, ContextualLayer::Exact::what_matters);
-            read.update(same, two.settings, ContextualLayer::Exact::what_matters);
+            one.update(same, two.settings, ContextualLayer::Exact::selectable);
+            read.update(same, two.settings, ContextualLayer::Exact::selectable);
         }
         CHECK((bytes_of(one) == bytes_of(read)));
     }

@@ -114,7 +114,7 @@ TEST_CASE("moduleCL says which group or parameter does not fit the memory") {
     CHECK_THAT(only_problem(action), Contains("'P/action' has 4"));
     bound(collector, 3, 6, 5);
     CHECK_THAT(only_problem(collector),
-               Contains("'collector' shows a memory of 5 x 3 segments; 'P/collector' has 18 cells"));
+               Contains("'collector' shows a memory of 5 x 3 segments, but 'P/collector' has 18 cells"));
     bound(trigger, 3, 5, 4);
     CHECK_THAT(only_problem(trigger), Contains("'trigger'") && Contains("make the group 5 x 3"));
     Bench none("0", "5"), vast("1e9", "1e9");
