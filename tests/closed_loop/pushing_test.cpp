@@ -1,5 +1,5 @@
-// Robots with grippers, balls and crates in a pen: long random pushing. FORAGE_PUSHING_STEPS sets for how
-// long.
+// Long random pushing of balls and crates by robots with grippers. The environment variable
+// FORAGE_PUSHING_STEPS sets the number of steps.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -38,7 +38,7 @@ Model ball(const std::string& name, const Pose2& at) {
     return block(name, at, {ShapeKind::sphere, Eigen::Vector3d::Constant(0.16)}, 0.01);
 }
 
-/// `robots` of the team arena in a pen of `side` m, and what else there is.
+/// A square arena of `side` m with robots of the team arena and other models.
 WorldDescription pen(double side, const std::vector<Pose2>& robots, const std::vector<Model>& things) {
     WorldDescription world = test::description("team_arena");
     const Model robot = *test::find_model(world, "A_1");
@@ -59,7 +59,7 @@ WorldDescription pen(double side, const std::vector<Pose2>& robots, const std::v
     return world;
 }
 
-/// A world that is looked at after every step of 1 ms.
+/// A world that is measured after every step of 1 ms.
 class Pen {
   public:
     explicit Pen(const WorldDescription& text) {
@@ -86,7 +86,7 @@ class Pen {
         if (body < world->bugs()) return "robot";
         return world->movable_object(body - world->bugs()).name.substr(0, 4) == "ball" ? "ball" : "crate";
     }
-    /// In the world; the middle of a robot or ball first.
+    /// The shapes of a body in world coordinates; the central disc comes first.
     std::vector<Outline> shapes(std::size_t body) const {
         const Pose2& pose = world->physics().pose(body);
         std::vector<Outline> out;
@@ -132,7 +132,7 @@ std::uint64_t steps_to_do() {
 }  // namespace
 
 TEST_CASE(
-    "Random driving and gripping among crates and balls: nothing gets into anything, no energy appears") {
+    "Random driving and gripping among crates and balls: nothing penetrates, and no energy appears") {
     Pen pen(::pen(3.2, {{-1, -1, 0}, {1, 1, 3}, {-1, 1, -1}},
                   {box("crate_1", {0, 0, 0.3}, 0.3, 0.3, 0.5), box("crate_2", {0.9, -0.6, 1}, 0.4, 0.25, 3),
                    box("crate_3", {-0.2, -0.8, 0}, 0.25, 0.25, 0.2), ball("ball_1", {0.4, 0.5, 0}),
@@ -161,7 +161,7 @@ TEST_CASE(
         INFO(what);
         CHECK(depth < 1e-3);
     }
-    // A thing may be squeezed out faster than what pushes it.
+    // An object that is squeezed out may be faster than what pushes it.
     CHECK(pen.fastest < 1.5 * (1.3 + 0.5 * 2));
     CHECK(pen.fastest_turn < 30);
     CHECK(pen.farthest < 1.6);
@@ -172,7 +172,7 @@ TEST_CASE(
     CHECK(moved >= 4);
 }
 
-TEST_CASE("A gripped ball stays gripped at walls, gets into none, and is let go on command") {
+TEST_CASE("A gripped ball stays gripped at walls, does not penetrate them, and is released on command") {
     for (int run = 0; run < 6; ++run) {
         Pen pen(::pen(2.4, {{0, 0, 0.4 * run}},
                       {ball("ball_1", {0.34 * std::cos(0.4 * run), 0.34 * std::sin(0.4 * run), 0})}));

@@ -104,7 +104,7 @@ TEST_CASE("The robots' bodies, ray sensors and cameras are those of the specific
     }
 }
 
-TEST_CASE("The gripper's hinges stand where the specification has them, and turn as far and as fast") {
+TEST_CASE("The gripper's hinges have the positions, limits and speeds of the specification") {
     if (absent(shared_dir() / "original")) return;
     const auto world = made(original("SDIC_challenge/SDIC_one_robot_arena"));
     const Hinges& hinges = world->robot(0).hinges;
@@ -125,7 +125,7 @@ TEST_CASE("The gripper's hinges stand where the specification has them, and turn
     CHECK((fingers == 2 && tips == 2));
 }
 
-TEST_CASE("Homes are where the challenge's walls have them painted, or where the competition has its own") {
+TEST_CASE("Homes are where the walls of the challenge or of the competition show them") {
     if (absent(shared_dir() / "original")) return;
     WorldOptions game;
     game.game = true;
@@ -142,7 +142,7 @@ TEST_CASE("Homes are where the challenge's walls have them painted, or where the
     }
 }
 
-TEST_CASE("The resources of the two-robot arena count at a home without a game") {
+TEST_CASE("The resources of the two-robot arena count at a home, also without a game") {
     if (absent(shared_dir() / "original")) return;
     WorldDescription text = original("SDIC_challenge/SDIC_two_robot_arena");
     for (Model& m : text.models)
@@ -156,7 +156,7 @@ TEST_CASE("The resources of the two-robot arena count at a home without a game")
     CHECK(world->movable_object_pose(0)->y == 3);  // the others lie in the open
 }
 
-TEST_CASE("Resources are blue balls that no sensor of light or proximity sees, but the gripper's rays do") {
+TEST_CASE("Resources are blue balls that only the gripper's rays and the camera sense") {
     if (absent(shared_dir() / "original")) return;
     const auto world = with_robot_at("SDIC_challenge/SDIC_two_robot_arena", {-0.58, 3, 0});
     world->request_gripper_scan(0, true);
@@ -173,7 +173,7 @@ TEST_CASE("Resources are blue balls that no sensor of light or proximity sees, b
     CHECK(blue > 10);
 }
 
-TEST_CASE("What is half a metre high counts as light: the pillar, and the walls of the tutorial's arenas") {
+TEST_CASE("Solids of 0.5 m height count as light: the pillar, and the walls of the tutorial's arenas") {
     if (absent(shared_dir() / "original")) return;
     const auto seen = [](const std::string& name, const Pose2& place) {
         const auto world = with_robot_at(name, place);
@@ -222,7 +222,7 @@ TEST_CASE("Light and shade: grey floor with and without a sun, black homes") {
     CHECK(std::count(picture.begin(), picture.end(), 0) > static_cast<std::ptrdiff_t>(picture.size() / 3));
 }
 
-TEST_CASE("Teams: green robots with names of team A, red ones of team B, where the specification has them") {
+TEST_CASE("Teams have green robots (team A) and red robots (team B) with the names and poses of the specification") {
     if (absent(shared_dir() / "original")) return;
     const std::map<std::string, Pose2> places = {
         {"TeamA_Bug_01", {-9.5, 7, -1.57079}},   {"TeamA_Bug_02", {-7, 9.5, 0}},

@@ -38,10 +38,10 @@ std::optional<bug::WorldDescription> read(const Path& file, Diagnostics& diagnos
 
 }  // namespace
 
-TEST_CASE("Every world of the original loads, with its robots, loose things and targets") {
+TEST_CASE("Every world of the original loads, with its robots, movable objects and targets") {
     if (absent(shared_dir() / "original")) return;
     struct Content {
-        std::size_t robots, things, targets;
+        std::size_t robots, movable_objects, targets;
         bool gripper, camera;
     };
     const std::map<std::string, Content> expected = {
@@ -69,7 +69,7 @@ TEST_CASE("Every world of the original loads, with its robots, loose things and 
         REQUIRE(expected.contains(file.stem()));
         const Content& content = expected.at(file.stem());
         CHECK(world->bugs() == content.robots);
-        CHECK(world->movable_objects() == content.things);
+        CHECK(world->movable_objects() == content.movable_objects);
         CHECK(world->targets().size() == content.targets);
         for (std::size_t i = 0; i < world->bugs(); ++i) {
             CHECK(world->has_gripper(i) == content.gripper);

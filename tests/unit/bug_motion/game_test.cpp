@@ -1,4 +1,4 @@
-// The robotics challenge's game, rule by rule.
+// The rules of the robotics challenge's game.
 #include "bug_interface/simulation/game.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ struct Table {
     void run(int steps) {
         for (; steps > 0; --steps) game.substep(physics, time += step, step);
     }
-    /// Seconds of which each is one step: quick, where contacts and homes do not matter.
+    /// Simulates seconds in steps of 1 s, which is fast; only for tests without contacts and homes.
     void seconds(int n) {
         for (; n > 0; --n) game.substep(physics, time += 1, 1);
     }
@@ -113,7 +113,7 @@ TEST_CASE("A resource that counts scores 2, or -1 when it is bad, and may appear
         rules.most = 1, rules.stale_after = good ? 30 : 1;
         Table table(1, rules, {Pose2{0, 0, 0}, Pose2{50, 50, 0}});
         table.seconds(1);
-        table.seconds(1);  // one older
+        table.seconds(1);  // it ages by one second
         table.run(101);
         REQUIRE(table.game.deliveries().size() == 1);
         CHECK(table.game.points(0) == (good ? 2 : -1));
@@ -124,8 +124,9 @@ TEST_CASE("A resource that counts scores 2, or -1 when it is bad, and may appear
     }
 }
 
-TEST_CASE("What a robot holds grows no older") {
-    // Between two robots: two contacts in each step. One in each would be 101 between two looks, just enough.
+TEST_CASE("A resource that a robot holds does not age") {
+    // Between two robots there are two contacts per step. One per step would be 101 between two checks, which is
+    // just enough.
     GameRules rules = rules_of({{5, 0, 1}});
     rules.most = 1;
     Physics physics({}, std::vector<Body>{Body{}, Body{}, ball()}, step);
@@ -152,7 +153,7 @@ TEST_CASE("What a robot holds grows no older") {
     CHECK(game.resources()[0].age >= age + 2);
 }
 
-TEST_CASE("When the time is over nothing is left to play with, and the score stays") {
+TEST_CASE("When the time is over, all resources are removed and the score stays") {
     GameRules rules = rules_of({{0, 0, 1}});
     rules.duration = 3;
     Table table(16, rules, {Pose2{0, 0, 0}, Pose2{50, 50, 0}});
@@ -170,7 +171,7 @@ TEST_CASE("When the time is over nothing is left to play with, and the score sta
     CHECK(table.present() == 0);
 }
 
-TEST_CASE("Resources appear as often as their sites say, within half a metre, evenly over the radius") {
+TEST_CASE("Resources appear with the chance of their sites, within 0.5 m, uniformly over the radius") {
     GameRules rules = rules_of({{0, 0, 0.15}, {30, 0, 0.1}});
     rules.duration = 1e6, rules.dissolves_after = 1;  // each is there for one second
     Table table(16, rules);
@@ -193,7 +194,7 @@ TEST_CASE("Resources appear as often as their sites say, within half a metre, ev
     CHECK((farthest > 0.49 && farthest <= 0.5));
 }
 
-TEST_CASE("There are never more resources than the rules say") {
+TEST_CASE("There are never more resources than the rules permit") {
     GameRules rules = rules_of({{0, 0, 1}, {5, 0, 1}, {10, 0, 1}, {15, 0, 1}});
     Table table(rules.most, rules);
     CHECK(rules.most == 16);

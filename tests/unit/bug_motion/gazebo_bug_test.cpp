@@ -14,7 +14,7 @@ namespace {
 
 GroupShape shape(int width, int height) { return {width, height, width * height}; }
 
-/// The module with groups behind its ports, as the engine would run it.
+/// Runs the module with groups at its ports, as the engine does.
 struct Bench {
     ModuleType type;
     std::unique_ptr<ModuleInstance> module;
@@ -123,7 +123,7 @@ TEST_CASE("The module accepts the groups of the tutorials") {
     CHECK(Bench(nullptr).problem().empty());
 }
 
-TEST_CASE("The module says what is wrong with its groups and parameters") {
+TEST_CASE("The module reports errors of its groups and parameters") {
     const auto world = test::make_world(test::description("basic_arena"));
     {
         Bench b(world.get());
@@ -171,7 +171,7 @@ TEST_CASE("The module says what is wrong with its groups and parameters") {
     }
 }
 
-TEST_CASE("A module without a world can be checked but not started, and a robot obeys one module") {
+TEST_CASE("A module without a world can be checked but not started, and a robot is driven by one module only") {
     Bench lonely(nullptr);
     CHECK_THROWS_WITH(lonely.start(), Catch::Contains("--world"));
     const auto world = test::make_world(test::description("basic_arena"));
@@ -200,7 +200,7 @@ TEST_CASE("The motor group drives the robot in the cycle in which it is active")
     CHECK(bench.output("_gps")[1] == Approx(8.08));
 }
 
-TEST_CASE("The outputs carry the robot's snapshot") {
+TEST_CASE("The outputs have the robot's snapshot") {
     WorldOptions options;
     options.noise = false;
     auto arena = test::description("basic_arena");
@@ -218,13 +218,13 @@ TEST_CASE("The outputs carry the robot's snapshot") {
     CHECK(std::count_if(red.begin(), red.end(), [](double v) { return v > 0.9; }) == Approx(743).margin(25));
     CHECK(*std::max_element(green.begin(), green.end()) < 0.1);
     const auto& head = bench.output("headCell");
-    CHECK(std::max_element(head.begin(), head.end()) - head.begin() == 12);  // looks along +y
+    CHECK(std::max_element(head.begin(), head.end()) - head.begin() == 12);  // the heading is +y
     CHECK(*std::max_element(bench.output("placeCell").begin(), bench.output("placeCell").end()) == 1);
     CHECK(bench.output("_audio_in") == std::vector<double>(36, 0));
     CHECK(bench.output("_proximityGripper") == std::vector<double>(16, 0));
 }
 
-TEST_CASE("Offsets move the place cells' field, not the GPS; extents shift both") {
+TEST_CASE("Offsets move the area of the place cells but not the GPS; extents shift both") {
     WorldOptions options;
     options.noise = false;
     const auto world = test::make_world(test::description("basic_arena"), options);  // the robot at (0, -2)

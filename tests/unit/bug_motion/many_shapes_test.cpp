@@ -1,4 +1,4 @@
-// Bodies and obstacles of many shapes and heights: nothing is left out.
+// Bodies and obstacles with many shapes and heights.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -33,7 +33,7 @@ Model model_of(const std::string& name, bool is_static, std::vector<Collision> s
     return out;
 }
 
-/// The team arena's first robot in the open, at the origin, with this in the world.
+/// The team arena with its first robot at the origin and with `models` added.
 WorldDescription with(std::vector<Model> models) {
     WorldDescription text = description("team_arena");
     text.game.reset();
@@ -57,7 +57,7 @@ void drive(World& world, MotorCommand command, int cycles) {
 }  // namespace
 
 TEST_CASE(
-    "A wall of 40 pieces with 40 heights stops a robot everywhere, and is seen where it is high enough") {
+    "A wall of 40 pieces with 40 heights stops a robot everywhere, and is sensed where it is high enough") {
     // A ring of radius 1.2 m round the robot; piece i is 0.11 m high, and 0.005 m more than the one before.
     std::vector<Collision> pieces;
     for (int i = 0; i < many; ++i) {
@@ -83,7 +83,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A crate of 40 shapes is pushed like one of a single shape, and seen like it") {
+TEST_CASE("A crate of 40 shapes is pushed and sensed like a crate of one shape") {
     std::vector<Collision> slices;
     for (int i = 0; i < many; ++i)
         slices.push_back(box(0, -0.2 + 0.4 * (i + 0.5) / many, 0, 0.25, 0.3, 0.4 / many));
@@ -97,7 +97,7 @@ TEST_CASE("A crate of 40 shapes is pushed like one of a single shape, and seen l
     REQUIRE(sliced->movable_objects() == 1);
     for (int part = 0; part < 6; ++part) {
         CHECK(sliced->snapshot(0).proximity == whole->snapshot(0).proximity);
-        if (part == 2) break;  // touched: from now on the solver's order shows
+        if (part == 2) break;  // after a contact, the order of the solver has an effect
         drive(*sliced, {0.5, 0}, 5), drive(*whole, {0.5, 0}, 5);
     }
     drive(*sliced, {0.5, 0}, 60), drive(*whole, {0.5, 0}, 60);
@@ -153,7 +153,7 @@ TEST_CASE("A gripper whose fingers have 40 shapes each closes and holds like one
         CHECK(a->gripper_angle(0, hinge) == Approx(b->gripper_angle(0, hinge)).margin(0.02));
 }
 
-TEST_CASE("A robot with more heights than there is room for is told so, once, at the shape") {
+TEST_CASE("A robot with too many heights gives one error, at the shape") {
     WorldDescription text = with({});
     Link& body = *std::find_if(text.models.front().links.begin(), text.models.front().links.end(),
                                [](const Link& l) { return l.name == "bug"; });

@@ -12,7 +12,7 @@ using test::make_world;
 
 namespace {
 
-/// The open arena without its robot, with one at each of these places: R0, R1, ...
+/// The open arena with robots R0, R1, ... at `places` instead of its own robot.
 WorldDescription crowd(const std::vector<Pose2>& places) {
     WorldDescription world = description("open_arena");
     const Model robot = *test::find_model(world, "Bug");
@@ -25,7 +25,7 @@ WorldDescription crowd(const std::vector<Pose2>& places) {
     return world;
 }
 
-/// The team arena with one robot that has a gripper, and no game.
+/// The team arena with a single robot, which has a gripper, and without a game.
 WorldDescription alone() {
     WorldDescription world = description("team_arena");
     world.game.reset();
@@ -73,9 +73,9 @@ TEST_CASE("A message is received in the next cycle, attenuated with distance, by
     CHECK(world->snapshot(0).received[3] > 0.5);
 }
 
-TEST_CASE("Sensors at their own rates hold what they saw until their time has come") {
+TEST_CASE("Sensors with rates of their own keep their measurements until they are due") {
     WorldOptions options;
-    options.sensor_rates = true, options.real_time_factor = 0.25;  // 10 ms of the world per cycle
+    options.sensor_rates = true, options.real_time_factor = 0.25;  // 10 ms of simulated time per cycle
     const auto world = make_world(crowd({{0, 0, 0}}), options);
     world->command(0, {1, 0});
     int changes = 0;
@@ -89,14 +89,14 @@ TEST_CASE("Sensors at their own rates hold what they saw until their time has co
     CHECK(world->pose(0).x == Approx(2).margin(0.01));
 }
 
-TEST_CASE("Each sensor has a rate of its own") {
+TEST_CASE("Each sensor has its own rate") {
     WorldDescription text = alone();
     Link& link = body_link(text);
     for (RangeSensor& s : link.range_sensors)
         s.rate = s.name == "laser" ? 20 : s.name == "laser_target" ? 50 : 10, s.noise = 0.01;
     link.cameras.front().rate = 5;
     WorldOptions options;
-    options.sensor_rates = true, options.real_time_factor = 0.25;  // 10 ms of the world per cycle
+    options.sensor_rates = true, options.real_time_factor = 0.25;  // 10 ms of simulated time per cycle
     const auto world = make_world(text, options);
     const auto robot = world->find("A_1").value();
     world->request_gripper_scan(robot, true), world->request_image(robot, true);
@@ -109,7 +109,7 @@ TEST_CASE("Each sensor has a rate of its own") {
         poses += now.pose.x != last.pose.x;
         proximity += now.proximity != last.proximity, target += now.target != last.target;
         gripper += now.gripper != last.gripper, pictures += now.image != last.image;
-        CHECK((now.pose.x != last.pose.x) == (now.proximity != last.proximity));  // GPS comes with it
+        CHECK((now.pose.x != last.pose.x) == (now.proximity != last.proximity));  // the GPS has the rate of the proximity sensor
         last = now;
     }
     CHECK(poses == 40);
@@ -119,7 +119,7 @@ TEST_CASE("Each sensor has a rate of its own") {
     CHECK(pictures == 10);
 }
 
-TEST_CASE("Onlookers see what a camera sees now: without a module, at a slow rate, and late") {
+TEST_CASE("Observers see the current image of a camera, also without a module, at a low rate, and with a latency") {
     WorldDescription text = alone();
     body_link(text).cameras.front().rate = 0.1;
     WorldOptions options, slow;
@@ -138,7 +138,7 @@ TEST_CASE("Onlookers see what a camera sees now: without a module, at a slow rat
     }
 }
 
-TEST_CASE("What is sensed can come some cycles later") {
+TEST_CASE("Snapshots can have a latency of several cycles") {
     WorldOptions prompt, delayed;
     delayed.latency = 3;
     const auto a = make_world(crowd({{0, 0, 0}}), prompt), b = make_world(crowd({{0, 0, 0}}), delayed);
@@ -155,9 +155,9 @@ TEST_CASE("What is sensed can come some cycles later") {
     }
 }
 
-TEST_CASE("A resource brought home counts, grows stale, turns yellow and dissolves") {
+TEST_CASE("A resource ages, turns yellow and dissolves") {
     WorldDescription text = description("team_arena");
-    text.game->sites = {{-1, 1, 1}};  // one in every second
+    text.game->sites = {{-1, 1, 1}};  // one per second
     text.game->stale_after = 3, text.game->dissolves_after = 5, text.game->most = 4;
     std::erase_if(text.models, [](const Model& m) { return m.name.starts_with("B_") || m.name == "A_2"; });
     test::find_model(text, "A_1")->pose = in_space({3, -1, 3 * std::numbers::pi / 4});
@@ -182,12 +182,12 @@ TEST_CASE("A resource brought home counts, grows stale, turns yellow and dissolv
     for (int cycle = 0; cycle < 75; ++cycle) world->step();
     CHECK(is_yellow(0));
     for (int cycle = 0; cycle < 60; ++cycle) world->step();
-    CHECK(world->game().resources()[0].age < 5);  // it has been away, or is
+    CHECK(world->game().resources()[0].age < 5);  // it was removed, or is removed
     CHECK(present() >= 3);
     CHECK(world->game().deliveries().empty());
 }
 
-TEST_CASE("A resource that a robot pushes into a home counts for that team, and is gone") {
+TEST_CASE("A resource that a robot pushes into a home counts for that team and is removed") {
     WorldDescription text = description("team_arena");
     text.game->sites = {{-1, 1, 0.2}};
     std::erase_if(text.models, [](const Model& m) { return m.name.starts_with("B_") || m.name == "A_2"; });

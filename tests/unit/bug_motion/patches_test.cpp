@@ -1,4 +1,4 @@
-// The coloured patches of the arenas that ship.
+// The coloured patches of the arenas in the repository.
 #include "bug_interface/simulation/patches.h"
 
 #include <map>
@@ -49,7 +49,7 @@ TEST_CASE("Patches turn with their floor") {
         CHECK((after[i].centre - Eigen::Vector2d(-before[i].centre.y(), before[i].centre.x())).norm() < 1e-9);
 }
 
-TEST_CASE("A place lies in a patch up to its rim") {
+TEST_CASE("A point is in a patch if it is within its radius") {
     const std::vector<Patch> patches{{{0, 0}, 0.2, "red"}, {{1, 0}, 0.2, "blue"}};
     CHECK(patch_at(patches, {0.19, 0}) == 0);
     CHECK(patch_at(patches, {0.21, 0}) == -1);

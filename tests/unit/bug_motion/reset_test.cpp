@@ -45,7 +45,7 @@ TEST_CASE("A world without Reset_i has no resets") {
     CHECK(diagnostics.all().empty());
 }
 
-TEST_CASE("Start poses without bounds are an error, not a reset for ever") {
+TEST_CASE("Start poses without bounds are an error, not an endless reset") {
     WorldDescription world = test::description("basic_arena");
     test::find_model(world, "GroundPlane")->name = "Floor";
     CHECK(problem_of(world) ==
@@ -59,7 +59,7 @@ TEST_CASE("Start poses without bounds are an error, not a reset for ever") {
           "'Reset_1' at (0, -2.6) is not inside the bounds x -2.5 to 2.5, y -2.5 to 2.5");
 }
 
-TEST_CASE("The last collision of the last link gives the bounds, wherever it stands") {
+TEST_CASE("The last collision of the last link gives the bounds, at any pose") {
     WorldDescription world = test::description("basic_arena");
     Model& ground = *test::find_model(world, "GroundPlane");
     ground.pose.translation() = Eigen::Vector3d(1, 2, 0);
@@ -68,7 +68,7 @@ TEST_CASE("The last collision of the last link gives the bounds, wherever it sta
     CHECK(plan_of(world).bounds.max() == Eigen::Vector2d(5, 7));
 }
 
-TEST_CASE("A plane gives no bounds: trials would never end") {
+TEST_CASE("A plane does not give bounds, as trials would never end") {
     WorldDescription world = test::description("basic_arena");
     Model& ground = *test::find_model(world, "GroundPlane");
     std::swap(ground.links.back().collisions.front(), ground.links.back().collisions.back());
@@ -76,7 +76,7 @@ TEST_CASE("A plane gives no bounds: trials would never end") {
     CHECK(problem_of(world) == "GroundPlane's last collision is a plane, so the arena has no bounds");
 }
 
-TEST_CASE("Names of start poses that do not count are warnings") {
+TEST_CASE("Names of start poses that are not used give warnings") {
     const auto warning = [](const char* from, const char* to) {
         WorldDescription world = test::description("basic_arena");
         test::find_model(world, from)->name = to;
