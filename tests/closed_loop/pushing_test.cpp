@@ -131,8 +131,7 @@ std::uint64_t steps_to_do() {
 
 }  // namespace
 
-TEST_CASE(
-    "Random driving and gripping among crates and balls: nothing penetrates, and no energy appears") {
+TEST_CASE("Random driving and gripping among crates and balls: nothing penetrates, and no energy appears") {
     Pen pen(::pen(3.2, {{-1, -1, 0}, {1, 1, 3}, {-1, 1, -1}},
                   {box("crate_1", {0, 0, 0.3}, 0.3, 0.3, 0.5), box("crate_2", {0.9, -0.6, 1}, 0.4, 0.25, 3),
                    box("crate_3", {-0.2, -0.8, 0}, 0.25, 0.25, 0.2), ball("ball_1", {0.4, 0.5, 0}),

@@ -23,8 +23,8 @@ std::optional<std::pair<int, int>> lit_rows(const ConstColumn& cells, int width)
     return out;
 }
 
-/// The row that shows a floor point `ahead` metres in front of the robot's centre: the inverse of the camera's
-/// projection (0.2 m ahead, 0.35 m high, looking 1.1 rad down).
+/// The row that shows a floor point `ahead` metres in front of the robot's centre: the inverse of the
+/// camera's projection (0.2 m ahead, 0.35 m high, looking 1.1 rad down).
 double row_of(double ahead) {
     constexpr double height = 0.35, forward = 0.2, pitch = 1.1, hfov = 0.8047, rows = 28, columns = 32;
     const double below = std::atan2(height, ahead - forward);  // angle under the horizon

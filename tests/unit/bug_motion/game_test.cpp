@@ -125,8 +125,8 @@ TEST_CASE("A resource that counts scores 2, or -1 when it is bad, and may appear
 }
 
 TEST_CASE("A resource that a robot holds does not age") {
-    // Between two robots there are two contacts per step. One per step would be 101 between two checks, which is
-    // just enough.
+    // Between two robots there are two contacts per step. One per step would be 101 between two checks, which
+    // is just enough.
     GameRules rules = rules_of({{5, 0, 1}});
     rules.most = 1;
     Physics physics({}, std::vector<Body>{Body{}, Body{}, ball()}, step);

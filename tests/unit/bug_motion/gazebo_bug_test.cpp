@@ -171,7 +171,8 @@ TEST_CASE("The module reports errors of its groups and parameters") {
     }
 }
 
-TEST_CASE("A module without a world can be checked but not started, and a robot is driven by one module only") {
+TEST_CASE(
+    "A module without a world can be checked but not started, and a robot is driven by one module only") {
     Bench lonely(nullptr);
     CHECK_THROWS_WITH(lonely.start(), Catch::Contains("--world"));
     const auto world = test::make_world(test::description("basic_arena"));

@@ -164,7 +164,8 @@ TEST_CASE(
     CHECK(farthest < 2);
 }
 
-TEST_CASE("A gripper closes only after it was opened, at the speed of its hinges, and its rays see the ball") {
+TEST_CASE(
+    "A gripper closes only after it was opened, at the speed of its hinges, and its rays see the ball") {
     Court court(1.5);
     const auto angle = [&](std::size_t hinge) { return court.world->gripper_angle(0, hinge); };
     court.world->grip(0, true);

@@ -109,7 +109,8 @@ TEST_CASE("Each sensor has its own rate") {
         poses += now.pose.x != last.pose.x;
         proximity += now.proximity != last.proximity, target += now.target != last.target;
         gripper += now.gripper != last.gripper, pictures += now.image != last.image;
-        CHECK((now.pose.x != last.pose.x) == (now.proximity != last.proximity));  // the GPS has the rate of the proximity sensor
+        CHECK((now.pose.x != last.pose.x) ==
+              (now.proximity != last.proximity));  // the GPS has the rate of the proximity sensor
         last = now;
     }
     CHECK(poses == 40);
@@ -119,7 +120,8 @@ TEST_CASE("Each sensor has its own rate") {
     CHECK(pictures == 10);
 }
 
-TEST_CASE("Observers see the current image of a camera, also without a module, at a low rate, and with a latency") {
+TEST_CASE(
+    "Observers see the current image of a camera, also without a module, at a low rate, and with a latency") {
     WorldDescription text = alone();
     body_link(text).cameras.front().rate = 0.1;
     WorldOptions options, slow;

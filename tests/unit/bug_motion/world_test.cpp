@@ -385,7 +385,8 @@ TEST_CASE("A file that is not a world gives an error that says what it is") {
           "the root element is <sfd>; that of a world or a model is <sdf>");
 }
 
-TEST_CASE("An include has the name, pose, <static> and plugins of the world, and everything else of the model") {
+TEST_CASE(
+    "An include has the name, pose, <static> and plugins of the world, and everything else of the model") {
     const Scratch scratch;
     const std::string config =
         "<?xml version='1.0'?><model><name>m</name><sdf version='1.4'>model.sdf</sdf></model>";
