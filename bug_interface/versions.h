@@ -1,4 +1,4 @@
-// Versions of the libraries behind the robot and its world.
+// The versions of the libraries that bug_interface uses.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace forage::bug {
 
-/// Name and version of each.
+/// The name and the version of each library.
 std::vector<std::pair<std::string, std::string>> library_versions();
 
 }  // namespace forage::bug

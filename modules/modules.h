@@ -5,8 +5,7 @@
 
 namespace forage {
 
-/// Adds the module types that need nothing but their groups. (moduleReplay comes with its table, the robot's
-/// with its world.)
+/// Adds moduleAL, moduleCL, moduleColor, differenceModule and directionModule to `registry`.
 void add_modules(Registry& registry);
 
 }  // namespace forage

@@ -1,4 +1,4 @@
-// Where the highest cell of a group is.
+// The position of the most active cell of a group.
 #pragma once
 
 #include <optional>
@@ -9,12 +9,13 @@ namespace forage::goal {
 
 using Eigen::Index;
 
-struct Place {
+/// A cell of a rectangular group.
+struct GridPosition {
     Index row = 0, column = 0;
-    friend bool operator==(const Place&, const Place&) = default;
+    friend bool operator==(const GridPosition&, const GridPosition&) = default;
 };
 
-/// The first of the cells that are highest when compared in single precision.
+/// The index of the most active cell; the first of several that are equal in single precision.
 inline Index highest_cell(const Eigen::Ref<const Eigen::ArrayXd>& cells) {
     Index best = 0;
     for (Index i = 1; i < cells.size(); ++i)
@@ -22,13 +23,13 @@ inline Index highest_cell(const Eigen::Ref<const Eigen::ArrayXd>& cells) {
     return best;
 }
 
-/// Row and column of the highest cell of a group of `width` cells per row; none when no cell is above 0 or
-/// all cells are equal.
-inline std::optional<Place> place_of(const Eigen::Ref<const Eigen::ArrayXd>& cells, Index width) {
+/// The position of the most active cell of a group with `width` cells per row. Empty when no cell is above 0,
+/// and when all cells are equal in single precision.
+inline std::optional<GridPosition> peak_position(const Eigen::Ref<const Eigen::ArrayXd>& cells, Index width) {
     const Index best = highest_cell(cells);
     const auto top = static_cast<float>(cells[best]);
     if (!(top > 0) || (cells.cast<float>() == top).all()) return std::nullopt;
-    return Place{best / width, best % width};
+    return GridPosition{best / width, best % width};
 }
 
 }  // namespace forage::goal

@@ -21,8 +21,8 @@ enum Out : std::size_t {
     image_first,
     image_second,
     image_third,
-    place,
-    head,
+    place_group,
+    head_group,
     audio_in
 };
 
@@ -36,7 +36,7 @@ std::string no_robot(const World& world, const std::string& name) {
     return fmt::format("there is no robot '{}' in the world '{}'", name, world.description().path);
 }
 
-std::string what_there_is(const World& world, const std::string& name) {
+std::string robots_of(const World& world, const std::string& name) {
     const auto names = world.robot_names();
     return names.empty() ? "the world has no robot: a robot is a model with a link 'bug' and the plugin "
                            "libvel_plugin.so"
@@ -48,70 +48,75 @@ std::string what_there_is(const World& world, const std::string& name) {
 void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
     using T = GazeboBug;
     s.name("moduleGazeboBug", "Gazebo Bug")
-        .doc("The senses and motors of a robot in the simulated world, in lock-step with the system.");
+        .doc("Connects the system to a robot of a simulated world: motors, sensors and communication.");
     s.param("device_name", &T::device_name)
         .label("Device name")
         .at_start()
-        .doc("Name of the robot: of its model in the world file.");
+        .doc("Name of the robot's model in the world file.");
     s.param("cps", &T::cps)
         .label("Cycles per second")
         .unit("1/s")
-        .doc("No effect: the robot moves in lock-step with the system.");
-    s.param("comkey", &T::comkey).label("Communication key").doc("Robots with the same key hear each other.");
+        .doc("Has no effect: the robot moves in lock-step with the system.");
+    s.param("comkey", &T::comkey)
+        .label("Communication key")
+        .doc("Robots with the same key receive each other's messages.");
     s.param("gripper", &T::gripper)
         .label("Has gripper")
         .at_start()
-        .doc("Whether the robot has a gripper; its groups need their sizes, and the robot one, only then.");
+        .doc(
+            "Whether the robot has a gripper. Only then are the sizes of the gripper's groups and the robot "
+            "checked.");
     s.param("grayscale", &T::grayscale)
         .label("Grayscale")
-        .doc("The three image groups all get the grey value; wins over hsv.");
+        .doc("Whether the three image groups all receive the grey value. Takes precedence over hsv.");
     s.param("hsv", &T::hsv)
         .label("HSV")
-        .doc("The image groups get hue, saturation and value instead of red, green and blue.");
+        .doc("Whether the image groups receive hue, saturation and value instead of red, green and blue.");
     s.param("transSpeed", &T::trans_speed)
         .label("Translation speed")
         .unit("m/s")
         .doc(
-            "Speed straight ahead when the cell in the middle of the motor group's top row is the most "
-            "active one; rows below stand for less, the middle row for none, the bottom row for as much "
-            "backwards.");
+            "Forward speed that the top row of the motor group stands for. The bottom row stands for the "
+            "same speed backwards, and the rows between for proportional speeds.");
     s.param("rotSpeed", &T::rot_speed)
         .label("Rotation speed")
         .unit("rad/s")
         .doc(
-            "Speed of the left turn that the motor group's left column stands for; the right column stands "
-            "for as fast a right turn, the middle one for none.");
+            "Angular velocity of the left turn that the left column of the motor group stands for. The right "
+            "column stands for the same turn to the right, and the columns between for proportional turns.");
     s.param("placeXOffset", &T::place_x_offset)
         .label("Place X offset")
         .unit("m")
-        .doc("x of the middle of the area that the place cells cover. No effect on the GPS.");
+        .doc("x of the centre of the area that the place cells cover. Has no effect on the GPS.");
     s.param("placeYOffset", &T::place_y_offset)
         .label("Place Y offset")
         .unit("m")
-        .doc("y of the middle of the area that the place cells cover. No effect on the GPS.");
+        .doc("y of the centre of the area that the place cells cover. Has no effect on the GPS.");
     s.param("placeXMax", &T::place_x_max)
         .label("Place X max")
         .unit("m")
         .doc(
-            "Half the extent in x of the area that the place cells cover. Also added to x in the GPS group, "
-            "so that it is not negative there.");
+            "Half the extent in x of the area that the place cells cover. It is also added to x in the GPS "
+            "group, so that x is not negative there.");
     s.param("placeYMax", &T::place_y_max)
         .label("Place Y max")
         .unit("m")
         .doc(
-            "Half the extent in y of the area that the place cells cover. Also added to y in the GPS group, "
-            "so that it is not negative there.");
+            "Half the extent in y of the area that the place cells cover. It is also added to y in the GPS "
+            "group, so that y is not negative there.");
     s.param("placeSigma", &T::place_sigma)
         .label("Place sigma")
         .unit("half extents")
         .doc(
-            "Width of a place cell's field, exp(-(distance/sigma)^2), as a fraction of half the area's "
-            "extent: 0.2 with placeXMax 10 is 2 m.");
+            "Width of a place cell's receptive field, exp(-(distance/sigma)^2), in units of half the extent "
+            "of "
+            "the area: 0.2 with placeXMax 10 is 2 m.");
     s.param("headSigma", &T::head_sigma)
         .label("Head sigma")
         .unit("turn")
         .doc(
-            "Width of a head direction cell's field, exp(-(distance/sigma)^2), in turns: 0.1 is 36 degrees.");
+            "Width of a head direction cell's receptive field, exp(-(distance/sigma)^2), in turns: 0.1 is 36 "
+            "degrees.");
 
     s.input("_motor", "Motor");
     s.input("_gripper", "Gripper").optional();
@@ -129,7 +134,7 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
 }
 
 void GazeboBug::check(const ModulePorts& ports, Problems& problems) {
-    const auto complain = [&](const ModulePorts::Group& group, std::string message, std::string hint) {
+    const auto report = [&](const ModulePorts::Group& group, std::string message, std::string hint) {
         problems.all.push_back({std::move(message), std::move(hint), {}, group.port});
     };
     const auto size = [](const ModulePorts::Group& group) {
@@ -139,8 +144,8 @@ void GazeboBug::check(const ModulePorts& ports, Problems& problems) {
     const auto& m = ports.inputs[motor];
     if (m.shape.cells > 0 && (m.shape.width != m.shape.height || m.shape.width < 2 ||
                               m.shape.cells != m.shape.width * m.shape.height))
-        complain(m, fmt::format("the motor group {}, and must be square and at least 2 wide", size(m)),
-                 "9 x 9 gives four speeds in each direction");
+        report(m, fmt::format("the motor group {}, but must be square and at least 2 cells wide", size(m)),
+               "9 x 9 gives four speeds in each direction");
 
     const ModulePorts::Group* first = nullptr;
     for (const std::size_t port : {image_first, image_second, image_third}) {
@@ -148,27 +153,27 @@ void GazeboBug::check(const ModulePorts& ports, Problems& problems) {
         if (g.shape.cells == 0) continue;
         if (!first) first = &g;
         if (g.shape.cells != g.shape.width * g.shape.height)
-            complain(g, fmt::format("the image group '{}' must be a full rectangle", g.path), {});
+            report(g, fmt::format("the image group '{}' must be a full rectangle", g.path), {});
         else if (g.shape.width > max_image_width || g.shape.height > max_image_height)
-            complain(g,
-                     fmt::format("the image group {}, and may be {} x {} at most", size(g), max_image_width,
-                                 max_image_height),
-                     "the camera has no more pixels");
+            report(g,
+                   fmt::format("the image group {}, but must be at most {} x {}", size(g), max_image_width,
+                               max_image_height),
+                   "the camera has no more pixels");
         else if (!(g.shape == first->shape))
-            complain(g, fmt::format("the image groups differ in size: {}, {}", size(g), size(*first)),
-                     "make all three the same");
+            report(g, fmt::format("the image groups differ in size: {}, {}", size(g), size(*first)),
+                   "give all three the same size");
     }
-    const auto& p = ports.outputs[place];
+    const auto& p = ports.outputs[place_group];
     if (p.shape.cells != p.shape.width * p.shape.height)
-        complain(p, fmt::format("the place cell group '{}' must be a full rectangle", p.path), {});
+        report(p, fmt::format("the place cell group '{}' must be a full rectangle", p.path), {});
     if (gripper) {
         const auto &command = ports.inputs[gripper_command], &scan = ports.outputs[gripper_scan];
         if (command.shape.cells > 0 && command.shape.cells != 1)
-            complain(command, fmt::format("the gripper group {}, and must be 1 x 1", size(command)),
-                     "or set 'gripper' to false");
+            report(command, fmt::format("the gripper group {}, but must be 1 x 1", size(command)),
+                   "change its size, or set 'gripper' to false");
         if (scan.shape.cells > 0 && (scan.shape.width != 16 || scan.shape.height != 1))
-            complain(scan, fmt::format("the gripper proximity group {}, and must be 16 x 1", size(scan)),
-                     "or set 'gripper' to false");
+            report(scan, fmt::format("the gripper proximity group {}, but must be 16 x 1", size(scan)),
+                   "change its size, or set 'gripper' to false");
     }
     if (!(place_x_max > 0 && place_y_max > 0 && place_sigma > 0 && head_sigma > 0))
         problems.all.push_back({"placeXMax, placeYMax, placeSigma and headSigma must be above 0",
@@ -184,25 +189,25 @@ void GazeboBug::check(const ModulePorts& ports, Problems& problems) {
     const auto bug = world_->find(device_name);
     if (!bug) {
         problems.all.push_back(
-            {no_robot(*world_, device_name), what_there_is(*world_, device_name), "device_name", {}});
+            {no_robot(*world_, device_name), robots_of(*world_, device_name), "device_name", {}});
         return;
     }
     const auto scanner = [&](std::size_t port, std::size_t rays, const char* sensor) {
         const auto& g = ports.outputs[port];
         if (g.shape.cells > 0 && static_cast<std::size_t>(g.shape.cells) != rays)
-            complain(g,
-                     rays == 0 ? fmt::format("robot '{}' has no ray sensor '{}'", device_name, sensor)
-                               : fmt::format("the ray sensor '{}' of robot '{}' has {} rays, not {}", sensor,
-                                             device_name, rays, g.shape.cells),
-                     {});
+            report(g,
+                   rays == 0 ? fmt::format("robot '{}' has no ray sensor '{}'", device_name, sensor)
+                             : fmt::format("the ray sensor '{}' of robot '{}' has {} rays, not {}", sensor,
+                                           device_name, rays, g.shape.cells),
+                   {});
     };
     scanner(proximity, world_->snapshot(*bug).proximity.size(), "laser");
     scanner(target, world_->snapshot(*bug).target.size(), "laser_target");
-    const bool asked =
+    const bool connected =
         ports.inputs[gripper_command].shape.cells == 1 || ports.outputs[gripper_scan].shape.cells == 16;
-    if (gripper && asked && !world_->has_gripper(*bug))  // the original would wait for one for ever
+    if (gripper && connected && !world_->has_gripper(*bug))  // the original waits forever
         problems.all.push_back({fmt::format("robot '{}' has no gripper", device_name),
-                                "set 'gripper' to false, or take a robot with a gripper",
+                                "set 'gripper' to false, or use a robot with a gripper",
                                 "gripper",
                                 {}});
     if (gripper && world_->has_gripper(*bug))
@@ -211,28 +216,26 @@ void GazeboBug::check(const ModulePorts& ports, Problems& problems) {
 
 void GazeboBug::start(const ModulePorts& ports, ModuleFrame& frame) {
     world_ = dynamic_cast<World*>(ports.environment);
-    if (!world_)
-        throw std::runtime_error(
-            "this system drives a robot and needs a world to run in: give one with --world FILE");
+    if (!world_) throw std::runtime_error("this system drives a robot and needs a world: add --world FILE");
     const auto bug = world_->find(device_name);
     if (!bug)
-        throw std::runtime_error(no_robot(*world_, device_name) + "; " + what_there_is(*world_, device_name));
+        throw std::runtime_error(no_robot(*world_, device_name) + "; " + robots_of(*world_, device_name));
     bug_ = *bug;
     claim_.reset();
     claim_ = world_->claim(bug_);
     if (!claim_)
         throw std::runtime_error(
-            fmt::format("two modules drive the robot '{}'; each needs a robot of its own", device_name));
+            fmt::format("two modules drive the robot '{}'; each needs its own robot", device_name));
 
     motor_ = ports.inputs[motor].shape;
-    place_ = ports.outputs[place].shape;
+    place_ = ports.outputs[place_group].shape;
     image_ = {};
     for (const std::size_t port : {image_first, image_second, image_third})
         if (frame.is_read(port)) image_ = ports.outputs[port].shape;
     if (world_->snapshot(bug_).image_width == 0) image_ = {};
     unused_.assign(static_cast<std::size_t>(image_.cells), 0);
-    world_->need_image(bug_, image_.cells > 0);
-    world_->need_gripper_scan(bug_, gripper && frame.is_read(gripper_scan));
+    world_->request_image(bug_, image_.cells > 0);
+    world_->request_gripper_scan(bug_, gripper && frame.is_read(gripper_scan));
 }
 
 void GazeboBug::update(ModuleFrame& frame) {
@@ -241,8 +244,8 @@ void GazeboBug::update(ModuleFrame& frame) {
                                        motor_.width, motor_.height, trans_speed, rot_speed));
     if (gripper && frame.input(gripper_command).size() == 1)
         world_->grip(bug_, frame.input(gripper_command)[0] > 0.5);
-    const auto& said = frame.input(audio_out);
-    world_->say(bug_, comkey, {said.data(), static_cast<std::size_t>(said.size())});
+    const auto& message = frame.input(audio_out);
+    world_->transmit(bug_, comkey, {message.data(), static_cast<std::size_t>(message.size())});
     copy_scans(frame);
     copy_pose(frame);
     if (image_.cells > 0) copy_image(frame);
@@ -257,7 +260,7 @@ void GazeboBug::copy_scans(ModuleFrame& frame) const {
     if (frame.is_read(target)) copy(seen.target, frame.output(target));
     if (gripper && frame.is_read(gripper_scan)) copy(seen.gripper, frame.output(gripper_scan));
     if (frame.is_read(audio_in))
-        std::copy(seen.heard.begin(), seen.heard.end(), frame.output(audio_in).data());
+        std::copy(seen.received.begin(), seen.received.end(), frame.output(audio_in).data());
 }
 
 void GazeboBug::copy_pose(ModuleFrame& frame) const {
@@ -268,13 +271,13 @@ void GazeboBug::copy_pose(ModuleFrame& frame) const {
         out[1] = at.y + place_y_max;
         out[2] = at.yaw + std::numbers::pi;
     }
-    if (frame.is_read(place)) {
-        Column out = frame.output(place);
+    if (frame.is_read(place_group)) {
+        Column out = frame.output(place_group);
         place_cells(at.x, at.y, place_.width, place_.height,
                     {place_x_offset, place_y_offset, place_x_max, place_y_max, place_sigma}, cells_of(out));
     }
-    if (frame.is_read(head)) {
-        Column out = frame.output(head);
+    if (frame.is_read(head_group)) {
+        Column out = frame.output(head_group);
         head_direction_cells(at.yaw, head_sigma, cells_of(out));
     }
 }

@@ -1,4 +1,4 @@
-// The module that gives a neural system the senses and the motors of a robot.
+// The module that connects a neural system to a robot.
 #pragma once
 
 #include <memory>
@@ -12,21 +12,28 @@
 
 namespace forage::bug {
 
-/// Module "moduleGazeboBug". Once per cycle it decodes the motor group into a command to the robot
-/// (decode_motor()) and copies what the robot sensed at the end of the previous cycle into the output groups:
+/// Module "moduleGazeboBug". In every cycle it decodes its input groups into commands to the robot, and
+/// copies what the robot sensed at the end of the previous cycle into its output groups.
 ///
-///   _proximity, _target   near is high, cell 0 looks back left, the last back right; _target sees the light
-///   _gps                  x + placeXMax, y + placeYMax in m, heading + pi in rad
-///   _image_RH, .._BV      the camera's picture, row 0 is the far one
-///   placeCell, headCell   where the robot is and where it looks, in fields
+/// Inputs:
+///   _motor                the velocity command, see decode_motor(): a square of at least 2 x 2 cells
+///   _gripper              closes the gripper above 0.5, else opens it: 1 cell
+///   _audio_out            the message to robots with the same communication key: 36 cells
 ///
-///   _proximityGripper     the rays between the fingers; the outer cells see the robot's own palm
-///   _audio_in             what others with the same communication key say: _audio_out, quieter with distance
+/// Outputs:
+///   _proximity, _target   range scans of "laser" and "laser_target", which sees the light: 32 cells, 0..1,
+///                         near is high; cell 0 is the leftmost ray (at 3 rad), the last the rightmost
+///   _proximityGripper     range scan of "laser_gripper" between the fingers: 16 cells, as above; the outer
+///                         cells see the robot's own palm
+///   _gps                  x + placeXMax and y + placeYMax in m, heading + pi in rad: 3 cells
+///   _image_RH, _GS, _BV   the channels of the camera's image, row 0 at the top (far): at most 32 x 28 cells
+///   placeCell             the position of the robot, see place_cells()
+///   headCell              the heading of the robot, see head_direction_cells()
+///   _audio_in             the sum of the received messages, attenuated with distance: 36 cells
 ///
-/// One cell of _gripper closes the gripper above 0.5 and opens it below. These two groups are an error with a
-/// robot that has no gripper, unless the parameter gripper is false. The robot moves in lock-step with the
-/// system, so that the parameter cps of the original, updates per second of the module's own clock, has no
-/// effect.
+/// A group at _gripper or _proximityGripper is an error for a robot without a gripper, unless the parameter
+/// `gripper` is false. The parameter `cps`, the rate of the module's own clock in the original, has no
+/// effect, as the robot moves in lock-step with the system.
 class GazeboBug {
   public:
     std::string device_name = "iqrGazebo";
@@ -39,10 +46,11 @@ class GazeboBug {
 
     static void describe(ModuleSpec<GazeboBug>& spec);
     void check(const ModulePorts& ports, Problems& problems);
-    /// Throws std::runtime_error without a world or robot, or when another module has the robot.
+    /// Throws std::runtime_error when there is no world or no robot with this name, and when another module
+    /// drives the robot.
     void start(const ModulePorts& ports, ModuleFrame& frame);
     void update(ModuleFrame& frame);
-    void checkpoint(Archive&) {}  // the robot is a part of its world
+    void checkpoint(Archive&) {}  // the state of the robot belongs to the world
 
   private:
     void copy_scans(ModuleFrame& frame) const;
@@ -53,11 +61,11 @@ class GazeboBug {
     std::size_t bug_ = 0;
     std::shared_ptr<void> claim_;
     GroupShape motor_, image_, place_;
-    std::vector<double> unused_;  ///< for colour channels that no group takes
+    std::vector<double> unused_;  ///< takes the colour channels without a group
 };
 
-/// The module type. Its modules drive robots of the run's environment, which must be a World; without one, systems
-/// can be checked but not run.
+/// The module type. Its modules drive robots of the run's environment, which must be a World. Without one,
+/// systems can be checked but not run.
 ModuleType gazebo_bug_type();
 
 }  // namespace forage::bug

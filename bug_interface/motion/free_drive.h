@@ -1,4 +1,4 @@
-// A control step of a robot that has nothing in its way, at once.
+// A control step of a robot that touches nothing, in closed form.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,19 @@
 
 namespace forage::bug {
 
-/// The longest turn that free_drive() may stand for, rad.
-inline constexpr double longest_free_turn = 0.5;
+/// The largest turn in one call of free_drive(), rad.
+inline constexpr double max_free_turn = 0.5;
 
-/// Where a robot is after `steps` substeps of `step` seconds, in each of which it drives at the command's
-/// speeds with its heading of the substep's start, and both speeds are off by independent numbers uniform in
-/// -`noise`..`noise` (m/s, rad/s).
+/// The pose of a robot after `steps` substeps of `step` seconds. In each substep the robot moves with the
+/// heading that it has at the start of the substep and with the speeds of `command`, to which independent
+/// random numbers are added, uniform in -`noise`..`noise` (m/s and rad/s).
 ///
-/// Without noise the sum of the substeps, in closed form. The noise enters to first order: its sums along the
-/// path, across it and in the heading are normal numbers with the variances and the covariance that the
-/// sums of so many uniform numbers have. What is left out, of second order, is below 10^-8 m at 1 m/s.
-/// |command.turn| * steps * step must be at most longest_free_turn. `index` counts the draws of `random`.
+/// Without noise the result is the sum of the substeps in closed form. With noise, the sums of the noise
+/// along the path, across it and in the heading are approximated by normal random numbers with the same
+/// variances and covariance. Terms of second order are neglected; they are below 1e-8 m at 1 m/s.
+///
+/// |command.turn| * steps * step must not exceed max_free_turn. `index` is the position in the stream
+/// `random`.
 Pose2 free_drive(const Pose2& from, const MotorCommand& command, std::uint64_t steps, double step,
                  double noise, const RandomStream& random, std::uint64_t index);
 

@@ -1,4 +1,4 @@
-// The limbs of a robot: what is fixed to its body, and what turns on hinges.
+// The links of a robot and its hinges: a gripper.
 #pragma once
 
 #include <string>
@@ -8,61 +8,63 @@
 
 namespace forage::bug {
 
-/// A link of a robot and where it is.
-struct Limb {
+/// A link of a robot and its position in the robot.
+struct RobotLink {
     const Link* link = nullptr;
-    Pose home = Pose::Identity();  ///< in the robot's frame, with all hinges at 0
-    int hinge = -1;                ///< that it turns with; -1: it is fixed to the body
+    Pose home = Pose::Identity();  ///< in the frame of the robot, with all hinges at angle 0
+    int hinge = -1;  ///< number of the hinge that moves the link; -1 when it is fixed to the body
 };
 
-/// The links of a robot's model and of the models in it, and the hinges between them. `model` must outlive
-/// the limbs.
 class Hinges;
-std::vector<Limb> limbs_of(const Model& model, Hinges& hinges);
 
-/// Hinges that all open or close at once, as fast as they can: a gripper. The original applies a torque of 3
-/// N m to each hinge and forgets velocities in every step, which makes torque / inertia * step the speed.
+/// The links of a robot's model and of the models nested in it. The hinges between them are added to
+/// `hinges`. `model` must outlive the result.
+std::vector<RobotLink> links_of(const Model& model, Hinges& hinges);
+
+/// The hinges of a gripper, which all open or close together. The original applies a torque of 3 N m to every
+/// hinge and resets all velocities in every step, so that the angular velocity is torque / inertia * step.
 class Hinges {
   public:
     struct Hinge {
         std::string name;
-        int parent = -1;              ///< the hinge that carries it; -1: the body
-        double x = 0, y = 0;          ///< of the axis in the robot's frame, with all hinges at 0, m
-        double sense = 1;             ///< 1: to the left as the angle grows
-        double lower = 0, upper = 0;  ///< rad
-        double inertia = 0;           ///< of all that turns with it, kg m^2
-        double angle = 0;             ///< rad; 0 is where the file puts the links
+        int parent = -1;      ///< number of the hinge that carries this one; -1 for the body
+        double x = 0, y = 0;  ///< of the axis in the frame of the robot, with all hinges at angle 0, m
+        double sense = 1;     ///< 1 when the angle grows to the left (counter-clockwise), else -1
+        double lower = 0, upper = 0;  ///< limits of the angle, rad
+        double inertia = 0;           ///< of all links that turn with the hinge, kg m^2
+        double angle = 0;             ///< rad; at 0 the links are where the file puts them
     };
 
     bool empty() const { return all_.empty(); }
     std::size_t size() const { return all_.size(); }
     const Hinge& operator[](std::size_t i) const { return all_[i]; }
 
-    /// Told every cycle. As in the original nothing happens before it was first told to open.
+    /// Called once per cycle. As in the original, a command to close has no effect before the first command
+    /// to open.
     void command(bool close);
     bool closing() const { return torque_ > 0; }
 
-    /// Where hinge i is after a step of `step` s; its angle when it does not move.
+    /// The angle of hinge i after a step of `step` (s), within its limits, rad.
     double next(std::size_t i, double step) const;
     void set(std::size_t i, double angle) { all_[i].angle = angle; }
-    /// What turns with hinge i is displaced by this, in the robot's frame: rotations about its axis and those
-    /// that carry it.
-    Pose2 frame(std::size_t i) const;
-    /// Whether hinge i is `by` or is carried by it.
-    bool turns_with(int i, int by) const;
+    /// The displacement of the links that turn with hinge i, in the frame of the robot. It includes the
+    /// rotations of the hinges that carry hinge i.
+    Pose2 displacement(std::size_t i) const;
+    /// Whether hinge i turns with hinge `other`: it is the same hinge or is carried by it.
+    bool turns_with(int i, int other) const;
 
     void checkpoint(Archive& archive) {
         for (Hinge& hinge : all_) archive(hinge.angle);
-        archive(told_to_close_, torque_);
+        archive(close_command_, torque_);
     }
 
     static constexpr double torque = 3;  ///< N m
 
   private:
-    friend std::vector<Limb> limbs_of(const Model& model, Hinges& hinges);
+    friend std::vector<RobotLink> links_of(const Model& model, Hinges& hinges);
     std::vector<Hinge> all_;
-    bool told_to_close_ = true;
-    double torque_ = 0;
+    bool close_command_ = true;
+    double torque_ = 0;  ///< N m; 0 before the first command to open
 };
 
 }  // namespace forage::bug

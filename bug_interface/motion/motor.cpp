@@ -9,7 +9,7 @@ MotorCommand decode_motor(std::span<const double> activities, int width, int hei
     if (width < 2 || height < 2) return {};
     float highest = -std::numeric_limits<float>::infinity(), lowest = std::numeric_limits<float>::infinity();
     std::size_t winner = 0;
-    for (std::size_t i = 0; i < activities.size(); ++i) {  // compared in double, kept in single precision
+    for (std::size_t i = 0; i < activities.size(); ++i) {  // compared in double, stored in single precision
         if (activities[i] > static_cast<double>(highest))
             highest = static_cast<float>(activities[i]), winner = i;
         if (activities[i] < static_cast<double>(lowest)) lowest = static_cast<float>(activities[i]);

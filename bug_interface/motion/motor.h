@@ -1,4 +1,4 @@
-// What the motor group tells the robot to do.
+// The decoding of the motor group into a velocity command for the robot.
 #pragma once
 
 #include <span>
@@ -7,24 +7,24 @@
 
 namespace forage::bug {
 
-/// Speeds that a robot is driven with. They hold at once: there is no inertia to overcome.
+/// A velocity command. The robot has these speeds at once: there is no acceleration phase.
 struct MotorCommand {
-    double forward = 0;  ///< m/s, along the robot's heading
-    double turn = 0;     ///< rad/s, counter-clockwise: to the left
+    double forward = 0;  ///< m/s, along the heading of the robot
+    double turn = 0;     ///< rad/s, positive to the left (counter-clockwise)
     void checkpoint(Archive& archive) { archive(forward, turn); }
     friend bool operator==(const MotorCommand&, const MotorCommand&) = default;
 };
 
-/// Winner takes all: the cell of the `width` x `height` group with the highest of `activities` is the
-/// command. The middle cell stands still, the top row drives at +`forward_speed` (m/s), the bottom row at
-/// -`forward_speed`, the left column turns at +`turn_speed` (rad/s), the right column at -`turn_speed`. How
-/// high the activity is does not matter.
+/// Winner takes all: the most active cell of a `width` x `height` group (row by row from the top) is the
+/// command, whatever its activity. The middle cell means standing still, the top row +`forward_speed` (m/s),
+/// the bottom row -`forward_speed`, the left column +`turn_speed` (rad/s), the right column -`turn_speed`;
+/// cells between them mean proportional speeds.
 ///
-/// No command (both 0) when no cell is above 0 or all are equal, and for groups less than 2 cells wide or
-/// high. Of several equal highest cells the first wins when the value, rounded to single precision, is not
-/// below itself (1, 0.5, 0.25, 0.1, 0.8), and the last wins when rounding goes down (0.7, 0.9, 0.95): the
-/// original keeps its extremes in single precision. It also takes the width for the height and the other way
-/// round in the offsets, so that only square groups mean what they say.
+/// Both speeds are 0 when no cell is above 0, when all cells are equal, and for groups that are less than 2
+/// cells wide or high. The original keeps the highest activity in single precision. Therefore the first of
+/// several equal highest cells wins when rounding to single precision does not decrease the value (1, 0.5,
+/// 0.25, 0.1, 0.8), and the last one wins when it does (0.7, 0.9, 0.95). The original also swaps the width
+/// and the height when it computes the offsets from the middle, which is correct only for square groups.
 MotorCommand decode_motor(std::span<const double> activities, int width, int height, double forward_speed,
                           double turn_speed);
 

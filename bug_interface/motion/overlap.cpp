@@ -8,21 +8,21 @@ namespace {
 
 using Eigen::Vector2d;
 
-Vector2d middle(const Outline& o) { return {o.x, o.y}; }
+Vector2d centre(const Outline& o) { return {o.x, o.y}; }
 
 Overlap circles(const Outline& a, const Outline& b) {
-    const Vector2d between = middle(b) - middle(a);
+    const Vector2d between = centre(b) - centre(a);
     const double distance = between.norm();
     return {a.radius + b.radius - distance, distance > 0 ? Vector2d(between / distance) : Vector2d(1, 0)};
 }
 
 Overlap box_circle(const Outline& box, const Outline& circle) {
-    const Vector2d between = middle(circle) - middle(box);
+    const Vector2d between = centre(circle) - centre(box);
     const Vector2d along(box.cos_yaw, box.sin_yaw), across(-box.sin_yaw, box.cos_yaw);
     const double u = between.dot(along), v = between.dot(across);
     const double out_u = std::abs(u) - box.half_x, out_v = std::abs(v) - box.half_y;
     const Vector2d to_u = std::copysign(1.0, u) * along, to_v = std::copysign(1.0, v) * across;
-    if (out_u <= 0 && out_v <= 0)  // its middle is inside: out through the nearest side
+    if (out_u <= 0 && out_v <= 0)  // the centre is inside: the nearest side is the shortest way out
         return out_u > out_v ? Overlap{circle.radius - out_u, to_u} : Overlap{circle.radius - out_v, to_v};
     if (out_u <= 0) return {circle.radius - out_v, to_v};
     if (out_v <= 0) return {circle.radius - out_u, to_u};
@@ -30,9 +30,9 @@ Overlap box_circle(const Outline& box, const Outline& circle) {
     return {circle.radius - distance, (out_u * to_u + out_v * to_v) / distance};
 }
 
-/// Separating axes: those of both boxes.
-Overlap boxes(const Outline& a, const Outline& b, double least_wanted) {
-    const Vector2d between = middle(b) - middle(a);
+/// Uses the separating axis theorem with the axes of both boxes.
+Overlap boxes(const Outline& a, const Outline& b, double threshold) {
+    const Vector2d between = centre(b) - centre(a);
     const std::array<Vector2d, 2> axes_a = {Vector2d(a.cos_yaw, a.sin_yaw), Vector2d(-a.sin_yaw, a.cos_yaw)};
     const std::array<Vector2d, 2> axes_b = {Vector2d(b.cos_yaw, b.sin_yaw), Vector2d(-b.sin_yaw, b.cos_yaw)};
     const auto extent = [](const Outline& o, const std::array<Vector2d, 2>& axes, const Vector2d& n) {
@@ -44,7 +44,7 @@ Overlap boxes(const Outline& a, const Outline& b, double least_wanted) {
         const double along = between.dot(axis);
         const double depth = extent(a, axes_a, axis) + extent(b, axes_b, axis) - std::abs(along);
         if (first || depth < least.depth) least = {depth, std::copysign(1.0, along) * axis};
-        if (least.depth <= least_wanted) break;
+        if (least.depth <= threshold) break;
         first = false;
     }
     return least;
@@ -59,19 +59,6 @@ Overlap overlap(const Outline& a, const Outline& b, double least) {
     Overlap turned = box_circle(b, a);
     turned.normal = -turned.normal;
     return turned;
-}
-
-double reach(const Outline& o) {
-    return o.round ? o.radius : std::sqrt(o.half_x * o.half_x + o.half_y * o.half_y);
-}
-
-Outline Frame::moved(const Outline& outline) const {
-    Outline out = outline;
-    out.x = x_ + cos_ * outline.x - sin_ * outline.y;
-    out.y = y_ + sin_ * outline.x + cos_ * outline.y;
-    out.cos_yaw = cos_ * outline.cos_yaw - sin_ * outline.sin_yaw;
-    out.sin_yaw = sin_ * outline.cos_yaw + cos_ * outline.sin_yaw;
-    return out;
 }
 
 }  // namespace forage::bug

@@ -1,7 +1,6 @@
-// How two outlines lie to each other.
+// The penetration depth of two outlines.
 #pragma once
 
-#include <cmath>
 #include <limits>
 
 #include <Eigen/Core>
@@ -10,32 +9,15 @@
 
 namespace forage::bug {
 
-/// How far one outline is in another one.
+/// How far two outlines penetrate each other.
 struct Overlap {
-    double depth = 0;  ///< m that one must be moved by to be free; negative: at least so far apart
-    Eigen::Vector2d normal = Eigen::Vector2d::UnitX();  ///< unit vector, the shortest way out for the second
+    double depth = 0;  ///< penetration depth, m; negative values are a lower bound of the gap
+    Eigen::Vector2d normal = Eigen::Vector2d::UnitX();  ///< unit vector; moves the second outline out
 };
 
-/// `b` against `a`. Exact where they overlap by less than half the smaller one; apart, the depth is a bound.
-/// Who wants to know only of what is deeper than `least` may get any depth up to `least` instead.
+/// The overlap of `b` with `a`. The depth is exact when it is less than half the smaller outline. For
+/// outlines apart, -depth is a lower bound of the gap. Any depth up to `least` may be returned for depths
+/// below `least`, which saves time.
 Overlap overlap(const Outline& a, const Outline& b, double least = -std::numeric_limits<double>::infinity());
-
-/// Radius of a circle round the middle of an outline, m.
-double reach(const Outline& outline);
-
-/// A frame that stands somewhere in the plane.
-class Frame {
-  public:
-    explicit Frame(const Pose2& at) : Frame(at.x, at.y, std::cos(at.yaw), std::sin(at.yaw)) {}
-    Frame(double x, double y, double cos_yaw, double sin_yaw) : x_(x), y_(y), cos_(cos_yaw), sin_(sin_yaw) {}
-    double x() const { return x_; }
-    double y() const { return y_; }
-    /// `outline`, given in this frame, in the frame in which this one stands.
-    Outline moved(const Outline& outline) const;
-
-  private:
-    double x_, y_, cos_, sin_;
-};
-inline Outline moved(const Outline& outline, const Pose2& frame) { return Frame(frame).moved(outline); }
 
 }  // namespace forage::bug

@@ -1,4 +1,4 @@
-// Bodies that drive over a plane, slide along walls, stop at each other and push what is loose.
+// Rigid bodies in the plane: they drive, slide along walls, stop at each other and push movable objects.
 #pragma once
 
 #include <cmath>
@@ -15,100 +15,103 @@
 
 namespace forage::bug {
 
-/// Things touch only where they share heights. Heights come in at most 32 layers; a mask has a bit for each.
+/// Shapes collide only when they share heights. Heights are divided into at most max_layers layers; a mask
+/// has one bit per layer.
 using LayerMask = std::uint32_t;
-inline constexpr std::size_t most_layers = 32;
+inline constexpr std::size_t max_layers = 32;
 
-/// Something that stands in the way and never moves, seen from above.
+/// A shape that never moves, seen from above.
 struct Obstacle {
     Outline outline;
-    double friction = 1;     ///< Coulomb coefficient; of a contact it is the smaller one of the two surfaces
-    LayerMask layers = ~0u;  ///< those that it reaches into
+    double friction = 1;     ///< Coulomb coefficient; a contact has the smaller one of its two surfaces
+    LayerMask layers = ~0u;  ///< the layers that the shape extends into
 };
 
-/// A part of a body, in the body's frame.
+/// A shape of a body beside its central disc, in the frame of the body.
 struct Part {
     Outline outline;
     int layer = 0;
-    double friction = 0.1;
+    double friction = 0.1;  ///< Coulomb coefficient
 };
 
-/// Something that moves: a robot, which is driven, or a loose thing, which keeps its velocity until contacts
-/// and the floor change it.
+/// A robot, which is driven, or a movable object, which keeps its velocity until contacts or the friction of
+/// the floor change it.
 struct Body {
-    double radius = 0.2;    ///< of its round middle, m; 0: it has none
+    double radius = 0.2;    ///< of the central disc, m; 0 for a body without one
     double mass = 5;        ///< kg
     double inertia = 1;     ///< about the vertical axis, kg m^2
-    double friction = 0.1;  ///< Coulomb coefficient, of the middle
-    int layer = 0;          ///< of the middle
+    double friction = 0.1;  ///< Coulomb coefficient of the central disc
+    int layer = 0;          ///< of the central disc
     std::vector<Part> parts;
-    bool driven = true;
-    double slowing = 0;       ///< by the floor, of a loose thing, m/s^2
-    double slowing_turn = 0;  ///< rad/s^2
+    bool driven = true;               ///< false for a movable object
+    double deceleration = 0;          ///< of a movable object on the floor, m/s^2
+    double angular_deceleration = 0;  ///< of a movable object on the floor, rad/s^2
 };
 
-/// Moves bodies in steps. In every step each driven body is given its velocity anew, contacts take away what
-/// would lead into an obstacle or another body, friction takes its share, and the rest moves the body: x += v
-/// cos(yaw) dt, y += v sin(yaw) dt, yaw += w dt, with the yaw from the start of the step. What then is too
-/// deep in something is moved out of it.
+/// Moves bodies in time steps. In every step each driven body gets the velocity of its command; contacts and
+/// friction reduce the velocities; then x += v cos(yaw) dt, y += v sin(yaw) dt, yaw += w dt, with the yaw at
+/// the start of the step. Shapes that penetrate each other afterwards are separated.
 ///
-/// Contacts are resolved by Bullet, and only in steps in which some body could touch something, among the
-/// bodies that could (nearness.cpp). Far from everything Bullet would change nothing and is not called: both
-/// ways give the same bits. There is no restitution, and nothing of a contact lasts longer than its step,
-/// except the velocity of loose things.
+/// Bullet resolves the contacts. It is called only in steps in which a contact is possible, and only for the
+/// bodies that may take part (broadphase.cpp); the result has the same bits as if it were called in every
+/// step. Collisions have no restitution. Contacts do not persist from step to step; only movable objects keep
+/// their velocity.
 ///
-/// No step ends with shapes deeper in each other than 0.8 mm, or than they were when it began
-/// (separation.cpp).
+/// After a step no two shapes penetrate each other by more than 0.8 mm, or by more than before the step if
+/// that was deeper (separation.cpp).
 class Physics {
   public:
     /// When Bullet is called. `always` is for tests and benchmarks.
     enum class Contacts { when_near, always };
 
-    /// `step`: duration of a step, s. `meets[i]`: the layers that share heights with layer i; all do when
-    /// empty.
+    /// `step`: duration of a time step, s. `collision_masks[i]`: the layers that collide with layer i; when
+    /// empty, all layers collide with each other.
     Physics(std::span<const Obstacle> obstacles, std::span<const Body> bodies, double step,
-            Contacts contacts = Contacts::when_near, std::vector<LayerMask> meets = {});
+            Contacts contacts = Contacts::when_near, std::vector<LayerMask> collision_masks = {});
     ~Physics();
     Physics(const Physics&) = delete;
     Physics& operator=(const Physics&) = delete;
 
     const Pose2& pose(std::size_t body) const { return states_[body].pose; }  ///< m; yaw in (-pi, pi]
-    /// Puts a body somewhere, at rest.
+    /// Puts a body at `pose`, at rest.
     void place(std::size_t body, const Pose2& pose);
-    /// Takes a body out of the world: it touches nothing and does not move until it is placed again.
-    void lift(std::size_t body);
+    /// Removes a body from the world: it touches nothing and does not move until it is placed again.
+    void remove(std::size_t body);
     bool present(std::size_t body) const { return states_[body].present; }
 
-    /// One step; `drives[i]` is what body i is driven with. Loose things need none.
-    void step(std::span<const MotorCommand> drives);
+    /// Simulates one time step. `commands[i]` drives body i; those of movable objects are ignored.
+    void step(std::span<const MotorCommand> commands);
 
-    /// Whether a driven body is sure to touch nothing while it drives so far (m) and turns by so much (rad),
-    /// if all others do no more than that either: they have room of their own. Never while something loose
-    /// moves.
+    /// Whether a driven body is certain to touch nothing while it travels `travel` (m) and turns by `turn`
+    /// (rad), provided that no other body does more. Always false while a movable object moves.
     bool can_drive_freely(std::size_t body, double travel, double turn);
-    /// Several steps of a body that is free for them, at once: it is now at `pose`, driven with `drive`.
-    void drive_freely(std::size_t body, const Pose2& pose, const MotorCommand& drive, double travel,
+    /// Replaces several steps of a body for which can_drive_freely() holds: moves it to `pose` with the
+    /// velocity of `command`.
+    void drive_freely(std::size_t body, const Pose2& pose, const MotorCommand& command, double travel,
                       double turn);
 
-    /// Moves parts of a body within its frame (numbers of its parts, and where they are to be), unless they
-    /// would get into something that cannot give way. Loose things in the way are pushed. Returns whether it
-    /// was done.
-    bool swing(std::size_t body, std::span<const std::pair<std::size_t, Outline>> parts);
+    /// Moves parts of a body within its frame: pairs of a part's number and its new outline. Movable objects
+    /// in the way are pushed. Returns false, and changes nothing, when an obstacle, a robot or an object that
+    /// cannot be pushed blocks the motion.
+    bool rotate_parts(std::size_t body, std::span<const std::pair<std::size_t, Outline>> parts);
 
-    /// Whether a body that is not there could be placed at `pose` without overlapping anything.
-    bool has_room(std::size_t body, const Pose2& pose) const;
+    /// Whether a body could be placed at `pose` without an overlap with any other shape.
+    bool is_collision_free(std::size_t body, const Pose2& pose) const;
 
-    /// How many pairs of shapes of this loose thing and a driven body touched in the last step.
-    int touches(std::size_t body) const { return states_[body].touches; }
-    double speed(std::size_t body) const;                                      ///< m/s, in the last step
-    double turning(std::size_t body) const { return velocities_[body].turn; }  ///< rad/s, in the last step
+    /// Number of pairs of shapes, of this movable object and of robots, that touched in the last step.
+    int robot_contacts(std::size_t body) const { return states_[body].robot_contacts; }
+    double speed(std::size_t body) const;              ///< in the last step, m/s
+    double angular_velocity(std::size_t body) const {  ///< in the last step, rad/s
+        return velocities_[body].turn;
+    }
     std::span<const Part> parts(std::size_t body) const { return bodies_[body].parts; }
 
-    std::uint64_t contact_steps() const { return contact_steps_; }  ///< how often Bullet was called
+    std::uint64_t contact_steps() const { return contact_steps_; }  ///< number of calls of Bullet
 
-    /// Where everything is. Bullet's own memory is no part of it: no step depends on it.
+    /// Reads or writes the poses and velocities. Bullet keeps no state between steps.
     void checkpoint(Archive& archive) {
-        for (State& s : states_) archive(s.pose, s.present, s.room, s.reach, s.layers, s.touches);
+        for (State& s : states_)
+            archive(s.pose, s.present, s.clearance, s.bounding_radius, s.layers, s.robot_contacts);
         for (Velocity& v : velocities_) archive(v.x, v.y, v.turn);
         archive(contact_steps_);
         for (std::size_t i = 0; i < bodies_.size(); ++i) checkpoint_parts(i, archive);
@@ -118,91 +121,94 @@ class Physics {
     struct State {
         Pose2 pose;
         bool present = false;
-        bool involved = false;  ///< in this step, with what Bullet has to look at
-        double room = 0;        ///< m that all its points can move for sure before one touches anything
-        double reach = 0;       ///< radius of a circle round all that it ever was, m
-        LayerMask layers = 0;   ///< of its middle and parts
-        int touches = 0;
-        double facing = 0, cos_yaw = 1, sin_yaw = 0;  ///< a yaw, and of that
-        /// Makes them those of the pose.
-        void face() {
-            if (facing == pose.yaw) return;
-            facing = pose.yaw, cos_yaw = std::cos(facing), sin_yaw = std::sin(facing);
+        bool active = false;         ///< whether Bullet has to consider the body in this step
+        double clearance = 0;        ///< m that every point of the body can move without touching anything
+        double bounding_radius = 0;  ///< of all that the body has ever covered, in its frame, m
+        LayerMask layers = 0;        ///< of the central disc and the parts
+        int robot_contacts = 0;
+        double cached_yaw = 0, cos_yaw = 1, sin_yaw = 0;
+        void update_rotation() {
+            if (cached_yaw == pose.yaw) return;
+            cached_yaw = pose.yaw, cos_yaw = std::cos(cached_yaw), sin_yaw = std::sin(cached_yaw);
         }
     };
     struct Velocity {
         double x = 0, y = 0, turn = 0;  ///< m/s, m/s, rad/s
     };
-    static bool rests(const Velocity& v) { return v.x == 0 && v.y == 0 && v.turn == 0; }
-    /// A shape of a body where it is in the world.
-    struct Placed {
+    static bool is_zero(const Velocity& v) { return v.x == 0 && v.y == 0 && v.turn == 0; }
+    /// A shape of a body in world coordinates.
+    struct PlacedShape {
         Outline outline;
         int layer = 0;
-        double reach = 0;  ///< radius of a circle round it, m
+        double bounding_radius = 0;  ///< m
     };
-    /// The shapes of a body as they were placed last.
-    struct Standing {
-        std::vector<Placed> shapes;
-        Pose2 at;
-        bool known = false;  ///< whether they are those that it has, at that pose
+    /// The shapes of a body in world coordinates when the body is at `pose`.
+    struct ShapeCache {
+        std::vector<PlacedShape> shapes;
+        Pose2 pose;
+        bool valid = false;
     };
-    class Engine;  ///< Bullet's side
+    class ContactSolver;  ///< calls Bullet
 
-    void drive(std::size_t body, const MotorCommand& command);
-    // ---- who is near what ----
-    double apart(std::size_t a, std::size_t b) const;
-    double lever(std::size_t body) const;
-    double way(std::size_t body, double travel, double turn) const;
-    bool near_something(std::size_t body, double way);
-    bool has_room_for(std::size_t body, double way);
+    void set_velocity(std::size_t body, const MotorCommand& command);
+    void update_bounding_radius(std::size_t body);
     void checkpoint_parts(std::size_t body, Archive& archive);
-    void measure_room(std::size_t body);
-    const std::vector<Placed>& shapes(std::size_t body);
-    double gap_between(std::size_t body, std::size_t other);
-    bool may_be_nearer(std::size_t body, std::size_t other, double than);
-    void involve_neighbours();
-    // ---- who got too deep into what ----
+    bool can_collide(LayerMask layers, int layer) const {
+        return layers & collision_masks_[static_cast<std::size_t>(layer)];
+    }
+    // ---- broad phase ----
+    double circle_gap(std::size_t a, std::size_t b) const;
+    double shape_gap(std::size_t a, std::size_t b);
+    bool may_be_closer_than(std::size_t a, std::size_t b, double distance);
+    double lever_arm(std::size_t body) const;
+    double max_displacement(std::size_t body, double travel, double turn) const;
+    bool may_touch_something(std::size_t body, double displacement);
+    bool has_clearance(std::size_t body, double displacement);
+    void measure_clearance(std::size_t body);
+    void activate_neighbours();
+    const std::vector<PlacedShape>& shapes(std::size_t body);
+    // ---- separation ----
     template <class F>
-    void each_overlap(F&& visit);
-    double depth_before(std::size_t a, std::size_t p, std::size_t b, std::size_t q) const;
-    void shift(std::size_t body, double x, double y);
+    void for_each_penetration(F&& visit);
+    double depth_before_step(std::size_t a, std::size_t p, std::size_t b, std::size_t q) const;
+    void translate(std::size_t body, double x, double y);
     void separate();
-    void take_back();
-    // ---- what swings ----
-    void grow(std::size_t body);
-    bool meet(LayerMask layers, int layer) const { return layers & meets_[static_cast<std::size_t>(layer)]; }
-    bool fixed_in_the_way(std::size_t body, const Part& now, const Outline& then, int layer) const;
-    bool is_free(std::size_t thing, const Pose2& from, const Pose2& to) const;
-    /// Calls visit(outline in the world, layer) for the middle and the parts of a body at `pose`.
+    void revert_penetrating();
+    // ---- rotation of parts ----
+    bool is_blocked(std::size_t body, const Part& part, const Outline& target) const;
+    bool can_move(std::size_t body, const Pose2& from, const Pose2& to) const;
+    bool push_objects(std::size_t body, std::span<const std::pair<std::size_t, Outline>> parts);
+    /// Calls visit(outline in world coordinates, layer) for the central disc and the parts of a body at
+    /// `pose`.
     template <class F>
-    void each_shape(std::size_t body, const Pose2& pose, F&& visit) const {
-        each_shape(body, Frame(pose), std::forward<F>(visit));
+    void for_each_shape(std::size_t body, const Pose2& pose, F&& visit) const {
+        for_each_shape(body, Transform2(pose), std::forward<F>(visit));
     }
     template <class F>
-    void each_shape(std::size_t body, const Frame& frame, F&& visit) const {
+    void for_each_shape(std::size_t body, const Transform2& pose, F&& visit) const {
         const Body& b = bodies_[body];
         if (b.radius > 0) {
-            Outline middle;
-            middle.round = true, middle.x = frame.x(), middle.y = frame.y(), middle.radius = b.radius;
-            visit(middle, b.layer);
+            Outline disc;
+            disc.round = true, disc.x = pose.x(), disc.y = pose.y(), disc.radius = b.radius;
+            visit(disc, b.layer);
         }
-        for (const Part& part : b.parts) visit(frame.moved(part.outline), part.layer);
+        for (const Part& part : b.parts) visit(pose * part.outline, part.layer);
     }
 
     std::vector<Obstacle> obstacles_;
     std::vector<Body> bodies_;
     std::vector<State> states_;
-    std::vector<Velocity> velocities_;  ///< of this step
-    std::vector<Standing> standing_;
-    double step_;
+    std::vector<Velocity> velocities_;  ///< in the current step
+    std::vector<ShapeCache> shape_caches_;
+    double step_;  ///< s
     Contacts contacts_;
-    std::vector<LayerMask> meets_;
+    std::vector<LayerMask> collision_masks_;
     std::uint64_t contact_steps_ = 0;
-    std::vector<Pose2> began_;                           ///< where bodies were before a step
-    std::vector<char> stays_;                            ///< whether a body is taken back
-    std::vector<Outline> unswung_;                       ///< parts that swing, as they were
-    std::vector<std::pair<std::size_t, Pose2>> pushed_;  ///< by them, and from where
-    std::unique_ptr<Engine> engine_;
+    std::vector<Pose2> poses_before_;                    ///< before the current step
+    std::vector<char> reverted_;                         ///< whether a body is put back to its pose before
+    std::vector<Outline> outlines_before_;               ///< of parts, before rotate_parts()
+    std::vector<std::pair<std::size_t, Pose2>> pushed_;  ///< bodies that parts pushed, with the poses before
+    std::unique_ptr<ContactSolver> contact_solver_;
 };
 
 }  // namespace forage::bug

@@ -11,25 +11,18 @@ namespace {
 
 constexpr double jitter = 0.01;  ///< m and rad
 
-const Model* find_model(const WorldDescription& world, std::string_view name) {
-    for (const Model& model : world.models)
-        if (model.name == name) return &model;
-    return nullptr;
-}
-
-/// What a solid covers of the plane.
+/// The bounding box of a shape in the plane, m.
 Eigen::AlignedBox2d extent(const Shape& shape, const Pose& pose) {
     const Eigen::Vector3d half = pose.linear().cwiseAbs() * shape.size / 2;
-    const Eigen::Vector2d middle = pose.translation().head<2>();
-    return {middle - half.head<2>(), middle + half.head<2>()};
+    const Eigen::Vector2d centre = pose.translation().head<2>();
+    return {centre - half.head<2>(), centre + half.head<2>()};
 }
 
-/// The bounds that the model gives; empty, and an error, when it gives none.
+/// The bounds that the ground model gives. Reports an error and returns nothing when it gives none.
 std::optional<Eigen::AlignedBox2d> bounds_of(const Model& ground, Diagnostics& diagnostics) {
-    constexpr const char* hint =
-        "give it a box as its last collision, below the floor and as large as the arena";
+    constexpr const char* hint = "add a box as its last collision, below the floor and as large as the arena";
     if (ground.links.empty() || ground.links.back().collisions.empty()) {
-        diagnostics.error(ground.where, "the last link of GroundPlane has no collision to give the bounds",
+        diagnostics.error(ground.where, "the last link of GroundPlane has no collision that gives the bounds",
                           hint);
         return {};
     }
@@ -43,7 +36,7 @@ std::optional<Eigen::AlignedBox2d> bounds_of(const Model& ground, Diagnostics& d
     return extent(last.shape, ground.pose * link.pose * last.pose);
 }
 
-/// Names that look as if they meant something, and do not.
+/// Warns about names that are similar to start poses, and about names that occur twice.
 void warn_about_names(const WorldDescription& world, Diagnostics& diagnostics) {
     constexpr std::string_view start = "Reset_";
     std::set<std::string_view> seen;
@@ -52,11 +45,11 @@ void warn_about_names(const WorldDescription& world, Diagnostics& diagnostics) {
         const bool is_start = name.starts_with(start);
         if (is_start && (name.size() != start.size() + 1 || name.back() < '0' || name.back() > '9'))
             diagnostics.warning(model.where,
-                                fmt::format("'{}' is no start pose: only Reset_0 to Reset_9 are", name),
-                                "give it another number, or another name when it is only a mark");
+                                fmt::format("'{}' is not a start pose: only Reset_0 to Reset_9 are", name),
+                                "change its number; if it is not meant as a start pose, change its name");
         else if ((is_start || name == "GroundPlane") && !seen.insert(name).second)
             diagnostics.warning(model.where,
-                                fmt::format("there are two models named '{}'; the first one counts", name),
+                                fmt::format("there are two models named '{}'; the first one is used", name),
                                 "give each <include> a <name> of its own");
     }
 }
@@ -78,9 +71,9 @@ std::optional<ResetPlan> find_reset(const WorldDescription& world, Diagnostics& 
     if (!ground) {
         diagnostics.error(
             starts.front()->where,
-            fmt::format("there is a start pose '{}', but no model named GroundPlane to give the bounds",
+            fmt::format("there is a start pose '{}', but no model named GroundPlane that gives the bounds",
                         starts.front()->name),
-            "name the floor GroundPlane, or take the Reset_i models out");
+            "name the floor GroundPlane, or remove the Reset_i models");
         return {};
     }
     const auto bounds = bounds_of(*ground, diagnostics);
@@ -95,7 +88,7 @@ std::optional<ResetPlan> find_reset(const WorldDescription& world, Diagnostics& 
                 fmt::format("'{}' at ({}, {}) is not inside the bounds x {} to {}, y {} to {}",
                             starts[i]->name, at.x(), at.y(), plan.bounds.min().x(), plan.bounds.max().x(),
                             plan.bounds.min().y(), plan.bounds.max().y()),
-                "a robot that starts there would be put back for ever");
+                "a robot that starts there would be reset forever");
     }
     return plan;
 }

@@ -1,4 +1,4 @@
-// The reset rule: a robot that leaves the bounds is put back to a start pose.
+// The reset rule: a robot that leaves the bounds is reset to a start pose.
 #pragma once
 
 #include <optional>
@@ -13,56 +13,57 @@
 
 namespace forage::bug {
 
-/// Where robots start, and the bounds that end a trial.
+/// The start poses of robots, and the bounds that end a trial.
 struct ResetPlan {
     std::vector<Pose2> starts;
     std::vector<std::string> names;  ///< of the models that give `starts`
-    Eigen::AlignedBox2d bounds;      ///< of a robot's middle, m
+    Eigen::AlignedBox2d bounds;      ///< of the centre of a robot, m
 };
 
-/// The plan of a world: start poses are those of the models named Reset_0 to Reset_9, bounds those of the
-/// last collision of the last link of the model named GroundPlane. Empty when there is no Reset_i: nothing is
-/// ever reset. An error when there is one but no bounds (a plane has none: trials would never end), or one
-/// that lies outside: robots would be put back for ever. Of two models with one of these names the first
-/// counts, with a warning.
+/// The start poses are those of the models Reset_0 to Reset_9. The bounds are the bounding box of the last
+/// collision of the last link of the model GroundPlane. Returns nothing when the world has no start pose, as
+/// robots are never reset then.
+///
+/// It is an error when there are start poses but no bounds (a plane has none), and when a start pose is not
+/// inside the bounds. When two models have one of these names, a warning is given and the first one is used.
 std::optional<ResetPlan> find_reset(const WorldDescription& world, Diagnostics& diagnostics);
 
-/// One robot's reset: triggered when its middle is outside the bounds, it lasts that substep and 1000 more.
-/// During these the original draws a new pose in every substep; here one is drawn for each look at the robot
-/// and one for the end, which gives the same statistics. A draw: a start pose, each as likely, and up to 0.01
-/// m and 0.01 rad off.
+/// The reset of one robot. It begins when the centre of the robot is outside the bounds, and lasts for that
+/// substep and 1000 more. The original draws a new pose in every substep of a reset. Here a pose is drawn
+/// only when the robot is observed and at the end, which gives the same distribution: a start pose, each
+/// equally likely, plus up to 0.01 m in x and y and up to 0.01 rad.
 class Reset {
   public:
     Reset(ResetPlan plan, RandomStream random) : plan_(std::move(plan)), random_(random) {}
 
-    /// What becomes of the robot in a substep.
     enum class Phase {
-        none,   ///< it is driven
-        begin,  ///< it has just left the bounds; it is not driven
-        hold,   ///< it is not driven
-        end     ///< it is placed at a drawn pose, and driven from the next substep on
+        none,   ///< the robot is driven
+        begin,  ///< the robot has just left the bounds; it is not driven
+        hold,   ///< the robot is not driven
+        end     ///< the robot is placed at a start pose, and is driven from the next substep on
     };
-    /// To be called once per substep, with the pose at its start.
+    /// Called once per substep with the pose at its beginning.
     Phase substep(const Pose2& pose);
     bool running() const { return left_ > 0; }
-    /// Where the robot shows up when it is looked at during a reset.
-    Pose2 glimpse() { return draw(glimpses_++); }
-    /// Where the next trial starts: the n-th start of a seed is the same whatever happened in the trials
-    /// before.
-    Pose2 start() { return draw(first_start + starts_++); }
+    /// Draws the pose at which the robot is observed during a reset.
+    Pose2 reset_pose() { return draw(reset_poses_++); }
+    /// Draws the start pose of the next trial. The n-th start of a seed does not depend on earlier trials.
+    Pose2 start_pose() { return draw(first_start + starts_++); }
 
     const ResetPlan& plan() const { return plan_; }
-    void checkpoint(Archive& archive) { archive(left_, glimpses_, starts_); }
+    void checkpoint(Archive& archive) { archive(left_, reset_poses_, starts_); }
 
-    static constexpr int substeps = 1001;  ///< that a reset takes
+    static constexpr int substeps = 1001;  ///< duration of a reset
 
   private:
+    Pose2 draw(std::uint64_t index) const;
+
+    /// Indices of start poses are separate from those of reset poses.
+    static constexpr std::uint64_t first_start = std::uint64_t{1} << 63;
     ResetPlan plan_;
     RandomStream random_;
-    int left_ = 0;
-    static constexpr std::uint64_t first_start = std::uint64_t{1} << 63;  // apart from the glimpses
-    Pose2 draw(std::uint64_t index) const;
-    std::uint64_t glimpses_ = 0, starts_ = 0;
+    int left_ = 0;                                ///< substeps
+    std::uint64_t reset_poses_ = 0, starts_ = 0;  ///< number of poses drawn
 };
 
 }  // namespace forage::bug

@@ -1,8 +1,8 @@
-// No step ends with shapes deeper in each other than 0.8 mm, or than they were when it began.
+// After a step no two shapes penetrate each other by more than 0.8 mm, or by more than before the step.
 //
-// Bullet solves velocities. It tells of two boxes only once they overlap, and its solution is approximate
-// where a body is squeezed from several sides. What a step got too deep into each other is moved apart here;
-// who cannot be freed stays where the step began.
+// Bullet solves velocities only. It detects contacts of two boxes only once they overlap, and its solution is
+// approximate where a body is squeezed from several sides. The functions in this file separate shapes that
+// penetrate each other after a step. Bodies that cannot be separated return to their poses before the step.
 #include <algorithm>
 #include <cmath>
 
@@ -12,120 +12,116 @@
 namespace forage::bug {
 namespace {
 
-constexpr double depth_left = 5e-4;       ///< m that shapes may stay in each other
-constexpr double depth_tolerated = 8e-4;  ///< m, where all moves left more than that
-constexpr double depth_noticed = 1e-12;   ///< m more that are worth a move
-constexpr int most_rounds = 20;           ///< of moves, pair by pair
-
-double square(double v) { return v * v; }
-/// Whether circles round two outlines, which reach so far together, touch.
-bool may_touch(const Outline& a, const Outline& b, double reaches) {
-    return square(b.x - a.x) + square(b.y - a.y) < square(reaches);
-}
+constexpr double target_depth = 5e-4;    ///< m; separation reduces the depth to this
+constexpr double max_depth = 8e-4;       ///< m; accepted when separation does not converge
+constexpr double depth_epsilon = 1e-12;  ///< m; smaller excesses are ignored
+constexpr int max_rounds = 20;           ///< of separating all pairs
 
 }  // namespace
 
-/// Calls visit(a, shape of a, b, shape of b, how deep they are in each other) for shapes that are deeper in
-/// each other than half a millimetre, where a or b is involved. For an obstacle, b is the number of bodies
-/// and its shape the number of the obstacle.
+/// Calls visit(a, shape of a, b, shape of b, overlap) for each pair of shapes that penetrate each other by
+/// more than target_depth, when body a or b is active. For an obstacle, b is the number of bodies and its
+/// shape is the number of the obstacle. visit() may move both bodies.
 template <class F>
-void Physics::each_overlap(F&& visit) {
-    const auto look = [&](std::size_t a, std::size_t p, const Placed& here, const Outline& there,
-                          double reach_there, std::size_t b, std::size_t q) {
-        if (!may_touch(there, here.outline, reach_there + here.reach)) return;
-        const Overlap in = overlap(there, here.outline, depth_left);
-        if (in.depth <= depth_left + depth_noticed) return;
+void Physics::for_each_penetration(F&& visit) {
+    const auto test = [&](std::size_t a, std::size_t p, const PlacedShape& shape_a, const Outline& outline_b,
+                          double radius_b, std::size_t b, std::size_t q) {
+        if (!closer_than(outline_b, shape_a.outline, radius_b + shape_a.bounding_radius)) return;
+        const Overlap in = overlap(outline_b, shape_a.outline, target_depth);
+        if (in.depth <= target_depth + depth_epsilon) return;
         visit(a, p, b, q, in);
-        shapes(a);  // where they are now
+        shapes(a);  // updates the shapes that the loops below refer to
         if (b < bodies_.size()) shapes(b);
     };
     for (std::size_t a = 0; a < states_.size(); ++a) {
         const State& s = states_[a];
         if (!s.present) continue;
-        for (std::size_t o = 0; s.involved && o < obstacles_.size(); ++o) {
-            const Outline& there = obstacles_[o].outline;
+        for (std::size_t o = 0; s.active && o < obstacles_.size(); ++o) {
+            const Outline& obstacle = obstacles_[o].outline;
             if (!(obstacles_[o].layers & s.layers)) continue;
-            const double reach_there = reach(there);
-            if (square(there.x - s.pose.x) + square(there.y - s.pose.y) >= square(reach_there + s.reach))
-                continue;
-            const auto& here = shapes(a);
-            for (std::size_t p = 0; p < here.size(); ++p)
-                if (obstacles_[o].layers >> here[p].layer & 1u)
-                    look(a, p, here[p], there, reach_there, bodies_.size(), o);
+            const double radius = bounding_radius(obstacle);
+            if (!closer_than(obstacle, s.pose, radius + s.bounding_radius)) continue;
+            const auto& of_a = shapes(a);
+            for (std::size_t p = 0; p < of_a.size(); ++p)
+                if (obstacles_[o].layers >> of_a[p].layer & 1u)
+                    test(a, p, of_a[p], obstacle, radius, bodies_.size(), o);
         }
         for (std::size_t b = 0; b < a; ++b) {
             const State& other = states_[b];
-            if (!other.present || !(s.involved || other.involved) || apart(a, b) >= 0) continue;
-            const auto &here = shapes(a), &there = shapes(b);
-            for (std::size_t p = 0; p < here.size(); ++p)
-                for (std::size_t q = 0; q < there.size(); ++q)
-                    if (meet(LayerMask{1} << here[p].layer, there[q].layer))
-                        look(a, p, here[p], there[q].outline, there[q].reach, b, q);
+            if (!other.present || !(s.active || other.active) || circle_gap(a, b) >= 0) continue;
+            const auto &of_a = shapes(a), &of_b = shapes(b);
+            for (std::size_t p = 0; p < of_a.size(); ++p)
+                for (std::size_t q = 0; q < of_b.size(); ++q)
+                    if (can_collide(LayerMask{1} << of_a[p].layer, of_b[q].layer))
+                        test(a, p, of_a[p], of_b[q].outline, of_b[q].bounding_radius, b, q);
         }
     }
 }
 
-/// How deep two shapes were in each other when the step began, m.
-double Physics::depth_before(std::size_t a, std::size_t p, std::size_t b, std::size_t q) const {
-    const auto began = [&](std::size_t body, std::size_t shape) {
-        const Body& what = bodies_[body];
-        const bool middle = what.radius > 0;
-        if (!middle || shape > 0) return moved(what.parts[shape - (middle ? 1 : 0)].outline, began_[body]);
-        Outline outline = standing_[body].shapes[shape].outline;
-        outline.x = began_[body].x, outline.y = began_[body].y;
+/// The penetration depth of two shapes before the step, m.
+double Physics::depth_before_step(std::size_t a, std::size_t p, std::size_t b, std::size_t q) const {
+    const auto outline_before = [&](std::size_t body, std::size_t shape) {
+        const std::size_t discs = bodies_[body].radius > 0 ? 1 : 0;
+        if (shape >= discs)
+            return Transform2(poses_before_[body]) * bodies_[body].parts[shape - discs].outline;
+        Outline outline = shape_caches_[body].shapes[shape].outline;
+        outline.x = poses_before_[body].x, outline.y = poses_before_[body].y;
         return outline;
     };
-    const Outline there = b < bodies_.size() ? began(b, q) : obstacles_[q].outline;
-    return overlap(there, began(a, p)).depth;
+    const Outline other = b < bodies_.size() ? outline_before(b, q) : obstacles_[q].outline;
+    return overlap(other, outline_before(a, p)).depth;
 }
 
-void Physics::shift(std::size_t body, double x, double y) {
+void Physics::translate(std::size_t body, double x, double y) {
     State& s = states_[body];
     s.pose.x += x, s.pose.y += y;
-    s.involved = true;  // it may be one that nobody could reach by the velocities before they were solved
-    s.room -= std::sqrt(x * x + y * y);
+    s.active = true;  // the velocities before the contacts were solved may not have reached this body
+    s.clearance -= std::sqrt(x * x + y * y);
 }
 
-/// Two that both stayed where they were are left alone: some are placed in each other.
+/// Moves bodies apart that penetrate each other. Pairs in which neither body moved in the step are left
+/// alone: worlds may place bodies inside each other.
 void Physics::separate() {
-    const auto stayed = [&](std::size_t i) {
+    const auto unmoved = [&](std::size_t i) {
         if (i == bodies_.size()) return true;
-        const Pose2 &now = states_[i].pose, &before = began_[i];
+        const Pose2 &now = states_[i].pose, &before = poses_before_[i];
         return now.x == before.x && now.y == before.y && now.yaw == before.yaw;
     };
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < max_rounds; ++round) {
         bool moved = false;
-        each_overlap([&](std::size_t a, std::size_t p, std::size_t b, std::size_t q, const Overlap& in) {
-            if (stayed(a) && stayed(b)) return;
-            const double before = depth_before(a, p, b, q);
-            const double deeper = in.depth - (before > depth_tolerated ? before : depth_left);
-            if (deeper <= depth_noticed) return;
-            moved = true;
-            const double share = b < bodies_.size() ? deeper / 2 : deeper;
-            shift(a, share * in.normal.x(), share * in.normal.y());
-            if (b < bodies_.size()) shift(b, -share * in.normal.x(), -share * in.normal.y());
-        });
+        for_each_penetration(
+            [&](std::size_t a, std::size_t p, std::size_t b, std::size_t q, const Overlap& in) {
+                if (unmoved(a) && unmoved(b)) return;
+                const double before = depth_before_step(a, p, b, q);
+                const double excess = in.depth - (before > max_depth ? before : target_depth);
+                if (excess <= depth_epsilon) return;
+                moved = true;
+                const double share = b < bodies_.size() ? excess / 2 : excess;
+                translate(a, share * in.normal.x(), share * in.normal.y());
+                if (b < bodies_.size()) translate(b, -share * in.normal.x(), -share * in.normal.y());
+            });
         if (!moved) return;
     }
-    take_back();
+    revert_penetrating();
 }
 
-/// Where a step began nothing was deeper in anything than it may be: who is goes back there, at rest, and so
-/// does who is in the way of that.
-void Physics::take_back() {
-    stays_.assign(states_.size(), 0);
+/// Puts bodies that still penetrate another shape too deeply back to their poses before the step, at rest.
+/// The depths before the step were acceptable, so this ends at the latest when all bodies are back.
+void Physics::revert_penetrating() {
+    reverted_.assign(states_.size(), 0);
     for (bool more = true; more;) {
         more = false;
-        const auto stay = [&](std::size_t i) {
-            if (i == bodies_.size() || stays_[i]) return;
-            stays_[i] = more = true;
-            states_[i].pose = began_[i], states_[i].involved = true;
+        const auto revert = [&](std::size_t i) {
+            if (i == bodies_.size() || reverted_[i]) return;
+            reverted_[i] = more = true;
+            states_[i].pose = poses_before_[i], states_[i].active = true;
             velocities_[i] = {};
         };
-        each_overlap([&](std::size_t a, std::size_t p, std::size_t b, std::size_t q, const Overlap& in) {
-            if (in.depth > depth_noticed + std::max(depth_tolerated, depth_before(a, p, b, q)))
-                stay(a), stay(b);
-        });
+        for_each_penetration(
+            [&](std::size_t a, std::size_t p, std::size_t b, std::size_t q, const Overlap& in) {
+                if (in.depth > depth_epsilon + std::max(max_depth, depth_before_step(a, p, b, q)))
+                    revert(a), revert(b);
+            });
     }
 }
 

@@ -1,4 +1,4 @@
-// What is constant about a camera: its rays, their floor points, the bounds of its tiles. And its noise.
+// The constant data of a camera (rays, floor points, bounds of the tiles) and its noise.
 #include "bug_interface/sensing/camera.h"
 
 #include <algorithm>
@@ -30,8 +30,9 @@ typedef std::int32_t Numbers __attribute__((vector_size(lanes * sizeof(int)))); 
 #define FORAGE_LANES(v, ...) __builtin_shuffle(v, Numbers{__VA_ARGS__})
 #endif
 
-/// Eight of the 24 values of eight pixels, with the noise of the pixels that they belong to, from 0 to 255.
-[[gnu::always_inline]] inline void add_noise(const float* values, Levels noise, std::int32_t* out) {
+/// Adds noise to eight of the 24 values of eight pixels, and converts them to 0..255. `noise`: that of the
+/// pixels to which the values belong.
+[[gnu::always_inline]] inline void add_noise(const float* values, const Levels& noise, std::int32_t* out) {
     Levels level;
     std::memcpy(&level, values, sizeof level);
     level = 255 * level + noise;
@@ -41,15 +42,15 @@ typedef std::int32_t Numbers __attribute__((vector_size(lanes * sizeof(int)))); 
     std::memcpy(out, &numbers, sizeof numbers);
 }
 
-/// Of `pixels` pixels, a multiple of eight. In two loops: GCC takes vectors apart when they are to become
-/// bytes at once.
+/// Converts `pixels` pixels, a multiple of eight, to bytes with noise. Two loops are needed: GCC does not
+/// vectorise one loop that also converts to bytes.
 template <std::size_t pixels>
-[[gnu::always_inline]] inline void block_to_bytes(const float* rgb, const std::uint16_t* places,
+[[gnu::always_inline]] inline void block_to_bytes(const float* rgb, const std::uint16_t* indices,
                                                   const float* quantiles, float scale, std::uint8_t* out) {
     std::int32_t numbers[3 * pixels];
     for (std::size_t i = 0; i < pixels; i += lanes) {
         Levels z;
-        for (std::size_t k = 0; k < lanes; ++k) z[k] = scale * quantiles[places[i + k]];
+        for (std::size_t k = 0; k < lanes; ++k) z[k] = scale * quantiles[indices[i + k]];
         add_noise(rgb + 3 * i, FORAGE_LANES(z, 0, 0, 0, 1, 1, 1, 2, 2), numbers + 3 * i);
         add_noise(rgb + 3 * i + 8, FORAGE_LANES(z, 2, 3, 3, 3, 4, 4, 4, 5), numbers + 3 * i + 8);
         add_noise(rgb + 3 * i + 16, FORAGE_LANES(z, 5, 5, 6, 6, 6, 7, 7, 7), numbers + 3 * i + 16);
@@ -57,20 +58,21 @@ template <std::size_t pixels>
     for (std::size_t i = 0; i < 3 * pixels; ++i) out[i] = static_cast<std::uint8_t>(numbers[i]);
 }
 
-/// Of a multiple of eight pixels. Without branches, which this noise would make hard to predict.
-FORAGE_SIMD void to_bytes(const float* rgb, const std::uint16_t* places, const float* quantiles, float scale,
+/// Converts a multiple of eight pixels to bytes with noise. There are no branches, as random noise would make
+/// them hard to predict. `indices`: one per pixel, into the table of normal numbers `quantiles`.
+FORAGE_SIMD void to_bytes(const float* rgb, const std::uint16_t* indices, const float* quantiles, float scale,
                           std::size_t pixels, std::uint8_t* out) {
-    constexpr std::size_t many = 4 * lanes;
+    constexpr std::size_t block = 4 * lanes;
     std::size_t i = 0;
-    for (; i + many <= pixels; i += many)
-        block_to_bytes<many>(rgb + 3 * i, places + i, quantiles, scale, out + 3 * i);
+    for (; i + block <= pixels; i += block)
+        block_to_bytes<block>(rgb + 3 * i, indices + i, quantiles, scale, out + 3 * i);
     for (; i < pixels; i += lanes)
-        block_to_bytes<lanes>(rgb + 3 * i, places + i, quantiles, scale, out + 3 * i);
+        block_to_bytes<lanes>(rgb + 3 * i, indices + i, quantiles, scale, out + 3 * i);
 }
 
 }  // namespace
 
-Camera::Camera(const CameraSensor& sensor, const Pose& link_in_model, std::shared_ptr<const Scene> scene,
+Camera::Camera(const CameraSensor& sensor, const Pose& link_pose, std::shared_ptr<const Scene> scene,
                int samples_per_axis)
     : scene_(std::move(scene)),
       width_(sensor.width),
@@ -80,7 +82,7 @@ Camera::Camera(const CameraSensor& sensor, const Pose& link_in_model, std::share
       noise_(sensor.noise),
       tan_x_(std::tan(sensor.horizontal_fov / 2)),
       tan_y_(tan_x_ * sensor.height / sensor.width),
-      mount_(link_in_model * sensor.pose) {
+      mount_(link_pose * sensor.pose) {
     if (samples_per_axis < 1 || samples_ > max_samples)
         throw std::invalid_argument("a camera has 1 to 4 samples per axis");
     make_samples(samples_per_axis);
@@ -118,21 +120,21 @@ void Camera::make_samples(int samples_per_axis) {
 }
 
 void Camera::make_floor_points() {
-    constexpr float never = std::numeric_limits<float>::infinity();
+    constexpr float infinity = std::numeric_limits<float>::infinity();
     for (const FloorSurface& floor : scene_->floors()) {
         FloorPoints points;
         for (std::size_t k = 0; k < ray_x_.size(); ++k) {
             const double depth = (floor.z - mount_.translation().z()) / ray_z_[k];
             const bool met = ray_z_[k] < 0 && depth > 0 && depth <= far_;
             points.x.push_back(met ? static_cast<float>(mount_.translation().x() + depth * ray_x_[k])
-                                   : never);
+                                   : infinity);
             points.y.push_back(met ? static_cast<float>(mount_.translation().y() + depth * ray_y_[k])
-                                   : never);
-            points.depth.push_back(met ? static_cast<float>(depth) : never);
+                                   : infinity);
+            points.depth.push_back(met ? static_cast<float>(depth) : infinity);
         }
         for (Tile& tile : tiles_)
             for (int k = 0; k < tile.pixels * samples_; ++k)
-                tile.reaches_floor &= points.depth[tile.first + static_cast<std::size_t>(k)] < never;
+                tile.reaches_floor &= points.depth[tile.first + static_cast<std::size_t>(k)] < infinity;
         floor_points_.push_back(std::move(points));
     }
 }
@@ -167,7 +169,7 @@ void Camera::make_extents() {
     whole_.extent = extent(all);
 }
 
-/// Holds what `count` samples can see between the heights `lowest` and `highest`.
+/// Bounds of all points that `count` samples can see between the heights `lowest` and `highest`, m.
 Camera::Bounds Camera::bounds(std::size_t first, std::size_t count, double lowest, double highest) const {
     const Eigen::Vector3d eye = mount_.translation();
     const auto down_to = [&](std::size_t k, double z) -> Eigen::Vector3d {
@@ -176,7 +178,7 @@ Camera::Bounds Camera::bounds(std::size_t first, std::size_t count, double lowes
                                              : far_;
         return eye + depth * Eigen::Vector3d(ray_x_[k], ray_y_[k], ray_z_[k]);
     };
-    const auto last = [&](std::size_t k) -> Eigen::Vector3d {  // a camera below everything may look up at it
+    const auto last = [&](std::size_t k) -> Eigen::Vector3d {  // a camera below all solids may look up
         return eye.z() <= lowest ? eye + far_ * Eigen::Vector3d(ray_x_[k], ray_y_[k], ray_z_[k])
                                  : down_to(k, lowest);
     };
@@ -206,25 +208,25 @@ std::optional<Eigen::Vector2d> Camera::floor_point(int column, int row) const {
 
 void Camera::quantise(std::span<const float> rgb, std::span<std::uint8_t> out, const RandomStream& random,
                       std::uint64_t sample) const {
-    constexpr std::size_t part_pixels = 1024;
+    constexpr std::size_t block_pixels = 1024;
     const float scale = static_cast<float>(255 * noise_);
-    const std::size_t pixels = rgb.size() / 3, parts = (pixels + part_pixels - 1) / part_pixels;
-    std::array<std::uint64_t, part_pixels / 4> words{};
-    for (std::size_t part = 0; part < parts; ++part) {
-        const std::size_t first = part * part_pixels, count = std::min(part_pixels, pixels - first);
-        // A word of 64 random bits gives four pixels their places in the table of normal numbers.
-        if (noise_ > 0) random.bits(sample * parts + part, std::span(words).first((count + 3) / 4));
-        std::array<std::uint16_t, part_pixels> places;
-        std::memcpy(places.data(), words.data(), sizeof places);
+    const std::size_t pixels = rgb.size() / 3, blocks = (pixels + block_pixels - 1) / block_pixels;
+    std::array<std::uint64_t, block_pixels / 4> words{};
+    for (std::size_t block = 0; block < blocks; ++block) {
+        const std::size_t first = block * block_pixels, count = std::min(block_pixels, pixels - first);
+        // A word of 64 random bits gives the indices of four pixels into the table of normal numbers.
+        if (noise_ > 0) random.bits(sample * blocks + block, std::span(words).first((count + 3) / 4));
+        std::array<std::uint16_t, block_pixels> indices;
+        std::memcpy(indices.data(), words.data(), sizeof indices);
         const std::size_t whole = count / lanes * lanes, rest = count - whole;
         const float* from = &rgb[3 * first];
         std::uint8_t* to = &out[3 * first];
-        to_bytes(from, places.data(), normal_quantiles().data(), scale, whole, to);
+        to_bytes(from, indices.data(), normal_quantiles().data(), scale, whole, to);
         if (rest == 0) continue;
         std::array<float, 3 * lanes> last{};
         std::array<std::uint8_t, 3 * lanes> bytes;
         std::copy_n(from + 3 * whole, 3 * rest, last.begin());
-        to_bytes(last.data(), &places[whole], normal_quantiles().data(), scale, lanes, bytes.data());
+        to_bytes(last.data(), &indices[whole], normal_quantiles().data(), scale, lanes, bytes.data());
         std::copy_n(bytes.begin(), 3 * rest, to + 3 * whole);
     }
 }

@@ -1,4 +1,4 @@
-// How a camera draws one picture.
+// The rendering of one picture.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,64 +11,65 @@
 namespace forage::bug {
 namespace {
 
-/// From the robot's frame to texels of a floor: u = ux x + uy y + u0, v likewise.
-struct ToTexels {
-    float ux, uy, u0, vx, vy, v0;
+constexpr std::size_t tile_samples = 32 * 16;  ///< the most that a tile has
 
-    ToTexels(const FloorSurface& floor, double x, double y, double yaw) {
-        const double across = floor.texture.width() / floor.size_x,
-                     down = floor.texture.height() / floor.size_y;
-        const double cf = std::cos(floor.pose.yaw), sf = std::sin(floor.pose.yaw);
-        const double dx = x - floor.pose.x, dy = y - floor.pose.y;
-        const double c = std::cos(yaw - floor.pose.yaw), s = std::sin(yaw - floor.pose.yaw);
-        ux = static_cast<float>(across * c), uy = static_cast<float>(-across * s);
-        vx = static_cast<float>(-down * s), vy = static_cast<float>(-down * c);
-        u0 = static_cast<float>(across * (cf * dx + sf * dy + floor.size_x / 2));
-        v0 = static_cast<float>(down * (floor.size_y / 2 - (cf * dy - sf * dx)));
-    }
-    float u(float x, float y) const { return ux * x + uy * y + u0; }
-    float v(float x, float y) const { return vx * x + vy * y + v0; }
-};
-
-constexpr std::size_t tile_samples = 32 * 16;
-
-/// The samples of one tile while they are drawn.
+/// The samples of one tile while it is rendered.
 struct Samples {
-    std::array<Eigen::Array4f, tile_samples> rgb;  ///< the fourth number is not used
-    std::array<float, tile_samples> depth;         ///< of what is seen so far, along the camera's axis
-    std::array<double, tile_samples> entry, face;  ///< of one solid: see Entries
+    std::array<Eigen::Array4f, tile_samples> rgb;  ///< the fourth number is unused
+    std::array<float, tile_samples> depth;         ///< of the nearest surface so far, along the optical axis
+    std::array<double, tile_samples> entry, face;  ///< of one solid, as in Entries
 };
 
 }  // namespace
 
 struct Camera::View {
-    Pose2 body;
-    Pose pose;                            ///< of the robot in the world
-    const FloorSurface* floor = nullptr;  ///< the only one, if it is low
-    std::optional<ToTexels> to;           ///< of that floor
+    /// The map from points of a floor in the frame of the robot, m, to texels: u = ux x + uy y + u0, and the
+    /// same for v.
+    struct ToTexels {
+        float ux, uy, u0, vx, vy, v0;
 
-    View(const Pose2& b, std::span<const FloorSurface> floors) : body(b), pose(Pose::Identity()) {
+        ToTexels(const FloorSurface& floor, double x, double y, double yaw) {
+            const double across = floor.texture.width() / floor.size_x,
+                         down = floor.texture.height() / floor.size_y;
+            const double cf = std::cos(floor.pose.yaw), sf = std::sin(floor.pose.yaw);
+            const double dx = x - floor.pose.x, dy = y - floor.pose.y;
+            const double c = std::cos(yaw - floor.pose.yaw), s = std::sin(yaw - floor.pose.yaw);
+            ux = static_cast<float>(across * c), uy = static_cast<float>(-across * s);
+            vx = static_cast<float>(-down * s), vy = static_cast<float>(-down * c);
+            u0 = static_cast<float>(across * (cf * dx + sf * dy + floor.size_x / 2));
+            v0 = static_cast<float>(down * (floor.size_y / 2 - (cf * dy - sf * dx)));
+        }
+        float u(float x, float y) const { return ux * x + uy * y + u0; }
+        float v(float x, float y) const { return vx * x + vy * y + v0; }
+    };
+
+    Pose2 robot;
+    Pose pose;                            ///< of the robot in the world, in three dimensions
+    const FloorSurface* floor = nullptr;  ///< the only floor, if there is one and it is low
+    std::optional<ToTexels> to_texels;    ///< of that floor
+
+    View(const Pose2& r, std::span<const FloorSurface> floors) : robot(r), pose(Pose::Identity()) {
         if (floors.size() == 1 && floors.front().z <= low_height) {
             floor = &floors.front();
-            to.emplace(*floor, b.x, b.y, b.yaw);
+            to_texels.emplace(*floor, r.x, r.y, r.yaw);
         }
-        pose.linear() = Eigen::AngleAxisd(b.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-        pose.translation() = Eigen::Vector3d(b.x, b.y, 0);
+        pose.linear() = Eigen::AngleAxisd(r.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+        pose.translation() = Eigen::Vector3d(r.x, r.y, 0);
     }
 };
 
-void Camera::render(const Pose2& body, std::span<const VisualSolid* const> moving, std::span<float> rgb) {
-    const View view(body, scene_->floors());
+void Camera::render(const Pose2& robot, std::span<const VisualSolid* const> moving, std::span<float> rgb) {
+    const View view(robot, scene_->floors());
     windows_.clear();
-    const auto look_for = [&](const VisualSolid& visual) {
+    const auto add_window = [&](const VisualSolid& visual) {
         if (!sees(view, whole_, visual)) return;
         const Window w = window(view, visual);
         if (w.first_column < w.end_column && w.first_row < w.end_row) windows_.push_back(w);
     };
-    for (const VisualSolid& visual : scene_->solids()) look_for(visual);
-    for (const VisualSolid* visual : moving) look_for(*visual);
+    for (const VisualSolid& visual : scene_->solids()) add_window(visual);
+    for (const VisualSolid* visual : moving) add_window(*visual);
     std::array<float, 3> colour;
-    if (windows_.empty() && whole_.reaches_floor && even_colour(view, whole_.extent, colour.data())) {
+    if (windows_.empty() && whole_.reaches_floor && uniform_colour(view, whole_.extent, colour.data())) {
         for (std::size_t i = 0; i < rgb.size(); i += 3) std::copy_n(colour.begin(), 3, &rgb[i]);
         return;
     }
@@ -81,13 +82,14 @@ void Camera::render(const Pose2& body, std::span<const VisualSolid* const> movin
     }
 }
 
-/// Pixels round the corners of a solid's box; all when it reaches behind the camera.
+/// The pixels between the projected corners of a solid's bounding box; all pixels when a corner is behind the
+/// camera.
 Camera::Window Camera::window(const View& view, const VisualSolid& visual) const {
     const Solid& solid = visual.solid;
     const Pose to_camera = (view.pose * mount_).inverse(Eigen::Isometry) * solid.pose;
     const Eigen::Vector3d middle = to_camera.translation();
     const Eigen::Matrix3d sides = to_camera.linear() * (solid.size / 2).asDiagonal();
-    Eigen::AlignedBox2d slopes;  // to the left and up, per metre ahead
+    Eigen::AlignedBox2d slopes;  // to the left and up, in m per m along the optical axis
     for (int corner = 0; corner < 8; ++corner) {
         const Eigen::Vector3d at = middle + (corner & 1 ? 1 : -1) * sides.col(0) +
                                    (corner & 2 ? 1 : -1) * sides.col(1) +
@@ -114,8 +116,8 @@ bool Camera::sees(const View& view, const Tile& tile, const Window& w) {
            tile.column + tile.pixels > w.first_column && sees(view, tile, *w.visual);
 }
 
-/// Whether a solid may be in a tile: its box meets the tile's sphere, and the tile's box meets its sphere.
-/// Both are needed: spheres are poor bounds of long walls and of rows of pixels.
+/// Whether a solid may be visible in a tile: its box meets the tile's sphere, and the tile's box meets its
+/// sphere. Both tests are needed, as spheres are poor bounds of long walls and of rows of pixels.
 bool Camera::sees(const View& view, const Tile& tile, const VisualSolid& visual) {
     const Solid& solid = visual.solid;
     const bool low = solid.pose.translation().z() + half_height(solid) <= low_height;
@@ -129,31 +131,34 @@ bool Camera::sees(const View& view, const Tile& tile, const VisualSolid& visual)
     return bounds.box.squaredExteriorDistance(middle) <= radius_squared(solid);
 }
 
-/// The colour of all that lies in the extent, if there is but one; else null.
-const float* Camera::even_colour(const View& view, const Extent& e, float* colour) const {
+/// Writes the colour of the floor in an extent to `colour` and returns it. Null when there are several
+/// colours.
+const float* Camera::uniform_colour(const View& view, const Extent& e, float* colour) const {
     if (!view.floor) return nullptr;
     constexpr float margin = 0.01f;  // texels; well above the errors of single precision
-    const ToTexels& to = *view.to;
+    const View::ToTexels& to = *view.to_texels;
     const float u = to.u(e.x, e.y), half_u = std::abs(to.ux) * e.half_x + std::abs(to.uy) * e.half_y + margin;
     const float v = to.v(e.x, e.y), half_v = std::abs(to.vx) * e.half_x + std::abs(to.vy) * e.half_y + margin;
     const float u_first = u - half_u, u_last = u + half_u, v_first = v - half_v, v_last = v + half_v;
     const FloorTexture& texture = view.floor->texture;
     if (!(u_first >= 0 && u_last <= static_cast<float>(texture.width()) && v_first >= 0 &&
-          v_last <= static_cast<float>(texture.height()) && texture.even(u_first, u_last, v_first, v_last)))
+          v_last <= static_cast<float>(texture.height()) &&
+          texture.uniform(u_first, u_last, v_first, v_last)))
         return nullptr;
     const std::uint32_t texel = texture.texel(texture.index(u_first, v_first));
     colour[0] = texture.red(texel), colour[1] = texture.green(texel), colour[2] = texture.blue(texel);
     return colour;
 }
 
-/// The common case: the tile shows nothing but the inside of the only floor. False when that is not sure.
+/// Renders a tile that shows only the interior of the only floor, which is the common case. Returns false
+/// when the tile may show something else.
 bool Camera::draw_bare_floor(const View& view, const Tile& tile, float* rgb) const {
     if (!view.floor || !tile.reaches_floor) return false;
     std::array<float, 3> colour;
     const auto fill = [&](int pixels, float* to) {
         for (int p = 0; p < pixels; ++p, to += 3) std::copy_n(colour.begin(), 3, to);
     };
-    if (even_colour(view, tile.extent, colour.data())) return fill(tile.pixels, rgb), true;
+    if (uniform_colour(view, tile.extent, colour.data())) return fill(tile.pixels, rgb), true;
     const FloorSurface& floor = *view.floor;
     const Eigen::Vector3d centre = view.pose * tile.low.centre;
     const double cf = std::cos(floor.pose.yaw), sf = std::sin(floor.pose.yaw);
@@ -163,7 +168,8 @@ bool Camera::draw_bare_floor(const View& view, const Tile& tile, float* rgb) con
         return false;
     for (int first = 0; first < tile.pixels; first += segment_width) {
         const int pixels = std::min(segment_width, tile.pixels - first);
-        if (even_colour(view, tile.segments[static_cast<std::size_t>(first / segment_width)], colour.data()))
+        if (uniform_colour(view, tile.segments[static_cast<std::size_t>(first / segment_width)],
+                           colour.data()))
             fill(pixels, rgb + 3 * first);
         else
             draw_textured(view, tile, first, pixels, rgb + 3 * first);
@@ -171,11 +177,11 @@ bool Camera::draw_bare_floor(const View& view, const Tile& tile, float* rgb) con
     return true;
 }
 
-/// Pixels of a tile that show the inside of the only floor.
+/// Renders pixels of a tile that show only the interior of the only floor.
 void Camera::draw_textured(const View& view, const Tile& tile, int first_pixel, int pixels,
                            float* rgb) const {
     const FloorTexture& texture = view.floor->texture;
-    const ToTexels& to = *view.to;
+    const View::ToTexels& to = *view.to_texels;
     const float mean = 1.0f / static_cast<float>(samples_);
     for (int p = first_pixel; p < first_pixel + pixels; ++p, rgb += 3) {
         std::array<float, max_samples> u, v;
@@ -200,6 +206,7 @@ void Camera::draw_textured(const View& view, const Tile& tile, int first_pixel, 
     }
 }
 
+/// Renders a tile with floors and solids.
 void Camera::draw_all(const View& view, const Tile& tile, float* rgb) const {
     Samples samples;
     const auto pixels = static_cast<std::size_t>(tile.pixels);
@@ -208,22 +215,22 @@ void Camera::draw_all(const View& view, const Tile& tile, float* rgb) const {
     std::fill_n(samples.depth.begin(), count, static_cast<float>(far_));
 
     std::array<float, 3> floor_colour;
-    const bool even = tile.reaches_floor && even_colour(view, tile.extent, floor_colour.data());
-    if (even) {
+    const bool uniform = tile.reaches_floor && uniform_colour(view, tile.extent, floor_colour.data());
+    if (uniform) {
         std::copy_n(&floor_points_.front().depth[tile.first], count, samples.depth.begin());
         std::fill_n(samples.rgb.begin(), count,
                     Eigen::Array4f(floor_colour[0], floor_colour[1], floor_colour[2], 0));
     }
-    for (std::size_t f = 0; f < floor_points_.size() && !even; ++f) {  // a higher floor hides a lower one
+    for (std::size_t f = 0; f < floor_points_.size() && !uniform; ++f) {  // a higher floor hides a lower one
         const FloorSurface& floor = scene_->floors()[f];
-        const ToTexels to(floor, view.body.x, view.body.y, view.body.yaw);
+        const View::ToTexels to(floor, view.robot.x, view.robot.y, view.robot.yaw);
         const auto width = static_cast<float>(floor.texture.width()),
                    height = static_cast<float>(floor.texture.height());
         for (std::size_t k = 0; k < count; ++k) {
             const float x = floor_points_[f].x[tile.first + k], y = floor_points_[f].y[tile.first + k];
             const float u = to.u(x, y), v = to.v(x, y);
             if (!(u >= 0 && u <= width && v >= 0 && v <= height))
-                continue;  // nor where the ray meets no floor
+                continue;  // also when the ray does not meet the floor and (u, v) is infinite
             samples.depth[k] = floor_points_[f].depth[tile.first + k];
             samples.rgb[k].setZero();
             floor.texture.add(u, v, samples.rgb[k].data());
@@ -245,14 +252,14 @@ void Camera::draw_all(const View& view, const Tile& tile, float* rgb) const {
                 lighting.shade(visual.material, solid.pose.linear() * face_normal(face));
         const auto from = static_cast<std::size_t>(std::max(0, w.first_column - tile.column)),
                    to = static_cast<std::size_t>(std::min(tile.pixels, w.end_column - tile.column));
-        const bool some = 2 * (to - from) < pixels;  // else rays that miss cost less than doing it in parts
-        const std::size_t parts = some ? static_cast<std::size_t>(samples_) : 1, first = some ? from : 0,
-                          last = some ? to : count;
+        const bool by_sample = 2 * (to - from) < pixels;  // else the rays that miss cost less than more calls
+        const std::size_t runs = by_sample ? static_cast<std::size_t>(samples_) : 1,
+                          first = by_sample ? from : 0, last = by_sample ? to : count;
         const auto draw = [&](std::size_t begin, std::size_t end) {
-            enter(solid.kind, half, eye, turn,
-                  {&ray_x_[tile.first + begin], &ray_y_[tile.first + begin], &ray_z_[tile.first + begin],
-                   end - begin},
-                  {&samples.entry[begin], &samples.face[begin]});
+            intersect(solid.kind, half, eye, turn,
+                      {&ray_x_[tile.first + begin], &ray_y_[tile.first + begin], &ray_z_[tile.first + begin],
+                       end - begin},
+                      {&samples.entry[begin], &samples.face[begin]});
             for (std::size_t k = begin; k < end; ++k) {
                 if (!(samples.entry[k] < samples.depth[k])) continue;
                 const std::size_t i = tile.first + k;
@@ -268,7 +275,7 @@ void Camera::draw_all(const View& view, const Tile& tile, float* rgb) const {
                         : faces[static_cast<std::size_t>(samples.face[k])];
             }
         };
-        for (std::size_t part = 0; part < parts; ++part) draw(part * pixels + first, part * pixels + last);
+        for (std::size_t run = 0; run < runs; ++run) draw(run * pixels + first, run * pixels + last);
     }
 
     const float mean = 1.0f / static_cast<float>(samples_);

@@ -11,7 +11,7 @@
 namespace forage::bug {
 namespace {
 
-/// Texels of a row that differ from a neighbour to the right or below are no longer opaque.
+/// Clears the flag of all texels of a row that differ from their right, lower or lower right neighbour.
 FORAGE_SIMD void mark_flat(std::uint32_t* __restrict here, const std::uint32_t* __restrict below,
                            std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -21,7 +21,7 @@ FORAGE_SIMD void mark_flat(std::uint32_t* __restrict here, const std::uint32_t* 
     }
 }
 
-/// All bits that some texels, mostly 8 of them, have in common.
+/// The bitwise and of `count` texels, which is fast for 8 of them.
 std::uint32_t common_bits(const std::uint32_t* texels, std::size_t count) {
     if (count != 8) return std::accumulate(texels, texels + count, ~0u, std::bit_and());
     std::uint64_t pairs[4];
@@ -40,25 +40,25 @@ FloorTexture::FloorTexture(Image image, const Colour& gain)
       stride_(image.width + 2),
       texels_(std::move(image.pixels)),
       gain_(gain / 255.0f) {
-    // Pixels are opaque: what is left opaque is flat. The last row and column are never the upper left of a
-    // lookup.
+    // Pixels are opaque, so that all flags are set at first. The last row and column are never the upper left
+    // texels of an interpolation.
     const auto stride = static_cast<std::size_t>(stride_), rows = static_cast<std::size_t>(height_ + 2);
     for (std::size_t row = 0; row + 1 < rows; ++row)
         mark_flat(&texels_[row * stride], &texels_[(row + 1) * stride], stride - 1);
-    uneven_ = MarkedCells(stride, rows, [&](std::size_t column, std::size_t row, std::size_t count) {
+    not_flat_ = BitGrid(stride, rows, [&](std::size_t column, std::size_t row, std::size_t count) {
         const std::uint32_t* here = &texels_[row * stride + column];
         unsigned bits = 0;
-        if (!flat(common_bits(here, count)))  // mostly all are
+        if (!flat(common_bits(here, count)))  // mostly all are flat
             for (std::size_t i = 0; i < count; ++i) bits |= (flat(here[i]) ? 0u : 1u) << i;
         return bits;
     });
     for (std::size_t channel = 0; channel < 3; ++channel)
         for (std::size_t value = 0; value < 256; ++value)
-            seen_[channel][value] =
+            visible_[channel][value] =
                 std::min(1.0f, gain_[static_cast<Eigen::Index>(channel)] * static_cast<float>(value));
 }
 
-void FloorTexture::add_blend(float u, float v, float* rgb) const {
+void FloorTexture::add_interpolated(float u, float v, float* rgb) const {
     u += 0.5f, v += 0.5f;
     const int column = static_cast<int>(u), row = static_cast<int>(v);
     const float right = u - static_cast<float>(column), low = v - static_cast<float>(row);

@@ -11,7 +11,8 @@
 namespace forage::bug {
 namespace {
 
-/// Mitchell and Netravali, "Reconstruction filters in computer graphics", SIGGRAPH 1988, with B = C = 1/3.
+/// The filter of Mitchell and Netravali, "Reconstruction filters in computer graphics", SIGGRAPH 1988, with B
+/// = C = 1/3.
 double cubic(double x) {
     x = std::abs(x);
     if (x < 1) return (7 * x * x * x - 12 * x * x + 16.0 / 3) / 6;
@@ -19,14 +20,14 @@ double cubic(double x) {
     return 0;
 }
 
-/// The source pixels that make a new one: `weights` from pixel `first` on; their sum is 1.
+/// The weights of the source pixels from `first` on in a resampled pixel. Their sum is 1.
 struct Window {
     int first;
     std::pmr::vector<double> weights;
 };
 
-/// Window of pixel `index` when a side shrinks or grows from `from` to `to` pixels. Shrinking widens the
-/// kernel; what would lie outside the picture does not count.
+/// The window of pixel `index` when a side of `from` pixels is resampled to `to` pixels. Shrinking widens the
+/// filter. Pixels outside the picture have no weight.
 Window window(int index, int from, int to, std::pmr::memory_resource* memory) {
     const double scale = static_cast<double>(to) / from, narrow = std::min(scale, 1.0), reach = 2 / narrow;
     const double centre = (index + 0.5) / scale;
@@ -43,7 +44,7 @@ Window window(int index, int from, int to, std::pmr::memory_resource* memory) {
     return out;
 }
 
-/// One resampled pixel: the window over pixels that lie `step` bytes apart, rounded to 8 bits.
+/// One resampled pixel, rounded to 8 bits. `step`: distance between the source pixels in bytes.
 std::array<std::uint8_t, 3> mix(const Window& window, const std::uint8_t* pixels, std::size_t step) {
     double sum[3] = {0, 0, 0};
     const std::uint8_t* pixel = pixels + static_cast<std::size_t>(window.first) * step;
@@ -57,6 +58,7 @@ std::array<std::uint8_t, 3> mix(const Window& window, const std::uint8_t* pixels
     return out;
 }
 
+/// value / 255 for each 8-bit value.
 constexpr std::array<double, 256> units = [] {
     std::array<double, 256> out{};
     for (std::size_t value = 0; value < out.size(); ++value) out[value] = static_cast<double>(value) / 255;
@@ -78,7 +80,7 @@ struct Cells {
 
     void set(std::size_t cell, const std::uint8_t* pixel) const {
         if (pixel[0] == pixel[1] && pixel[1] == pixel[2] &&
-            space == ColourSpace::hsv) {  // most of what is seen
+            space == ColourSpace::hsv) {  // grey pixels are the most frequent ones
             first[cell] = second[cell] = 0;
             third[cell] = quirks.salt && pixel[0] == 1 ? 1.0 : units[pixel[0]];
             return;
@@ -99,7 +101,7 @@ struct Cells {
 };
 
 void resample(std::span<const std::uint8_t> rgb, int width, int height, int w, int h, const Cells& cells) {
-    // Pictures of a robot's camera fit on the stack; larger ones go to the heap.
+    // The buffer is large enough for the pictures of a robot's camera; larger ones use the heap.
     std::array<std::byte, 32768> stack;
     std::pmr::monotonic_buffer_resource memory(stack.data(), stack.size());
     std::pmr::vector<Window> rows(&memory), columns(&memory);
@@ -107,7 +109,7 @@ void resample(std::span<const std::uint8_t> rgb, int width, int height, int w, i
     for (int i = 0; i < h; ++i) rows.push_back(window(i, height, h, &memory));
     for (int i = 0; i < w; ++i) columns.push_back(window(i, width, w, &memory));
     std::pmr::vector<std::uint8_t> strip(3 * static_cast<std::size_t>(height),
-                                         &memory);  // one new column, old rows
+                                         &memory);  // one resampled column with the rows of the source
     for (std::size_t column = 0; column < columns.size(); ++column) {
         for (std::size_t row = 0; row < static_cast<std::size_t>(height); ++row) {
             const auto pixel = mix(columns[column], &rgb[3 * row * static_cast<std::size_t>(width)], 3);

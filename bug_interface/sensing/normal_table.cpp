@@ -12,7 +12,8 @@ std::vector<float> make_quantiles() {
     std::vector<float> table(size);
     double x = 0;
     for (std::size_t i = 0; i < half; ++i) {
-        // Newton's method from the quantile before: the function is concave here, so it never overshoots.
+        // Newton's method, starting at the previous quantile. The function is concave here, so that it does
+        // not overshoot.
         const double tail = (static_cast<double>(half - i) - 0.5) / static_cast<double>(size);
         for (int step = 0; step < 20; ++step) {
             const double density = std::exp(-x * x / 2) / std::sqrt(2 * std::numbers::pi);

@@ -1,24 +1,26 @@
-// Cells that know where the robot is and where it looks.
+// Place cells and head direction cells.
 #pragma once
 
 #include <span>
 
 namespace forage::bug {
 
-/// Where the fields of a group of place cells lie. A cell's field is at a point of [-1, 1] x [-1, 1].
+/// The area that a group of place cells covers. The receptive fields have their centres in [-1, 1] x [-1, 1].
 struct PlaceField {
-    double x_offset = 0, y_offset = 0;  ///< m; the world point that the middle of the group stands for
-    double x_max = 10, y_max = 10;      ///< m; distance from there to the edge of the group
-    double sigma = 0.2;                 ///< width of a field, in units of x_max and y_max
+    double x_offset = 0, y_offset = 0;  ///< centre of the area in the world, m
+    double x_max = 10, y_max = 10;      ///< half the extents of the area, m
+    double sigma = 0.2;                 ///< width of a receptive field, in units of x_max and y_max
 };
 
-/// out: w x h cells, row 0 is +y. Cell (r, c) stands for X = (c - w/2) / (w/2), Y = -(r - h/2) / (h/2),
-/// halves rounded down (a side of one cell stands for 0); its activity is exp(-distance^2 / sigma^2), divided
-/// by the greatest of the group. x, y: the robot, m.
+/// Fills `out` with the activities of w x h place cells, row 0 at +y. The receptive field of cell (r, c) has
+/// its centre at X = (c - w/2) / (w/2), Y = -(r - h/2) / (h/2), with halves rounded down, and at 0 for a side
+/// of one cell. The activity is exp(-distance^2 / sigma^2), divided by the largest of the group. (x, y): the
+/// position of the robot, m.
 void place_cells(double x, double y, int w, int h, const PlaceField& field, std::span<double> out);
 
-/// One row of cells round the circle: cell 0 is -x, then -y, +x, +y. Activity exp(-(d / sigma)^2) over the
-/// greatest of the group; d is the distance on a circle of circumference 1. yaw: rad.
+/// Fills `out` with the activities of head direction cells. They cover a full turn: cell 0 is the direction
+/// -x, followed by -y, +x and +y. The activity is exp(-(d / sigma)^2), divided by the largest of the group; d
+/// is the difference of directions in turns, and `sigma` is in turns, too. `yaw`: heading of the robot, rad.
 void head_direction_cells(double yaw, double sigma, std::span<double> out);
 
 }  // namespace forage::bug

@@ -8,18 +8,18 @@
 namespace forage::bug {
 namespace {
 
-/// Keeps what a ray measures of a solid that it passes through from `enter` to `leave` (distances from the
-/// sensor).
+/// Reduces `range` to the measurement of a ray that is inside a solid from `enter` to `leave`, all distances
+/// from the sensor in m.
 void keep_nearest(double enter, double leave, double min, double& range) {
-    const double hit = enter >= min ? enter : leave;  // a ray that starts inside meets the far side
+    const double hit = enter >= min ? enter : leave;  // a ray that starts inside measures the far side
     if (leave >= min && hit < range) range = hit;
 }
 
 }  // namespace
 
-RangeScanner::RangeScanner(const RangeSensor& sensor, const Pose& link_in_model)
+RangeScanner::RangeScanner(const RangeSensor& sensor, const Pose& link_pose)
     : min_(sensor.min_range), max_(sensor.max_range), noise_(sensor.noise) {
-    const Pose pose = link_in_model * sensor.pose;
+    const Pose pose = link_pose * sensor.pose;
     mount_ = in_plane(pose);
     height_ = pose.translation().z();
     for (int i = 0; i < sensor.rays; ++i) {
@@ -30,17 +30,17 @@ RangeScanner::RangeScanner(const RangeSensor& sensor, const Pose& link_in_model)
     }
 }
 
-void RangeScanner::scan(const Pose2& body, std::span<const Outline> outlines,
+void RangeScanner::scan(const Pose2& robot, std::span<const Outline> outlines,
                         std::span<double> ranges) const {
     std::fill(ranges.begin(), ranges.end(), max_);
-    const double c = std::cos(body.yaw), s = std::sin(body.yaw);
-    const double x = body.x + c * mount_.x - s * mount_.y;  // of the sensor, in the world
-    const double y = body.y + s * mount_.x + c * mount_.y;
+    const double c = std::cos(robot.yaw), s = std::sin(robot.yaw);
+    const Eigen::Vector2d sensor = Transform2(robot.x, robot.y, c, s) * Eigen::Vector2d(mount_.x, mount_.y);
     for (const Outline& o : outlines) {
-        const double dx = o.x - x, dy = o.y - y;
-        const double reach = max_ + (o.round ? o.radius : std::hypot(o.half_x, o.half_y));
+        const double dx = o.x - sensor.x(), dy = o.y - sensor.y();
+        const double reach = max_ + bounding_radius(o);
         if (dx * dx + dy * dy > reach * reach) continue;
-        // Turned into the model's frame, where the rays are constant; the sensor stays the origin.
+        // The outline relative to the sensor, in the orientation of the robot, in which the rays are
+        // constant.
         const double forward = c * dx + s * dy, left = c * dy - s * dx;
         if (o.round)
             scan_circle(forward, left, o.radius, ranges);
@@ -64,21 +64,21 @@ void RangeScanner::scan_circle(double x, double y, double radius, std::span<doub
 void RangeScanner::scan_box(double x, double y, double cos_yaw, double sin_yaw, double half_x, double half_y,
                             std::span<double> ranges) const {
     const double origin[2] = {-(cos_yaw * x + sin_yaw * y),
-                              sin_yaw * x - cos_yaw * y};  // of the rays, in the box's frame
+                              sin_yaw * x - cos_yaw * y};  // of the rays in the frame of the box
     const double half[2] = {half_x, half_y};
     for (std::size_t i = 0; i < ranges.size(); ++i) {
         const double direction[2] = {cos_yaw * direction_x_[i] + sin_yaw * direction_y_[i],
                                      cos_yaw * direction_y_[i] - sin_yaw * direction_x_[i]};
         double enter = -std::numeric_limits<double>::infinity(), leave = -enter;
         for (int axis = 0; axis < 2; ++axis) {
-            if (std::abs(direction[axis]) < 1e-12) {  // parallel to two sides: between them, or never
+            if (std::abs(direction[axis]) < 1e-12) {  // parallel to two sides: always or never between them
                 if (std::abs(origin[axis]) > half[axis]) leave = -std::numeric_limits<double>::infinity();
                 continue;
             }
-            const double middle = -origin[axis] / direction[axis],
+            const double centre = -origin[axis] / direction[axis],
                          reach = half[axis] / std::abs(direction[axis]);
-            enter = std::max(enter, middle - reach);
-            leave = std::min(leave, middle + reach);
+            enter = std::max(enter, centre - reach);
+            leave = std::min(leave, centre + reach);
         }
         if (enter <= leave) keep_nearest(enter, leave, min_, ranges[i]);
     }
@@ -88,13 +88,13 @@ void RangeScanner::add_noise(std::span<double> ranges, const RandomStream& rando
                              std::uint64_t sample) const {
     if (noise_ <= 0) return;
     std::array<double, 64> normal;
-    const std::size_t parts = (ranges.size() + normal.size() - 1) / normal.size();
-    for (std::size_t part = 0; part < parts; ++part) {
-        const auto some = ranges.subspan(part * normal.size(),
-                                         std::min(normal.size(), ranges.size() - part * normal.size()));
-        random.normal(sample * parts + part, std::span(normal).first(some.size()));
-        for (std::size_t i = 0; i < some.size(); ++i)
-            some[i] = std::clamp(some[i] + noise_ * normal[i], min_, max_);
+    const std::size_t blocks = (ranges.size() + normal.size() - 1) / normal.size();
+    for (std::size_t b = 0; b < blocks; ++b) {
+        const std::size_t first = b * normal.size();
+        const auto block = ranges.subspan(first, std::min(normal.size(), ranges.size() - first));
+        random.normal(sample * blocks + b, std::span(normal).first(block.size()));
+        for (std::size_t i = 0; i < block.size(); ++i)
+            block[i] = std::clamp(block[i] + noise_ * normal[i], min_, max_);
     }
 }
 

@@ -12,30 +12,32 @@
 
 namespace forage::bug {
 
-/// Scans as the original's ray sensors did. A ray starts at the sensor's least range and looks through
-/// everything nearer; it reports the distance from the sensor to the first surface. A ray that starts inside
-/// a solid reports where it leaves it. Without a hit it reports the greatest range.
+/// Scans like the ray sensors of the original. A ray starts at the sensor's minimum range, passes through
+/// everything nearer, and measures the distance from the sensor to the first surface. When a ray starts
+/// inside a solid, that is the surface where it leaves the solid. A ray that meets nothing measures the
+/// maximum range.
 class RangeScanner {
   public:
-    /// `link_in_model`: pose of the sensor's link in the model whose pose scan() gets.
-    RangeScanner(const RangeSensor& sensor, const Pose& link_in_model);
+    /// `link_pose`: pose of the sensor's link in the robot.
+    RangeScanner(const RangeSensor& sensor, const Pose& link_pose);
 
     double height() const { return height_; }  ///< of all rays above the floor, m
     int rays() const { return static_cast<int>(direction_x_.size()); }
     double min_range() const { return min_; }  ///< m
     double max_range() const { return max_; }  ///< m
-    /// What is farther from the middle of the model is out of range, m.
-    double farthest() const { return max_ + std::hypot(mount_.x, mount_.y); }
+    /// Distance from the origin of the robot beyond which nothing is measured, m.
+    double reach() const { return max_ + std::hypot(mount_.x, mount_.y); }
 
-    /// ranges[i]: what ray i measures, m, without noise; size rays(). `body`: pose of the model in the world.
-    /// `outlines`: what is there, cut at height(). Allocates nothing.
-    void scan(const Pose2& body, std::span<const Outline> outlines, std::span<double> ranges) const;
+    /// Measures without noise. ranges[i]: the measurement of ray i, m; its size is rays(). `robot`: pose of
+    /// the robot in the world. `outlines`: cross-sections at height(). Does not allocate memory.
+    void scan(const Pose2& robot, std::span<const Outline> outlines, std::span<double> ranges) const;
 
-    /// Adds normal noise to each range, hit or not, and clamps to [min, max]. `sample` counts this sensor's
-    /// scans.
+    /// Adds normally distributed noise to each range and clamps it to [min_range(), max_range()]. `sample`:
+    /// the number of the scan; the same sample has the same noise.
     void add_noise(std::span<double> ranges, const RandomStream& random, std::uint64_t sample) const;
 
-    /// Activity in 0..1, near is high: cells[k] = (max - ranges[n-1-k]) / max. Cell 0 is the leftmost ray.
+    /// Converts ranges to activities in 0..1, near is high: cells[k] = (max - ranges[n-1-k]) / max. Cell 0 is
+    /// the leftmost ray.
     void to_activity(std::span<const double> ranges, std::span<double> cells) const;
 
   private:
@@ -43,9 +45,9 @@ class RangeScanner {
     void scan_box(double x, double y, double cos_yaw, double sin_yaw, double half_x, double half_y,
                   std::span<double> ranges) const;
 
-    Pose2 mount_;  ///< of the sensor in the model
+    Pose2 mount_;  ///< pose of the sensor in the robot
     double height_, min_, max_, noise_;
-    std::vector<double> direction_x_, direction_y_;  ///< of each ray in the model's frame, unit length
+    std::vector<double> direction_x_, direction_y_;  ///< unit vectors of the rays in the frame of the robot
 };
 
 }  // namespace forage::bug

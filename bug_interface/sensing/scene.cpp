@@ -5,7 +5,7 @@
 namespace forage::bug {
 namespace {
 
-/// Light on an upward face, not clamped: a texture is multiplied by it before it is.
+/// The light on an upward face. It is not clamped to 1, as a texture is multiplied by it before clamping.
 Colour light_from_above(const Lighting& lighting, const Material& material) {
     const float sun = lighting.sun ? static_cast<float>(std::max(0.0, lighting.sun->z())) : 0.0f;
     return material.ambient * lighting.ambient + material.diffuse * sun;

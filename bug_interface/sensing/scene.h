@@ -1,4 +1,4 @@
-// What a camera can see: the visuals of a world, its floor pictures and its light.
+// What cameras see: the visuals of a world, the pictures of its floors and its light.
 #pragma once
 
 #include <optional>
@@ -13,32 +13,32 @@
 
 namespace forage::bug {
 
-/// A solid with a colour. Seen from outside only. Textures on solids are not drawn.
+/// A solid with a colour, visible from outside only. Textures on solids are ignored.
 struct VisualSolid {
-    Solid solid;  ///< may be tilted here
+    Solid solid;  ///< may be tilted
     Material material;
 };
 
-/// A horizontal rectangle, seen from above only.
+/// A horizontal rectangle, visible from above only.
 struct FloorSurface {
-    double z = 0;                   ///< m
-    Pose2 pose;                     ///< of its middle, in the world
+    double z = 0;                   ///< height, m
+    Pose2 pose;                     ///< of its centre in the world
     double size_x = 0, size_y = 0;  ///< full extents along its own axes, m
-    FloorTexture texture;           ///< top edge at +y, left edge at -x
+    FloorTexture texture;           ///< its top edge is at +y, its left edge at -x
 };
 
-/// What stands still, ready to be drawn. Shared by all cameras of a world; constant.
+/// The visuals that never move. All cameras of a world share one Scene, which is constant.
 class Scene {
   public:
-    static constexpr float background = 0.7f;  ///< grey where nothing is
+    static constexpr float background = 0.7f;  ///< grey value of rays that meet nothing
 
-    /// All visuals but those of models named in `excluded` (whatever moves). `floor_gain` replaces the light
-    /// on textured floors (0.4 + 0.87 with the standard sun), which may exceed 1. Throws std::runtime_error
-    /// when a texture cannot be read.
+    /// Contains all visuals except those of the models named in `excluded`. `floor_gain` replaces the light
+    /// on textured floors (0.4 + 0.87 with the standard sun); it may exceed 1. Throws std::runtime_error when
+    /// a texture cannot be read.
     explicit Scene(const WorldDescription& world, std::span<const std::string> excluded = {},
                    std::optional<float> floor_gain = {});
 
-    const std::vector<FloorSurface>& floors() const { return floors_; }  ///< from the lowest up
+    const std::vector<FloorSurface>& floors() const { return floors_; }  ///< sorted by height
     const std::vector<VisualSolid>& solids() const { return solids_; }
     const Lighting& lighting() const { return lighting_; }
 

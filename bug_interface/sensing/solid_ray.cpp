@@ -11,8 +11,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The part of a ray inside what has been intersected so far; empty when leave < enter. Without branches: a
-/// loop over rays becomes one over several at a time.
+/// The interval of a ray inside the intersection of slabs and round shapes; empty when leave < enter. There
+/// are no branches, so that loops over rays are vectorised.
 struct Inside {
     double enter = -infinity, leave = infinity, face = Entries::curved;
 
@@ -20,16 +20,16 @@ struct Inside {
     [[gnu::always_inline]] void slab(int axis, double origin, double direction, double half) {
         const bool along = std::abs(direction) < 1e-12;
         const double inverse = 1 / (along ? 1.0 : direction);
-        const double middle = -origin * inverse, reach = half * std::abs(inverse);
-        const double nearer = along ? -infinity : middle - reach;
-        const double farther = along ? (std::abs(origin) > half ? -infinity : infinity) : middle + reach;
+        const double centre = -origin * inverse, reach = half * std::abs(inverse);
+        const double nearer = along ? -infinity : centre - reach;
+        const double farther = along ? (std::abs(origin) > half ? -infinity : infinity) : centre + reach;
         const double side = direction > 0 ? 2.0 * axis + 1 : 2.0 * axis;
         face = nearer > enter ? side : face;
         enter = nearer > enter ? nearer : enter;
         leave = farther < leave ? farther : leave;
     }
 
-    /// Intersects with a ball or an endless cylinder: direction^2 t^2 + 2 mixed t + rest <= 0.
+    /// Intersects with a sphere or an infinite cylinder: direction^2 t^2 + 2 mixed t + rest <= 0.
     [[gnu::always_inline]] void round(double direction_squared, double mixed, double rest) {
         const bool along = direction_squared < 1e-24;
         const double inverse = 1 / (along ? 1.0 : direction_squared);
@@ -42,20 +42,20 @@ struct Inside {
         leave = farther < leave ? farther : leave;
     }
 
-    [[gnu::always_inline]] void note(double* depth, double* through) const {
+    [[gnu::always_inline]] void store(double* depth, double* through) const {
         *depth = enter > 0 && enter <= leave ? enter : infinity;
         *through = face;
     }
 };
 
-/// Numbers of one solid that all rays need.
-struct Frame {
-    double turn[9];  ///< row by row
+/// The constants of one solid for all rays.
+struct SolidConstants {
+    double turn[9];  ///< rotation matrix, row by row
     double origin[3], half[3];
 };
 
-FORAGE_SIMD void enter_box(const Frame f, const float* x, const float* y, const float* z, std::size_t count,
-                           double* depth, double* face) {
+FORAGE_SIMD void enter_box(const SolidConstants f, const float* x, const float* y, const float* z,
+                           std::size_t count, double* depth, double* face) {
     const double* t = f.turn;
     for (std::size_t i = 0; i < count; ++i) {
         const double a = x[i], b = y[i], c = z[i];
@@ -63,11 +63,11 @@ FORAGE_SIMD void enter_box(const Frame f, const float* x, const float* y, const 
         inside.slab(0, f.origin[0], t[0] * a + t[1] * b + t[2] * c, f.half[0]);
         inside.slab(1, f.origin[1], t[3] * a + t[4] * b + t[5] * c, f.half[1]);
         inside.slab(2, f.origin[2], t[6] * a + t[7] * b + t[8] * c, f.half[2]);
-        inside.note(&depth[i], &face[i]);
+        inside.store(&depth[i], &face[i]);
     }
 }
 
-FORAGE_SIMD void enter_cylinder(const Frame f, const float* x, const float* y, const float* z,
+FORAGE_SIMD void enter_cylinder(const SolidConstants f, const float* x, const float* y, const float* z,
                                 std::size_t count, double* depth, double* face) {
     const double* t = f.turn;
     const double rest = f.origin[0] * f.origin[0] + f.origin[1] * f.origin[1] - f.half[0] * f.half[0];
@@ -78,11 +78,11 @@ FORAGE_SIMD void enter_cylinder(const Frame f, const float* x, const float* y, c
         Inside inside;
         inside.round(dx * dx + dy * dy, f.origin[0] * dx + f.origin[1] * dy, rest);
         inside.slab(2, f.origin[2], dz, f.half[2]);
-        inside.note(&depth[i], &face[i]);
+        inside.store(&depth[i], &face[i]);
     }
 }
 
-FORAGE_SIMD void enter_sphere(const Frame f, const float* x, const float* y, const float* z,
+FORAGE_SIMD void enter_sphere(const SolidConstants f, const float* x, const float* y, const float* z,
                               std::size_t count, double* depth, double* face) {
     const double* t = f.turn;
     const double rest = f.origin[0] * f.origin[0] + f.origin[1] * f.origin[1] + f.origin[2] * f.origin[2] -
@@ -94,17 +94,17 @@ FORAGE_SIMD void enter_sphere(const Frame f, const float* x, const float* y, con
         Inside inside;
         inside.round(dx * dx + dy * dy + dz * dz, f.origin[0] * dx + f.origin[1] * dy + f.origin[2] * dz,
                      rest);
-        inside.note(&depth[i], &face[i]);
+        inside.store(&depth[i], &face[i]);
     }
 }
 
 }  // namespace
 
-void enter(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& origin,
-           const Eigen::Matrix3d& turn, const Rays& rays, const Entries& out) {
-    Frame f;
+void intersect(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& origin,
+               const Eigen::Matrix3d& rotation, const Rays& rays, const Entries& out) {
+    SolidConstants f;
     for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) f.turn[3 * row + column] = turn(row, column);
+        for (int column = 0; column < 3; ++column) f.turn[3 * row + column] = rotation(row, column);
         f.origin[row] = origin[row], f.half[row] = half[row];
     }
     switch (kind) {

@@ -1,4 +1,4 @@
-// Where rays enter a solid.
+// Intersections of rays with a solid.
 #pragma once
 
 #include <span>
@@ -8,12 +8,12 @@
 
 namespace forage::bug {
 
-/// How far `solid` reaches above and below its middle (a bound for tilted round ones), m.
+/// Half the height of the bounding box of `solid`, m; an upper bound for tilted round solids.
 inline double half_height(const Solid& solid) {
     return 0.5 * solid.pose.linear().row(2).cwiseAbs().dot(solid.size);
 }
 
-/// Square of the radius of a sphere round `solid`, m^2.
+/// The square of the radius of the bounding sphere of `solid`, m^2.
 inline double radius_squared(const Solid& solid) {
     if (solid.kind == ShapeKind::sphere) return solid.size.x() * solid.size.x() / 4;
     if (solid.kind == ShapeKind::cylinder)
@@ -21,28 +21,28 @@ inline double radius_squared(const Solid& solid) {
     return solid.size.squaredNorm() / 4;
 }
 
-/// Outward normal of flat face `face`: 2 * axis, + 1 on the negative side.
+/// The outward normal of the flat face number 2 * axis, or 2 * axis + 1 on the negative side.
 inline Eigen::Vector3d face_normal(int face) { return Eigen::Vector3d::Unit(face / 2) * (face % 2 ? -1 : 1); }
 
-/// Rays from one point, in a frame of their own: ray i has the direction (x[i], y[i], z[i]).
+/// Rays from one point. Ray i has the direction (x[i], y[i], z[i]).
 struct Rays {
     const float *x, *y, *z;
     std::size_t count;
 };
 
-/// Where rays enter a solid from outside.
+/// The points where rays enter a solid from outside.
 struct Entries {
     static constexpr double curved = 6;
-    double* depth;  ///< in units of the ray's direction, > 0; infinity where it misses, or starts inside
-    double* face;   ///< a number as for face_normal(), or curved
+    double* depth;  ///< > 0, in units of the ray's direction; infinity when it misses or starts inside
+    double* face;   ///< the face number of face_normal(), or `curved`
 };
 
-/// Meets a box, cylinder or sphere with half extents `half` in a frame of its own, where the rays begin at
-/// `origin` and have the directions `turn` * ray. All rays miss a plane.
-void enter(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& origin,
-           const Eigen::Matrix3d& turn, const Rays& rays, const Entries& out);
+/// Intersects rays with a box, cylinder or sphere that has the half extents `half` in its own frame. In that
+/// frame the rays start at `origin` and have the directions `rotation` * ray. No ray meets a plane.
+void intersect(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& origin,
+               const Eigen::Matrix3d& rotation, const Rays& rays, const Entries& out);
 
-/// Outward normal, of unit length, where a ray enters a cylinder or sphere through its curved face.
+/// The outward unit normal of the point where a ray enters a cylinder or sphere through its curved face.
 Eigen::Vector3d curved_normal(ShapeKind kind, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                               double depth);
 

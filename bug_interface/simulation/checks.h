@@ -1,4 +1,4 @@
-// What a world file says that cannot be meant so, or has no effect here.
+// Checks of a world description: what is most likely a mistake, or has no effect.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,12 @@
 
 namespace forage::bug {
 
-/// Looks at the models of a world, each on its own, and at the names that mean something.
+/// Checks each model, its plugins and sensors, and the names that have a meaning. Reports errors for robots
+/// that cannot be simulated and warnings for everything else.
 void check_models(const WorldDescription& world, Diagnostics& diagnostics);
 
-/// What nobody can reach or touch: targets and robots outside of the bounds, what hangs above everything.
-/// `top`: of the robots and their ray sensors, m.
+/// Warns about targets and robots outside the bounds, and about models that nothing can touch. `top`: height
+/// of the highest point of the robots and their ray sensors, m.
 void check_places(const WorldDescription& world, const std::optional<ResetPlan>& plan, double top,
                   Diagnostics& diagnostics);
 

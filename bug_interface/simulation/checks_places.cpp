@@ -3,36 +3,37 @@
 #include <fmt/format.h>
 
 #include "bug_interface/simulation/checks.h"
-#include "bug_interface/simulation/surroundings.h"
-#include "bug_interface/simulation/thing.h"
+#include "bug_interface/simulation/movable_object.h"
 #include "bug_interface/simulation/trials.h"
+#include "bug_interface/simulation/world_queries.h"
 
 namespace forage::bug {
 namespace {
 
+/// Warns about robots and targets outside the bounds.
 void check_bounds(const WorldDescription& world, const ResetPlan& plan, Diagnostics& diagnostics) {
+    const std::string bounds =
+        fmt::format("the bounds are x {:g} to {:g}, y {:g} to {:g}", plan.bounds.min().x(),
+                    plan.bounds.max().x(), plan.bounds.min().y(), plan.bounds.max().y());
     for (const Model& model : world.models) {
         const Eigen::Vector2d at = model.pose.translation().head<2>();
         if (has_plugin(model, "libreset_plugin.so") && robot_link(model) && !plan.bounds.contains(at))
             diagnostics.warning(
                 model.where,
-                fmt::format("robot '{}' starts outside of the bounds, and is put back at once", model.name),
-                fmt::format("they are x {:g} to {:g}, y {:g} to {:g}", plan.bounds.min().x(),
-                            plan.bounds.max().x(), plan.bounds.min().y(), plan.bounds.max().y()));
+                fmt::format("robot '{}' starts outside the bounds and is reset at once", model.name), bounds);
         WorldDescription alone;
         alone.models.push_back(model);
         for (const Eigen::Vector2d& target : targets_of(alone))
             if (plan.bounds.exteriorDistance(target) >= TrialLog::reach)
                 diagnostics.warning(
                     model.where,
-                    fmt::format("no robot reaches the target at ({:g}, {:g}): it is put back before",
+                    fmt::format("no robot can reach the target at ({:g}, {:g}): it is reset before",
                                 target.x(), target.y()),
-                    fmt::format("the bounds are x {:g} to {:g}, y {:g} to {:g}", plan.bounds.min().x(),
-                                plan.bounds.max().x(), plan.bounds.min().y(), plan.bounds.max().y()));
+                    bounds);
     }
 }
 
-/// Shapes of what is not to be touched by mistake: above all robots, or, of loose things, below the floor.
+/// Warns about models above all robots, and about movable objects below the floor.
 void check_heights(const Model& model, double top, Diagnostics& diagnostics) {
     const auto solids = solids_of(model);
     if (solids.empty()) return;
@@ -41,12 +42,12 @@ void check_heights(const Model& model, double top, Diagnostics& diagnostics) {
         low = std::min(low, s.pose.translation().z() - s.size.z() / 2);
         high = std::max(high, s.pose.translation().z() + s.size.z() / 2);
     }
-    if (low < top && !(is_loose(model) && high <= 0)) return;
+    if (low < top && !(is_movable(model) && high <= 0)) return;
     diagnostics.warning(
         model.where,
-        fmt::format("'{}' is {:.3g} to {:.3g} m high up: nothing touches it and no ray meets it", model.name,
-                    low, high),
-        "the third number of a <pose> is the height, in m; the floor is at 0");
+        fmt::format("'{}' is {:.3g} to {:.3g} m above the floor: nothing touches it and no ray meets it",
+                    model.name, low, high),
+        "the third number of a <pose> is the height in m; the floor is at 0");
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace forage::bug {
 namespace {
 
-/// At most three decimals, no trailing zeros.
+/// At most three decimals, without trailing zeros.
 std::string number(double v) {
     std::string out = fmt::format("{:.3f}", v);
     out.erase(out.find_last_not_of('0') + 1);
@@ -33,15 +33,15 @@ std::string describe(const World& world) {
         with_resets += world.has_trials(i);
     }
     if (names.empty()) line("robot", "none");
-    std::size_t away = 0;
-    for (std::size_t i = 0; i < world.things(); ++i) {
-        if (const auto pose = world.thing_pose(i))
-            line(world.thing(i).resource ? "resource" : "loose",
-                 fmt::format("{} at {}", world.thing(i).name, at(*pose)));
+    std::size_t removed = 0;
+    for (std::size_t i = 0; i < world.movable_objects(); ++i) {
+        if (const auto pose = world.movable_object_pose(i))
+            line(world.movable_object(i).resource ? "resource" : "object",
+                 fmt::format("{} at {}", world.movable_object(i).name, at(*pose)));
         else
-            ++away;
+            ++removed;
     }
-    if (away) line("resource", fmt::format("{} that appear during the game", away));
+    if (removed) line("resource", fmt::format("{} that appear during the game", removed));
     const Game& game = world.game();
     if (!game.empty()) {
         for (int team = 0; team < 2; ++team) {
@@ -64,9 +64,9 @@ std::string describe(const World& world) {
                                    number(plan->bounds.max().y())));
     line("trials", !plan          ? "none: there are no start poses (models named Reset_0 to Reset_9)"
                    : !with_resets ? "none: no robot has the plugin libreset_plugin.so"
-                                  : "a robot that leaves the bounds is put back to a start");
-    line("time", fmt::format("{} s of the world per cycle", number(world.seconds_per_cycle())));
-    out += "  in m and rad; heading 0 looks along x, 1.571 along y\n";
+                                  : "a robot that leaves the bounds is reset to a start pose");
+    line("time", fmt::format("{} s of simulated time per cycle", number(world.seconds_per_cycle())));
+    out += "  in m and rad; heading 0 is along x, 1.571 along y\n";
     return out;
 }
 

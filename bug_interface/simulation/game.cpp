@@ -8,12 +8,13 @@
 namespace forage::bug {
 namespace {
 
-constexpr int steps_per_look = 101;  ///< the original skips 100
-constexpr int held_contacts = 100;
-constexpr double spread = 0.5;  ///< m, round a site
+constexpr int substeps_per_check = 101;  ///< the original skips 100
+constexpr int held_contacts = 100;       ///< between two checks; more mean that a resource is held
+constexpr double spread = 0.5;           ///< m around a site
 
-enum Draw : std::uint32_t { shuffle, chance, place };
-constexpr std::uint64_t before_all = ~std::uint64_t{0};
+/// Random numbers are indexed by the second and by their use.
+enum Draw : std::uint32_t { shuffle, chance, position };
+constexpr std::uint64_t site_draws = ~std::uint64_t{0};  ///< instead of a second
 
 }  // namespace
 
@@ -21,12 +22,12 @@ std::vector<GameSite> challenge_sites(const RandomStream& random) {
     constexpr std::array<std::pair<double, double>, 6> table = {
         {{-3, 3}, {0, 7.5}, {-6, 6}, {7.5, 4}, {10.5, 10.5}, {12, 4.5}}};
     const auto pick = [&](std::uint32_t draw, std::size_t first, std::size_t count) {
-        return table[first + static_cast<std::size_t>(random.uniform(before_all, 0, draw) *
+        return table[first + static_cast<std::size_t>(random.uniform(site_draws, 0, draw) *
                                                       static_cast<double>(count))];
     };
     const auto [ax, ay] = pick(0, 0, 4);
     const auto [bx, by] = pick(1, 3, 3);
-    const bool a_is_rich = random.uniform(before_all, 0, 2) < 0.5;
+    const bool a_is_rich = random.uniform(site_draws, 0, 2) < 0.5;
     const double a = a_is_rich ? 0.15 : 0.1, b = a_is_rich ? 0.1 : 0.15;
     return {{ax, ay, a}, {-ax, -ay, a}, {bx, by, b}, {-bx, -by, b}};
 }
@@ -39,85 +40,84 @@ Game::Game(std::optional<GameRules> rules, std::array<Pose2, 2> homes, std::vect
 
 void Game::begin(Physics& physics) {
     if (rules_)
-        for (Resource& r : resources_) take_away(physics, r);
+        for (Resource& r : resources_) remove(physics, r);
 }
 
-void Game::take_away(Physics& physics, Resource& r) {
-    physics.lift(r.thing);
-    r.away = true, r.held = false, r.age = 0, r.contacts = 0;
+void Game::remove(Physics& physics, Resource& r) {
+    physics.remove(r.body);
+    r.removed = true, r.held = false, r.age = 0, r.contacts = 0;
 }
 
 void Game::substep(Physics& physics, double time, double step) {
     if (over()) return;
-    for (Resource& r : resources_) r.contacts += physics.touches(r.thing);
-    if (++since_look_ >= steps_per_look) {
-        since_look_ = 0;
-        look(physics, time);
+    for (Resource& r : resources_) r.contacts += physics.robot_contacts(r.body);
+    if (++since_check_ >= substeps_per_check) {
+        since_check_ = 0;
+        check_resources(physics, time);
     }
     if (!rules_) return;
-    seconds_ += step;
+    elapsed_ += step;
     to_next_second_ -= step;
     if (to_next_second_ > step / 2) return;
     to_next_second_ += 1;
     if (over())
-        begin(physics);  // nothing is left to play with
+        begin(physics);  // removes all resources
     else
-        second(physics);
+        advance_second(physics);
 }
 
-void Game::look(Physics& physics, double time) {
+void Game::check_resources(Physics& physics, double time) {
     for (Resource& r : resources_) {
         r.held = std::exchange(r.contacts, 0) > held_contacts;
-        if (r.away) continue;
-        const Pose2& at = physics.pose(r.thing);
-        for (const int team : {1, 0}) {  // where homes overlap, B's counts
+        if (r.removed) continue;
+        const Pose2& at = physics.pose(r.body);
+        for (const int team : {1, 0}) {  // where the homes overlap, team B scores
             const Pose2& home = homes_[static_cast<std::size_t>(team)];
             if (std::hypot(at.x - home.x, at.y - home.y) >= home_radius) continue;
             const int points = !rules_ ? 1 : r.good ? rules_->points : rules_->penalty;
             deliveries_.push_back({time, team, r.good, points});
             if (rules_)
-                take_away(physics, r);
+                remove(physics, r);
             else
-                physics.place(r.thing, r.start);
+                physics.place(r.body, r.start);
             break;
         }
     }
 }
 
-void Game::second(Physics& physics) {
-    ++count_;
+void Game::advance_second(Physics& physics) {
+    ++seconds_begun_;
     for (Resource& r : resources_) {
-        if (r.away || r.held) continue;
+        if (r.removed || r.held) continue;
         ++r.age;
         if (r.age >= rules_->stale_after) r.good = false;
-        if (r.age >= rules_->dissolves_after) take_away(physics, r);
+        if (r.age >= rules_->dissolves_after) remove(physics, r);
     }
     std::vector<GameSite> sites = rules_->sites;
     for (std::size_t i = sites.size(); i > 1; --i)
-        std::swap(
-            sites[i - 1],
-            sites[static_cast<std::size_t>(random_.uniform(count_, static_cast<std::uint32_t>(i), shuffle) *
-                                           static_cast<double>(i))]);
+        std::swap(sites[i - 1], sites[static_cast<std::size_t>(
+                                    random_.uniform(seconds_begun_, static_cast<std::uint32_t>(i), shuffle) *
+                                    static_cast<double>(i))]);
     for (std::uint32_t i = 0; i < sites.size(); ++i)
-        if (random_.uniform(count_, i, chance) < sites[i].chance) appear(physics, sites[i], i);
+        if (random_.uniform(seconds_begun_, i, chance) < sites[i].chance) spawn(physics, sites[i], i);
 }
 
-/// Where somebody stands nothing appears.
-void Game::appear(Physics& physics, const GameSite& site, std::uint32_t draw) {
+/// Places a removed resource near a site, unless there is no such resource or the position is occupied.
+void Game::spawn(Physics& physics, const GameSite& site, std::uint32_t draw) {
     const auto free =
-        std::find_if(resources_.begin(), resources_.end(), [](const Resource& r) { return r.away; });
+        std::find_if(resources_.begin(), resources_.end(), [](const Resource& r) { return r.removed; });
     if (free == resources_.end()) return;
-    const double angle = 2 * std::numbers::pi * random_.uniform(count_, 2 * draw, place),
-                 radius = spread * random_.uniform(count_, 2 * draw + 1, place);
+    const double angle = 2 * std::numbers::pi * random_.uniform(seconds_begun_, 2 * draw, position),
+                 radius = spread * random_.uniform(seconds_begun_, 2 * draw + 1, position);
     const Pose2 at{site.x + radius * std::cos(angle), site.y + radius * std::sin(angle), 0};
-    if (!physics.has_room(free->thing, at)) return;
-    physics.place(free->thing, at);
-    free->away = false, free->good = true, free->held = false, free->age = 0, free->contacts = 0;
+    if (!physics.is_collision_free(free->body, at)) return;
+    physics.place(free->body, at);
+    free->removed = false, free->good = true, free->held = false, free->age = 0, free->contacts = 0;
 }
 
 double Game::left() const {
-    constexpr double rounding = 1e-6;  // s, of many steps
-    return rules_ && seconds_ < rules_->duration - rounding ? rules_->duration - seconds_ : 0;
+    constexpr double rounding = 1e-6;  // s; the accumulated error of many steps
+    return rules_ && elapsed_ < rules_->duration - rounding ? rules_->duration - elapsed_ : 0;
 }
 
 int Game::points(int team) const {

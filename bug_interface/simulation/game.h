@@ -1,4 +1,4 @@
-// Two teams that collect resources: the robotics challenge's game, its score and its clock.
+// The game of the robotics challenge: two teams collect resources; its score and its clock.
 #pragma once
 
 #include <array>
@@ -13,78 +13,79 @@
 
 namespace forage::bug {
 
-/// A resource that has been brought home.
+/// A resource that was brought to a home.
 struct Delivery {
-    double time = 0;  ///< s of the world
-    int team = 0;     ///< 0: A, 1: B
-    bool good = true;
+    double time = 0;   ///< simulated time, s
+    int team = 0;      ///< 0 for A, 1 for B
+    bool good = true;  ///< blue; else yellow
     int points = 0;
     void checkpoint(Archive& archive) { archive(time, team, good, points); }
 };
 
-/// Resources are loose things with the target plugin. In every 101st substep each one is looked at: at a home
-/// (its middle within 3 m) it counts for that team, at both homes for B, and goes back to where it came from;
-/// with more than 100 contacts with robots since the last look it is held.
+/// Resources are movable objects with the target plugin. In every 101st substep each resource is checked.
+/// When its centre is within 3 m of a home it counts for that team (for B when it is at both homes) and
+/// returns to its start pose. It is held when it had more than 100 contacts with robots since the last check.
 ///
-/// With rules there is a clock, and once a second every resource that nobody holds grows older, turns bad
-/// (yellow), dissolves, and new good ones (blue) appear at the sites. Resources that are not in the game are
-/// away, where the original hid them in the central pillar; so are all when the time is over.
+/// With rules there is a clock. Once per second every resource that is not held ages; old ones turn bad
+/// (yellow) and dissolve, and new good ones (blue) appear at the sites. Resources that are not in play, and
+/// all resources when the time is over, are removed from the physics; the original hid them in the central
+/// pillar.
 class Game {
   public:
     struct Resource {
-        std::size_t thing = 0;  ///< its number among the bodies
-        Pose2 start;            ///< where it goes back to
-        bool away = false, good = true, held = false;
+        std::size_t body = 0;  ///< number among the bodies
+        Pose2 start;           ///< where it returns to without rules
+        bool removed = false, good = true, held = false;
         int age = 0;       ///< s
-        int contacts = 0;  ///< since the last look
-        void checkpoint(Archive& archive) { archive(start, away, good, held, age, contacts); }
+        int contacts = 0;  ///< with robots, since the last check
+        void checkpoint(Archive& archive) { archive(start, removed, good, held, age, contacts); }
     };
 
     Game() = default;
-    /// `homes`: of team A and B, m. `rules`: none for a world whose resources only go home.
+    /// `homes`: of team A and B, m. Without `rules`, resources only count at the homes.
     Game(std::optional<GameRules> rules, std::array<Pose2, 2> homes, std::vector<Resource> resources,
          std::uint64_t seed);
 
-    /// Takes all resources away, where rules let them appear. Before the first substep.
+    /// Called before the first substep. With rules, all resources are removed until they appear at a site.
     void begin(Physics& physics);
-    /// After each substep; `time`: s of the world, `step`: duration of a substep, s.
+    /// Called after each substep. `time`: simulated time, s; `step`: duration of the substep, s.
     void substep(Physics& physics, double time, double step);
 
     bool empty() const { return resources_.empty(); }
     bool timed() const { return rules_.has_value(); }
     bool over() const { return rules_ && left() == 0; }
-    double left() const;  ///< s
+    double left() const;  ///< remaining time, s
     const std::vector<Resource>& resources() const { return resources_; }
     const std::vector<Delivery>& deliveries() const { return deliveries_; }
     const std::array<Pose2, 2>& homes() const { return homes_; }
     /// "A" or "B".
     static std::string team_name(int team) { return team == 0 ? "A" : "B"; }
     int points(int team) const;
-    int delivered(int team, bool good) const;
+    int delivered(int team, bool good) const;  ///< number of resources
 
     void checkpoint(Archive& archive) {
-        archive(resources_, deliveries_, since_look_, seconds_, to_next_second_, count_);
+        archive(resources_, deliveries_, since_check_, elapsed_, to_next_second_, seconds_begun_);
     }
 
     static constexpr double home_radius = 3;  ///< m
 
   private:
-    void look(Physics& physics, double time);
-    void second(Physics& physics);
-    void appear(Physics& physics, const GameSite& site, std::uint32_t draw);
-    void take_away(Physics& physics, Resource& resource);
+    void check_resources(Physics& physics, double time);
+    void advance_second(Physics& physics);
+    void spawn(Physics& physics, const GameSite& site, std::uint32_t draw);
+    void remove(Physics& physics, Resource& resource);
 
     std::optional<GameRules> rules_;
     std::array<Pose2, 2> homes_{};
     std::vector<Resource> resources_;
     std::vector<Delivery> deliveries_;
     RandomStream random_;
-    int since_look_ = 0;
-    double seconds_ = 0, to_next_second_ = 1;
-    std::uint64_t count_ = 0;  ///< seconds begun
+    int since_check_ = 0;                      ///< substeps
+    double elapsed_ = 0, to_next_second_ = 1;  ///< s
+    std::uint64_t seconds_begun_ = 0;
 };
 
-/// The sites of the challenge: two, drawn from its table, and their reflections.
+/// The sites of the challenge: two that are drawn from its table, and their reflections about the centre.
 std::vector<GameSite> challenge_sites(const RandomStream& random);
 
 }  // namespace forage::bug

@@ -1,4 +1,4 @@
-// Which heights things reach: they touch where they share some.
+// The layers of Physics: ranges of heights. Shapes can touch only where they share heights.
 #pragma once
 
 #include <utility>
@@ -9,15 +9,16 @@
 
 namespace forage::bug {
 
-/// The layers of Physics: a layer is a range of heights that some shape reaches over.
+/// Assigns layers to shapes. A layer is a range of heights that some shape extends over.
 class Heights {
   public:
-    /// The layer of what reaches from `low` to `high`, m; a new one when there is none yet. When there are
-    /// too many, an error at `where`, once.
+    /// The layer of a shape that extends from `low` to `high` (m); a new one when no layer has this range.
+    /// Reports an error at `where` the first time that there are more than max_layers.
     int layer(double low, double high, const Location& where, Diagnostics& diagnostics);
-    /// For each layer those that share heights with it.
-    std::vector<LayerMask> meets() const;
-    const std::vector<std::pair<double, double>>& ranges() const { return ranges_; }  ///< of each layer
+    /// For each layer, the layers that share at least 1 mm of heights with it.
+    std::vector<LayerMask> collision_masks() const;
+    /// The lower and the upper limit of each layer, m.
+    const std::vector<std::pair<double, double>>& ranges() const { return ranges_; }
 
   private:
     std::vector<std::pair<double, double>> ranges_;

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "bug_interface/simulation/surroundings.h"
+#include "bug_interface/simulation/world_queries.h"
 
 namespace forage::bug {
 
@@ -16,187 +16,63 @@ Pose in_space(const Pose2& pose) {
     return out;
 }
 
-Robot::Robot(const Model& model, std::size_t number_, std::uint64_t seed_, Heights& heights,
+Robot::Robot(const Model& model, std::size_t robot_number, std::uint64_t seed, bool noise, Heights& heights,
              Diagnostics& diagnostics)
-    : name(model.name), number(number_), seed(seed_), pose(in_plane(model.pose)) {
+    : name(model.name),
+      number(robot_number),
+      pose(in_plane(model.pose)),
+      motor_noise(robot_stream(seed, name, RobotStream::motor_noise)),
+      sensors(*robot_link(model), name, number, seed, noise) {
     const Link& link = *robot_link(model);
-    link_pose = link.pose;
-    range_sensors = link.range_sensors;
-    if (!link.cameras.empty()) camera_sensor = link.cameras.front();
-    motor_random = random(motor_noise);
-    image_random = random(image_noise);
-
-    const auto shape = std::find_if(link.collisions.begin(), link.collisions.end(),
-                                    [](const Collision& c) { return c.shape.kind == ShapeKind::cylinder; });
-    if (shape == link.collisions.end()) {
+    const auto disc = std::find_if(link.collisions.begin(), link.collisions.end(),
+                                   [](const Collision& c) { return c.shape.kind == ShapeKind::cylinder; });
+    if (disc == link.collisions.end()) {
         diagnostics.error(link.where,
                           fmt::format("the body of robot '{}' has no cylinder as its collision shape", name),
-                          "robots are upright cylinders here");
+                          "the body of a robot must be an upright cylinder");
         return;
     }
-    const Pose body_pose = link.pose * shape->pose;
-    if (body_pose.translation().head<2>().norm() > 1e-6 || body_pose.linear()(2, 2) < 1 - 1e-6)
+    const Pose disc_pose = link.pose * disc->pose;
+    if (disc_pose.translation().head<2>().norm() > 1e-6 || disc_pose.linear()(2, 2) < 1 - 1e-6)
         diagnostics.error(
-            shape->where,
+            disc->where,
             fmt::format("the body of robot '{}' does not stand upright on its model's origin", name));
     const auto layer_of = [&](const Solid& solid, const Location& where) {
-        const double middle = solid.pose.translation().z(), half = solid.size.z() / 2;
-        return heights.layer(middle - half, middle + half, where, diagnostics);
+        const double centre = solid.pose.translation().z(), half = solid.size.z() / 2;
+        return heights.layer(centre - half, centre + half, where, diagnostics);
     };
-    const Solid body_solid{ShapeKind::cylinder, body_pose, shape->shape.size};
-    body.radius = shape->shape.size.x() / 2, body.mass = link.mass, body.inertia = link.inertia_z;
-    body.friction = shape->friction, body.layer = layer_of(body_solid, shape->where);
+    body.radius = disc->shape.size.x() / 2, body.mass = link.mass, body.inertia = link.inertia_z;
+    body.friction = disc->friction;
+    body.layer = layer_of({ShapeKind::cylinder, disc_pose, disc->shape.size}, disc->where);
 
-    for (const bug::Limb& limb : limbs_of(model, hinges)) {
-        for (const Collision& c : limb.link->collisions) {
+    for (const RobotLink& robot_part : links_of(model, hinges)) {
+        for (const Collision& c : robot_part.link->collisions) {
             if (c.shape.kind == ShapeKind::plane) continue;
-            const Solid solid{c.shape.kind, limb.home * c.pose, c.shape.size};
-            const bool of_body = &c == &*shape;
-            solids.push_back({number, limb.hinge, solid, of_body});
-            if (of_body) continue;
-            const auto outline = cut(solid, solid.pose.translation().z());
+            const Solid solid{c.shape.kind, robot_part.home * c.pose, c.shape.size};
+            const bool is_central_disc = &c == &*disc;
+            solids.push_back({number, robot_part.hinge, solid, is_central_disc});
+            if (is_central_disc) continue;
+            const auto outline = cross_section(solid, solid.pose.translation().z());
             const int layer = layer_of(solid, c.where);
             if (!outline) continue;
-            limbs.push_back({*outline, limb.hinge});
+            parts.push_back({number, robot_part.hinge, *outline});
             body.parts.push_back({*outline, layer, c.friction});
         }
-        for (const Visual& v : limb.link->visuals)
+        for (const Visual& v : robot_part.link->visuals)
             if (v.shape.kind != ShapeKind::plane)
-                sights.push_back({number,
-                                  limb.hinge,
-                                  limb.home * v.pose,
-                                  {{v.shape.kind, Pose::Identity(), v.shape.size}, v.material},
-                                  limb.link == &link});
+                visuals.push_back({number,
+                                   robot_part.hinge,
+                                   robot_part.home * v.pose,
+                                   {{v.shape.kind, Pose::Identity(), v.shape.size}, v.material},
+                                   robot_part.link == &link});
     }
-}
-
-void Robot::surround(std::span<const Solid> still, std::span<const MovingSolid> moving, double step) {
-    const auto make = [&](std::string_view sensor, Stream use,
-                          std::vector<double>& cells) -> std::optional<Scan> {
-        const auto found = std::find_if(range_sensors.begin(), range_sensors.end(),
-                                        [&](const RangeSensor& s) { return s.name == sensor; });
-        if (found == range_sensors.end()) return {};
-        Scan scan{RangeScanner(*found, link_pose),
-                  random(use),
-                  SensorClock(found->rate, step),
-                  0,
-                  {},
-                  {},
-                  std::vector<double>(static_cast<std::size_t>(found->rays))};
-        for (const Solid& solid : still)
-            if (const auto outline = cut(solid, scan.scanner.height())) scan.around.push_back(*outline);
-        for (const MovingSolid& m : moving)
-            if (const auto outline = cut(m.solid, scan.scanner.height());
-                outline && !(m.body == number && m.of_body))
-                scan.moving.push_back({m.body, m.hinge, *outline});
-        scan.still = scan.around.size();
-        scan.around.reserve(scan.still + scan.moving.size());
-        cells.assign(scan.ranges.size(), 0);
-        return scan;
-    };
-    proximity = make("laser", proximity_noise, snapshot.proximity);
-    target = make("laser_target", target_noise, snapshot.target);
-    gripper = make("laser_gripper", gripper_noise, snapshot.gripper);
-    if (!camera_sensor) return;
-    camera_clock.emplace(camera_sensor->rate, step);
-    snapshot.image_width = camera_sensor->width, snapshot.image_height = camera_sensor->height;
-}
-
-void Robot::Scan::run(const Pose2& body, std::uint64_t sample, bool with_noise, const Stage& stage,
-                      std::span<double> cells) {
-    around.resize(still);
-    std::size_t framed = stage.bodies.size();
-    Frame frame(0, 0, 1, 0);
-    const double farthest = scanner.farthest();
-    for (const MovingOutline& m : moving) {
-        if (!stage.present[m.body]) continue;
-        const Pose2& there = stage.bodies[m.body];
-        const double near = farthest + m.far(stage), dx = there.x - body.x, dy = there.y - body.y;
-        if (dx * dx + dy * dy > near * near) continue;
-        if (framed != m.body) framed = m.body, frame = Frame(there);
-        around.push_back(m.at(stage, frame));
-    }
-    scanner.scan(body, around, ranges);
-    if (with_noise) scanner.add_noise(ranges, noise, sample);
-    scanner.to_activity(ranges, cells);
 }
 
 void Robot::checkpoint(Archive& archive) {
     archive.same(name, "a robot");
-    archive(pose, command, hinges, voice);
+    archive(pose, command, hinges, transceiver);
     if (reset) archive(*reset);
-    archive(*trials, snapshot, history);
-    for (std::optional<Scan>* scan : {&proximity, &target, &gripper})
-        if (*scan) archive((*scan)->clock);
-    if (!wants_image) return;  // no module looks: what a film sees decides nothing
-    archive(snapshot.image, rendered);
-    if (camera_clock) archive(*camera_clock);
-    for (BugSnapshot& s : history) archive(s.image);
-}
-
-void Robot::sense(bool with_noise, std::uint64_t sample, const Stage& stage) {
-    snapshot.pose = pose;
-    if (proximity) proximity->run(pose, sample, with_noise, stage, snapshot.proximity);
-    if (target) target->run(pose, sample, with_noise, stage, snapshot.target);
-    if (gripper && wants_gripper_scan) gripper->run(pose, sample, with_noise, stage, snapshot.gripper);
-}
-
-bool Robot::due(double now) const {
-    const auto is_due = [&](const std::optional<Scan>& scan) { return scan && scan->clock.due(now); };
-    return !proximity || is_due(proximity) || is_due(target) || (wants_gripper_scan && is_due(gripper)) ||
-           (wants_image && camera_clock && camera_clock->due(now));
-}
-
-void Robot::sense_due(double now, bool with_noise, const Stage& stage, std::span<const MovingSight> all) {
-    const auto look = [&](std::optional<Scan>& scan, std::vector<double>& cells) {
-        if (!scan || !scan->clock.due(now)) return false;
-        scan->run(pose, scan->clock.look(now), with_noise, stage, cells);
-        return true;
-    };
-    if (look(proximity, snapshot.proximity) || !proximity) snapshot.pose = pose;
-    look(target, snapshot.target);
-    if (wants_gripper_scan) look(gripper, snapshot.gripper);
-    if (wants_image && camera_clock && camera_clock->due(now))
-        render(with_noise, camera_clock->look(now), stage, all);
-}
-
-void Robot::make_camera(std::shared_ptr<const Scene> scene) {
-    if (!camera_sensor || camera) return;
-    camera.emplace(*camera_sensor, link_pose, std::move(scene));
-    const auto values =
-        3 * static_cast<std::size_t>(camera->width()) * static_cast<std::size_t>(camera->height());
-    picture_.resize(values);
-    snapshot.image.resize(values);
-}
-
-void Robot::render(bool with_noise, std::uint64_t sample, const Stage& stage,
-                   std::span<const MovingSight> all) {
-    if (!camera || rendered == sample) return;
-    take_picture(with_noise, sample, stage, all, snapshot.image);
-    rendered = sample;
-}
-
-std::span<const std::uint8_t> Robot::view(bool with_noise, std::uint64_t sample, const Stage& stage,
-                                          std::span<const MovingSight> all) {
-    if (!camera) return {};
-    view_.resize(picture_.size());
-    take_picture(with_noise, sample, stage, all, view_);
-    return view_;
-}
-
-void Robot::take_picture(bool with_noise, std::uint64_t sample, const Stage& stage,
-                         std::span<const MovingSight> all, std::vector<std::uint8_t>& out) {
-    moving_.clear();
-    for (const MovingSight& sight : all)
-        if (!(sight.body == number && sight.of_body) && stage.present[sight.body])
-            moving_.push_back(&sight.visual);
-    camera->render(pose, moving_, picture_);
-    if (with_noise) {
-        camera->quantise(picture_, out, image_random, sample);
-    } else {
-        for (std::size_t i = 0; i < picture_.size(); ++i)
-            out[i] = static_cast<std::uint8_t>(std::clamp(picture_[i], 0.0f, 1.0f) * 255 + 0.5f);
-    }
+    archive(*trials, sensors);
 }
 
 void Robot::move_gripper(Physics& physics, double step) {
@@ -204,12 +80,13 @@ void Robot::move_gripper(Physics& physics, double step) {
         const double before = hinges[h].angle, after = hinges.next(h, step);
         if (after == before) continue;
         hinges.set(h, after);
-        swung_.clear();
-        for (std::size_t l = 0; l < limbs.size(); ++l)
-            if (hinges.turns_with(limbs[l].hinge, static_cast<int>(h)))
-                swung_.emplace_back(
-                    l, moved(limbs[l].home, hinges.frame(static_cast<std::size_t>(limbs[l].hinge))));
-        if (!physics.swing(number, swung_)) hinges.set(h, before);
+        turned_.clear();
+        for (std::size_t p = 0; p < parts.size(); ++p) {
+            if (!hinges.turns_with(parts[p].hinge, static_cast<int>(h))) continue;
+            const Pose2 displacement = hinges.displacement(static_cast<std::size_t>(parts[p].hinge));
+            turned_.emplace_back(p, Transform2(displacement) * parts[p].outline);
+        }
+        if (!physics.rotate_parts(number, turned_)) hinges.set(h, before);
     }
 }
 

@@ -1,4 +1,4 @@
-// When sensors look that have rates of their own.
+// The sample times of a sensor that has a rate of its own.
 #pragma once
 
 #include <cmath>
@@ -8,15 +8,16 @@
 
 namespace forage::bug {
 
-/// Look n is due at n * period; look 0 is taken at the start.
+/// Sample n is due at time n * period. Sample 0 is taken at the start.
 class SensorClock {
   public:
-    /// `rate`: looks per second of the world, 0: as many as there are steps of `step` s.
+    /// `rate`: samples per second of simulated time; 0 means one sample per time step of `step` s.
     SensorClock(double rate, double step) : period_(rate > 0 ? 1 / rate : step) {}
 
-    bool due(double now) const { return number(now) > last_; }  ///< `now`: s of the world
-    /// The look that is due: its number, by which its noise is drawn.
-    std::uint64_t look(double now) { return last_ = number(now); }
+    /// Whether a sample is due at `now`, s of simulated time.
+    bool due(double now) const { return number(now) > last_; }
+    /// Takes the sample that is due at `now`. Returns its number, which selects its noise.
+    std::uint64_t sample(double now) { return last_ = number(now); }
 
     void checkpoint(Archive& archive) { archive(last_); }
 
@@ -24,8 +25,8 @@ class SensorClock {
     std::uint64_t number(double now) const {
         return static_cast<std::uint64_t>(std::floor((now + 1e-9) / period_));
     }
-    double period_;
-    std::uint64_t last_ = 0;
+    double period_;           ///< s
+    std::uint64_t last_ = 0;  ///< number of the last sample
 };
 
 }  // namespace forage::bug

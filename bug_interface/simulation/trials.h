@@ -1,4 +1,4 @@
-// Follows a robot from reset to reset.
+// Records the trials of a robot, from reset to reset.
 #pragma once
 
 #include <algorithm>
@@ -13,38 +13,39 @@
 
 namespace forage::bug {
 
-/// One robot's trials.
+/// Records the trials of one robot.
 class TrialLog {
   public:
-    /// A robot (radius 0.2 m) whose centre comes nearer than this to the centre of a target (radius 0.25 m) has
-    /// reached it, m.
+    /// Distance between the centres of a robot (radius 0.2 m) and a target (radius 0.25 m) below which the
+    /// target is reached, m.
     static constexpr double reach = 0.45;
 
+    /// `targets`: the centres of the targets, m.
     explicit TrialLog(std::vector<Eigen::Vector2d> targets) : targets_(std::move(targets)) {}
 
-    /// `cycle`: the first one in which the robot is driven.
+    /// Begins a trial. `cycle`: the first one in which the robot is driven.
     void begin(const Pose2& start, std::uint64_t cycle);
-    /// To be called after every substep of a trial.
+    /// Updates the smallest distance; called after every substep of a trial.
     void follow(const Pose2& pose) {
         for (const Eigen::Vector2d& t : targets_) {
             const double dx = pose.x - t.x(), dy = pose.y - t.y();
             smallest_squared_ = std::min(smallest_squared_, dx * dx + dy * dy);
         }
     }
-    /// In place of many substeps, of a way from one place to another that is nearly straight.
+    /// Updates the smallest distance for a path that is nearly straight; replaces the calls of many substeps.
     void follow(const Pose2& from, const Pose2& to) {
-        const Eigen::Vector2d start(from.x, from.y), way = Eigen::Vector2d(to.x, to.y) - start;
+        const Eigen::Vector2d start(from.x, from.y), path = Eigen::Vector2d(to.x, to.y) - start;
         for (const Eigen::Vector2d& t : targets_) {
-            const double length = way.squaredNorm();
-            const double part = length > 0 ? std::clamp((t - start).dot(way) / length, 0.0, 1.0) : 0;
-            smallest_squared_ = std::min(smallest_squared_, (start + part * way - t).squaredNorm());
+            const double length = path.squaredNorm();
+            const double fraction = length > 0 ? std::clamp((t - start).dot(path) / length, 0.0, 1.0) : 0;
+            smallest_squared_ = std::min(smallest_squared_, (start + fraction * path - t).squaredNorm());
         }
     }
-    /// `done`: how many cycles have begun since the start of the run.
+    /// Ends the trial. `done`: number of cycles that have begun since the start of the run.
     void finish(const Pose2& end, std::uint64_t done);
 
     const std::vector<Trial>& finished() const { return finished_; }
-    /// The trial that runs now, after `done` cycles; while the robot is reset, the one to come.
+    /// The unfinished trial after `done` cycles. During a reset it is the next one, which has not begun.
     Trial current(const Pose2& pose, std::uint64_t done) const;
     void checkpoint(Archive& archive) { archive(finished_, current_, running_, smallest_squared_); }
 
@@ -53,7 +54,7 @@ class TrialLog {
     std::vector<Trial> finished_;
     Trial current_;
     bool running_ = false;
-    double smallest_squared_ = std::numeric_limits<double>::infinity();
+    double smallest_squared_ = std::numeric_limits<double>::infinity();  ///< m^2
 };
 
 }  // namespace forage::bug

@@ -9,15 +9,15 @@
 namespace forage::bug {
 namespace {
 
-constexpr double speed_noise = 0.005;  ///< the velocity plugin adds up to this, m/s and rad/s
+constexpr double speed_noise = 0.005;  ///< m/s and rad/s; the velocity plugin adds at most this
 
-/// Draws of whole control steps, apart from those of substeps.
-constexpr std::uint64_t first_free = std::uint64_t{1} << 62;
+/// Random numbers of whole control steps have other indices than those of substeps.
+constexpr std::uint64_t first_free_index = std::uint64_t{1} << 62;
 
 }  // namespace
 
 std::uint64_t World::substeps_before(std::uint64_t cycle) const {
-    // 80 substeps per cycle may be 79.999999 in floating point.
+    // The tolerance compensates rounding errors: 80 substeps per cycle may be 79.999999.
     return static_cast<std::uint64_t>(std::floor(static_cast<double>(cycle) * substeps_per_cycle_ + 1e-4));
 }
 
@@ -27,7 +27,7 @@ void World::step() {
     render();
 }
 
-/// A substep, in the original's order: the velocity plugin, the reset plugin, then the motion, then the
+/// The order within a substep is that of the original: the velocity plugin, the reset plugin, the motion, the
 /// targets.
 void World::advance_bodies() {
     const std::uint64_t last = substeps_before(cycle_ + 1);
@@ -41,41 +41,44 @@ void World::advance_bodies() {
         for (std::size_t i = 0; i < robots_.size(); ++i)
             if (!resetting(i)) robots_[i].trials->follow(physics_->pose(i));
         if (!game_.empty()) game_.substep(*physics_, time() + description_.step, description_.step);
-        if (options_.native_rates) sense_when_due();
+        if (options_.sensor_rates) sense_due();
     }
-    set_stage();
+    update_body_poses();
     ++cycle_;
 }
 
+/// Sets the command of the current substep.
 void World::drive(std::size_t bug) {
     Robot& robot = robots_[bug];
-    if (in_reset(bug)) {
+    if (update_reset(bug)) {
         drives_[bug] = {};
         return;
     }
     drives_[bug] = robot.command;
     if (!options_.noise) return;
     std::array<double, 2> u{};
-    robot.motor_random.uniform(substep_, u);
+    robot.motor_noise.uniform(substep_, u);
     drives_[bug].forward += (2 * u[0] - 1) * speed_noise;
     drives_[bug].turn += (2 * u[1] - 1) * speed_noise;
 }
 
+/// Simulates all substeps before number `last` at once. Returns false, and does nothing, when a robot may
+/// touch something or when the substeps matter for another reason.
 bool World::drive_freely(std::uint64_t last) {
-    if (options_.native_rates || !game_.empty()) return false;  // somebody looks in between
+    if (options_.sensor_rates || !game_.empty()) return false;  // these depend on every substep
     const std::uint64_t steps = last - substep_;
     const double seconds = static_cast<double>(steps) * description_.step,
                  noise = options_.noise ? speed_noise : 0;
-    for (int pass = 0; pass < 2; ++pass)  // what one robot measures may leave less room for another one
+    for (int pass = 0; pass < 2; ++pass)  // a measurement for one robot may reduce the clearance of another
         for (std::size_t i = 0; i < robots_.size(); ++i)
-            if (!is_free(i, seconds)) return false;
+            if (!can_drive_freely(i, seconds)) return false;
     for (std::size_t i = 0; i < robots_.size(); ++i) {
         Robot& robot = robots_[i];
         const MotorCommand& command = robot.command;
         const Pose2 from = physics_->pose(i);
         physics_->drive_freely(i,
-                               free_drive(from, command, steps, description_.step, noise, robot.motor_random,
-                                          first_free + cycle_),
+                               free_drive(from, command, steps, description_.step, noise, robot.motor_noise,
+                                          first_free_index + cycle_),
                                command, (std::abs(command.forward) + noise) * seconds,
                                (std::abs(command.turn) + noise) * seconds);
         robot.trials->follow(from, physics_->pose(i));
@@ -83,14 +86,13 @@ bool World::drive_freely(std::uint64_t last) {
     return true;
 }
 
-/// Whether a robot will do nothing but drive for some seconds, too far from its target for the substeps to
-/// matter.
-bool World::is_free(std::size_t bug, double seconds) {
+/// Whether a robot will only drive for `seconds`, far enough from all targets for the substeps not to matter.
+bool World::can_drive_freely(std::size_t bug, double seconds) {
     constexpr double near_target = 1;  ///< m
     Robot& robot = robots_[bug];
     const double travel = (std::abs(robot.command.forward) + speed_noise) * seconds,
                  turn = (std::abs(robot.command.turn) + speed_noise) * seconds;
-    if (resetting(bug) || !robot.hinges.empty() || !(turn < longest_free_turn)) return false;
+    if (resetting(bug) || !robot.hinges.empty() || !(turn < max_free_turn)) return false;
     const Eigen::Vector2d at(physics_->pose(bug).x, physics_->pose(bug).y);
     if (robot.reset) {
         const Eigen::AlignedBox2d& bounds = robot.reset->plan().bounds;
@@ -102,7 +104,8 @@ bool World::is_free(std::size_t bug, double seconds) {
     return physics_->can_drive_freely(bug, travel, turn);
 }
 
-bool World::in_reset(std::size_t bug) {
+/// Applies the reset rule in one substep. Returns true when the robot is not driven.
+bool World::update_reset(std::size_t bug) {
     Robot& robot = robots_[bug];
     if (!robot.reset) return false;
     switch (robot.reset->substep(physics_->pose(bug))) {
@@ -110,12 +113,12 @@ bool World::in_reset(std::size_t bug) {
             return false;
         case Reset::Phase::begin:
             robot.trials->finish(physics_->pose(bug), cycle_ + 1);
-            physics_->lift(bug);
+            physics_->remove(bug);
             return true;
         case Reset::Phase::hold:
             return true;
         case Reset::Phase::end:
-            physics_->place(bug, robot.reset->start());
+            physics_->place(bug, robot.reset->start_pose());
             robot.trials->begin(physics_->pose(bug),
                                 substep_ + 1 < substeps_before(cycle_ + 1) ? cycle_ : cycle_ + 1);
             return true;
@@ -123,31 +126,32 @@ bool World::in_reset(std::size_t bug) {
     return true;
 }
 
-/// Where everything is now. A robot that is being reset shows up somewhere.
-void World::set_stage() {
+/// A robot that is being reset is observed at a random start pose.
+void World::update_body_poses() {
     for (std::size_t i = 0; i < robots_.size(); ++i) {
         Robot& robot = robots_[i];
-        stage_.bodies[i] = robot.pose = resetting(i) ? robot.reset->glimpse() : physics_->pose(i);
-        for (std::size_t h = 0; h < robot.hinges.size(); ++h) stage_.hinges[i][h] = robot.hinges.frame(h);
+        body_poses_.bodies[i] = robot.pose = resetting(i) ? robot.reset->reset_pose() : physics_->pose(i);
+        for (std::size_t h = 0; h < robot.hinges.size(); ++h)
+            body_poses_.hinges[i][h] = robot.hinges.displacement(h);
     }
     for (std::size_t i = robots_.size(); i < bodies_.size(); ++i) {
-        stage_.bodies[i] = physics_->pose(i);
-        stage_.present[i] = physics_->present(i);
+        body_poses_.bodies[i] = physics_->pose(i);
+        body_poses_.present[i] = physics_->present(i);
     }
-    sights_placed_ = false;
+    visuals_placed_ = false;
     if (description_.game) colour_resources();
 }
 
-/// Good ones have their own colour, bad ones are yellow.
+/// Good resources have their own colour; bad ones are yellow.
 void World::colour_resources() {
     static const Material bad = *named_material("Gazebo/Yellow");
     for (const Game::Resource& r : game_.resources()) {
-        std::size_t part = 0;
-        for (MovingSight& sight : sights_) {
-            if (sight.body != r.thing) continue;
-            sight.visual.material =
-                r.good ? things_[r.thing - robots_.size()].sights[part].visual.material : bad;
-            ++part;
+        std::size_t visual = 0;  // of this resource
+        for (MovingVisual& moving : moving_visuals_) {
+            if (moving.body != r.body) continue;
+            moving.visual.material =
+                r.good ? movable_objects_[r.body - robots_.size()].visuals[visual].visual.material : bad;
+            ++visual;
         }
     }
 }
@@ -163,8 +167,8 @@ void World::checkpoint(Archive& archive) {
     archive.same(robots_.size(), "the number of robots");
     archive(cycle_, substep_);
     for (Robot& robot : robots_) robot.checkpoint(archive);
-    archive(stage_, game_, *physics_);
-    sights_placed_ &= !archive.loading();
+    archive(body_poses_, game_, *physics_);
+    visuals_placed_ &= !archive.loading();
     if (archive.loading() && description_.game) colour_resources();
 }
 

@@ -11,7 +11,7 @@
 namespace forage::bug {
 namespace {
 
-/// The challenge's resource: a blue ball.
+/// A resource of the challenge: a blue ball.
 Model resource(int number) {
     Model model;
     model.name = fmt::format("resource_{}", number);
@@ -26,14 +26,14 @@ Model resource(int number) {
     return model;
 }
 
-/// The top of all robots and their ray sensors, m; 0 without any.
-double highest(const std::vector<Robot>& robots) {
+/// The highest point of the robots and their ray sensors, m; 0 without robots.
+double highest_point(const std::vector<Robot>& robots) {
     double top = 0;
     for (const Robot& robot : robots) {
         for (const MovingSolid& s : robot.solids)
             top = std::max(top, s.solid.pose.translation().z() + s.solid.size.z() / 2);
-        for (const RangeSensor& s : robot.range_sensors)
-            top = std::max(top, (robot.link_pose * s.pose).translation().z());
+        for (const RangeSensor& s : robot.sensors.range_sensors())
+            top = std::max(top, (robot.sensors.link_pose() * s.pose).translation().z());
     }
     return top;
 }
@@ -72,93 +72,91 @@ bool World::build(Diagnostics& diagnostics) {
     targets_ = targets_of(description_);
     for (const Model& model : description_.models)
         if (robot_link(model)) add_robot(model, diagnostics);
-    add_things(diagnostics);
+    add_movable_objects(diagnostics);
     if (diagnostics.errors() > errors_before) return false;
-    check_places(description_, plan_, highest(robots_), diagnostics);
+    check_places(description_, plan_, highest_point(robots_), diagnostics);
 
     for (const Robot& robot : robots_) bodies_.push_back(robot.body);
-    std::rotate(bodies_.begin(), bodies_.begin() + static_cast<std::ptrdiff_t>(things_.size()),
+    std::rotate(bodies_.begin(), bodies_.begin() + static_cast<std::ptrdiff_t>(movable_objects_.size()),
                 bodies_.end());
     physics_ = std::make_unique<Physics>(obstacles_of(description_, heights_), bodies_, description_.step,
-                                         Physics::Contacts::when_near, heights_.meets());
+                                         Physics::Contacts::when_near, heights_.collision_masks());
     drives_.resize(bodies_.size());
-    stage_.bodies.resize(bodies_.size()), stage_.present.assign(bodies_.size(), 1);
-    stage_.hinges.resize(bodies_.size());
-    for (std::size_t i = 0; i < robots_.size(); ++i) stage_.hinges[i].resize(robots_[i].hinges.size());
-    place_all(diagnostics);
+    body_poses_.bodies.resize(bodies_.size()), body_poses_.present.assign(bodies_.size(), 1);
+    body_poses_.hinges.resize(bodies_.size());
+    for (std::size_t i = 0; i < robots_.size(); ++i) body_poses_.hinges[i].resize(robots_[i].hinges.size());
+    place_bodies(diagnostics);
     add_game();
-    surround();
+    add_sensors();
     for (std::size_t i = 0; i < robots_.size(); ++i) {
         Robot& robot = robots_[i];
         robot.pose = physics_->pose(i);
         robot.trials->begin(robot.pose, 0);
-        robot.voice.heard.assign(robots_.size(), {});
-        voices_.push_back(&robot.voice);
+        robot.transceiver.received.assign(robots_.size(), {});
+        transceivers_.push_back(&robot.transceiver);
         by_name_.push_back(i);
     }
     std::sort(by_name_.begin(), by_name_.end(),
               [&](std::size_t a, std::size_t b) { return robots_[a].name < robots_[b].name; });
-    set_stage();
+    update_body_poses();
     return true;
 }
 
-/// Everything where the file has it, with a word about what cannot be there.
-void World::place_all(Diagnostics& diagnostics) {
+/// Places all bodies at their start poses. Warns about bodies that overlap others and about occupied sites.
+void World::place_bodies(Diagnostics& diagnostics) {
     const auto warn = [&](const std::string& name, std::string_view what) {
-        const auto model = std::find_if(description_.models.begin(), description_.models.end(),
-                                        [&](const Model& m) { return m.name == name; });
-        if (model != description_.models.end())
+        if (const Model* model = find_model(description_, name))
             diagnostics.warning(
-                model->where,
-                fmt::format("{}'{}' starts inside of something, and may be stuck there", what, name),
-                "give it another <pose>");
+                model->where, fmt::format("{}'{}' starts inside another object and may be stuck", what, name),
+                "change its <pose>");
     };
-    if (description_.game && !things_.empty())
+    if (description_.game && !movable_objects_.empty())
         for (const GameSite& site : description_.game->sites)
-            if (!physics_->has_room(robots_.size(), {site.x, site.y, 0}))
+            if (!physics_->is_collision_free(robots_.size(), {site.x, site.y, 0}))
                 diagnostics.warning(site.where,
-                                    fmt::format("something stands at the site ({:g}, {:g})", site.x, site.y),
-                                    "resources appear where there is room, within 0.5 m");
+                                    fmt::format("the site ({:g}, {:g}) is occupied", site.x, site.y),
+                                    "resources appear at free positions within 0.5 m");
     for (std::size_t i = 0; i < robots_.size(); ++i) physics_->place(i, robots_[i].pose);
     for (std::size_t i = 0; i < robots_.size(); ++i)
-        if (!physics_->has_room(i, physics_->pose(i))) warn(robots_[i].name, "robot ");
-    for (std::size_t i = 0; i < things_.size(); ++i)  // alone: what is loose makes room for each other
-        if (!(description_.game && things_[i].resource) &&
-            !physics_->has_room(robots_.size() + i, things_[i].start))
-            warn(things_[i].name, "");
-    for (std::size_t i = 0; i < things_.size(); ++i) physics_->place(robots_.size() + i, things_[i].start);
+        if (!physics_->is_collision_free(i, physics_->pose(i))) warn(robots_[i].name, "robot ");
+    for (std::size_t i = 0; i < movable_objects_.size(); ++i)  // objects may overlap each other
+        if (!(description_.game && movable_objects_[i].resource) &&
+            !physics_->is_collision_free(robots_.size() + i, movable_objects_[i].start))
+            warn(movable_objects_[i].name, "");
+    for (std::size_t i = 0; i < movable_objects_.size(); ++i)
+        physics_->place(robots_.size() + i, movable_objects_[i].start);
 }
 
 void World::add_robot(const Model& model, Diagnostics& diagnostics) {
     if (find(model.name))
         diagnostics.error(model.where, fmt::format("there are two robots named '{}'", model.name),
                           "give each <include> a <name> of its own");
-    Robot& robot = robots_.emplace_back(model, robots_.size(), options_.seed, heights_, diagnostics);
+    Robot& robot =
+        robots_.emplace_back(model, robots_.size(), options_.seed, options_.noise, heights_, diagnostics);
     if (plan_ && has_plugin(model, "libreset_plugin.so"))
-        robot.reset.emplace(*plan_, robot.random(Robot::reset_draws));
+        robot.reset.emplace(*plan_, robot_stream(options_.seed, robot.name, RobotStream::reset_draws));
     robot.trials.emplace(targets_);
 }
 
-void World::add_things(Diagnostics& diagnostics) {
-    std::vector<Model> loose;
+void World::add_movable_objects(Diagnostics& diagnostics) {
+    std::vector<Model> movable;
     for (const Model& model : description_.models)
-        if (is_loose(model)) loose.push_back(model);
+        if (is_movable(model)) movable.push_back(model);
     if (description_.game) {
-        const auto has = std::count_if(loose.begin(), loose.end(),
+        const auto has = std::count_if(movable.begin(), movable.end(),
                                        [](const Model& m) { return has_plugin(m, "libtarget_plugin.so"); });
-        for (int i = static_cast<int>(has); i < description_.game->most; ++i) loose.push_back(resource(i));
+        for (int i = static_cast<int>(has); i < description_.game->most; ++i) movable.push_back(resource(i));
     }
-    for (const Model& model : loose) {
-        things_.push_back(thing_of(model));
-        bodies_.push_back(body_of(model, things_.back(), heights_, diagnostics));
+    for (const Model& model : movable) {
+        movable_objects_.push_back(movable_object_of(model));
+        bodies_.push_back(body_of(model, movable_objects_.back(), heights_, diagnostics));
         if (bodies_.back().radius > 0 || !bodies_.back().parts.empty()) continue;
-        diagnostics.error(model.where,
-                          fmt::format("'{}' has no shape that things could bump into", model.name),
+        diagnostics.error(model.where, fmt::format("'{}' has no shape that can be touched", model.name),
                           "give it a <collision>, or make it <static>true</static>");
     }
 }
 
-/// The homes are those of models named so; without them, where the challenge's walls have them painted.
+/// The homes are the models Home_A and Home_B. Without them, they are where the challenge's walls show them.
 void World::add_game() {
     std::array<Pose2, 2> homes = {Pose2{-10, 10, 0}, Pose2{10, -10, 0}};
     for (const Model& model : description_.models) {
@@ -166,28 +164,30 @@ void World::add_game() {
         if (model.name == "Home_B") homes[1] = in_plane(model.pose);
     }
     std::vector<Game::Resource> resources;
-    for (std::size_t i = 0; i < things_.size(); ++i)
-        if (things_[i].resource) resources.push_back({robots_.size() + i, things_[i].start});
+    for (std::size_t i = 0; i < movable_objects_.size(); ++i)
+        if (movable_objects_[i].resource)
+            resources.push_back({robots_.size() + i, movable_objects_[i].start});
     game_ = Game(description_.game, homes, std::move(resources), options_.seed);
     game_.begin(*physics_);
 }
 
-/// Tells everybody what there is to see.
-void World::surround() {
-    std::vector<Solid> still;
-    for (const Model& model : without_movers(description_).models)
-        for (const Solid& solid : solids_of(model)) still.push_back(solid);
+/// Collects the solids and visuals that sensors can see, and makes the scanners.
+void World::add_sensors() {
+    std::vector<Solid> fixed;
+    for (const Model& model : static_part(description_).models)
+        for (const Solid& solid : solids_of(model)) fixed.push_back(solid);
     std::vector<MovingSolid> moving;
     for (const Robot& robot : robots_) {
         moving.insert(moving.end(), robot.solids.begin(), robot.solids.end());
-        sights_.insert(sights_.end(), robot.sights.begin(), robot.sights.end());
+        moving_visuals_.insert(moving_visuals_.end(), robot.visuals.begin(), robot.visuals.end());
     }
-    for (std::size_t i = 0; i < things_.size(); ++i) {
+    for (std::size_t i = 0; i < movable_objects_.size(); ++i) {
         const std::size_t body = robots_.size() + i;
-        for (const Solid& solid : things_[i].solids) moving.push_back({body, -1, solid, false});
-        for (MovingSight sight : things_[i].sights) sight.body = body, sights_.push_back(sight);
+        for (const Solid& solid : movable_objects_[i].solids) moving.push_back({body, -1, solid, false});
+        for (MovingVisual visual : movable_objects_[i].visuals)
+            visual.body = body, moving_visuals_.push_back(visual);
     }
-    for (Robot& robot : robots_) robot.surround(still, moving, description_.step);
+    for (Robot& robot : robots_) robot.sensors.make_scanners(fixed, moving, description_.step);
 }
 
 }  // namespace forage::bug

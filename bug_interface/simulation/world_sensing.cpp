@@ -4,89 +4,76 @@
 
 namespace forage::bug {
 
-/// Sensors at their own rates look in the first substep in which their time has come.
-void World::sense_when_due() {
+/// Updates the sensors with rates of their own in the first substep in which they are due.
+void World::sense_due() {
     const double now = static_cast<double>(substep_ + 1) * description_.step;
-    const auto due = [&](const Robot& robot) { return robot.due(now); };
-    if (std::none_of(robots_.begin(), robots_.end(), due)) return;
-    set_stage();
-    for (Robot& robot : robots_) robot.sense_due(now, options_.noise, stage_, placed_sights());
+    if (std::none_of(robots_.begin(), robots_.end(), [&](const Robot& r) { return r.sensors.due(now); }))
+        return;
+    update_body_poses();
+    for (Robot& robot : robots_) robot.sensors.sense_due(now, body_poses_, placed_visuals());
 }
 
 void World::scan() {
-    if (!options_.native_rates || cycle_ == 0)
-        for (Robot& robot : robots_) robot.sense(options_.noise, cycle_, stage_);
-    hear();
+    if (!options_.sensor_rates || cycle_ == 0)
+        for (Robot& robot : robots_) robot.sensors.scan(cycle_, body_poses_);
+    exchange_messages();
 }
 
-/// What was said in the cycle that ends is heard now.
-void World::hear() {
-    bool said = false;
-    for (const Robot& robot : robots_) said |= robot.voice.speaking;
-    if (!said) return;
-    deliver(voices_, stage_.bodies, by_name_);
-    for (Robot& robot : robots_) robot.snapshot.heard = sum(robot.voice, by_name_);
+/// Delivers the messages that were transmitted in the cycle that ends.
+void World::exchange_messages() {
+    if (std::none_of(robots_.begin(), robots_.end(),
+                     [](const Robot& r) { return r.transceiver.transmitting; }))
+        return;
+    deliver(transceivers_, body_poses_.bodies, by_name_);
+    for (Robot& robot : robots_) robot.sensors.receive(sum_received(robot.transceiver, by_name_));
 }
 
 void World::render() {
-    if (!options_.native_rates)
+    if (!options_.sensor_rates)
         for (Robot& robot : robots_)
-            if (robot.wants_image) robot.render(options_.noise, cycle_, stage_, placed_sights());
+            if (robot.sensors.image_requested()) robot.sensors.render(cycle_, body_poses_, placed_visuals());
     remember();
 }
 
 void World::remember() {
-    if (options_.late <= 0) return;
-    const auto size = static_cast<std::size_t>(options_.late) + 1;
-    for (Robot& robot : robots_) {
-        if (cycle_ == 0)
-            robot.history.assign(size, robot.snapshot);
-        else
-            robot.history[cycle_ % size] = robot.snapshot;
-    }
-}
-
-const BugSnapshot& World::snapshot(std::size_t bug) const {
-    const Robot& robot = robots_[bug];
-    return robot.history.empty() ? robot.snapshot : robot.history[(cycle_ + 1) % robot.history.size()];
+    for (Robot& robot : robots_) robot.sensors.remember(cycle_, options_.latency);
 }
 
 std::shared_ptr<const Scene> World::scene() const {
-    if (!scene_) scene_ = std::make_shared<const Scene>(without_movers(description_));
+    if (!scene_) scene_ = std::make_shared<const Scene>(static_part(description_));
     return scene_;
 }
 
-/// What cameras see of all that moves, where it is on stage.
-std::span<const MovingSight> World::placed_sights() {
-    if (!sights_placed_)
-        for (MovingSight& sight : sights_)
-            if (stage_.present[sight.body]) sight.visual.solid.pose = sight.at(stage_);
-    sights_placed_ = true;
-    return sights_;
+/// The visuals of all robots and movable objects, placed at the body poses.
+std::span<const MovingVisual> World::placed_visuals() {
+    if (!visuals_placed_)
+        for (MovingVisual& moving : moving_visuals_)
+            if (body_poses_.present[moving.body]) moving.visual.solid.pose = moving.at(body_poses_);
+    visuals_placed_ = true;
+    return moving_visuals_;
 }
 
 void World::make_camera(std::size_t bug) {
-    if (robots_[bug].camera_sensor && !robots_[bug].camera) robots_[bug].make_camera(scene());
+    if (robots_[bug].sensors.camera_sensor()) robots_[bug].sensors.make_camera(scene());
 }
 
 std::span<const std::uint8_t> World::image(std::size_t bug) {
     make_camera(bug);
-    Robot& robot = robots_[bug];
-    if (robot.wants_image && !options_.native_rates) return robot.snapshot.image;  // step() renders it
-    return robot.view(options_.noise, cycle_, stage_, placed_sights());
+    RobotSensors& sensors = robots_[bug].sensors;
+    if (sensors.image_requested() && !options_.sensor_rates) return sensors.snapshot().image;  // up to date
+    return sensors.view(cycle_, body_poses_, placed_visuals());
 }
 
-void World::need_image(std::size_t bug, bool needed) {
-    Robot& robot = robots_[bug];
-    robot.wants_image = needed;
+void World::request_image(std::size_t bug, bool requested) {
+    robots_[bug].sensors.request_image(requested);
     make_camera(bug);
-    if (needed) robot.render(options_.noise, cycle_, stage_, placed_sights());
+    if (requested) robots_[bug].sensors.render(cycle_, body_poses_, placed_visuals());
     if (cycle_ == 0) remember();
 }
 
-void World::need_gripper_scan(std::size_t bug, bool needed) {
-    robots_[bug].wants_gripper_scan = needed;
-    if (needed && cycle_ == 0) robots_[bug].sense(options_.noise, 0, stage_);
+void World::request_gripper_scan(std::size_t bug, bool requested) {
+    robots_[bug].sensors.request_gripper_scan(requested);
+    if (requested && cycle_ == 0) robots_[bug].sensors.scan(0, body_poses_);
     if (cycle_ == 0) remember();
 }
 

@@ -1,8 +1,8 @@
-#include "bug_interface/simulation/world.h"
-
 #include <array>
 
 #include <fmt/format.h>
+
+#include "bug_interface/simulation/world.h"
 
 namespace forage::bug {
 
@@ -20,26 +20,27 @@ std::optional<std::size_t> World::find(std::string_view bug) const {
 
 std::vector<DrawnSolid> World::drawing() const {
     auto out = drawing_of(description_);
-    for (const MovingSight& sight : sights_) {
-        if (sight.body < robots_.size() || !stage_.present[sight.body]) continue;
-        Solid solid = sight.visual.solid;
-        solid.pose = sight.at(stage_);
-        out.push_back({solid, sight.visual.material.diffuse});
+    for (const MovingVisual& moving : moving_visuals_) {
+        if (moving.body < robots_.size() || !body_poses_.present[moving.body]) continue;
+        Solid solid = moving.visual.solid;
+        solid.pose = moving.at(body_poses_);
+        out.push_back({solid, moving.visual.material.diffuse});
     }
     return out;
 }
 
-std::optional<Pose2> World::thing_pose(std::size_t i) const {
+std::optional<Pose2> World::movable_object_pose(std::size_t i) const {
     const std::size_t body = robots_.size() + i;
-    if (!stage_.present[body]) return {};
-    return stage_.bodies[body];
+    if (!body_poses_.present[body]) return {};
+    return body_poses_.bodies[body];
 }
 
 Eigen::Vector2d World::looks_at(std::size_t bug) const {
     const Robot& robot = robots_[bug];
     const Eigen::Vector2d here(robot.pose.x, robot.pose.y);
-    if (!robot.camera_sensor) return here;
-    const Pose camera = robot.link_pose * robot.camera_sensor->pose;
+    const auto& sensor = robot.sensors.camera_sensor();
+    if (!sensor) return here;
+    const Pose camera = robot.sensors.link_pose() * sensor->pose;
     const Eigen::Vector3d axis = camera.linear().col(0), at = camera.translation();
     if (axis.z() >= 0) return here;
     const Eigen::Vector3d floor = at - at.z() / axis.z() * axis;
@@ -77,8 +78,8 @@ std::string World::score_csv() const {
     std::array<int, 2> score{};
     for (const auto& d : game_.deliveries()) {
         score[static_cast<std::size_t>(d.team)] += d.points;
-        out += fmt::format("{:.3f},{},{},{},{},{}\n", d.time, Game::team_name(d.team), d.good ? "good" : "bad",
-                           d.points, score[0], score[1]);
+        out += fmt::format("{:.3f},{},{},{},{},{}\n", d.time, Game::team_name(d.team),
+                           d.good ? "good" : "bad", d.points, score[0], score[1]);
     }
     return out;
 }

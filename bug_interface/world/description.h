@@ -5,13 +5,14 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include "core/base/archive.h"
 #include "core/base/diagnostic.h"
 #include "core/run/trial.h"
-#include "core/base/archive.h"
 
 namespace forage::bug {
 
@@ -144,8 +145,16 @@ struct WorldDescription {
     std::optional<GameRules> game;  ///< of the plugin libforage_game.so
 };
 
-/// A pose in the plane.
+/// The first model named `name`, or null.
+inline const Model* find_model(const WorldDescription& world, std::string_view name) {
+    for (const Model& model : world.models)
+        if (model.name == name) return &model;
+    return nullptr;
+}
+
+/// The yaw angle of a pose, rad.
 inline double yaw_of(const Pose& pose) { return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0)); }
+/// The projection of a pose onto the floor.
 inline Pose2 in_plane(const Pose& pose) {
     return {pose.translation().x(), pose.translation().y(), yaw_of(pose)};
 }

@@ -32,7 +32,7 @@ void AdaptiveLayer::set_weights(const Eigen::Ref<const Eigen::MatrixXd>& weights
 }
 
 bool AdaptiveLayer::update(const Values& stimulus, const Values& response, const Rates& rates) {
-    // Without a stimulus every term is 0, unless something is infinite, which turns into NaN.
+    // Without a stimulus every term is 0, unless an infinite number makes it NaN.
     if (finite_ && (stimulus == 0).all() && response.allFinite()) {
         y_.setZero();
         e_.setZero();
@@ -48,7 +48,7 @@ void AdaptiveLayer::respond(const Values& x) {
     const Index cells = w_.rows();
     for (Index k = 0; k < w_.cols(); ++k) {
         const double* column = w_.col(k).data();
-        double sum = 0;  // in ascending order: a product of Eigen's would add in another
+        double sum = 0;  // Eigen's matrix product would add in another order
         for (Index i = 0; i < cells; ++i) sum += column[i] * x[i];
         y_[k] = sum;
     }

@@ -33,39 +33,37 @@ void AdaptiveLayerModule::describe(ModuleSpec<AdaptiveLayerModule>& s) {
     using T = AdaptiveLayerModule;
     s.name("moduleAL", "Adaptive Layer")
         .doc(
-            "Learns to give the conditioned response (CR) to stimuli (CS) that go with an unconditioned "
+            "Learns the conditioned response (CR) to stimuli (CS) that occur together with an unconditioned "
             "response (UR).");
     s.param("eta", &T::eta)
         .label("learning rate (eta)")
         .range(0, 10)
-        .doc("Learning rate; 0 freezes the weights.");
+        .doc("Learning rate; with 0 the weights are constant.");
     s.param("zeta", &T::zeta)
         .label("balance (zeta)")
         .range(-1, 1)
-        .doc("Balance of learning: -1 from the stimuli alone, 1 from the unconditioned responses alone.");
+        .doc(
+            "Balance of learning: -1 learns only from the stimuli, 1 only from the unconditioned responses.");
     s.param("rho", &T::rho)
         .label("correction (rho)")
         .range(0, 100)
-        .doc("Gain of the error between unconditioned and conditioned response.");
+        .doc("Gain of the error between the unconditioned and the conditioned response.");
     s.param("init", &T::init)
         .label("init value weights")
         .range(0, 1)
         .at_start()
-        .doc("The weights begin uniformly distributed between plus and minus this value.");
+        .doc("The initial weights are uniformly distributed between plus and minus this value.");
     s.param("discTime", &T::disc_time)
         .label("discrepancy time constant")
         .range(0, 1)
         .doc("Weight of the newest sample in the running average of the discrepancy.");
-    s.param("File Name", &T::file_name)
-        .label("File name")
-        .path()
-        .doc("File of the weights, to read or to write.");
+    s.param("File Name", &T::file_name).label("File name").path().doc("Path of the file with the weights.");
     s.param("write", &T::write)
         .label("Write Weight File")
-        .doc("Write the weights to the file at the end of the next update.");
+        .doc("Writes the weights to the file at the end of the next update.");
     s.param("read", &T::read)
         .label("Read Weight File")
-        .doc("Read the weights from the file at the end of the next update.");
+        .doc("Reads the weights from the file at the end of the next update.");
     s.input("input", "Input");
     s.input("condition", "Condition");
     s.output("prototype", "Prototype");
@@ -84,7 +82,7 @@ void AdaptiveLayerModule::check(const ModulePorts& ports, Problems& problems) co
                  "give the group a TopologyRect", "", group->port});
     if (!problems.all.empty()) return;
     require(ports.outputs[prototype], cs.shape.width, cs.shape.height,
-            fmt::format("as '{}' ({})", cs.port, cs.path), problems);
+            fmt::format("the size of '{}' ({})", cs.port, cs.path), problems);
     const auto& picture = ports.outputs[display];
     if (picture.shape.cells > 0)
         require(picture, ur.shape.cells * cs.shape.width, cs.shape.height,
@@ -92,17 +90,18 @@ void AdaptiveLayerModule::check(const ModulePorts& ports, Problems& problems) co
                             size(cs.shape), cs.port, ur.shape.cells, ur.port),
                 problems);
     require(ports.outputs[output], ur.shape.width, ur.shape.height,
-            fmt::format("as '{}' ({})", ur.port, ur.path), problems);
+            fmt::format("the size of '{}' ({})", ur.port, ur.path), problems);
     if ((read || write) && file_name.empty())
         problems.all.push_back({fmt::format("'{}' is set, but 'File Name' is empty", read ? "read" : "write"),
-                                "name the file of the weights", "File Name", ""});
+                                "set it to the path of the file with the weights", "File Name", ""});
     else if (read) {
         try {
             read_weights(file_name, cs.shape.cells, ur.shape.cells);
         } catch (const FileError& e) {
             auto faults = e.faults();
             for (auto& fault : faults)
-                if (fault.hint.empty()) fault.hint = "'read' is set: the weights are read in the first cycle";
+                if (fault.hint.empty())
+                    fault.hint = "the weights are read in the first cycle, because 'read' is set";
             throw FileError(e.path(), e.text(), std::move(faults));
         }
     }
@@ -115,23 +114,24 @@ void AdaptiveLayerModule::start(const ModulePorts& ports) {
     ports.random.uniform(0, uniform);
     layer_ = AdaptiveLayer(stimuli, responses);
     layer_.start(uniform, init);
-    display_old_ = true;
+    display_outdated_ = true;
 }
 
 void AdaptiveLayerModule::update(ModuleFrame& frame) {
-    display_old_ |= layer_.update(frame.input(input), frame.input(condition), {eta, zeta, rho, disc_time});
+    display_outdated_ |=
+        layer_.update(frame.input(input), frame.input(condition), {eta, zeta, rho, disc_time});
     if (frame.is_read(prototype)) frame.output(prototype) = layer_.prototype();
     frame.output(output) = layer_.response();
     frame.output(discrepancy)[0] = layer_.discrepancy();
-    if (display_old_ && frame.is_read(display)) {
+    if (display_outdated_ && frame.is_read(display)) {
         show_weights(frame.output(display));
-        display_old_ = false;
+        display_outdated_ = false;
     }
-    // What is read acts, and is displayed, from the next cycle on.
+    // Weights that are read have an effect, and are displayed, from the next cycle on.
     if (read) {
         read = false;
         layer_.set_weights(read_weights(file_name, layer_.weights().rows(), layer_.weights().cols()));
-        display_old_ = true;
+        display_outdated_ = true;
     }
     if (write) {
         write = false;
@@ -139,7 +139,7 @@ void AdaptiveLayerModule::update(ModuleFrame& frame) {
     }
 }
 
-/// Display cell (column k w + c, row q) shows W(q w + c, k).
+/// Writes W(q w + c, k) to the cell in column k w + c and row q.
 void AdaptiveLayerModule::show_weights(Column cells) const {
     const auto& w = layer_.weights();
     const Index rows = w.rows() / width_, row_size = w.cols() * width_;

@@ -1,4 +1,4 @@
-// moduleAL: the adaptive layer between groups.
+// moduleAL: the adaptive layer as a module.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace forage::adaptive {
 
-/// Inputs `input` (CS, w x h) and `condition` (UR, K cells); outputs `prototype`, `output` (CR),
-/// `descripancy` (its first cell) and, if wanted, `weight display`: K pictures of the CS side by side, the
-/// k-th of the weights to CR cell k. With `read` or `write` set, the file is read or written at the end of
-/// the next update, and the flag drops.
+/// Inputs: `input` (CS, w x h cells) and `condition` (UR, K cells). Outputs: `prototype` (w x h), `output`
+/// (CR, K), `descripancy` (its first cell) and, optionally, `weight display` (K w x h): K pictures side by
+/// side, the k-th with the weights to CR cell k. When `read` or `write` is set, the file of the weights is
+/// read or written at the end of the next update, and the flag is cleared.
 class AdaptiveLayerModule {
   public:
     double eta = 0.1, zeta = 0, rho = 0, init = 0.1, disc_time = 0.001;
@@ -20,11 +20,11 @@ class AdaptiveLayerModule {
 
     static void describe(ModuleSpec<AdaptiveLayerModule>& spec);
     void check(const ModulePorts& ports, Problems& problems) const;
-    /// Draws the initial weights from the module's own stream.
+    /// Draws the initial weights from the module's own random stream.
     void start(const ModulePorts& ports);
-    /// Throws std::runtime_error when a file that was asked for cannot be read or written.
+    /// Throws std::runtime_error when a requested file cannot be read or written.
     void update(ModuleFrame& frame);
-    void checkpoint(Archive& archive) { archive(layer_, display_old_); }
+    void checkpoint(Archive& archive) { archive(layer_, display_outdated_); }
 
     AdaptiveLayer& layer() { return layer_; }
 
@@ -32,8 +32,8 @@ class AdaptiveLayerModule {
     void show_weights(Column display) const;
 
     AdaptiveLayer layer_;
-    Index width_ = 0;          ///< of the CS
-    bool display_old_ = true;  ///< the display is not of the present weights
+    Index width_ = 0;               ///< of the CS group, cells
+    bool display_outdated_ = true;  ///< whether the weights have changed since they were displayed
 };
 
 }  // namespace forage::adaptive

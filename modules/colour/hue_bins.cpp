@@ -26,14 +26,14 @@ void HueBins::separate(const Eigen::Ref<const Eigen::ArrayXd>& hue,
                        Eigen::Ref<Eigen::ArrayXd> planes) const {
     const Index pixels = hue.size();
     const auto count = static_cast<double>(bins());
-    const double near = 1e-6 * count;  // of a limit, in bins: more than the limits' own rounding
+    const double near = 1e-6 * count;  // bins; more than the rounding errors of the limits
     planes.setZero();
     for (Index i = 0; i < pixels; ++i) {
-        if (std::bit_cast<std::uint64_t>(value[i]) == 0) continue;  // as most pixels are without colour
+        if (std::bit_cast<std::uint64_t>(value[i]) == 0) continue;  // most pixels have no colour
         if (hue[i] >= 0 && hue[i] <= 1) {
-            const double place = hue[i] * count + 0.5;  // bin b is b..b+1, but for the rounding of its limits
-            const auto bin = static_cast<Index>(place);
-            const double inside = place - static_cast<double>(bin);
+            const double position = hue[i] * count + 0.5;  // bin b is b..b+1, apart from rounding errors
+            const auto bin = static_cast<Index>(position);
+            const double inside = position - static_cast<double>(bin);
             if (inside > near && inside < 1 - near) {
                 planes[(bin < bins() ? bin : 0) * pixels + i] = value[i];
                 continue;

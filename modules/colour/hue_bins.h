@@ -1,4 +1,4 @@
-// A picture in hue and value, taken apart into one picture per colour.
+// The separation of a picture (hue and value) into one picture per colour.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,10 @@ namespace forage::colour {
 
 using Eigen::Index;
 
-/// `bins` ranges of hue, 0..1 and round: bin b is centred on b / bins, open below and closed above; hue below
-/// 0 or above 1 is in bin 0. The limits are single-precision numbers, as in the original: two neighbours may
-/// overlap, or leave a gap, of one such step, so that a hue at a limit can be in both bins or in none.
+/// Divides the circle of hues, 0..1, into bins. Bin b has its centre at b / bins; its lower limit is
+/// excluded, its upper limit included. Hues below 0 or above 1 are in bin 0. The limits are single-precision
+/// numbers, as in the original. Therefore neighbours may overlap, or leave a gap, by a rounding error, and a
+/// hue at a limit can be in both bins or in none.
 class HueBins {
   public:
     HueBins() = default;
@@ -20,14 +21,14 @@ class HueBins {
     Index bins() const { return static_cast<Index>(above_.size()); }
     bool contains(Index bin, double hue) const;
 
-    /// planes[b P + i] = value[i] if hue[i] is in bin b, else 0; for P pixels i, `planes` being bins() P
-    /// long.
+    /// planes[b P + i] = value[i] when hue[i] is in bin b, else 0, for each of the P pixels i. The size of
+    /// `planes` is bins() P.
     void separate(const Eigen::Ref<const Eigen::ArrayXd>& hue, const Eigen::Ref<const Eigen::ArrayXd>& value,
                   Eigen::Ref<Eigen::ArrayXd> planes) const;
 
   private:
-    std::vector<double> above_,
-        up_to_;  ///< limits of each bin; of bin 0: in it are those above_ or not above up_to_
+    /// The limits of each bin. Bin 0 contains the hues above above_[0] and those up to up_to_[0].
+    std::vector<double> above_, up_to_;
 };
 
 }  // namespace forage::colour

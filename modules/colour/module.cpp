@@ -7,7 +7,7 @@
 namespace forage::colour {
 namespace {
 
-/// Bit by bit; quick.
+/// Compares the bits, which is fast.
 bool same(const double* a, const Eigen::ArrayXd& b) {
     return std::memcmp(a, b.data(), static_cast<std::size_t>(b.size()) * sizeof *a) == 0;
 }
@@ -27,10 +27,11 @@ void ColourModule::check(const ModulePorts& ports, Problems& problems) const {
     if (colour.shape.width != hue.shape.width || colour.shape.height % hue.shape.height != 0)
         problems.all.push_back(
             {fmt::format("'_color' needs the width of '_hue' and a multiple of its height: '{}' has {} x {} "
-                         "cells, '{}' {} x {}",
+                         "cells, '{}' has {} x {}",
                          colour.path, colour.shape.width, colour.shape.height, hue.path, hue.shape.width,
                          hue.shape.height),
-             fmt::format("for 12 colours, {} x {}", hue.shape.width, 12 * hue.shape.height), "", "_color"});
+             fmt::format("make it {} x {} for 12 colours", hue.shape.width, 12 * hue.shape.height), "",
+             "_color"});
     if (value.shape.cells < hue.shape.cells)
         problems.all.push_back(
             {fmt::format("'_value' needs a value for each of the {} cells of '_hue'; '{}' has {}",
@@ -43,19 +44,19 @@ void ColourModule::start(const ModulePorts& ports) {
     bins_ = HueBins(colour.cells / hue.cells);
     hue_.setZero(hue.cells);
     value_.setZero(hue.cells);
-    shown_ = false;
+    computed_ = false;
 }
 
 void ColourModule::update(ModuleFrame& frame) {
     if (!frame.is_read(0)) return;
     const auto& hue = frame.input(0);
     const auto value = frame.input(1).head(hue.size());
-    if (shown_ && same(hue.data(), hue_) && same(value.data(), value_))
-        return;  // a camera is slower than the cycles
+    if (computed_ && same(hue.data(), hue_) && same(value.data(), value_))
+        return;  // a camera may have fewer pictures than cycles
     bins_.separate(hue, value, frame.output(0));
     hue_ = hue;
     value_ = value;
-    shown_ = true;
+    computed_ = true;
 }
 
 }  // namespace forage::colour

@@ -1,4 +1,4 @@
-// moduleColor: one picture per hue.
+// moduleColor: the separation of a picture by hue.
 #pragma once
 
 #include "core/types/module.h"
@@ -6,13 +6,13 @@
 
 namespace forage::colour {
 
-/// Inputs `_hue` and `_value` (w x h); output `_color` (w x n h): n pictures from top to bottom, each with
-/// the values of the pixels whose hue is in that bin.
+/// Inputs: `_hue` and `_value` (w x h cells). Output: `_color` (w x n h): n pictures from top to bottom, one
+/// per bin of hues. A picture has the values of the pixels whose hue is in its bin, and 0 elsewhere.
 class ColourModule {
   public:
     static void describe(ModuleSpec<ColourModule>& s) {
         s.name("moduleColor", "Color Module")
-            .doc("Takes a picture apart by hue: one picture per colour, stacked.");
+            .doc("Separates a picture by hue: one picture per colour, stacked.");
         s.input("_hue", "Hue");
         s.input("_value", "Value");
         s.output("_color", "Color");
@@ -20,12 +20,12 @@ class ColourModule {
     void check(const ModulePorts& ports, Problems& problems) const;
     void start(const ModulePorts& ports);
     void update(ModuleFrame& frame);
-    void checkpoint(Archive& archive) { archive(hue_, value_, shown_); }
+    void checkpoint(Archive& archive) { archive(hue_, value_, computed_); }
 
   private:
     HueBins bins_;
-    Eigen::ArrayXd hue_, value_;  ///< what the output shows
-    bool shown_ = false;
+    Eigen::ArrayXd hue_, value_;  ///< the inputs of the current output
+    bool computed_ = false;
 };
 
 }  // namespace forage::colour

@@ -16,8 +16,8 @@ void CellList::list(const std::uint64_t* first, const std::uint64_t* second, con
         needed += std::popcount(needs);
         missing |= needs & ~of_[w];
     }
-    if (!missing && (in_vain_ += size_ - needed) <= needed) return;
-    size_ = in_vain_ = 0;
+    if (!missing && (wasted_ += size_ - needed) <= needed) return;
+    size_ = wasted_ = 0;
     for (std::size_t w = 0; w < of_.size(); ++w) {
         std::uint64_t left = of_[w] = first[w] | second[w] | present[w];
         for (; left; left &= left - 1)

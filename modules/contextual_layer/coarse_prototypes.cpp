@@ -8,7 +8,7 @@ namespace forage::contextual {
 namespace {
 
 /// distances[b lanes + l] = unit times the sum of |stored_b[i][l] - present[i]| over the `count` listed cells
-/// i. A sum is below 2^16, a difference below 2^15.
+/// i, for two blocks b. Sums are below 2^16, differences below 2^15.
 FORAGE_SIMD void estimate_two(const std::int16_t* first, const std::int16_t* second, const Index* listed,
                               Index count, const std::int16_t* present, float unit, float* distances) {
     std::uint16_t total[2 * lanes];
@@ -33,9 +33,9 @@ FORAGE_SIMD void estimate_two(const std::int16_t* first, const std::int16_t* sec
 CoarsePrototypes::CoarsePrototypes(Index blocks, Index cells)
     : cells_(cells), levels_(static_cast<int>(std::min<Index>(32767, 65535 / std::max<Index>(1, cells)))) {
     if (!useful()) return;
-    // Half a level on either side; sums of so many cells, rounded each time; a few roundings of distances,
-    // and of collectors, the share of the largest and the threshold, which LongTermMemory::settle() relies
-    // on.
+    // The error is half a level for each of the two prototypes, the rounding errors of a sum of `cells`
+    // numbers, and a few rounding errors of distances, collectors, shares and thresholds, for
+    // refine_candidates().
     error_ = 1.0F / static_cast<float>(levels_) + static_cast<float>(cells + 16) * 0x1p-23F;
     blocks_.resize(static_cast<std::size_t>(blocks * cells * lanes), 0);
     present_.resize(static_cast<std::size_t>(cells), 0);

@@ -1,4 +1,4 @@
-// Prototypes to the nearest of 64 to 32,767 levels: nearly their distances, in a fifth of the time.
+// Prototypes rounded to 64 to 32,767 levels: approximate distances in a fifth of the time.
 #pragma once
 
 #include <cstdint>
@@ -10,38 +10,40 @@
 
 namespace forage::contextual {
 
-constexpr Index lanes = 16;  ///< prototypes per block: cell i of all lies side by side
+constexpr Index lanes = 16;  ///< prototypes per block; cell i of all of them is contiguous in memory
 
-/// Slots for prototypes of N cells between 0 and 1, in blocks. Levels are so many that the sum over all cells
-/// fits into 16 bits: 1,365 for 48 cells.
+/// Prototypes of N cells between 0 and 1, in blocks of slots. The number of levels is the largest for which
+/// the sum over all cells fits into 16 bits: 1,365 for 48 cells.
 class CoarsePrototypes {
   public:
     CoarsePrototypes() = default;
     CoarsePrototypes(Index blocks, Index cells);
 
-    /// What an estimated distance is off at most, of the exact sum or of one that is rounded to single
-    /// precision for each cell; with something to spare for what is then made of both in single precision.
+    /// An upper bound of the error of an estimated distance, compared with the exact sum and with a sum that
+    /// is rounded to single precision for each cell. It includes the rounding errors of LongTermMemory.
     float error() const { return error_; }
-    /// Whether estimates spare anything: with many cells there are few levels.
-    bool useful() const { return levels_ >= least_levels; }
+    /// Whether estimates are accurate enough to save time. With many cells there are too few levels.
+    bool useful() const { return levels_ >= min_levels; }
 
-    /// Stores the i-th cell of a prototype.
-    void put(Index slot, Index i, double cell) { blocks_[place(slot, i)] = level(cell); }
-    /// The most that a cell of the present prototype may be: the maximum that it is divided by was rounded.
-    static constexpr double most = 1.000001;
-    /// Takes the prototype that others are compared with, of cells from 0 to `most`.
+    /// Stores cell `i` of a prototype.
+    void put(Index slot, Index i, double cell) { blocks_[index(slot, i)] = level(cell); }
+    /// The largest value of a cell of the present prototype. It exceeds 1 because the divisor was rounded.
+    static constexpr double max_cell = 1.000001;
+    /// Sets the prototype that the stored ones are compared with. Its cells must be in 0..max_cell.
     void compare_with(const Eigen::Ref<const Eigen::ArrayXd>& present);
-    /// distances[0..lanes) and [lanes..2 lanes): of the prototypes of two blocks, mean of |stored - present|.
+    /// Estimates the mean of |stored - present| over the cells for two blocks of prototypes:
+    /// distances[0..lanes) and distances[lanes..2 lanes).
     void estimate(Index first, Index second, const CellList& cells, float* distances) const;
 
   private:
-    static constexpr int least_levels = 64;
+    static constexpr int min_levels = 64;
 
-    std::size_t place(Index slot, Index i) const {
+    std::size_t index(Index slot, Index i) const {
         return static_cast<std::size_t>((slot / lanes * cells_ + i) * lanes + slot % lanes);
     }
     std::int16_t level(double cell) const {
-        return static_cast<std::int16_t>(cell * levels_ + 0.5);  // from 0 on: rounded to the nearest
+        return static_cast<std::int16_t>(cell * levels_ +
+                                         0.5);  // rounds to the nearest, as `cell` is not negative
     }
 
     Index cells_ = 0;

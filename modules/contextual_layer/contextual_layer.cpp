@@ -23,7 +23,7 @@ bool ContextualLayer::update(const Inputs& in, const Settings& settings, Exact e
     const auto threshold = static_cast<float>(settings.memory_threshold),
                share = static_cast<float>(settings.winner_share);
     memory_.collect(static_cast<float>(settings.trigger_decay));
-    memory_.settle(threshold, share);
+    memory_.refine_candidates(threshold, share);
     select(memory_, threshold, share, static_cast<float>(settings.trigger_reset));
     sum_actions(memory_, action_);
     return true;

@@ -1,4 +1,4 @@
-// The contextual layer of DAC: remembers what led to a goal, and acts when it comes by again.
+// The contextual layer of DAC: it remembers what led to a goal, and acts when similar prototypes recur.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,46 +8,50 @@
 
 namespace forage::contextual {
 
-/// What an update depends on beside its inputs; may change from one update to the next. All dimensionless.
+/// The parameters of an update, all dimensionless. They may change between updates.
 struct Settings {
-    double memory_threshold = 0;  ///< theta: a segment's collector must be above it
-    double winner_share = 0;      ///< omega, 0..1: ... and at least this part of the largest collector
+    double memory_threshold = 0;  ///< theta: a segment is selected only if its collector is above it
+    double winner_share = 0;      ///< omega, 0..1: ... and at least this fraction of the largest collector
     double trigger_reset = 0;  ///< T: trigger of the segment that follows a selected one; above 1 favours it
-    double trigger_decay = 0;  ///< alpha, 0..1: part of the way back to 1 that a trigger goes per update
-    double discrepancy_threshold = 0;  ///< delta: the layer opens when the discrepancy is below
+    double trigger_decay = 0;  ///< alpha, 0..1: fraction by which a trigger returns to 1 per update
+    double discrepancy_threshold = 0;  ///< delta: the layer opens when the discrepancy is below it
 };
 
-/// Stores couplets of prototype and action in a short-term memory; a positive goal moves it, as one sequence,
-/// to the long-term memory, a negative one clears it. What is remembered competes for being like the present
-/// prototype, favoured by what was selected before, and acts.
+/// Stores couplets of prototype and action in a short-term memory. A positive goal moves them to the
+/// long-term memory as one sequence; a negative goal deletes them. The segments of the long-term memory
+/// compete: those whose prototypes are similar to the present one, and those that follow a selected segment,
+/// determine the action.
 ///
-/// The layer is closed, and does nothing, until the discrepancy is once between 1e-6 and its threshold; then
-/// it stays open. The short-term memory has as many slots as the long-term memory has sequences, as in the
-/// original, and never more than a sequence has segments.
+/// The layer is closed, and does nothing, until the discrepancy is between 1e-6 and its threshold for the
+/// first time; then it stays open. The capacity of the short-term memory is the smaller one of the number of
+/// sequences (as in the original) and the number of segments of the long-term memory.
 class ContextualLayer {
   public:
     struct Inputs {
         Eigen::Ref<const Eigen::ArrayXd> action;      ///< M cells
-        Eigen::Ref<const Eigen::ArrayXd> prototype;   ///< N cells; stored when any is > 0
-        double positive_goal = 0, negative_goal = 0;  ///< > 0: reached; the positive one wins
+        Eigen::Ref<const Eigen::ArrayXd> prototype;   ///< N cells; stored if a cell is above 0
+        double positive_goal = 0, negative_goal = 0;  ///< above 0 if reached; the positive one has precedence
         double discrepancy = 0;
     };
 
     ContextualLayer() = default;
-    /// Empty memories and a closed gate. `sequences` and `segments` are the memory's height and width, at
-    /// least 1.
+    /// Makes a closed layer with empty memories. `sequences` and `segments`: height and width of the
+    /// long-term memory, at least 1.
     ContextualLayer(Index sequences, Index segments, Index prototype_cells, Index action_cells);
 
-    /// One step; allocates nothing. False while the layer is closed. Only those distances and collectors of
-    /// the memory that decide what is selected need be exact when nobody looks at the others: it is faster.
-    enum class Exact { all, what_matters };
+    /// Which distances and collectors are exact: all, or only those of the segments that can be selected,
+    /// which is faster.
+    enum class Exact { all, selectable };
+    /// One step. Does not allocate memory. Returns false while the layer is closed.
     bool update(const Inputs& in, const Settings& settings, Exact exact = Exact::all);
 
-    const Eigen::ArrayXf& action() const { return action_; }  ///< of the last step, M cells
+    const Eigen::ArrayXf& action() const { return action_; }  ///< of the last step, M values
     const LongTermMemory& memory() const { return memory_; }
     const ShortTermMemory& recent() const { return recent_; }
     bool open() const { return open_; }
-    Index stored_row() const { return stored_row_; }  ///< the sequence that the last step stored, or -1
+    Index stored_row() const {
+        return stored_row_;
+    }  ///< row of the sequence that the last step stored, or -1
 
     void checkpoint(Archive& archive) { archive(recent_, memory_, action_, stored_row_, open_); }
 

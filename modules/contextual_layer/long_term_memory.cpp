@@ -9,7 +9,8 @@
 namespace forage::contextual {
 namespace {
 
-/// The largest so far of numbers, none of them below 0: their bits are in their order. NaN is above all.
+/// The maximum of numbers that are not negative: their bits are ordered as the numbers are. NaN is the
+/// largest.
 class Largest {
   public:
     void note(float x) { bits_ = std::max(bits_, std::bit_cast<std::int32_t>(x)); }
@@ -21,8 +22,8 @@ class Largest {
 
 float positive(float x) { return x > 0.0F ? x : 0.0F; }
 
-/// Sets the collectors of a row; returns the largest, 0 if none is above 0.
-FORAGE_SIMD float weigh_row(const float* distance, const float* trigger, Index n, float* collector) {
+/// Computes the collectors of a row. Returns the largest, or 0 if none is above 0.
+FORAGE_SIMD float update_collectors(const float* distance, const float* trigger, Index n, float* collector) {
     Largest peak;
 #ifndef __clang__
 #pragma GCC ivdep
@@ -35,54 +36,55 @@ FORAGE_SIMD float weigh_row(const float* distance, const float* trigger, Index n
     return peak.value();
 }
 
-/// See LongTermMemory::collect; returns what weigh_row does.
+/// Updates the triggers and collectors of a row, see LongTermMemory::collect(). Returns the largest
+/// collector, or 0 if none is above 0.
 FORAGE_SIMD float collect_row(const float* distance, Index n, float decay, float* trigger, float* collector,
-                              Largest& highest_trigger) {
+                              Largest& largest_trigger) {
     const float kept = 1 - decay;
-    Largest peak, highest;
+    Largest peak, trigger_peak;
 #ifndef __clang__
 #pragma GCC ivdep
 #endif
     for (Index i = 0; i < n; ++i) {
-        const float before = trigger[i], sinking = kept * before + decay;
-        const float t = before > 1.0F ? sinking : 1.0F;
+        const float before = trigger[i], decayed = kept * before + decay;
+        const float t = before > 1.0F ? decayed : 1.0F;
         const float c = (1.0F - distance[i]) * t;
         trigger[i] = t;
         collector[i] = c;
         peak.note(positive(c));
-        highest.note(std::abs(t));
+        trigger_peak.note(std::abs(t));
     }
-    highest_trigger.note(highest.value());
+    largest_trigger.note(trigger_peak.value());
     return peak.value();
 }
 
 }  // namespace
 
 LongTermMemory::LongTermMemory(Index sequences, Index segments, Index prototype_cells, Index action_cells)
-    : longest_(std::min(sequences, segments)),
-      prototypes_(sequences * segments, sequences * longest_, prototype_cells),
-      actions_(Eigen::ArrayXXf::Zero(action_cells, sequences * longest_)),
+    : max_length_(std::min(sequences, segments)),
+      prototypes_(sequences * segments, sequences * max_length_, prototype_cells),
+      actions_(Eigen::ArrayXXf::Zero(action_cells, sequences * max_length_)),
       lengths_(static_cast<std::size_t>(sequences), 0),
       distance_(SegmentArray::Ones(sequences, segments)),
       collector_(SegmentArray::Zero(sequences, segments)),
       trigger_(SegmentArray::Zero(sequences, segments)),
       selected_(SegmentArray::Zero(sequences, segments)),
       peaks_(static_cast<std::size_t>(sequences), 0),
-      speaks_(static_cast<std::size_t>(sequences), 0) {}
+      has_selection_(static_cast<std::size_t>(sequences), 0) {}
 
 void LongTermMemory::store(const ShortTermMemory& memory) {
-    const Index row = next_, length = std::min(memory.size(), longest_);
+    const Index row = next_, length = std::min(memory.size(), max_length_);
     for (Index column = 0; column < this->length(row); ++column)
         prototypes_.remove(row * segments() + column);
     for (Index column = 0; column < length; ++column) {
         prototypes_.add(row * segments() + column, memory.prototype(column));
-        actions_.col(row * longest_ + column) = memory.action(column);
+        actions_.col(row * max_length_ + column) = memory.action(column);
     }
     lengths_[static_cast<std::size_t>(row)] = length;
     distance_.row(row).setOnes();
     collector_.row(row).setZero();
     selected_.row(row).setZero();
-    speaks(row) = false;
+    has_selection(row) = false;
     trigger_.row(row).setZero();
     trigger_.row(row).head(length).setOnes();
     next_ = (row + 1) % sequences();
@@ -97,32 +99,32 @@ void LongTermMemory::estimate(const Eigen::Ref<const Eigen::ArrayXd>& prototype)
 }
 
 void LongTermMemory::collect(float decay) {
-    Largest highest_trigger;
+    Largest largest_trigger;
     for (Index row = 0; row < sequences(); ++row) {
         const Index first = row * segments();
         peaks_[static_cast<std::size_t>(row)] =
             collect_row(distance_.data() + first, length(row), decay, trigger_.data() + first,
-                        collector_.data() + first, highest_trigger);
+                        collector_.data() + first, largest_trigger);
     }
-    highest_trigger_ = highest_trigger.value();
+    largest_trigger_ = largest_trigger.value();
 }
 
-void LongTermMemory::settle(float threshold, float share) {
+void LongTermMemory::refine_candidates(float threshold, float share) {
     if (!(prototypes_.error() > 0)) return;
-    const float error = prototypes_.error() * highest_trigger_,
+    const float error = prototypes_.error() * largest_trigger_,
                 largest = *std::max_element(peaks_.begin(), peaks_.end()),
                 needed = std::max(threshold, share * largest - std::abs(share) * error);
-    // Said so that what is not a number is exact, too.
+    // With this order of the comparison, segments with NaN are refined, too.
     const auto too_small = [=](float collector) { return collector + error < needed; };
     for (Index row = 0; row < sequences(); ++row)
         for (Index column = 0; column < length(row) && !too_small(peak(row)); ++column)
-            if (!too_small(collector_(row, column))) prototypes_.need(row * segments() + column);
+            if (!too_small(collector_(row, column))) prototypes_.require(row * segments() + column);
     prototypes_.refine(distance_.data());
     for (Index row = 0; row < sequences(); ++row) {
         if (too_small(peak(row))) continue;
         const Index first = row * segments();
-        peaks_[static_cast<std::size_t>(row)] = weigh_row(distance_.data() + first, trigger_.data() + first,
-                                                          length(row), collector_.data() + first);
+        peaks_[static_cast<std::size_t>(row)] = update_collectors(
+            distance_.data() + first, trigger_.data() + first, length(row), collector_.data() + first);
     }
 }
 

@@ -1,4 +1,4 @@
-// Sequences that led to a goal, and how much each of their segments is like the present.
+// The long-term memory: sequences that led to a goal, and the similarity of their segments to the present.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace forage::contextual {
 
-/// One number per segment: sequences by rows, time by columns.
+/// One number per segment: a row per sequence, a column per time step.
 using SegmentArray = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// NL sequences of up to min(NL, NS) segments, each a prototype of N cells and an action of M, in single
-/// precision. Column 0 is the segment nearest to the goal, column 1 the one before. The live segments of a
-/// sequence are its columns from 0 up to length(row). An unused segment has distance 1 and collector, trigger
-/// and selected 0.
+/// NL sequences of at most min(NL, NS) segments. A segment has a prototype of N cells and an action of M
+/// cells, in single precision. Column 0 is the segment nearest to the goal, column 1 the one before it. The
+/// columns from 0 to length(row) - 1 are used. An unused segment has distance 1 and collector, trigger and
+/// selected 0.
 class LongTermMemory {
   public:
     LongTermMemory() = default;
@@ -25,27 +25,27 @@ class LongTermMemory {
 
     Index sequences() const { return distance_.rows(); }  ///< NL
     Index segments() const { return distance_.cols(); }   ///< NS
-    Index longest() const { return longest_; }            ///< min(NL, NS), of a sequence
+    Index max_length() const { return max_length_; }      ///< of a sequence: min(NL, NS)
     Index length(Index row) const { return lengths_[static_cast<std::size_t>(row)]; }
 
-    /// Stores what `memory` holds, at most its newest longest() couplets, as the next sequence; when the
-    /// memory is full it takes the place of the oldest one.
+    /// Stores the couplets of `memory`, at most the newest max_length() of them, as the next sequence. It
+    /// replaces the oldest sequence when all rows are used.
     void store(const ShortTermMemory& memory);
-    /// The sequence that the next store() overwrites.
+    /// The row to which the next store() writes.
     Index next_row() const { return next_; }
 
-    /// Compares every live segment's prototype with the present one: distance d (see PrototypeStore).
+    /// Computes the distance d of the present prototype to that of each used segment (see PrototypeStore).
     void compare(const Eigen::Ref<const Eigen::ArrayXd>& prototype);
-    /// The same, but distances, and the collectors that are made of them, may be nearly right until settle()
-    /// makes those exact that matter.
+    /// The same, but the distances are estimates, and so are the collectors, until refine_candidates() is
+    /// called.
     void estimate(const Eigen::Ref<const Eigen::ArrayXd>& prototype);
-    /// A live segment's trigger t <- (1 - decay) t + decay where it is above 1, else t <- 1; then its
-    /// collector c = (1 - d) t.
+    /// Updates the triggers and collectors of all used segments: t <- (1 - decay) t + decay if t is above 1,
+    /// else t <- 1; then c = (1 - d) t.
     void collect(float decay);
-    /// Makes exact the distances and collectors of all segments that may be selected: whose collector may be
-    /// above `threshold` and at least `share` of the largest. What is left of estimates is too small to be
-    /// selected, or to be the largest where any is.
-    void settle(float threshold, float share);
+    /// Makes the distances and collectors exact for all segments that can be selected: those whose collector
+    /// may be above `threshold` and at least `share` times the largest one. The collectors that remain
+    /// estimates are too small to be selected.
+    void refine_candidates(float threshold, float share);
 
     const SegmentArray& distance() const { return distance_; }
     const SegmentArray& collector() const { return collector_; }
@@ -53,28 +53,28 @@ class LongTermMemory {
     const SegmentArray& trigger() const { return trigger_; }
     SegmentArray& selected() { return selected_; }  ///< 1 or 0
     const SegmentArray& selected() const { return selected_; }
-    /// The largest collector of a row's live segments, 0 if none is above 0.
+    /// The largest collector of a row, or 0 if none is above 0.
     float peak(Index row) const { return peaks_[static_cast<std::size_t>(row)]; }
-    /// Whether a segment of the row is selected; to be kept by whoever selects.
-    std::uint8_t& speaks(Index row) { return speaks_[static_cast<std::size_t>(row)]; }
-    bool speaks(Index row) const { return speaks_[static_cast<std::size_t>(row)]; }
-    /// Action of a live segment, M cells.
-    auto action(Index row, Index column) const { return actions_.col(row * longest_ + column); }
+    /// Whether a segment of the row is selected; maintained by select().
+    std::uint8_t& has_selection(Index row) { return has_selection_[static_cast<std::size_t>(row)]; }
+    bool has_selection(Index row) const { return has_selection_[static_cast<std::size_t>(row)]; }
+    /// The action of a used segment, M values.
+    auto action(Index row, Index column) const { return actions_.col(row * max_length_ + column); }
 
     void checkpoint(Archive& archive) {
-        archive(prototypes_, actions_, lengths_, distance_, collector_, trigger_, selected_, peaks_, speaks_,
-                next_);
+        archive(prototypes_, actions_, lengths_, distance_, collector_, trigger_, selected_, peaks_,
+                has_selection_, next_);
     }
 
   private:
-    Index longest_ = 0;
-    PrototypeStore prototypes_;  ///< of the live segments; key row NS + column
-    Eigen::ArrayXXf actions_;    ///< M x (sequences longest)
+    Index max_length_ = 0;
+    PrototypeStore prototypes_;  ///< of the used segments; their keys are row NS + column
+    Eigen::ArrayXXf actions_;    ///< M x (NL max_length)
     std::vector<Index> lengths_;
     SegmentArray distance_, collector_, trigger_, selected_;
-    std::vector<float> peaks_;          ///< per row
-    float highest_trigger_ = 0;         ///< largest |t| of a live segment, since collect()
-    std::vector<std::uint8_t> speaks_;  ///< per row
+    std::vector<float> peaks_;                 ///< per row
+    float largest_trigger_ = 0;                ///< largest |t| of a used segment in the last collect()
+    std::vector<std::uint8_t> has_selection_;  ///< per row
     Index next_ = 0;
 };
 

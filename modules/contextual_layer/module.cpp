@@ -18,38 +18,43 @@ void ContextualLayerModule::describe(ModuleSpec<ContextualLayerModule>& s) {
     using T = ContextualLayerModule;
     s.name("moduleCL", "Contextual Layer")
         .doc(
-            "Remembers the sequences of prototypes and actions that led to a goal, and acts on them when "
-            "they recur.");
+            "Remembers the sequences of prototypes and actions that led to a goal, and repeats the actions "
+            "when "
+            "the prototypes recur.");
     s.param("Memory Height", &T::height)
         .label("Memory height")
         .range(0, 1000)
         .at_start()
-        .doc("Number of sequences, and the most segments a sequence has.");
+        .doc("Number of sequences, and the maximum number of segments of a sequence.");
     s.param("Memory Width", &T::width)
         .label("Memory width")
         .range(0, 1000)
         .at_start()
-        .doc("Segments per sequence that the memory's pictures show.");
+        .doc(
+            "Number of segments per sequence that the pictures of the memory show, and the maximum of a "
+            "sequence.");
     s.param("Memory Threshold", &T::threshold)
         .label("Memory threshold")
         .range(0, 2)
-        .doc("A segment is selected only when its collector is above this.");
+        .doc("A segment is selected only if its collector is above this value.");
     s.param("%-WTA", &T::share)
         .label("%-WTA")
         .range(0, 1)
-        .doc("A segment is selected only when its collector is at least this part, 0 to 1, of the largest.");
+        .doc(
+            "A segment is selected only if its collector is at least this fraction (0 to 1) of the largest "
+            "one.");
     s.param("Trigger Reset", &T::reset)
         .label("Trigger Reset")
         .range(0, 2)
-        .doc("Trigger of the segment that follows a selected one; above 1 favours it.");
+        .doc("Trigger of the segment that follows a selected one; values above 1 favour it.");
     s.param("Trigger Decay", &T::decay)
         .label("Trigger Decay")
         .range(0, 2)
-        .doc("Part of the way back to 1 that a trigger goes in a cycle.");
+        .doc("Fraction of the difference to 1 by which a trigger decays in a cycle.");
     s.param("Discrepancy Threshold", &T::discrepancy)
         .label("Discrepancy Threshold")
         .range(0, 2)
-        .doc("The layer opens, for good, when the discrepancy is between 1e-6 and this.");
+        .doc("The layer opens, permanently, when the discrepancy is between 1e-6 and this value.");
     s.input("action", "Action");
     s.input("prototype", "Prototype");
     s.input("stats", "Stats");
@@ -70,7 +75,7 @@ void ContextualLayerModule::check(const ModulePorts& ports, Problems& problems) 
     for (const auto& [name, value] : {std::pair{"Memory Height", height}, std::pair{"Memory Width", width}})
         if (!(value >= 1 && value < 1e6)) {
             problems.all.push_back(
-                {fmt::format("'{}' is {}: there is no such memory", name, value), "1 to 1000", name, ""});
+                {fmt::format("'{}' is {}, which is not a possible size of the memory", name, value), "use 1 to 1000", name, ""});
             sized = false;
         }
     if (sized) {
@@ -80,17 +85,17 @@ void ContextualLayerModule::check(const ModulePorts& ports, Problems& problems) 
             const std::int64_t cells = group.shape.cells;
             if (cells == 0 || cells == rows * columns || (cells > rows * columns && i != collector)) continue;
             report(group,
-                   fmt::format("'{}' shows a memory of {} x {} segments; '{}' has {} cells", group.port,
+                   fmt::format("'{}' shows a memory of {} x {} segments, but '{}' has {} cells", group.port,
                                columns, rows, group.path, cells),
-                   fmt::format("make the group {} x {}, or fit 'Memory Width' and 'Memory Height'", columns,
-                               rows));
+                   fmt::format("make the group {} x {}, or change 'Memory Width' and 'Memory Height'",
+                               columns, rows));
         }
     }
     const auto& source = ports.inputs[action_in];
     const auto& target = ports.outputs[action_out];
     if (target.shape.cells > source.shape.cells)
         report(target,
-               fmt::format("output 'action' gets the {} cells of input 'action' ({}); '{}' has {}",
+               fmt::format("output 'action' receives the {} cells of input 'action' ({}), but '{}' has {}",
                            source.shape.cells, source.path, target.path, target.shape.cells),
                "give both groups the same size");
     if (const auto& goals = ports.inputs[stats]; goals.shape.cells < 2)
@@ -109,15 +114,15 @@ void ContextualLayerModule::start(const ModulePorts& ports) {
 
 void ContextualLayerModule::update(ModuleFrame& frame) {
     const auto& goals = frame.input(stats);
-    const bool looked_at = frame.is_read(distance) || frame.is_read(collector);
+    const bool exact = frame.is_read(distance) || frame.is_read(collector);
     if (!layer_.update({frame.input(action_in), frame.input(prototype), goals[0], goals[1],
                         frame.input(discrepancy_in)[0]},
                        {threshold, share, reset, decay, discrepancy},
-                       looked_at ? ContextualLayer::Exact::all : ContextualLayer::Exact::what_matters))
+                       exact ? ContextualLayer::Exact::all : ContextualLayer::Exact::selectable))
         return;
     Column action = frame.output(action_out);
     action = layer_.action().head(action.size()).cast<double>();
-    // A picture that stays as it is is not asked for: the group that shows it then rests.
+    // An unchanged picture is not written, so that its group stays quiescent.
     const auto picture = [&](Out port, const SegmentArray& numbers) {
         SegmentArray& shown = shown_[port - collector];
         const auto bytes = static_cast<std::size_t>(numbers.size()) * sizeof(float);

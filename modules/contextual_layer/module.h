@@ -1,4 +1,4 @@
-// moduleCL: the contextual layer between groups.
+// moduleCL: the contextual layer as a module.
 #pragma once
 
 #include <array>
@@ -8,9 +8,10 @@
 
 namespace forage::contextual {
 
-/// Inputs `action` (M cells), `prototype` (N), `stats` (positive goal, negative goal) and `discrepancy` (its
-/// first cell); output `action` (up to M cells) and, if wanted, pictures of the memory. Writes nothing while
-/// the layer is closed. Memory Height and Memory Width are read at start, all else in each update.
+/// Inputs: `action` (M cells), `prototype` (N cells), `stats` (positive goal, negative goal) and
+/// `discrepancy` (its first cell). Outputs: `action` (at most M cells) and, optionally, pictures of the
+/// long-term memory. Nothing is written while the layer is closed. `Memory Height` and `Memory Width` are
+/// read at the start, the other parameters in each update.
 class ContextualLayerModule {
   public:
     double height = 1, width = 1;
@@ -28,8 +29,9 @@ class ContextualLayerModule {
 
   private:
     ContextualLayer layer_;
-    bool displayed_ = false;             ///< the displays have been written once
-    std::array<SegmentArray, 4> shown_;  ///< what collector, distance, selected and trigger show
+    bool displayed_ = false;  ///< whether the pictures have been written once
+    std::array<SegmentArray, 4>
+        shown_;  ///< the content of the pictures collector, distance, selected, trigger
 };
 
 }  // namespace forage::contextual

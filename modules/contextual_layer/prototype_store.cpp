@@ -8,14 +8,15 @@
 namespace forage::contextual {
 namespace {
 
-constexpr int wait_after_vain = 16;
+constexpr int pause_after_waste = 16;  ///< comparisons without estimates
 
-using CellsOf = Eigen::Map<Eigen::ArrayXd, 0, Eigen::InnerStride<lanes>>;  ///< of one prototype in its block
+using CellsOf =
+    Eigen::Map<Eigen::ArrayXd, 0, Eigen::InnerStride<lanes>>;  ///< the cells of one prototype in its block
 
 /// sums[b][l] = the sum of |cells_b[i][l] - present[i]| share over the `count` listed cells i, for two
-/// blocks, rounded to single precision each time. That takes its time: while the sum of one block is rounded,
-/// the other's is computed. (Cells are listed, not looked for here, and a lone block is taken twice:
-/// otherwise GCC 12 takes the lanes apart and leaves some unrounded.)
+/// blocks. The sum is rounded to single precision after each addition. Rounding has a long latency; with two
+/// blocks, one is computed while the other is rounded. A single block is passed twice, as GCC 12 does not
+/// vectorise other forms of this loop correctly.
 FORAGE_SIMD void add_two(const double* first, const double* second, const Index* listed, Index count,
                          const double* present, double share, double* sums) {
     double total[2 * lanes];
@@ -42,7 +43,7 @@ PrototypeStore::PrototypeStore(Index keys, Index capacity, Index cells)
       present_(Eigen::ArrayXd::Zero(cells)),
       active_(static_cast<std::size_t>(words_)),
       coarse_((capacity + lanes - 1) / lanes, cells),
-      counted_(cells) {
+      listed_(cells) {
     const Index blocks = (capacity + lanes - 1) / lanes;
     blocks_.setZero(blocks * cells * lanes);
     used_.resize(static_cast<std::size_t>(blocks * words_), 0);
@@ -50,8 +51,8 @@ PrototypeStore::PrototypeStore(Index keys, Index capacity, Index cells)
     keys_.reserve(static_cast<std::size_t>(capacity));
     slots_.resize(static_cast<std::size_t>(keys), 0);
     exact_.resize(static_cast<std::size_t>(blocks), 1);
-    odd_.resize(static_cast<std::size_t>(blocks * lanes), 0);
-    needed_.reserve(static_cast<std::size_t>(blocks));
+    out_of_range_.resize(static_cast<std::size_t>(blocks * lanes), 0);
+    required_.reserve(static_cast<std::size_t>(blocks));
 }
 
 void PrototypeStore::add(Index key, const Eigen::Ref<const Eigen::ArrayXf>& prototype) {
@@ -66,32 +67,32 @@ void PrototypeStore::add(Index key, const Eigen::Ref<const Eigen::ArrayXf>& prot
         cells = (prototype / peak).cast<double>();
     else
         cells.setZero();
-    note_cells(slot);
+    update_derived(slot);
 }
 
 void PrototypeStore::remove(Index key) {
     current_ = false;
     const Index slot = slots_[static_cast<std::size_t>(key)], last = size() - 1;
-    if (slot != last) {  // the last one moves into the gap
+    if (slot != last) {  // the last prototype moves into the gap
         CellsOf(cells_of(slot), cells_) = CellsOf(cells_of(last), cells_);
         silent_[static_cast<std::size_t>(slot)] = silent_[static_cast<std::size_t>(last)];
         keys_[static_cast<std::size_t>(slot)] = keys_.back();
         slots_[static_cast<std::size_t>(keys_.back())] = slot;
-        note_cells(slot);
+        update_derived(slot);
     }
     CellsOf(cells_of(last), cells_).setZero();
-    note_cells(last);
+    update_derived(last);
     keys_.pop_back();
 }
 
-/// Notes what follows from the cells of a slot.
-void PrototypeStore::note_cells(Index slot) {
+/// Updates the derived data of a slot.
+void PrototypeStore::update_derived(Index slot) {
     const CellsOf cells(cells_of(slot), cells_);
-    auto& odd = odd_[static_cast<std::size_t>(slot)];
-    odd_ones_ -= odd;
-    odd = !(cells >= 0.0 && cells <= 1.0).all();
-    odd_ones_ += odd;
-    for (Index i = 0; i < cells_ && coarse_.useful(); ++i) coarse_.put(slot, i, odd ? 0 : cells[i]);
+    auto& bad = out_of_range_[static_cast<std::size_t>(slot)];
+    out_of_range_count_ -= bad;
+    bad = !(cells >= 0.0 && cells <= 1.0).all();
+    out_of_range_count_ += bad;
+    for (Index i = 0; i < cells_ && coarse_.useful(); ++i) coarse_.put(slot, i, bad ? 0 : cells[i]);
 
     const Index block = slot / lanes;
     std::uint64_t* used = &used_[static_cast<std::size_t>(block * words_)];
@@ -101,14 +102,15 @@ void PrototypeStore::note_cells(Index slot) {
             used[i / cells_per_word] |= std::uint64_t{1} << (i % cells_per_word);
 }
 
-void PrototypeStore::restore() {
+void PrototypeStore::rebuild_derived() {
     const auto slots = static_cast<Index>(silent_.size());
-    for (Index slot = 0; slot < slots; ++slot) note_cells(slot);
+    for (Index slot = 0; slot < slots; ++slot) update_derived(slot);
     estimated_ = std::count(exact_.begin(), exact_.begin() + blocks_in_use(), 0);
 }
 
-/// Takes p. False when nothing is to be compared: the distances in the array hold for it.
-bool PrototypeStore::take(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances) {
+/// Sets p. Returns false when no comparison is necessary, because the distances in the array are already
+/// those of p.
+bool PrototypeStore::set_present(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances) {
     if (current_ && (present == compared_).all()) return false;
     current_ = true;
     compared_ = present;
@@ -129,17 +131,17 @@ bool PrototypeStore::take(const Eigen::Ref<const Eigen::ArrayXd>& present, float
 }
 
 void PrototypeStore::compare(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances) {
-    take(present, distances);
-    need_all();
-    compare_needed(distances);
+    set_present(present, distances);
+    require_all();
+    compare_required(distances);
 }
 
 void PrototypeStore::estimate(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances) {
-    if (!take(present, distances)) return;
-    if (in_vain_ > 0 || !can_estimate()) {
-        in_vain_ = std::max(0, in_vain_ - 1);
-        need_all();
-        compare_needed(distances);
+    if (!set_present(present, distances)) return;
+    if (estimates_paused_ > 0 || !can_estimate()) {
+        estimates_paused_ = std::max(0, estimates_paused_ - 1);
+        require_all();
+        compare_required(distances);
         return;
     }
     coarse_.compare_with(present_);
@@ -148,66 +150,66 @@ void PrototypeStore::estimate(const Eigen::Ref<const Eigen::ArrayXd>& present, f
         const Index second = std::min(first + 1, blocks - 1);
         list_cells(first, second);
         float found[2 * lanes];
-        coarse_.estimate(first, second, counted_, found);
-        tell(first, found, distances);
-        tell(second, found + lanes, distances);
+        coarse_.estimate(first, second, listed_, found);
+        write_distances(first, found, distances);
+        write_distances(second, found + lanes, distances);
     }
 }
 
 bool PrototypeStore::can_estimate() const {
-    return coarse_.useful() && odd_ones_ == 0 &&
-           (present_ >= 0.0 && present_ <= CoarsePrototypes::most).all();
+    return coarse_.useful() && out_of_range_count_ == 0 &&
+           (present_ >= 0.0 && present_ <= CoarsePrototypes::max_cell).all();
 }
 
-void PrototypeStore::need(Index key) { need_block(slots_[static_cast<std::size_t>(key)] / lanes); }
+void PrototypeStore::require(Index key) { require_block(slots_[static_cast<std::size_t>(key)] / lanes); }
 
-void PrototypeStore::need_block(Index block) {
+void PrototypeStore::require_block(Index block) {
     auto& exact = exact_[static_cast<std::size_t>(block)];
     if (exact) return;
     exact = 1;
-    needed_.push_back(block);
+    required_.push_back(block);
 }
 
-void PrototypeStore::need_all() {
-    for (Index block = 0; block < blocks_in_use(); ++block) need_block(block);
+void PrototypeStore::require_all() {
+    for (Index block = 0; block < blocks_in_use(); ++block) require_block(block);
 }
 
 void PrototypeStore::refine(float* distances) {
-    if (needed_.empty()) return;
-    compare_needed(distances);
-    if (3 * estimated_ < blocks_in_use()) in_vain_ = wait_after_vain;
+    if (required_.empty()) return;
+    compare_required(distances);
+    if (3 * estimated_ < blocks_in_use()) estimates_paused_ = pause_after_waste;
 }
 
-void PrototypeStore::compare_needed(float* distances) {
+void PrototypeStore::compare_required(float* distances) {
     const double share = 1.0F / static_cast<float>(cells_);
-    for (std::size_t n = 0; n < needed_.size(); n += 2) {
-        const Index first = needed_[n], second = needed_[std::min(n + 1, needed_.size() - 1)];
+    for (std::size_t n = 0; n < required_.size(); n += 2) {
+        const Index first = required_[n], second = required_[std::min(n + 1, required_.size() - 1)];
         list_cells(first, second);
         double sums[2 * lanes];
         float found[2 * lanes];
         add_two(blocks_.data() + first * cells_ * lanes, blocks_.data() + second * cells_ * lanes,
-                counted_.begin(), counted_.size(), present_.data(), share, sums);
+                listed_.begin(), listed_.size(), present_.data(), share, sums);
         std::transform(sums, sums + 2 * lanes, found, [](double sum) { return static_cast<float>(sum); });
-        tell(first, found, distances);
-        tell(second, found + lanes, distances);
+        write_distances(first, found, distances);
+        write_distances(second, found + lanes, distances);
     }
-    estimated_ -= static_cast<Index>(needed_.size());
-    needed_.clear();
+    estimated_ -= static_cast<Index>(required_.size());
+    required_.clear();
 }
 
-/// Lists the cells that count for two blocks. (A number that is not finite is not 0.)
+/// Lists the cells that contribute to the distances of two blocks. Infinite numbers and NaN contribute.
 void PrototypeStore::list_cells(Index first, Index second) {
-    counted_.list(used_by(first), used_by(second), active_.data());
+    listed_.list(used_by(first), used_by(second), active_.data());
 }
 
-/// Puts the distances of a block where they belong: 1 for prototypes without any activity.
-void PrototypeStore::tell(Index block, const float* found, float* distances) const {
+/// Writes the distances of a block to the array, with 1 for prototypes without activity.
+void PrototypeStore::write_distances(Index block, const float* found, float* distances) const {
     const Index begin = block * lanes, left = std::min(lanes, size() - begin);
     const Index* const keys = &keys_[static_cast<std::size_t>(begin)];
     const std::uint8_t* const silent = &silent_[static_cast<std::size_t>(begin)];
-    float told[lanes];
-    for (Index l = 0; l < lanes; ++l) told[l] = silent[l] ? 1.0F : found[l];
-    for (Index l = 0; l < left; ++l) distances[keys[l]] = told[l];
+    float values[lanes];
+    for (Index l = 0; l < lanes; ++l) values[l] = silent[l] ? 1.0F : found[l];
+    for (Index l = 0; l < left; ++l) distances[keys[l]] = values[l];
 }
 
 }  // namespace forage::contextual

@@ -1,4 +1,4 @@
-// Many prototypes, compared with one at a time.
+// A store of many prototypes, which are compared with one at a time.
 #pragma once
 
 #include <cstdint>
@@ -12,24 +12,24 @@
 
 namespace forage::contextual {
 
-/// Up to `keys` prototypes of N cells, each under a number below `keys`. They lie densely, in blocks of which
-/// cell i of all lies side by side, so that what is not there costs nothing.
+/// Up to `keys` prototypes of N cells, each with a key below `keys`. They are stored in blocks in which cell
+/// i of all prototypes is contiguous; there are no gaps, so that only stored prototypes cost time.
 ///
-/// The distance of a stored prototype P and the present one p is 1/N sum_i |P_i / max P - p_i / max p|, and 1
-/// when a maximum is not above 0; in 0..1 when no cell is negative. It is rounded where the original rounds:
-/// P_i / max P, 1/N and the running sum to single precision, which takes most of the time. Who needs few of
-/// them lets all be estimated and makes those exact:
+/// The distance of a stored prototype P to the present one p is 1/N sum_i |P_i / max P - p_i / max p|, and 1
+/// when a maximum is not above 0. It is in 0..1 when no cell is negative. P_i / max P, 1/N and the running
+/// sum are rounded to single precision as in the original, which takes most of the time. When only few exact
+/// distances are needed, it is faster to estimate all of them first:
 ///
 ///     store.estimate(present, distances);
 ///     if (store.error() > 0) {
-///         for (...) store.need(key);
+///         for (...) store.require(key);
 ///         store.refine(distances);
 ///     }
 ///
-/// Estimates are given up for a while where most of them had to be made exact.
+/// When most distances had to be made exact, the next comparisons do not estimate.
 ///
-/// `distances` is the same array every time, by key: what is known to be in it is not written again. Nothing
-/// here allocates.
+/// `distances` is indexed by key and must be the same array in every call, as distances that have not changed
+/// are not written again. No function except the constructor allocates memory.
 class PrototypeStore {
   public:
     PrototypeStore() = default;
@@ -40,21 +40,22 @@ class PrototypeStore {
     void remove(Index key);
     Index size() const { return static_cast<Index>(keys_.size()); }
 
-    /// Tells the distances of all stored prototypes.
+    /// Computes the exact distances of all stored prototypes.
     void compare(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances);
-    /// The same, but they may be off by error().
+    /// Computes distances whose error is at most error().
     void estimate(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances);
-    /// How much a distance may be off; 0 when all are exact.
+    /// An upper bound of the error of the distances; 0 when all are exact.
     float error() const { return estimated_ > 0 ? coarse_.error() : 0; }
-    /// Has the next refine() make the distance of a stored prototype exact. Only after an estimate, and
-    /// before anything is added or removed.
-    void need(Index key);
-    /// Makes distances exact, those that are needed and perhaps others.
+    /// Requires that the next refine() makes the distance of a stored prototype exact. Allowed after
+    /// estimate() until a prototype is added or removed.
+    void require(Index key);
+    /// Makes the required distances exact, and possibly others.
     void refine(float* distances);
 
     void checkpoint(Archive& archive) {
-        archive(blocks_, silent_, keys_, slots_, compared_, current_, present_, active_, exact_, in_vain_);
-        if (archive.loading()) restore();
+        archive(blocks_, silent_, keys_, slots_, compared_, current_, present_, active_, exact_,
+                estimates_paused_);
+        if (archive.loading()) rebuild_derived();
     }
 
   private:
@@ -63,38 +64,40 @@ class PrototypeStore {
         return &used_[static_cast<std::size_t>(block * words_)];
     }
     Index blocks_in_use() const { return (size() + lanes - 1) / lanes; }
-    void note_cells(Index slot);
-    void restore();
-    bool take(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances);
+    void update_derived(Index slot);
+    void rebuild_derived();
+    bool set_present(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances);
     bool can_estimate() const;
-    void need_block(Index block);
-    void need_all();
-    void compare_needed(float* distances);
+    void require_block(Index block);
+    void require_all();
+    void compare_required(float* distances);
     void list_cells(Index first, Index second);
-    void tell(Index block, const float* found, float* distances) const;
+    void write_distances(Index block, const float* found, float* distances) const;
 
-    Index cells_ = 0, words_ = 0;        ///< words_: of a bit per cell
-    Eigen::ArrayXd blocks_;              ///< P / max P, of single precision; [block][cell][lane], 0 if unused
-    std::vector<std::uint8_t> silent_;   ///< per slot: max P is 0
-    std::vector<Index> keys_;            ///< of the slots in use
-    std::vector<Index> slots_;           ///< by key
+    Index cells_ = 0;
+    Index words_ = 0;                    ///< of a bit set with one bit per cell
+    Eigen::ArrayXd blocks_;              ///< [block][cell][lane]: P / max P in single precision, 0 if unused
+    std::vector<std::uint8_t> silent_;   ///< per slot: whether max P is 0
+    std::vector<Index> keys_;            ///< per used slot
+    std::vector<Index> slots_;           ///< per key
     Eigen::ArrayXd compared_;            ///< p of the last comparison
-    bool current_ = false;               ///< the distances of the last comparison hold for compared_
+    bool current_ = false;               ///< whether the distances are those of compared_
     Eigen::ArrayXd present_;             ///< p / max p
-    std::vector<std::uint64_t> active_;  ///< cells of present_ that are not 0
-    std::vector<std::uint8_t> exact_;    ///< per block: its distances are exact, or it is in needed_
-    int in_vain_ = 0;                    ///< for so many comparisons estimates are not tried
+    std::vector<std::uint64_t> active_;  ///< bit set of the cells of present_ that are not 0
+    std::vector<std::uint8_t> exact_;  ///< per block: whether its distances are exact, or will be by refine()
+    int estimates_paused_ = 0;         ///< number of the next comparisons that do not estimate
 
-    // What follows from the above.
-    std::vector<std::uint64_t> used_;  ///< [block][word]: cells of which some lane is not 0
+    // ---- derived from the above ----
+    std::vector<std::uint64_t> used_;  ///< [block][word]: bit set of the cells that are not 0 in some lane
     CoarsePrototypes coarse_;
-    std::vector<std::uint8_t> odd_;  ///< per slot: some P_i / max P is not in 0..1, so that coarse_ has not P
-    Index odd_ones_ = 0;
-    Index estimated_ = 0;  ///< blocks that are not exact
+    std::vector<std::uint8_t>
+        out_of_range_;              ///< per slot: whether a P_i / max P is not in 0..1; it is not in coarse_
+    Index out_of_range_count_ = 0;  ///< number of slots
+    Index estimated_ = 0;           ///< number of blocks whose distances are not exact
 
-    // Scratch.
-    CellList counted_;
-    std::vector<Index> needed_;  ///< blocks
+    // ---- temporary ----
+    CellList listed_;
+    std::vector<Index> required_;  ///< blocks
 };
 
 }  // namespace forage::contextual

@@ -1,4 +1,4 @@
-// What happened since the last goal.
+// The short-term memory: prototypes and actions since the last goal.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@ namespace forage::contextual {
 
 using Eigen::Index;
 
-/// A ring of the newest `slots` couplets of prototype and action, in single precision.
+/// A ring buffer of couplets of prototype and action, in single precision.
 class ShortTermMemory {
   public:
     ShortTermMemory() = default;
@@ -17,7 +17,7 @@ class ShortTermMemory {
         : prototypes_(Eigen::ArrayXXf::Zero(prototype_cells, slots)),
           actions_(Eigen::ArrayXXf::Zero(action_cells, slots)) {}
 
-    /// Remembers a couplet; when all slots are taken the oldest is forgotten.
+    /// Appends a couplet; it replaces the oldest one when all slots are used.
     void append(const Eigen::Ref<const Eigen::ArrayXd>& prototype,
                 const Eigen::Ref<const Eigen::ArrayXd>& action) {
         prototypes_.col(next_) = prototype.cast<float>();
@@ -29,7 +29,7 @@ class ShortTermMemory {
 
     Index slots() const { return prototypes_.cols(); }
     Index size() const { return size_; }
-    /// The prototype, or action, that was appended `age` couplets ago; 0 is the newest.
+    /// The prototype, or the action, of the couplet that was appended `age` couplets ago; 0 is the newest.
     auto prototype(Index age) const { return prototypes_.col(slot(age)); }
     auto action(Index age) const { return actions_.col(slot(age)); }
 

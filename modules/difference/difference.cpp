@@ -4,8 +4,8 @@
 
 namespace forage::goal {
 
-void show_difference(const std::optional<Place>& location, const std::optional<Place>& goal, Index width,
-                     Index height, Eigen::Ref<Eigen::ArrayXd> out) {
+void show_difference(const std::optional<GridPosition>& location, const std::optional<GridPosition>& goal,
+                     Index width, Index height, Eigen::Ref<Eigen::ArrayXd> out) {
     out.setZero();
     if (!location || !goal) return;
     const Index row = goal->row - location->row + height - 1,
@@ -23,9 +23,9 @@ void DifferenceModule::check(const ModulePorts& ports, Problems& problems) const
     };
     const auto& location = ports.inputs[0].shape;
     require(ports.inputs[0], location.width, location.height, "a full rectangle");
-    require(ports.inputs[1], location.width, location.height, "as '_location'");
+    require(ports.inputs[1], location.width, location.height, "the size of '_location'");
     require(ports.outputs[0], 2 * location.width - 1, 2 * location.height - 1,
-            "twice those of '_location' less one");
+            "twice the width and height of '_location' less one");
 }
 
 }  // namespace forage::goal

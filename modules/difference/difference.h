@@ -1,4 +1,4 @@
-// differenceModule: where the goal is, seen from here.
+// differenceModule: the position of the goal relative to the current location.
 #pragma once
 
 #include <optional>
@@ -8,18 +8,19 @@
 
 namespace forage::goal {
 
-/// Writes 0 everywhere and, if both places are known, 1 at row (goal row - location row + H - 1), column
-/// (goal column
-/// - location column + W - 1) of `out`, which has (2 W - 1) x (2 H - 1) cells for groups of W x H.
-void show_difference(const std::optional<Place>& location, const std::optional<Place>& goal, Index width,
-                     Index height, Eigen::Ref<Eigen::ArrayXd> out);
+/// Sets one cell of `out` to 1 and all others to 0. For groups of W x H cells, `out` has (2 W - 1) x (2 H -
+/// 1) cells, and the cell is in row (goal row - location row + H - 1) and column (goal column - location
+/// column + W - 1). All cells are 0 when a position is unknown.
+void show_difference(const std::optional<GridPosition>& location, const std::optional<GridPosition>& goal,
+                     Index width, Index height, Eigen::Ref<Eigen::ArrayXd> out);
 
-/// Inputs `_location` and `_goal` (W x H); output `_diff` ((2 W - 1) x (2 H - 1)), whose centre means "here".
+/// Inputs: `_location` and `_goal` (W x H cells). Output: `_diff` ((2 W - 1) x (2 H - 1)); its centre stands
+/// for the current location.
 class DifferenceModule {
   public:
     static void describe(ModuleSpec<DifferenceModule>& s) {
         s.name("differenceModule", "Difference")
-            .doc("Shows the place of the goal relative to the present location.");
+            .doc("Shows the position of the goal relative to the current location.");
         s.input("_location", "Current location");
         s.input("_goal", "Goal location");
         s.output("_diff", "Difference");
@@ -27,10 +28,11 @@ class DifferenceModule {
     void check(const ModulePorts& ports, Problems& problems) const;
     void start(const ModulePorts& ports) { size_ = ports.inputs[0].shape; }
     void update(ModuleFrame& frame) {
-        show_difference(place_of(frame.input(0), size_.width), place_of(frame.input(1), size_.width),
-                        size_.width, size_.height, frame.output(0));
+        show_difference(peak_position(frame.input(0), size_.width),
+                        peak_position(frame.input(1), size_.width), size_.width, size_.height,
+                        frame.output(0));
     }
-    void checkpoint(Archive&) {}  // all is known from the start
+    void checkpoint(Archive&) {}  // it has no state
 
   private:
     GroupShape size_;  ///< of location and goal

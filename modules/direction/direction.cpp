@@ -12,19 +12,21 @@ namespace {
 enum In : std::size_t { location_in, orientation_in, goal_in };
 enum Out : std::size_t { direction_out, distance_out };
 
-double up(const Place& from, const Place& to) { return static_cast<double>(from.row - to.row); }
-double left(const Place& from, const Place& to) { return static_cast<double>(from.column - to.column); }
+double up(const GridPosition& from, const GridPosition& to) { return static_cast<double>(from.row - to.row); }
+double left(const GridPosition& from, const GridPosition& to) {
+    return static_cast<double>(from.column - to.column);
+}
 
 }  // namespace
 
-double distance(const Place& from, const Place& to) {
+double distance(const GridPosition& from, const GridPosition& to) {
     const double rows = up(from, to), columns = left(from, to);
     return std::sqrt(rows * rows + columns * columns);
 }
 
-double bearing(const Place& from, const Place& to) {
+double bearing(const GridPosition& from, const GridPosition& to) {
     constexpr double pi = std::numbers::pi;
-    double angle = std::atan(up(from, to) / left(from, to));  // a right angle in the same column
+    double angle = std::atan(up(from, to) / left(from, to));  // division by 0 gives a right angle
     if (to.column > from.column)
         angle += pi;
     else if (to.row > from.row)
@@ -34,8 +36,8 @@ double bearing(const Place& from, const Place& to) {
 
 double turn(double bearing, double orientation) {
     const double ahead = bearing - orientation;
-    const double apart = std::min(std::abs(ahead), 1 - std::abs(ahead));
-    const double step = apart < 0.05 ? 0 : apart < 0.1 ? 0.1 : apart < 0.15 ? 0.33 : 0.45;
+    const double angle = std::min(std::abs(ahead), 1 - std::abs(ahead));
+    const double step = angle < 0.05 ? 0 : angle < 0.1 ? 0.1 : angle < 0.15 ? 0.33 : 0.45;
     const bool forwards = (ahead > 0 && ahead <= 0.5) || ahead < -0.5;
     return forwards ? 0.5 + step : 0.5 - step;
 }
@@ -48,22 +50,22 @@ void DirectionModule::check(const ModulePorts& ports, Problems& problems) const 
              "give the group a TopologyRect", "", "_location"});
     if (!(goal.shape == location.shape))
         problems.all.push_back(
-            {fmt::format("'_goal' needs {} x {} cells, as '_location' ({}); '{}' has {} x {}",
+            {fmt::format("'_goal' needs {} x {} cells, the size of '_location' ({}); '{}' has {} x {}",
                          location.shape.width, location.shape.height, location.path, goal.path,
                          goal.shape.width, goal.shape.height),
              "give both groups the same size", "", "_goal"});
     if (const auto& orientation = ports.inputs[orientation_in]; orientation.shape.cells < 2)
         problems.all.push_back(
-            {fmt::format("'_ori' needs at least 2 cells, a whole turn from first to last; '{}' has {}",
+            {fmt::format("'_ori' needs at least 2 cells, which cover a full turn; '{}' has {}",
                          orientation.path, orientation.shape.cells),
-             "give the group a cell per direction, as to the robot's head direction", "", "_ori"});
+             "use one cell per direction, as for head direction cells", "", "_ori"});
 }
 
 void DirectionModule::update(ModuleFrame& frame) const {
     frame.output(direction_out).setZero();
     frame.output(distance_out).setZero();
-    const auto location = place_of(frame.input(location_in), width_),
-               goal = place_of(frame.input(goal_in), width_);
+    const auto location = peak_position(frame.input(location_in), width_),
+               goal = peak_position(frame.input(goal_in), width_);
     if (!location || !goal) return;
     const auto& cells = frame.input(orientation_in);
     const double orientation =

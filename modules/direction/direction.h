@@ -1,4 +1,4 @@
-// directionModule: which way to turn towards the goal, and how far it is.
+// directionModule: the turn towards the goal, and its distance.
 #pragma once
 
 #include "core/types/module.h"
@@ -6,30 +6,28 @@
 
 namespace forage::goal {
 
-/// Distance in cells between two places.
-double distance(const Place& from, const Place& to);
+/// The Euclidean distance between two positions, in cells.
+double distance(const GridPosition& from, const GridPosition& to);
 
-/// Direction from one place to another as a part of a turn, 0..1: rows grow downwards, so 1 (or 0) is towards
-/// column 0, 0.75 towards row 0, 0.5 towards the last column, 0.25 towards the last row. NaN when the places
-/// are the same.
-double bearing(const Place& from, const Place& to);
+/// The direction from one position to another in turns, 0..1: 1 (or 0) is towards column 0, 0.75 towards row
+/// 0, 0.5 towards the last column and 0.25 towards the last row. NaN when the positions are equal.
+double bearing(const GridPosition& from, const GridPosition& to);
 
-/// The turn that takes `orientation` to `bearing`, both parts of a turn: 0.5 goes straight on, 0.05 .. 0.95
-/// in steps by how far they are apart (none below 0.05 of a turn, then 0.1, 0.33, 0.45), above 0.5 when the
-/// bearing is ahead by half a turn at most.
+/// The turn from `orientation` to `bearing` (both in turns), on a scale where 0.5 means straight ahead. It
+/// differs from 0.5 by a step that depends on the angle between them: 0 below 0.05 turns, 0.1 below 0.1, 0.33
+/// below 0.15, else 0.45. It is above 0.5 when the bearing is at most half a turn ahead of the orientation.
 double turn(double bearing, double orientation);
 
-/// Inputs `_location`, `_goal` (same size) and `_ori` (n cells, a whole turn from first to last); outputs
-/// `_dir` (m cells; 1 at cell (1 - turn) m, all 0 when a place is not known) and `_dist` (in cells, 0 when
-/// not known).
+/// Inputs: `_location` and `_goal` (of the same size), `_ori` (n cells that cover a full turn). Outputs:
+/// `_dir` (m cells; cell number (1 - turn) m is 1, the others 0) and `_dist` (the distance, in cells). All
+/// outputs are 0 when a position is unknown.
 class DirectionModule {
   public:
     double sigma = 0.2;
 
     static void describe(ModuleSpec<DirectionModule>& s) {
-        s.name("directionModule", "Goal direction")
-            .doc("Shows which way to turn towards the goal, and how far it is.");
-        s.param("_sigma", &DirectionModule::sigma).label("Sigma").doc("No effect, as in the original.");
+        s.name("directionModule", "Goal direction").doc("Shows the turn towards the goal, and its distance.");
+        s.param("_sigma", &DirectionModule::sigma).label("Sigma").doc("Has no effect, as in the original.");
         s.input("_location", "Current location");
         s.input("_ori", "Current orientation");
         s.input("_goal", "Goal location");
@@ -39,10 +37,10 @@ class DirectionModule {
     void check(const ModulePorts& ports, Problems& problems) const;
     void start(const ModulePorts& ports) { width_ = ports.inputs[0].shape.width; }
     void update(ModuleFrame& frame) const;
-    void checkpoint(Archive&) {}  // all is known from the start
+    void checkpoint(Archive&) {}  // it has no state
 
   private:
-    Index width_ = 1;  ///< of location and goal
+    Index width_ = 1;  ///< of the location and the goal group, cells
 };
 
 }  // namespace forage::goal

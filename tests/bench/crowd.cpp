@@ -49,7 +49,7 @@ class Course {
     /// `first`: number of the first robot; each drives as it does anywhere.
     Course(std::unique_ptr<bug::World> world, std::uint32_t first) : world_(std::move(world)), first_(first) {
         for (std::size_t i = 0; i < world_->bugs(); ++i)
-            world_->need_image(i, true), world_->need_gripper_scan(i, true);
+            world_->request_image(i, true), world_->request_gripper_scan(i, true);
     }
 
     static constexpr std::uint64_t block = 250;  ///< cycles

@@ -1,4 +1,4 @@
-// What the robot does with the reactive system, as a student would judge it.
+// The behaviour of the robot with the reactive system.
 #include <cmath>
 #include <numbers>
 
@@ -19,7 +19,7 @@ TEST_CASE("Without connections to the motors the robot stands still") {
     CHECK(loop.world->trials(0).empty());
 }
 
-TEST_CASE("With Explore connected to the motors alone the robot drives straight, past the light") {
+TEST_CASE("With only Explore connected to the motors, the robot drives straight past the light") {
     const auto only_explore =
         keep_connections({"c.const_speed-explore", "c.explore-motor_in", "c.motor_in-motor"});
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
@@ -32,7 +32,7 @@ TEST_CASE("With Explore connected to the motors alone the robot drives straight,
     }
 }
 
-TEST_CASE("With nothing in sight the whole system drives straight") {
+TEST_CASE("The complete system drives straight while nothing is in sight") {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         ClosedLoop loop({.seed = seed, .edit_world = start_at(-1.5, -2, up)});
         while (loop.pose().y < -0.5) loop.step();  // the light is at least 3.2 m away

@@ -1,4 +1,4 @@
-// Free driving against the original's rule: mean and spread of where a robot gets to.
+// Free driving compared with the original's rule: mean and standard deviation of the final pose.
 //
 // In each of N steps of dt = 1 ms the velocity plugin drives a robot with (v + a) along its heading and turns
 // it with (w + b), a and b uniform in +-0.005 (m/s, rad/s), drawn anew in every step, also when it stands. A
@@ -48,7 +48,7 @@ struct Sample {
     }
 };
 
-/// Where the robot of the open arena is after 4 s, from the origin, with the heading along x.
+/// The pose of the robot in the open arena after 4 s, starting at the origin with the heading +x.
 struct Drives {
     Sample x, y, yaw;
     explicit Drives(MotorCommand command) {
@@ -73,20 +73,20 @@ const double root = s * dt * std::sqrt(double{steps});
 
 }  // namespace
 
-TEST_CASE("Straight on: speed, way and drift have the mean and the spread of the original's noise") {
+TEST_CASE("Driving straight has the mean and the deviation of the original's noise") {
     const Drives d({0.5, 0});
     d.x.check(2, root);
     d.y.check(0, 0.5 * s * dt * dt * std::sqrt(std::pow(steps, 3) / 3));
     d.yaw.check(0, root);
 }
 
-TEST_CASE("Turning on the spot: rate and spread") {
+TEST_CASE("Turning on the spot has the rate and the deviation of the original") {
     const Drives d({0, 0.7});
     d.yaw.check(2.8, root);
     CHECK(std::abs(d.x.mean()) < 4 * root / std::sqrt(runs));
 }
 
-TEST_CASE("Along an arc: radius and rate") {
+TEST_CASE("Driving along an arc has the radius and the rate of the original") {
     const Drives d({0.5, 0.7});
     d.yaw.check(2.8, root);
     const double bias = 0.5 * 0.7 * dt * 4 / 2;
@@ -94,7 +94,7 @@ TEST_CASE("Along an arc: radius and rate") {
     CHECK(std::abs(d.y.mean() - 0.5 / 0.7 * (1 - std::cos(2.8))) < bias);
 }
 
-TEST_CASE("Backwards, and standing still, where the noise goes on") {
+TEST_CASE("The noise acts also backwards and when the robot stands still") {
     const double speed = GENERATE(-0.5, 0.0);
     const Drives d({speed, 0});
     d.x.check(4 * speed, root);

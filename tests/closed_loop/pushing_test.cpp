@@ -1,5 +1,5 @@
-// Robots with grippers, balls and crates in a pen: long random pushing. FORAGE_PUSHING_STEPS sets for how
-// long.
+// Long random pushing of balls and crates by robots with grippers. The environment variable
+// FORAGE_PUSHING_STEPS sets the number of steps.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -38,7 +38,7 @@ Model ball(const std::string& name, const Pose2& at) {
     return block(name, at, {ShapeKind::sphere, Eigen::Vector3d::Constant(0.16)}, 0.01);
 }
 
-/// `robots` of the team arena in a pen of `side` m, and what else there is.
+/// A square arena of `side` m with robots of the team arena and other models.
 WorldDescription pen(double side, const std::vector<Pose2>& robots, const std::vector<Model>& things) {
     WorldDescription world = test::description("team_arena");
     const Model robot = *test::find_model(world, "A_1");
@@ -59,7 +59,7 @@ WorldDescription pen(double side, const std::vector<Pose2>& robots, const std::v
     return world;
 }
 
-/// A world that is looked at after every step of 1 ms.
+/// A world that is measured after every step of 1 ms.
 class Pen {
   public:
     explicit Pen(const WorldDescription& text) {
@@ -69,13 +69,13 @@ class Pen {
         for (const Model& m : text.models)
             if (m.is_static)
                 for (const Solid& solid : solids_of(m))
-                    if (const auto outline = cut(solid, 0.08)) walls_.push_back(*outline);
+                    if (const auto outline = cross_section(solid, 0.08)) walls_.push_back(*outline);
     }
     void step() {
         world->advance_bodies();
         for (std::size_t i = 0; i < bodies(); ++i) measure(i);
     }
-    std::size_t bodies() const { return world->bugs() + world->things(); }
+    std::size_t bodies() const { return world->bugs() + world->movable_objects(); }
 
     std::unique_ptr<World> world;
     std::map<std::string, double> deepest;  ///< of "robot wall", "crate crate", ..., m
@@ -84,9 +84,9 @@ class Pen {
   private:
     std::string kind(std::size_t body) const {
         if (body < world->bugs()) return "robot";
-        return world->thing(body - world->bugs()).name.substr(0, 4) == "ball" ? "ball" : "crate";
+        return world->movable_object(body - world->bugs()).name.substr(0, 4) == "ball" ? "ball" : "crate";
     }
-    /// In the world; the middle of a robot or ball first.
+    /// The shapes of a body in world coordinates; the central disc comes first.
     std::vector<Outline> shapes(std::size_t body) const {
         const Pose2& pose = world->physics().pose(body);
         std::vector<Outline> out;
@@ -96,13 +96,13 @@ class Pen {
             middle.radius = kind(body) == "robot" ? 0.2 : 0.08;
             out.push_back(middle);
         }
-        for (const Part& part : world->physics().parts(body)) out.push_back(moved(part.outline, pose));
+        for (const Part& part : world->physics().parts(body)) out.push_back(Transform2(pose) * part.outline);
         return out;
     }
     void measure(std::size_t body) {
         const Physics& physics = world->physics();
         fastest = std::max(fastest, physics.speed(body));
-        fastest_turn = std::max(fastest_turn, std::abs(physics.turning(body)));
+        fastest_turn = std::max(fastest_turn, std::abs(physics.angular_velocity(body)));
         const Pose2& at = physics.pose(body);
         if (!(std::abs(at.x) < 1e3 && std::abs(at.y) < 1e3 && std::abs(at.yaw) < 4))
             farthest = 1e9;  // NaN too
@@ -131,15 +131,14 @@ std::uint64_t steps_to_do() {
 
 }  // namespace
 
-TEST_CASE(
-    "Random driving and gripping among crates and balls: nothing gets into anything, no energy appears") {
+TEST_CASE("Random driving and gripping among crates and balls: nothing penetrates, and no energy appears") {
     Pen pen(::pen(3.2, {{-1, -1, 0}, {1, 1, 3}, {-1, 1, -1}},
                   {box("crate_1", {0, 0, 0.3}, 0.3, 0.3, 0.5), box("crate_2", {0.9, -0.6, 1}, 0.4, 0.25, 3),
                    box("crate_3", {-0.2, -0.8, 0}, 0.25, 0.25, 0.2), ball("ball_1", {0.4, 0.5, 0}),
                    ball("ball_2", {1, -1.2, 0}), ball("ball_3", {-1.2, 0, 0})}));
     World& world = *pen.world;
     std::vector<Pose2> before;
-    for (std::size_t i = 0; i < world.things(); ++i) before.push_back(*world.thing_pose(i));
+    for (std::size_t i = 0; i < world.movable_objects(); ++i) before.push_back(*world.movable_object_pose(i));
     const RandomStream random(17, "push");
     const std::uint64_t steps = steps_to_do();
     for (std::uint64_t t = 0; t < steps; ++t) {
@@ -161,18 +160,18 @@ TEST_CASE(
         INFO(what);
         CHECK(depth < 1e-3);
     }
-    // A thing may be squeezed out faster than what pushes it.
+    // An object that is squeezed out may be faster than what pushes it.
     CHECK(pen.fastest < 1.5 * (1.3 + 0.5 * 2));
     CHECK(pen.fastest_turn < 30);
     CHECK(pen.farthest < 1.6);
     int moved = 0;
-    for (std::size_t i = 0; i < world.things(); ++i)
-        moved +=
-            std::hypot(world.thing_pose(i)->x - before[i].x, world.thing_pose(i)->y - before[i].y) > 0.02;
+    for (std::size_t i = 0; i < world.movable_objects(); ++i)
+        moved += std::hypot(world.movable_object_pose(i)->x - before[i].x,
+                            world.movable_object_pose(i)->y - before[i].y) > 0.02;
     CHECK(moved >= 4);
 }
 
-TEST_CASE("A gripped ball stays gripped at walls, gets into none, and is let go on command") {
+TEST_CASE("A gripped ball stays gripped at walls, does not penetrate them, and is released on command") {
     for (int run = 0; run < 6; ++run) {
         Pen pen(::pen(2.4, {{0, 0, 0.4 * run}},
                       {ball("ball_1", {0.34 * std::cos(0.4 * run), 0.34 * std::sin(0.4 * run), 0})}));
@@ -182,7 +181,7 @@ TEST_CASE("A gripped ball stays gripped at walls, gets into none, and is let go 
             for (int i = 0; i < steps; ++i) {
                 pen.step();
                 if (!check) continue;
-                const Pose2 &r = world.pose(0), b = *world.thing_pose(0);
+                const Pose2 &r = world.pose(0), b = *world.movable_object_pose(0);
                 const Eigen::Vector2d at = Eigen::Rotation2Dd(-r.yaw) * Eigen::Vector2d(b.x - r.x, b.y - r.y);
                 INFO("run " << run << ", " << at.x() << " " << at.y() << ", " << command.forward << " "
                             << command.turn);
@@ -204,7 +203,7 @@ TEST_CASE("A gripped ball stays gripped at walls, gets into none, and is let go 
         world.grip(0, false);
         drive({}, 400, false);
         drive({-0.5, 0}, 600, false);
-        const Pose2 &r = world.pose(0), b = *world.thing_pose(0);
+        const Pose2 &r = world.pose(0), b = *world.movable_object_pose(0);
         CHECK(std::hypot(b.x - r.x, b.y - r.y) > 0.41);
     }
 }

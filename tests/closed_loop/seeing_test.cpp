@@ -1,4 +1,4 @@
-// What the camera's groups show while the robot drives over a patch.
+// The groups of the camera while the robot drives over a patch.
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -11,7 +11,7 @@ using namespace forage::test;
 
 namespace {
 
-/// First and last row of the group in which a cell is at least half active.
+/// The first and the last row of the group that have a cell with an activity of at least 0.5.
 std::optional<std::pair<int, int>> lit_rows(const ConstColumn& cells, int width) {
     std::optional<std::pair<int, int>> out;
     for (Index i = 0; i < cells.size(); ++i) {
@@ -23,8 +23,8 @@ std::optional<std::pair<int, int>> lit_rows(const ConstColumn& cells, int width)
     return out;
 }
 
-/// The row in which a point of the floor on the robot's axis lies, `ahead` metres from its middle: the
-/// inverse of the camera's projection (0.2 m ahead, 0.35 m high, looking 1.1 rad down).
+/// The row that shows a floor point `ahead` metres in front of the robot's centre: the inverse of the
+/// camera's projection (0.2 m ahead, 0.35 m high, looking 1.1 rad down).
 double row_of(double ahead) {
     constexpr double height = 0.35, forward = 0.2, pitch = 1.1, hfov = 0.8047, rows = 28, columns = 32;
     const double below = std::atan2(height, ahead - forward);  // angle under the horizon
@@ -34,7 +34,7 @@ double row_of(double ahead) {
 
 }  // namespace
 
-TEST_CASE("A patch ahead comes in at the top row and moves down as geometry says") {
+TEST_CASE("A patch ahead appears in the top row and moves down as the geometry gives") {
     // Up the middle: the blue patch lies at (0, -0.497) and has a radius of 0.2013 m.
     constexpr double near_edge = -0.4966 - 0.2013, far_edge = -0.4966 + 0.2013;
     ClosedLoop loop({.noise = false});

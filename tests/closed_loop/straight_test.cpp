@@ -1,4 +1,4 @@
-// The complete DAC system before it has learned anything. What it learns: learning_test.py.
+// The complete DAC system before learning. What it learns is tested by learning_test.py.
 #include <cmath>
 
 #include "tests/support/catch.h"
@@ -7,7 +7,7 @@
 using namespace forage;
 using namespace forage::test;
 
-TEST_CASE("Without learning the robot drives straight on from all positions") {
+TEST_CASE("Without learning, the robot drives straight from all start poses") {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         ClosedLoop loop({.system = "dac_foraging.iqr", .seed = seed, .set = {"Adaptive.eta=0"}});
         loop.run_trials(12);

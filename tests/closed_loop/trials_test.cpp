@@ -1,4 +1,4 @@
-// Trials in the arenas: their statistics with fixed seeds.
+// The statistics of trials in the arenas, with fixed seeds.
 #include <array>
 #include <cmath>
 
@@ -27,11 +27,11 @@ TEST_CASE("A trial ends at the edge of the arena and the next one starts at one 
     loop.run_trials(trials);
     std::array<int, 3> starts{};
     const auto& all = loop.world->trials(0);
-    CHECK(all[0].start.x == Approx(0).margin(1e-9));  // the first is where the world file puts the robot
+    CHECK(all[0].start.x == Approx(0).margin(1e-9));  // the first start pose is that of the world file
     for (std::size_t i = 0; i < trials; ++i) {
         const auto& t = all[i];
         CHECK(std::max(std::abs(t.end.x), std::abs(t.end.y)) > 2.5);
-        CHECK(std::max(std::abs(t.end.x), std::abs(t.end.y)) < 2.502);  // noticed within a step of 1 ms
+        CHECK(std::max(std::abs(t.end.x), std::abs(t.end.y)) < 2.502);  // detected within a step of 1 ms
         if (i == 0) continue;
         const double column = std::round(t.start.x / 1.5);
         REQUIRE(std::abs(column) <= 1);
@@ -62,7 +62,7 @@ TEST_CASE("The same seed gives the same run, another seed another one") {
     CHECK((a.second != c.second).any());
 }
 
-TEST_CASE("The n-th start of a seed is the same whatever the robot does") {
+TEST_CASE("The n-th start pose of a seed does not depend on the robot's behaviour") {
     ClosedLoop sees({.seed = 4}),
         blind({.seed = 4,
                .edit_system =
@@ -78,7 +78,7 @@ TEST_CASE("The n-th start of a seed is the same whatever the robot does") {
     CHECK(differs);
 }
 
-TEST_CASE("Noise can be turned off: then the light group is silent where no light is") {
+TEST_CASE("Noise can be turned off; then the light group is silent where there is no light") {
     ClosedLoop loop({.noise = false});
     for (int i = 0; i < 10; ++i) loop.step();
     CHECK(loop.activity("Bug/Light").maxCoeff() == 0);

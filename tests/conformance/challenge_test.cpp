@@ -47,7 +47,7 @@ std::unique_ptr<World> with_robot_at(const std::string& name, const Pose2& place
 }
 
 const RangeSensor& sensor(const World& world, const std::string& name) {
-    const auto& all = world.robot(0).range_sensors;
+    const auto& all = world.robot(0).sensors.range_sensors();
     const auto found = std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.name == name; });
     REQUIRE(found != all.end());
     return *found;
@@ -76,7 +76,7 @@ TEST_CASE("The robots' bodies, ray sensors and cameras are those of the specific
         CHECK((robot.body.radius == 0.2 && robot.body.mass == 5 && robot.body.inertia == 1));
         CHECK(robot.body.friction == 0.1);
         const auto height = [&](const RangeSensor& s) {
-            return (robot.link_pose * s.pose).translation().z();
+            return (robot.sensors.link_pose() * s.pose).translation().z();
         };
         const RangeSensor &near = sensor(*world, "laser"), &light = sensor(*world, "laser_target");
         CHECK((near.rays == 32 && near.first_angle == -3 && near.last_angle == 3));
@@ -86,11 +86,11 @@ TEST_CASE("The robots' bodies, ray sensors and cameras are those of the specific
         CHECK((light.rays == 32 && light.first_angle == -3 && light.last_angle == 3));
         CHECK((light.min_range == 0.26 && light.max_range == 2.5 && light.noise == 0.02 && light.rate == 25));
         CHECK(height(light) == Approx(0.35));
-        REQUIRE(robot.camera_sensor);
-        const CameraSensor& camera = *robot.camera_sensor;
+        REQUIRE(robot.sensors.camera_sensor());
+        const CameraSensor& camera = *robot.sensors.camera_sensor();
         CHECK((camera.width == 32 && camera.height == 28 && camera.noise == 0.001 && camera.rate == 30));
         CHECK(camera.horizontal_fov == (dac ? 0.8047 : 1.0047));
-        CHECK((robot.link_pose * camera.pose).translation().z() == Approx(0.35));
+        CHECK((robot.sensors.link_pose() * camera.pose).translation().z() == Approx(0.35));
         const Pose2& at = world->pose(0);
         const Eigen::Vector2d seen = world->looks_at(0) - Eigen::Vector2d(at.x, at.y);
         CHECK(seen.norm() == Approx(dac ? 0.3781 : 0.671).margin(0.001));
@@ -104,7 +104,7 @@ TEST_CASE("The robots' bodies, ray sensors and cameras are those of the specific
     }
 }
 
-TEST_CASE("The gripper's hinges stand where the specification has them, and turn as far and as fast") {
+TEST_CASE("The gripper's hinges have the positions, limits and speeds of the specification") {
     if (absent(shared_dir() / "original")) return;
     const auto world = made(original("SDIC_challenge/SDIC_one_robot_arena"));
     const Hinges& hinges = world->robot(0).hinges;
@@ -125,7 +125,7 @@ TEST_CASE("The gripper's hinges stand where the specification has them, and turn
     CHECK((fingers == 2 && tips == 2));
 }
 
-TEST_CASE("Homes are where the challenge's walls have them painted, or where the competition has its own") {
+TEST_CASE("Homes are where the walls of the challenge or of the competition show them") {
     if (absent(shared_dir() / "original")) return;
     WorldOptions game;
     game.game = true;
@@ -138,11 +138,11 @@ TEST_CASE("Homes are where the challenge's walls have them painted, or where the
         const auto& homes = world->game().homes();
         CHECK((homes[0].x == -at && homes[0].y == at && homes[1].x == at && homes[1].y == -at));
         CHECK(world->game().left() == 300);
-        CHECK(world->things() == 16);
+        CHECK(world->movable_objects() == 16);
     }
 }
 
-TEST_CASE("The resources of the two-robot arena count at a home without a game") {
+TEST_CASE("The resources of the two-robot arena count at a home, also without a game") {
     if (absent(shared_dir() / "original")) return;
     WorldDescription text = original("SDIC_challenge/SDIC_two_robot_arena");
     for (Model& m : text.models)
@@ -152,15 +152,15 @@ TEST_CASE("The resources of the two-robot arena count at a home without a game")
     for (int cycle = 0; cycle < 3; ++cycle) world->step();
     REQUIRE(world->game().deliveries().size() == 1);
     CHECK(world->game().deliveries().front().team == 0);
-    CHECK(world->thing(0).name == "target_0");
-    CHECK(world->thing_pose(0)->y == 3);  // the others lie in the open
+    CHECK(world->movable_object(0).name == "target_0");
+    CHECK(world->movable_object_pose(0)->y == 3);  // the others lie in the open
 }
 
-TEST_CASE("Resources are blue balls that no sensor of light or proximity sees, but the gripper's rays do") {
+TEST_CASE("Resources are blue balls that only the gripper's rays and the camera sense") {
     if (absent(shared_dir() / "original")) return;
     const auto world = with_robot_at("SDIC_challenge/SDIC_two_robot_arena", {-0.58, 3, 0});
-    world->need_gripper_scan(0, true);
-    world->scan();  // target_4 at (-0.2, 3), 0.38 m ahead
+    world->request_gripper_scan(0, true);
+    world->scan();                                       // target_4 at (-0.2, 3), 0.38 m ahead
     for (std::size_t ahead = 10; ahead < 22; ++ahead) {  // to the right stands the pillar
         CHECK(world->snapshot(0).proximity[ahead] == 0);
         CHECK(world->snapshot(0).target[ahead] == 0);
@@ -173,7 +173,7 @@ TEST_CASE("Resources are blue balls that no sensor of light or proximity sees, b
     CHECK(blue > 10);
 }
 
-TEST_CASE("What is half a metre high counts as light: the pillar, and the walls of the tutorial's arenas") {
+TEST_CASE("Solids of 0.5 m height count as light: the pillar, and the walls of the tutorial's arenas") {
     if (absent(shared_dir() / "original")) return;
     const auto seen = [](const std::string& name, const Pose2& place) {
         const auto world = with_robot_at(name, place);
@@ -196,7 +196,7 @@ TEST_CASE("What is half a metre high counts as light: the pillar, and the walls 
 TEST_CASE("A robot drives along the line and sees it green; the strips are paint") {
     if (absent(shared_dir() / "original")) return;
     const auto world = made(original("SDIC_tutorial/world/follow_line"));
-    CHECK(world->things() == 0);
+    CHECK(world->movable_objects() == 0);
     CHECK(mean(*world, 1) > 240);
     CHECK(mean(*world, 0) < 15);
     world->command(0, {1, 0});
@@ -222,7 +222,7 @@ TEST_CASE("Light and shade: grey floor with and without a sun, black homes") {
     CHECK(std::count(picture.begin(), picture.end(), 0) > static_cast<std::ptrdiff_t>(picture.size() / 3));
 }
 
-TEST_CASE("Teams: green robots with names of team A, red ones of team B, where the specification has them") {
+TEST_CASE("Teams have green robots (team A) and red robots (team B) with the names and poses of the specification") {
     if (absent(shared_dir() / "original")) return;
     const std::map<std::string, Pose2> places = {
         {"TeamA_Bug_01", {-9.5, 7, -1.57079}},   {"TeamA_Bug_02", {-7, 9.5, 0}},
@@ -237,9 +237,9 @@ TEST_CASE("Teams: green robots with names of team A, red ones of team B, where t
         const Pose2& at = places.at(name);
         CHECK((world->pose(i).x == at.x && world->pose(i).y == at.y));
         CHECK(world->pose(i).yaw == Approx(at.yaw));
-        const auto body = std::find_if(world->robot(i).sights.begin(), world->robot(i).sights.end(),
-                                       [](const MovingSight& s) { return s.of_body; });
-        REQUIRE(body != world->robot(i).sights.end());
+        const auto body = std::find_if(world->robot(i).visuals.begin(), world->robot(i).visuals.end(),
+                                       [](const MovingVisual& s) { return s.of_body_link; });
+        REQUIRE(body != world->robot(i).visuals.end());
         const Colour& colour = body->visual.material.diffuse;
         const bool green = name.starts_with("TeamA");
         CHECK((colour[0] == (green ? 0 : 1) && colour[1] == (green ? 1 : 0) && colour[2] == 0));

@@ -38,10 +38,10 @@ std::optional<bug::WorldDescription> read(const Path& file, Diagnostics& diagnos
 
 }  // namespace
 
-TEST_CASE("Every world of the original loads, with its robots, loose things and targets") {
+TEST_CASE("Every world of the original loads, with its robots, movable objects and targets") {
     if (absent(shared_dir() / "original")) return;
     struct Content {
-        std::size_t robots, things, targets;
+        std::size_t robots, movable_objects, targets;
         bool gripper, camera;
     };
     const std::map<std::string, Content> expected = {
@@ -69,7 +69,7 @@ TEST_CASE("Every world of the original loads, with its robots, loose things and 
         REQUIRE(expected.contains(file.stem()));
         const Content& content = expected.at(file.stem());
         CHECK(world->bugs() == content.robots);
-        CHECK(world->things() == content.things);
+        CHECK(world->movable_objects() == content.movable_objects);
         CHECK(world->targets().size() == content.targets);
         for (std::size_t i = 0; i < world->bugs(); ++i) {
             CHECK(world->has_gripper(i) == content.gripper);
@@ -90,7 +90,7 @@ TEST_CASE("The gripper's rays see its own palm and fingers as in the original") 
     options.noise = false;
     const auto world = bug::World::make(*description, options, diagnostics);
     REQUIRE(world);
-    world->need_gripper_scan(0, true);
+    world->request_gripper_scan(0, true);
     const auto sees = [&](const std::vector<double>& cells) {
         const auto& seen = world->snapshot(0).gripper;
         REQUIRE(seen.size() == 16);
@@ -120,7 +120,7 @@ TEST_CASE("Robots driven at random in the original's worlds stay in them") {
         const auto world = bug::World::make(*description, {}, diagnostics);
         REQUIRE(world);
         const RandomStream random(5, "drive");
-        for (std::size_t i = 0; i < world->bugs(); ++i) world->need_gripper_scan(i, true);
+        for (std::size_t i = 0; i < world->bugs(); ++i) world->request_gripper_scan(i, true);
         for (std::uint64_t cycle = 0; cycle < 1500; ++cycle) {
             for (std::size_t i = 0; i < world->bugs(); ++i) {
                 const auto n = static_cast<std::uint32_t>(3 * i);

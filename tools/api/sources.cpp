@@ -8,10 +8,10 @@
 
 #include "bug_interface/module/gazebo_bug.h"
 #include "bug_interface/world/sdf_reader.h"
-#include "core/model/build.h"
-#include "core/model/edit.h"
 #include "core/base/named_file.h"
 #include "core/base/output_files.h"
+#include "core/model/build.h"
+#include "core/model/edit.h"
 #include "core/model/validate.h"
 #include "core/plugin/search.h"
 #include "core/xml/reader.h"
@@ -152,8 +152,8 @@ std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Di
         options.cycles_per_second = out.system.cycles_per_second > 0 ? out.system.cycles_per_second : 25;
         options.real_time_factor = input.real_time_factor;
         options.noise = input.noise;
-        options.native_rates = input.sensor_rates;
-        options.late = input.latency;
+        options.sensor_rates = input.sensor_rates;
+        options.latency = input.latency;
         options.game = input.game;
         out.world = bug::World::make(*sources.world, options, diagnostics);
     }

@@ -67,7 +67,7 @@ void FilmPanel::draw_clock(Canvas& canvas, double x, double y) {
 
 void FilmPanel::draw_picture(Canvas& canvas, std::size_t robot, double x, double y) {
     const auto picture = world_.image(robot);
-    const bug::BugSnapshot& seen = world_.robot(robot).snapshot;
+    const bug::BugSnapshot& seen = world_.robot(robot).sensors.snapshot();
     const int columns = seen.image_width, rows = seen.image_height;
     const double wide = part_width(), tall = wide * picture_aspect;
     if (picture.empty() || columns == 0) {
@@ -99,7 +99,7 @@ void FilmPanel::draw_picture(Canvas& canvas, std::size_t robot, double x, double
 
 /// The cells of the ray sensors, from the left to the right of the robot.
 void FilmPanel::draw_rays(Canvas& canvas, std::size_t robot, double x, double y) {
-    const auto& seen = world_.robot(robot).snapshot;  // not late, as those of modules may be
+    const auto& seen = world_.robot(robot).sensors.snapshot();
     const Bars size = single() ? large_bars : small_bars;
     const auto bars = [&](const char* name, const std::vector<double>& cells, const Colour& colour) {
         if (cells.empty()) return;
@@ -113,7 +113,8 @@ void FilmPanel::draw_rays(Canvas& canvas, std::size_t robot, double x, double y)
     };
     bars(single() ? "light, from the left to the right" : "light, left to right", seen.target, light_ray);
     bars("proximity", seen.proximity, near_ray);
-    if (world_.robot(robot).wants_gripper_scan) bars("between the fingers", seen.gripper, {0.4, 0.4, 0.8});
+    if (world_.robot(robot).sensors.gripper_scan_requested())
+        bars("between the fingers", seen.gripper, {0.4, 0.4, 0.8});
 }
 
 }  // namespace forage::plot

@@ -224,8 +224,8 @@ void WorldMap::draw_targets(Canvas& canvas) const {
 void WorldMap::draw_rays(Canvas& canvas, std::size_t robot) const {
     cairo_t* c = canvas.cairo();
     const auto& pose = world_.pose(robot);
-    const auto& seen = world_.robot(robot).snapshot;  // not late, as those of modules may be
-    for (const bug::RangeSensor& sensor : world_.robot(robot).range_sensors) {
+    const auto& seen = world_.robot(robot).sensors.snapshot();
+    for (const bug::RangeSensor& sensor : world_.robot(robot).sensors.range_sensors()) {
         const bool light = sensor.name == "laser_target";
         const auto& cells = light ? seen.target : seen.proximity;
         if ((!light && sensor.name != "laser") || cells.size() != static_cast<std::size_t>(sensor.rays))
@@ -254,13 +254,13 @@ void WorldMap::draw_rays(Canvas& canvas, std::size_t robot) const {
 void WorldMap::draw_robot(Canvas& canvas, std::size_t robot, bool rays) const {
     cairo_t* c = canvas.cairo();
     if (rays) draw_rays(canvas, robot);
-    const bug::Stage& stage = world_.stage();
+    const bug::BodyPoses& poses = world_.body_poses();
     for (const bool gripper : {true, false})
-        for (const bug::MovingSight& sight : world_.moving_sights()) {
-            if (sight.body != robot || sight.of_body == gripper) continue;
-            bug::Solid solid = sight.visual.solid;
-            solid.pose = sight.at(stage);
-            draw_solid(canvas, {solid, sight.visual.material.diffuse});
+        for (const bug::MovingVisual& moving : world_.moving_visuals()) {
+            if (moving.body != robot || moving.of_body_link == gripper) continue;
+            bug::Solid solid = moving.visual.solid;
+            solid.pose = moving.at(poses);
+            draw_solid(canvas, {solid, moving.visual.material.diffuse});
         }
     const auto& pose = world_.pose(robot);
     const double r = world_.robot(robot).body.radius * scale_, x = px(pose.x), y = py(pose.y);

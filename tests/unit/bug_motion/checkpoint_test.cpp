@@ -1,4 +1,4 @@
-// Worlds that are stopped and go on.
+// Checkpoints of the physics and of worlds.
 #include <random>
 
 #include "tests/unit/bug_motion/worlds.h"
@@ -33,7 +33,7 @@ class Crowd {
                                -0.45 + 0.45 * static_cast<double>(i / 3), static_cast<double>(i)});
     }
     void step(std::uint64_t t) {
-        std::mt19937 chance(static_cast<unsigned>(t / 100));  // the same for all that are at t
+        std::mt19937 chance(static_cast<unsigned>(t / 100));  // the same commands at the same time t
         std::vector<MotorCommand> drives(crowd);
         for (auto& d : drives) {
             d.forward = static_cast<double>(chance() % 1000) / 500;
@@ -58,7 +58,7 @@ class Crowd {
 
 }  // namespace
 
-TEST_CASE("Robots that push each other go on from a checkpoint as if nothing had happened, to the last bit") {
+TEST_CASE("Robots that push each other continue from a checkpoint with the same bits") {
     Crowd through;
     std::uint64_t t = 0;
     for (int stop = 0; stop < 20; ++stop) {
@@ -66,7 +66,7 @@ TEST_CASE("Robots that push each other go on from a checkpoint as if nothing had
         Crowd resumed;
         if (stop % 2)
             for (std::uint64_t other = 0; other < 200; ++other)
-                resumed.step(10 * other);  // met others before
+                resumed.step(10 * other);  // has had other contacts before
         resumed.restore(through.state());
         std::uint64_t later = t;
         for (int i = 0; i < 400; ++i) resumed.step(later++);
@@ -79,12 +79,12 @@ TEST_CASE("Robots that push each other go on from a checkpoint as if nothing had
     CHECK(through.contact_steps() > t / 2);
 }
 
-TEST_CASE("A world goes on from a checkpoint of any cycle, in trials and resets, with pictures and noise") {
+TEST_CASE("A world continues from a checkpoint of any cycle, in trials and resets, with pictures and noise") {
     WorldOptions options;
     options.seed = 5;
     const auto make = [&] {
         auto world = test::make_world(test::description("basic_arena"), options);
-        world->need_image(0, true);
+        world->request_image(0, true);
         return world;
     };
     const auto step = [](World& world) {

@@ -12,16 +12,16 @@ using namespace forage::bug;
 
 namespace {
 
-constexpr double step = 0.001, noise = 0.005;
+constexpr double step = 0.001, speed_noise = 0.005;
 
-/// Substep by substep, as spec'd: the velocity plugin, then the motion.
+/// The reference, substep by substep: the velocity plugin, then the motion.
 Pose2 stepped(Pose2 at, const MotorCommand& command, std::uint64_t steps, const RandomStream* random,
               std::uint64_t first) {
     for (std::uint64_t k = 0; k < steps; ++k) {
         std::array<double, 2> u = {0.5, 0.5};
         if (random) random->uniform(first + k, u);
-        const double forward = command.forward + (2 * u[0] - 1) * noise,
-                     turn = command.turn + (2 * u[1] - 1) * noise;
+        const double forward = command.forward + (2 * u[0] - 1) * speed_noise,
+                     turn = command.turn + (2 * u[1] - 1) * speed_noise;
         at = {at.x + forward * std::cos(at.yaw) * step, at.y + forward * std::sin(at.yaw) * step,
               at.yaw + turn * step};
     }
@@ -42,13 +42,14 @@ TEST_CASE("Free driving without noise ends where the substeps end") {
     CHECK(free.yaw == Approx(walked.yaw).margin(1e-13));
 }
 
-TEST_CASE("Free driving with noise spreads as the substeps do, in place and heading and both together") {
+TEST_CASE("Free driving with noise has the means, deviations and correlations of the substeps") {
     const RandomStream random(2, "robot"), other(3, "robot");
     const double forward = GENERATE(0.0, 1.0), turn = GENERATE(0.0, 1.5);
     const std::uint64_t steps = GENERATE(33, 80);
     const Pose2 from{0, 0, 0.3};
     constexpr Eigen::Index samples = 40'000;
-    // Along and across the middle heading, and heading: means, deviations, correlations.
+    // Means, deviations and correlations of the displacements along and across the middle heading, and of the
+    // heading.
     const double middle = from.yaw + turn * step * static_cast<double>(steps - 1) / 2;
     const auto measure = [&](auto drive) {
         Eigen::ArrayX3d all(samples, 3);
@@ -60,7 +61,7 @@ TEST_CASE("Free driving with noise spreads as the substeps do, in place and head
         return all;
     };
     const Eigen::ArrayX3d free = measure([&](std::uint64_t i) {
-        return free_drive(from, {forward, turn}, steps, step, noise, random, i);
+        return free_drive(from, {forward, turn}, steps, step, speed_noise, random, i);
     });
     const Eigen::ArrayX3d walked = measure([&](std::uint64_t i) {
         return stepped(from, {forward, turn}, steps, &other, i * steps);
@@ -72,14 +73,14 @@ TEST_CASE("Free driving with noise spreads as the substeps do, in place and head
     for (int i = 0; i < 3; ++i) {
         const double spread = std::sqrt(w.col(i).square().mean());
         INFO("number " << i << ", deviation " << spread);
-        if (spread < 1e-8) {  // of second order only: standing, nothing goes sideways
+        if (spread < 1e-8) {  // of second order: a robot that stands still does not move sideways
             CHECK(std::sqrt(f.col(i).square().mean()) < 1e-8);
             continue;
         }
         CHECK(free.col(i).mean() ==
               Approx(walked.col(i).mean()).margin(4 * spread * std::sqrt(2.0 / samples)));
         CHECK(std::sqrt(f.col(i).square().mean()) == Approx(spread).epsilon(0.02));
-        // Fourth moments: sums of so many uniform numbers are normal but for 1.2 / steps.
+        // Fourth moments: sums of many uniform numbers are normal except for 1.2 / steps.
         const double kurtosis = w.col(i).pow(4).mean() / std::pow(spread, 4);
         CHECK(f.col(i).pow(4).mean() / std::pow(f.col(i).square().mean(), 2) ==
               Approx(kurtosis).margin(0.12));

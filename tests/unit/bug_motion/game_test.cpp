@@ -1,4 +1,4 @@
-// The robotics challenge's game, rule by rule.
+// The rules of the robotics challenge's game.
 #include "bug_interface/simulation/game.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ constexpr std::array<Pose2, 2> far_homes = {Pose2{-100, 100, 0}, Pose2{100, -100
 
 Body ball() {
     Body b;
-    b.radius = 0.08, b.mass = 0.01, b.driven = false, b.slowing = 0.98;
+    b.radius = 0.08, b.mass = 0.01, b.driven = false, b.deceleration = 0.98;
     return b;
 }
 
@@ -46,13 +46,13 @@ struct Table {
     void run(int steps) {
         for (; steps > 0; --steps) game.substep(physics, time += step, step);
     }
-    /// Seconds of which each is one step: quick, where contacts and homes do not matter.
+    /// Simulates seconds in steps of 1 s, which is fast; only for tests without contacts and homes.
     void seconds(int n) {
         for (; n > 0; --n) game.substep(physics, time += 1, 1);
     }
     std::ptrdiff_t present() const {
         return std::count_if(game.resources().begin(), game.resources().end(),
-                             [](const Game::Resource& r) { return !r.away; });
+                             [](const Game::Resource& r) { return !r.removed; });
     }
 };
 
@@ -94,16 +94,16 @@ TEST_CASE("A resource is good for 30 seconds, bad for 20 more, then gone, and ca
     rules.most = 1, rules.duration = 1000;
     Table table(1, rules);
     const auto& r = table.game.resources()[0];
-    CHECK(r.away);
+    CHECK(r.removed);
     for (int life = 0; life < 3; ++life) {
         table.seconds(1);  // it appears
-        REQUIRE((!r.away && r.good && r.age == 0));
+        REQUIRE((!r.removed && r.good && r.age == 0));
         table.seconds(29);
         CHECK((r.good && r.age == 29));
         table.seconds(1);
-        CHECK((!r.good && !r.away));
+        CHECK((!r.good && !r.removed));
         table.seconds(19);
-        CHECK((!r.good && !r.away && r.age == 49));
+        CHECK((!r.good && !r.removed && r.age == 49));
     }  // in the next second it dissolves, and the next one appears
 }
 
@@ -113,19 +113,20 @@ TEST_CASE("A resource that counts scores 2, or -1 when it is bad, and may appear
         rules.most = 1, rules.stale_after = good ? 30 : 1;
         Table table(1, rules, {Pose2{0, 0, 0}, Pose2{50, 50, 0}});
         table.seconds(1);
-        table.seconds(1);  // one older
+        table.seconds(1);  // it ages by one second
         table.run(101);
         REQUIRE(table.game.deliveries().size() == 1);
         CHECK(table.game.points(0) == (good ? 2 : -1));
-        CHECK(table.game.resources()[0].away);
+        CHECK(table.game.resources()[0].removed);
         table.seconds(1);
         const auto& again = table.game.resources()[0];
-        CHECK((!again.away && again.good && again.age == 0));
+        CHECK((!again.removed && again.good && again.age == 0));
     }
 }
 
-TEST_CASE("What a robot holds grows no older") {
-    // Between two robots: two contacts in each step. One in each would be 101 between two looks, just enough.
+TEST_CASE("A resource that a robot holds does not age") {
+    // Between two robots there are two contacts per step. One per step would be 101 between two checks, which
+    // is just enough.
     GameRules rules = rules_of({{5, 0, 1}});
     rules.most = 1;
     Physics physics({}, std::vector<Body>{Body{}, Body{}, ball()}, step);
@@ -138,7 +139,7 @@ TEST_CASE("What a robot holds grows no older") {
         for (; steps > 0; --steps) physics.step(drives), game.substep(physics, time += step, step);
     };
     run(1500);
-    REQUIRE_FALSE(game.resources()[0].away);
+    REQUIRE_FALSE(game.resources()[0].removed);
     physics.place(2, {0.28, 0, 0});
     drives[0] = drives[1] = {0.1, 0};
     run(200);
@@ -152,7 +153,7 @@ TEST_CASE("What a robot holds grows no older") {
     CHECK(game.resources()[0].age >= age + 2);
 }
 
-TEST_CASE("When the time is over nothing is left to play with, and the score stays") {
+TEST_CASE("When the time is over, all resources are removed and the score stays") {
     GameRules rules = rules_of({{0, 0, 1}});
     rules.duration = 3;
     Table table(16, rules, {Pose2{0, 0, 0}, Pose2{50, 50, 0}});
@@ -170,7 +171,7 @@ TEST_CASE("When the time is over nothing is left to play with, and the score sta
     CHECK(table.present() == 0);
 }
 
-TEST_CASE("Resources appear as often as their sites say, within half a metre, evenly over the radius") {
+TEST_CASE("Resources appear with the chance of their sites, within 0.5 m, uniformly over the radius") {
     GameRules rules = rules_of({{0, 0, 0.15}, {30, 0, 0.1}});
     rules.duration = 1e6, rules.dissolves_after = 1;  // each is there for one second
     Table table(16, rules);
@@ -180,8 +181,8 @@ TEST_CASE("Resources appear as often as their sites say, within half a metre, ev
     for (int i = 0; i < n; ++i) {
         table.seconds(1);
         for (const Game::Resource& r : table.game.resources()) {
-            if (r.away) continue;
-            const Pose2& at = table.physics.pose(r.thing);
+            if (r.removed) continue;
+            const Pose2& at = table.physics.pose(r.body);
             const bool second = at.x > 15;
             const double radius = std::hypot(at.x - (second ? 30 : 0), at.y);
             ++appeared[second], sum += radius, farthest = std::max(farthest, radius);
@@ -193,7 +194,7 @@ TEST_CASE("Resources appear as often as their sites say, within half a metre, ev
     CHECK((farthest > 0.49 && farthest <= 0.5));
 }
 
-TEST_CASE("There are never more resources than the rules say") {
+TEST_CASE("There are never more resources than the rules permit") {
     GameRules rules = rules_of({{0, 0, 1}, {5, 0, 1}, {10, 0, 1}, {15, 0, 1}});
     Table table(rules.most, rules);
     CHECK(rules.most == 16);

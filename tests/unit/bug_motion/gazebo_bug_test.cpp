@@ -14,7 +14,7 @@ namespace {
 
 GroupShape shape(int width, int height) { return {width, height, width * height}; }
 
-/// The module with groups behind its ports, as the engine would run it.
+/// Runs the module with groups at its ports, as the engine does.
 struct Bench {
     ModuleType type;
     std::unique_ptr<ModuleInstance> module;
@@ -115,7 +115,7 @@ TEST_CASE("The module accepts the groups of the tutorials") {
     CHECK(bench.problem().empty());
     all_groups(bench);
     CHECK(bench.problem() ==
-          "robot 'Bug' has no gripper | set 'gripper' to false, or take a robot with a gripper @gripper");
+          "robot 'Bug' has no gripper | set 'gripper' to false, or use a robot with a gripper @gripper");
     bench.set("gripper", false);
     CHECK(bench.problem().empty());
     bench.group("_gripper") = shape(3, 1);
@@ -123,13 +123,14 @@ TEST_CASE("The module accepts the groups of the tutorials") {
     CHECK(Bench(nullptr).problem().empty());
 }
 
-TEST_CASE("The module says what is wrong with its groups and parameters") {
+TEST_CASE("The module reports errors of its groups and parameters") {
     const auto world = test::make_world(test::description("basic_arena"));
     {
         Bench b(world.get());
         b.group("_motor") = shape(9, 5);
         CHECK(b.problem() ==
-              "the motor group 'Bug/_motor' is 9 x 5, and must be square and at least 2 wide | 9 x 9 gives "
+              "the motor group 'Bug/_motor' is 9 x 5, but must be square and at least 2 cells wide | 9 x 9 "
+              "gives "
               "four speeds in each direction @_motor");
     }
     {
@@ -150,17 +151,18 @@ TEST_CASE("The module says what is wrong with its groups and parameters") {
         b.group("_image_GS") = shape(28, 27);
         CHECK(b.problem() ==
               "the image groups differ in size: 'Bug/_image_GS' is 28 x 27, 'Bug/_image_RH' is 28 x 28 | "
-              "make all three the same @_image_GS");
+              "give all three the same size @_image_GS");
     }
     {
         Bench b(world.get());
         b.group("_image_RH") = shape(33, 28);
-        CHECK(b.problem().find("is 33 x 28, and may be 32 x 28 at most") != std::string::npos);
+        CHECK(b.problem().find("is 33 x 28, but must be at most 32 x 28") != std::string::npos);
     }
     {
         Bench b(world.get());
         b.group("_gripper") = shape(2, 1);
-        CHECK(b.problem().find("must be 1 x 1 | or set 'gripper' to false @_gripper") != std::string::npos);
+        CHECK(b.problem().find("must be 1 x 1 | change its size, or set 'gripper' to false @_gripper") !=
+              std::string::npos);
     }
     {
         Bench b(world.get());
@@ -169,7 +171,8 @@ TEST_CASE("The module says what is wrong with its groups and parameters") {
     }
 }
 
-TEST_CASE("A module without a world can be checked but not started, and a robot obeys one module") {
+TEST_CASE(
+    "A module without a world can be checked but not started, and a robot is driven by one module only") {
     Bench lonely(nullptr);
     CHECK_THROWS_WITH(lonely.start(), Catch::Contains("--world"));
     const auto world = test::make_world(test::description("basic_arena"));
@@ -198,7 +201,7 @@ TEST_CASE("The motor group drives the robot in the cycle in which it is active")
     CHECK(bench.output("_gps")[1] == Approx(8.08));
 }
 
-TEST_CASE("The outputs carry the robot's snapshot") {
+TEST_CASE("The outputs have the robot's snapshot") {
     WorldOptions options;
     options.noise = false;
     auto arena = test::description("basic_arena");
@@ -216,13 +219,13 @@ TEST_CASE("The outputs carry the robot's snapshot") {
     CHECK(std::count_if(red.begin(), red.end(), [](double v) { return v > 0.9; }) == Approx(743).margin(25));
     CHECK(*std::max_element(green.begin(), green.end()) < 0.1);
     const auto& head = bench.output("headCell");
-    CHECK(std::max_element(head.begin(), head.end()) - head.begin() == 12);  // looks along +y
+    CHECK(std::max_element(head.begin(), head.end()) - head.begin() == 12);  // the heading is +y
     CHECK(*std::max_element(bench.output("placeCell").begin(), bench.output("placeCell").end()) == 1);
     CHECK(bench.output("_audio_in") == std::vector<double>(36, 0));
     CHECK(bench.output("_proximityGripper") == std::vector<double>(16, 0));
 }
 
-TEST_CASE("Offsets move the place cells' field, not the GPS; extents shift both") {
+TEST_CASE("Offsets move the area of the place cells but not the GPS; extents shift both") {
     WorldOptions options;
     options.noise = false;
     const auto world = test::make_world(test::description("basic_arena"), options);  // the robot at (0, -2)

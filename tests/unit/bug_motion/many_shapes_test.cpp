@@ -1,4 +1,4 @@
-// Bodies and obstacles of many shapes and heights: nothing is left out.
+// Bodies and obstacles with many shapes and heights.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -33,7 +33,7 @@ Model model_of(const std::string& name, bool is_static, std::vector<Collision> s
     return out;
 }
 
-/// The team arena's first robot in the open, at the origin, with this in the world.
+/// The team arena with its first robot at the origin and with `models` added.
 WorldDescription with(std::vector<Model> models) {
     WorldDescription text = description("team_arena");
     text.game.reset();
@@ -57,7 +57,7 @@ void drive(World& world, MotorCommand command, int cycles) {
 }  // namespace
 
 TEST_CASE(
-    "A wall of 40 pieces with 40 heights stops a robot everywhere, and is seen where it is high enough") {
+    "A wall of 40 pieces with 40 heights stops a robot everywhere, and is sensed where it is high enough") {
     // A ring of radius 1.2 m round the robot; piece i is 0.11 m high, and 0.005 m more than the one before.
     std::vector<Collision> pieces;
     for (int i = 0; i < many; ++i) {
@@ -83,7 +83,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A crate of 40 shapes is pushed like one of a single shape, and seen like it") {
+TEST_CASE("A crate of 40 shapes is pushed and sensed like a crate of one shape") {
     std::vector<Collision> slices;
     for (int i = 0; i < many; ++i)
         slices.push_back(box(0, -0.2 + 0.4 * (i + 0.5) / many, 0, 0.25, 0.3, 0.4 / many));
@@ -94,16 +94,16 @@ TEST_CASE("A crate of 40 shapes is pushed like one of a single shape, and seen l
     };
     const auto sliced = made(with({crate(slices)})),
                whole = made(with({crate({box(0, 0, 0, 0.25, 0.3, 0.4)})}));
-    REQUIRE(sliced->things() == 1);
+    REQUIRE(sliced->movable_objects() == 1);
     for (int part = 0; part < 6; ++part) {
         CHECK(sliced->snapshot(0).proximity == whole->snapshot(0).proximity);
-        if (part == 2) break;  // touched: from now on the solver's order shows
+        if (part == 2) break;  // after a contact, the order of the solver has an effect
         drive(*sliced, {0.5, 0}, 5), drive(*whole, {0.5, 0}, 5);
     }
     drive(*sliced, {0.5, 0}, 60), drive(*whole, {0.5, 0}, 60);
-    CHECK(sliced->thing_pose(0)->x > 1.2);
-    CHECK(sliced->thing_pose(0)->x == Approx(whole->thing_pose(0)->x).margin(0.03));
-    CHECK(sliced->thing_pose(0)->y == Approx(whole->thing_pose(0)->y).margin(0.03));
+    CHECK(sliced->movable_object_pose(0)->x > 1.2);
+    CHECK(sliced->movable_object_pose(0)->x == Approx(whole->movable_object_pose(0)->x).margin(0.03));
+    CHECK(sliced->movable_object_pose(0)->y == Approx(whole->movable_object_pose(0)->y).margin(0.03));
 }
 
 TEST_CASE("A gripper whose fingers have 40 shapes each closes and holds like one of single shapes") {
@@ -144,7 +144,7 @@ TEST_CASE("A gripper whose fingers have 40 shapes each closes and holds like one
         drive(*world, {}, 20);
         drive(*world, {0.5, 0.5}, 50);
         CHECK(world->gripper_angle(0, 0) < 0.44);  // the ball is between the fingers
-        const Pose2 &r = world->pose(0), at = *world->thing_pose(0);
+        const Pose2 &r = world->pose(0), at = *world->movable_object_pose(0);
         const Eigen::Vector2d seen = Eigen::Rotation2Dd(-r.yaw) * Eigen::Vector2d(at.x - r.x, at.y - r.y);
         INFO(seen.x() << " " << seen.y());
         CHECK((seen.x() > 0.25 && seen.x() < 0.4 && std::abs(seen.y()) < 0.06));
@@ -153,7 +153,7 @@ TEST_CASE("A gripper whose fingers have 40 shapes each closes and holds like one
         CHECK(a->gripper_angle(0, hinge) == Approx(b->gripper_angle(0, hinge)).margin(0.02));
 }
 
-TEST_CASE("A robot with more heights than there is room for is told so, once, at the shape") {
+TEST_CASE("A robot with too many heights gives one error, at the shape") {
     WorldDescription text = with({});
     Link& body = *std::find_if(text.models.front().links.begin(), text.models.front().links.end(),
                                [](const Link& l) { return l.name == "bug"; });
@@ -166,5 +166,5 @@ TEST_CASE("A robot with more heights than there is room for is told so, once, at
     REQUIRE(diagnostics.errors() == 1);
     const Diagnostic& d = diagnostics.all().front();
     CHECK(d.where.line > 120);
-    CHECK_THAT(d.message, Catch::Contains("more than 32 different heights"));
+    CHECK_THAT(d.message, Catch::Contains("more than 32 different ranges of heights"));
 }

@@ -24,7 +24,7 @@ MotorCommand command_of(int column, int row) {
 
 }  // namespace
 
-TEST_CASE("Rows of the motor group are speeds, columns are turns, left is positive") {
+TEST_CASE("Rows of the motor group stand for speeds, columns for turns, and left is positive") {
     for (int row = 1; row <= 9; ++row)
         for (int column = 1; column <= 9; ++column) {
             const MotorCommand c = command_of(column, row);
@@ -35,13 +35,13 @@ TEST_CASE("Rows of the motor group are speeds, columns are turns, left is positi
     CHECK_FALSE(std::signbit(command_of(5, 5).forward));
 }
 
-TEST_CASE("How high the winner is does not matter") {
+TEST_CASE("The activity of the winner does not matter") {
     CHECK(decode_motor(cells_with({{4, 1e-3}}), 9, 9, 1, 1) == MotorCommand{1, 0});
     CHECK(decode_motor(cells_with({{4, 1e6}, {76, 9e5}}), 9, 9, 1, 1) == MotorCommand{1, 0});
 }
 
 TEST_CASE(
-    "Of equal winners the first counts where single precision rounds up, the last where it rounds down") {
+    "Of several equal winners, the first wins if single precision rounds up, the last if it rounds down") {
     for (const double value : {1.0, 0.5, 0.25, 0.1, 0.8}) {
         INFO(value);
         CHECK(decode_motor(cells_with({{0, value}, {1, value}}), 9, 9, 1, 1) == MotorCommand{1, 1});
@@ -66,7 +66,7 @@ TEST_CASE("Without a winner the robot stands still") {
     CHECK(decode_motor(std::vector<double>{0, 1, 0}, 1, 3, 1, 1) == MotorCommand{});
 }
 
-TEST_CASE("Width and height are exchanged in the offsets of a group that is not square") {
+TEST_CASE("The offsets of a group that is not square have width and height swapped") {
     for (int row = 0; row < 9; ++row)
         CHECK(decode_motor(cells_with({{static_cast<std::size_t>(row * 5), 1}}, 45), 5, 9, 1, 1).forward ==
               1 - 0.5 * row);
@@ -75,7 +75,7 @@ TEST_CASE("Width and height are exchanged in the offsets of a group that is not 
               1 - 0.5 * column);
 }
 
-TEST_CASE("A group of even size is lopsided") {
+TEST_CASE("A group of even size is asymmetric") {
     CHECK(decode_motor(cells_with({{0, 1}}, 64), 8, 8, 1, 1) == MotorCommand{1, 1});
     CHECK(decode_motor(cells_with({{63, 1}}, 64), 8, 8, 1, 1) == MotorCommand{-0.75, -0.75});
 }

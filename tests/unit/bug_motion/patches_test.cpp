@@ -1,4 +1,4 @@
-// The coloured patches of the arenas that ship.
+// The coloured patches of the arenas in the repository.
 #include "bug_interface/simulation/patches.h"
 
 #include <map>
@@ -16,9 +16,9 @@ TEST_CASE("The basic arena has six patches, each of its own colour") {
                                                         {"magenta", {1.49, 0.204}}, {"blue", {0, -0.497}}};
     REQUIRE(patches.size() == places.size());
     for (const Patch& patch : patches) {
-        INFO(patch.colour << " at " << patch.middle.transpose());
+        INFO(patch.colour << " at " << patch.centre.transpose());
         REQUIRE(places.contains(patch.colour));
-        CHECK((patch.middle - places.at(patch.colour)).norm() < 0.02);
+        CHECK((patch.centre - places.at(patch.colour)).norm() < 0.02);
         CHECK(std::abs(patch.radius - 0.2013) < 0.01);
     }
 }
@@ -26,7 +26,7 @@ TEST_CASE("The basic arena has six patches, each of its own colour") {
 TEST_CASE("In the ambiguous arena the upper patches are all red") {
     std::multimap<std::string, double> by_colour;
     for (const Patch& patch : patches_of(Scene(test::description("ambiguous_arena")).floors()))
-        by_colour.emplace(patch.colour, patch.middle.y());
+        by_colour.emplace(patch.colour, patch.centre.y());
     CHECK(by_colour.size() == 6);
     CHECK(by_colour.count("red") == 3);
     for (auto [red, end] = by_colour.equal_range("red"); red != end; ++red) CHECK(red->second > 0.9);
@@ -46,10 +46,10 @@ TEST_CASE("Patches turn with their floor") {
     const auto before = patches_of(straight.floors()), after = patches_of(scene.floors());
     REQUIRE(before.size() == after.size());
     for (std::size_t i = 0; i < before.size(); ++i)
-        CHECK((after[i].middle - Eigen::Vector2d(-before[i].middle.y(), before[i].middle.x())).norm() < 1e-9);
+        CHECK((after[i].centre - Eigen::Vector2d(-before[i].centre.y(), before[i].centre.x())).norm() < 1e-9);
 }
 
-TEST_CASE("A place lies in a patch up to its rim") {
+TEST_CASE("A point is in a patch if it is within its radius") {
     const std::vector<Patch> patches{{{0, 0}, 0.2, "red"}, {{1, 0}, 0.2, "blue"}};
     CHECK(patch_at(patches, {0.19, 0}) == 0);
     CHECK(patch_at(patches, {0.21, 0}) == -1);

@@ -29,7 +29,7 @@ Obstacle pillar(double x, double y, double r) {
     return o;
 }
 
-/// How far the middle of a robot is from an outline's edge; negative inside.
+/// The distance of a robot's centre from the edge of an outline, m; negative inside.
 double distance(const Obstacle& obstacle, const Pose2& p) {
     const Outline& o = obstacle.outline;
     const double dx = p.x - o.x, dy = p.y - o.y;
@@ -64,7 +64,7 @@ const std::vector<Obstacle> room = {box(0, 1.1, 0, 6, 0.2),         box(0, -1.1,
 
 }  // namespace
 
-TEST_CASE("Far from everything a robot moves by Euler steps") {
+TEST_CASE("Far from everything, a robot moves by Euler steps") {
     OneRobot r({box(0, 10, 0, 5, 0.2)}, {0, 0, 0.5});
     double x = 0, y = 0, yaw = 0.5;
     for (int i = 0; i < 1000; ++i)
@@ -76,7 +76,7 @@ TEST_CASE("Far from everything a robot moves by Euler steps") {
     CHECK(r.physics.contact_steps() == 0);
 }
 
-TEST_CASE("Yaw stays within half a turn") {
+TEST_CASE("The yaw stays in (-pi, pi]") {
     OneRobot r({}, {0, 0, 3});
     r.drive({0, 1}, 1000);
     CHECK(r.pose().yaw == Approx(4 - 2 * pi));
@@ -84,7 +84,7 @@ TEST_CASE("Yaw stays within half a turn") {
     CHECK(r.pose().yaw == Approx(3));
 }
 
-TEST_CASE("Calling Bullet where nothing is near changes no bit") {
+TEST_CASE("Calling Bullet when nothing is near does not change a bit") {
     OneRobot fast(room, {0, 0, 0.5}), slow(room, {0, 0, 0.5}, Contacts::always);
     const forage::RandomStream random(3, "drive");
     bool touched = false;
@@ -101,7 +101,7 @@ TEST_CASE("Calling Bullet where nothing is near changes no bit") {
     CHECK(fast.physics.contact_steps() < slow.physics.contact_steps() * 3 / 4);
 }
 
-TEST_CASE("A fast robot that comes upon a slow one is seen in time, whichever of them looks first") {
+TEST_CASE("A fast robot does not run into a slow one, whatever their order") {
     for (const bool slow_first : {true, false}) {
         const std::size_t slow = slow_first ? 0 : 1, fast = 1 - slow;
         for (const double speed : {8.0, 15.0, 30.0}) {
@@ -120,7 +120,7 @@ TEST_CASE("A fast robot that comes upon a slow one is seen in time, whichever of
     }
 }
 
-TEST_CASE("A robot that was put into a wall is not pushed out of it, and gets no deeper") {
+TEST_CASE("A robot that was placed in a wall is not pushed out of it and does not get deeper") {
     OneRobot r({box(1, 0, 0, 0.2, 4)}, {0.8, 0, 0});  // 0.1 m deep
     r.drive({1, 0.3}, 1000);
     CHECK(r.pose().x == Approx(0.8).margin(1e-5));
@@ -128,7 +128,7 @@ TEST_CASE("A robot that was put into a wall is not pushed out of it, and gets no
     CHECK(r.pose().x < 0.3);
 }
 
-TEST_CASE("A thing that is hit by something fast does not run into the next one") {
+TEST_CASE("An object that is hit by a fast robot does not penetrate the next one") {
     Body ball;
     ball.driven = false, ball.radius = 0.08, ball.mass = 0.01, ball.inertia = 1;
     const std::array<Body, 3> bodies = {Body{}, ball, ball};
@@ -145,7 +145,7 @@ TEST_CASE("A thing that is hit by something fast does not run into the next one"
         }
 }
 
-TEST_CASE("Things that rest in each other are left there, whoever looks") {
+TEST_CASE("Objects that overlap at rest stay where they are") {
     Body ball;
     ball.driven = false, ball.radius = 0.08, ball.mass = 0.01, ball.inertia = 1;
     const std::array<Body, 3> bodies = {Body{}, ball, ball};
@@ -158,7 +158,7 @@ TEST_CASE("Things that rest in each other are left there, whoever looks") {
     }
 }
 
-TEST_CASE("A robot that is squeezed between two crates and a wall gets into none of them") {
+TEST_CASE("A robot that is squeezed between two crates and a wall penetrates none of them") {
     // The wall is in front, and two heavy crates come from the sides, corners first.
     Body crate;
     crate.radius = 0, crate.mass = 50, crate.inertia = 5, crate.driven = true;
@@ -173,7 +173,7 @@ TEST_CASE("A robot that is squeezed between two crates and a wall gets into none
         round.round = true, round.x = p.pose(0).x, round.y = p.pose(0).y, round.radius = radius;
         REQUIRE(overlap(wall[0].outline, round).depth < 0.001);
         for (const std::size_t c : {1u, 2u})
-            REQUIRE(overlap(moved(p.parts(c)[0].outline, p.pose(c)), round).depth < 0.001);
+            REQUIRE(overlap(Transform2(p.pose(c)) * p.parts(c)[0].outline, round).depth < 0.001);
     }
 }
 
@@ -222,7 +222,7 @@ TEST_CASE("Within 5.7 degrees of head-on a robot sticks to the wall") {
     CHECK(slides.pose().x == Approx(0.1 * (0.12 - 0.1)).epsilon(0.3));
 }
 
-TEST_CASE("A wall does not hold a robot back that drives away") {
+TEST_CASE("A robot can drive away from a wall") {
     OneRobot r({box(0, 1.1, 0, 40, 0.2)}, {0, 0.5, pi / 2});
     r.drive({1, 0}, 500);
     CHECK(r.pose().y == Approx(0.8).margin(1e-4));
@@ -230,7 +230,7 @@ TEST_CASE("A wall does not hold a robot back that drives away") {
     CHECK(r.pose().y == Approx(0.3).margin(1e-4));
 }
 
-TEST_CASE("Random commands in a crowded room never lead through a wall or blow up") {
+TEST_CASE("Random commands in a crowded room never lead through a wall or to infinite numbers") {
     OneRobot r(room, {0, 0, 0});
     const forage::RandomStream random(7, "drive");
     double deepest = 0, farthest = 0;
@@ -293,11 +293,11 @@ TEST_CASE("A crowd of robots in a room does not overlap") {
     CHECK(deepest < 0.001);
 }
 
-TEST_CASE("A lifted robot is in nobody's way and does not move") {
+TEST_CASE("A removed robot touches nothing and does not move") {
     Physics p({}, std::vector<Body>(2), dt);
     p.place(0, {-1, 0, 0});
     p.place(1, {0, 0, 0});
-    p.lift(1);
+    p.remove(1);
     for (int i = 0; i < 2000; ++i) p.step(std::array{MotorCommand{1, 0}, MotorCommand{1, 0}});
     CHECK(p.pose(0).x == Approx(1));
     CHECK(p.pose(1).x == 0);

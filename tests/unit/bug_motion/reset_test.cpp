@@ -45,21 +45,21 @@ TEST_CASE("A world without Reset_i has no resets") {
     CHECK(diagnostics.all().empty());
 }
 
-TEST_CASE("Start poses without bounds are an error, not a reset for ever") {
+TEST_CASE("Start poses without bounds are an error, not an endless reset") {
     WorldDescription world = test::description("basic_arena");
     test::find_model(world, "GroundPlane")->name = "Floor";
     CHECK(problem_of(world) ==
-          "there is a start pose 'Reset_0', but no model named GroundPlane to give the bounds");
+          "there is a start pose 'Reset_0', but no model named GroundPlane that gives the bounds");
     world = test::description("basic_arena");
     test::find_model(world, "GroundPlane")->links.back().collisions.clear();
-    CHECK(problem_of(world) == "the last link of GroundPlane has no collision to give the bounds");
+    CHECK(problem_of(world) == "the last link of GroundPlane has no collision that gives the bounds");
     world = test::description("basic_arena");
     test::find_model(world, "Reset_1")->pose.translation().y() = -2.6;
     CHECK(problem_of(world) ==
           "'Reset_1' at (0, -2.6) is not inside the bounds x -2.5 to 2.5, y -2.5 to 2.5");
 }
 
-TEST_CASE("The last collision of the last link gives the bounds, wherever it stands") {
+TEST_CASE("The last collision of the last link gives the bounds, at any pose") {
     WorldDescription world = test::description("basic_arena");
     Model& ground = *test::find_model(world, "GroundPlane");
     ground.pose.translation() = Eigen::Vector3d(1, 2, 0);
@@ -68,7 +68,7 @@ TEST_CASE("The last collision of the last link gives the bounds, wherever it sta
     CHECK(plan_of(world).bounds.max() == Eigen::Vector2d(5, 7));
 }
 
-TEST_CASE("A plane gives no bounds: trials would never end") {
+TEST_CASE("A plane does not give bounds, as trials would never end") {
     WorldDescription world = test::description("basic_arena");
     Model& ground = *test::find_model(world, "GroundPlane");
     std::swap(ground.links.back().collisions.front(), ground.links.back().collisions.back());
@@ -76,7 +76,7 @@ TEST_CASE("A plane gives no bounds: trials would never end") {
     CHECK(problem_of(world) == "GroundPlane's last collision is a plane, so the arena has no bounds");
 }
 
-TEST_CASE("Names of start poses that do not count are warnings") {
+TEST_CASE("Names of start poses that are not used give warnings") {
     const auto warning = [](const char* from, const char* to) {
         WorldDescription world = test::description("basic_arena");
         test::find_model(world, from)->name = to;
@@ -87,10 +87,10 @@ TEST_CASE("Names of start poses that do not count are warnings") {
         CHECK(diagnostics.errors() == 0);
         return diagnostics.all().front().message;
     };
-    CHECK(warning("Reset_2", "Reset_0") == "there are two models named 'Reset_0'; the first one counts");
+    CHECK(warning("Reset_2", "Reset_0") == "there are two models named 'Reset_0'; the first one is used");
     for (const char* name : {"Reset_10", "Reset_A", "Reset_"})
         CHECK(warning("Reset_2", name) ==
-              "'" + std::string(name) + "' is no start pose: only Reset_0 to Reset_9 are");
+              "'" + std::string(name) + "' is not a start pose: only Reset_0 to Reset_9 are");
 }
 
 TEST_CASE("A reset takes 1001 substeps, and its bounds are strict") {
@@ -115,7 +115,7 @@ TEST_CASE("Start poses are drawn evenly, up to 0.01 m and 0.01 rad off") {
     std::array<int, 3> drawn{};
     Eigen::Array3d sum = Eigen::Array3d::Zero(), squares = sum, farthest = sum;
     for (int i = 0; i < n; ++i) {
-        const Pose2 p = reset.start();
+        const Pose2 p = reset.start_pose();
         const auto which = static_cast<int>(std::lround(p.x / 1.5)) + 1;
         ++drawn[static_cast<std::size_t>(which)];
         const Eigen::Array3d off(p.x - 1.5 * (which - 1), p.y + 2, p.yaw - 1.57079);

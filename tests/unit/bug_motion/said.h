@@ -1,4 +1,4 @@
-// What is said of world files.
+// The diagnostics of world files.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace forage::test {
 
-/// A directory that goes away with everything in it.
+/// A temporary directory; it is removed with its content.
 struct Scratch {
     std::filesystem::path path;
     Scratch() {
@@ -37,7 +37,7 @@ inline std::string text_of(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The basic arena with `from` replaced once.
+/// The text of the basic arena with the first `from` replaced by `to`.
 inline std::string edited(const std::string& from, const std::string& to) {
     std::string text = text_of(source_dir() / "systems/worlds/basic_arena.world");
     const auto at = text.find(from);
@@ -45,7 +45,7 @@ inline std::string edited(const std::string& from, const std::string& to) {
     return text.replace(at, from.size(), to);
 }
 
-/// What is said of a world in `text`: one line each, "12: error: message | hint".
+/// The diagnostics of the world in `text`, one per line: "12: error: message | hint".
 inline std::string said_of(const std::string& text, bool with_models = true) {
     const Scratch scratch;
     const std::string file = scratch.write("test.world", text);
@@ -57,7 +57,7 @@ inline std::string said_of(const std::string& text, bool with_models = true) {
     std::string out;
     for (const Diagnostic& d : diagnostics.all()) {
         if (d.where.file && d.where.line > 0) {
-            CHECK(d.where.file->path == file);  // where the person edits
+            CHECK(d.where.file->path == file);  // the file that the user edits
             out += std::to_string(d.where.line) + ": ";
         }
         out += (d.severity == Severity::error ? "error: " : "warning: ") + d.message;
@@ -66,7 +66,7 @@ inline std::string said_of(const std::string& text, bool with_models = true) {
     return out;
 }
 
-/// The line of the edited arena on which `what` stands.
+/// The number of the first line of `text` that contains `what`.
 inline std::string line_of(const std::string& text, const std::string& what) {
     const auto at = text.find(what);
     REQUIRE(at != std::string::npos);

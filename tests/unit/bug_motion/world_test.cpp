@@ -24,12 +24,12 @@ WorldOptions options(double cps = 25, std::uint64_t seed = 1, bool noise = true)
     return o;
 }
 
-/// A wandering command: straight on, with turns.
+/// A command that drives forward, with turns.
 MotorCommand wander(std::uint64_t cycle) { return {0.8, std::sin(0.1 * static_cast<double>(cycle))}; }
 
 bool same(const Pose2& a, const Pose2& b) { return a.x == b.x && a.y == b.y && a.yaw == b.yaw; }
 
-/// The open arena with a robot in the middle that looks along -y.
+/// The open arena with a robot in the centre whose heading is -y.
 WorldDescription one_robot() {
     WorldDescription world = description("open_arena");
     test::find_model(world, "Bug")->pose = in_space({0, 0, -std::numbers::pi / 2});
@@ -48,7 +48,7 @@ WorldDescription two_robots(double x, double y, double yaw) {
 
 }  // namespace
 
-TEST_CASE("A cycle has as many substeps as its share of simulated time") {
+TEST_CASE("A cycle has the number of substeps of its simulated time") {
     for (const auto& [cps, expected] : std::vector<std::pair<double, std::array<std::uint64_t, 3>>>{
              {25, {80, 80, 80}}, {60, {33, 33, 34}}, {50, {40, 40, 40}}}) {
         const auto world = make_world(description("basic_arena"), options(cps));
@@ -96,7 +96,7 @@ TEST_CASE("Driving noise spreads the heading by 2e-4 rad in 4.5 s, about the com
     CHECK(way == Approx(4.4).epsilon(1e-5));
 }
 
-TEST_CASE("A robot that stands still trembles, unless noise is off") {
+TEST_CASE("A robot that stands still moves slightly, unless noise is off") {
     const auto still = make_world(description("basic_arena"), options(25, 1, false)),
                trembling = make_world(description("basic_arena"));
     for (int i = 0; i < 10; ++i) still->step(), trembling->step();
@@ -114,7 +114,7 @@ TEST_CASE("Trials end at the bounds and the next one starts 1001 substeps later,
         world->command(0, {1, 0});
         const bool before = world->resetting(0);
         world->step();
-        if (world->resetting(0) && before) {  // seen at one of the start poses
+        if (world->resetting(0) && before) {  // observed at one of the start poses
             CHECK(std::abs(world->pose(0).y + 2) <= 0.01);
             const double x = world->pose(0).x;
             CHECK(std::abs(x - 1.5 * std::round(x / 1.5)) <= 0.01);
@@ -145,11 +145,11 @@ TEST_CASE("Trials end at the bounds and the next one starts 1001 substeps later,
     CHECK(now.number == static_cast<int>(trials.size()) + 1);
 }
 
-TEST_CASE("The same seed gives the same bits, another seed others, and pictures change nothing") {
+TEST_CASE("The same seed gives the same bits, another seed others, and images have no effect") {
     const auto a = make_world(description("basic_arena"), options(25, 7)),
                b = make_world(description("basic_arena"), options(25, 7)),
                other = make_world(description("basic_arena"), options(25, 8));
-    b->need_image(0, true);
+    b->request_image(0, true);
     bool differs = false;
     for (std::uint64_t i = 0; i < 300; ++i) {
         for (const auto& w : {a.get(), b.get(), other.get()}) w->command(0, wander(i)), w->step();
@@ -164,7 +164,7 @@ TEST_CASE("The same seed gives the same bits, another seed others, and pictures 
     CHECK(a->trials(0).size() >= 1);
 }
 
-TEST_CASE("One robot's noise does not depend on whether there is another") {
+TEST_CASE("The noise of a robot does not depend on other robots") {
     const auto alone = make_world(one_robot()), together = make_world(two_robots(3, 3, 0));
     for (std::uint64_t i = 0; i < 20; ++i) {
         for (const auto& w : {alone.get(), together.get()}) w->command(0, wander(i)), w->step();
@@ -173,7 +173,7 @@ TEST_CASE("One robot's noise does not depend on whether there is another") {
     CHECK_FALSE(same(together->pose(1), Pose2{3, 3, 0}));
 }
 
-TEST_CASE("Robots see and stop each other") {
+TEST_CASE("Robots sense and stop each other") {
     const auto world = make_world(two_robots(0, -1.5, std::numbers::pi / 2), options(25, 1, false));
     CHECK(world->find("Second") == std::size_t{1});
     CHECK_FALSE(world->find("Third"));
@@ -224,7 +224,7 @@ TEST_CASE("The camera sees the floor in front of the robot") {
     CHECK(yellow == Approx(824).margin(30));
 }
 
-TEST_CASE("What is drawn: floors, walls and colours") {
+TEST_CASE("The drawing has floors, walls and colours") {
     const auto world = make_world(description("basic_arena"));
     REQUIRE(world->scene()->floors().size() == 1);
     CHECK(world->scene()->floors()[0].size_x == 8);
@@ -232,7 +232,7 @@ TEST_CASE("What is drawn: floors, walls and colours") {
     CHECK(drawing.size() == 5);  // wall, target, three start discs; not the robot
 }
 
-TEST_CASE("A world that cannot be simulated says why") {
+TEST_CASE("A world that cannot be simulated gives an error") {
     Diagnostics diagnostics;
     CHECK_FALSE(World::make(description("basic_arena"), options(0), diagnostics));
     CHECK(diagnostics.errors() == 1);
@@ -249,7 +249,7 @@ TEST_CASE("A world that cannot be simulated says why") {
     CHECK(third.errors() == 1);
 }
 
-TEST_CASE("A world is described in a few lines") {
+TEST_CASE("The description of a world has the robots, poses and times") {
     CHECK(describe(*make_world(description("basic_arena"), options())) ==
           "basic_arena.world\n"
           "  robot       Bug at (0, -2) heading 1.571\n"
@@ -258,12 +258,12 @@ TEST_CASE("A world is described in a few lines") {
           "  start       Reset_2 at (1.5, -2) heading 1.571\n"
           "  target      (0, 2.5)\n"
           "  bounds      x -2.5 to 2.5, y -2.5 to 2.5\n"
-          "  trials      a robot that leaves the bounds is put back to a start\n"
-          "  time        0.08 s of the world per cycle\n"
-          "  in m and rad; heading 0 looks along x, 1.571 along y\n");
+          "  trials      a robot that leaves the bounds is reset to a start pose\n"
+          "  time        0.08 s of simulated time per cycle\n"
+          "  in m and rad; heading 0 is along x, 1.571 along y\n");
     const std::string open = describe(*make_world(description("open_arena"), options(60)));
     CHECK(open.find("none: there are no start poses") != std::string::npos);
-    CHECK(open.find("0.033 s of the world") != std::string::npos);
+    CHECK(open.find("0.033 s of simulated time") != std::string::npos);
 }
 
 // ---- mistakes in world files ----
@@ -291,7 +291,7 @@ TEST_CASE("An unknown element is a warning at its line, with the nearest name") 
         CHECK_THAT(model, Catch::Contains(what));
 }
 
-TEST_CASE("What an include lacks, or names wrongly, is said with what to write") {
+TEST_CASE("An incomplete or wrong include gives an error with a hint") {
     const std::string uri = "<uri>model://wall_straight</uri>";
     const auto said = [&](const std::string& instead) {
         const std::string text = edited(uri, instead), out = said_of(text);
@@ -315,7 +315,7 @@ TEST_CASE("What an include lacks, or names wrongly, is said with what to write")
     CHECK_THAT(said("<uri>model://quux</uri>"), Catch::Contains("the models are floor_ambiguous, "));
 }
 
-TEST_CASE("That no models are found is said once, with how to make them found") {
+TEST_CASE("Models that are not found give one error with a hint") {
     const std::string said = said_of(edited("</world>", "</world>"), false);
     CHECK(said ==
           "46: error: there is no model 'model://floor_basic', nor any other: no models are found | put them "
@@ -324,7 +324,7 @@ TEST_CASE("That no models are found is said once, with how to make them found") 
           "FORAGE_MODEL_PATH\n");
 }
 
-TEST_CASE("A value of the wrong form is said in plain words, at its line") {
+TEST_CASE("A malformed value gives an error at its line") {
     const std::string target = "<pose>0 2.5 0 0 0 0</pose>";
     const auto said = [&](const std::string& instead) { return said_of(edited(target, instead)); };
     const std::string pose = " | a pose is x y z roll pitch yaw: six numbers, in m and rad\n";
@@ -341,7 +341,7 @@ TEST_CASE("A value of the wrong form is said in plain words, at its line") {
         "unit\n");
 }
 
-TEST_CASE("An angle of more than a turn is asked about") {
+TEST_CASE("An angle of more than a turn gives a warning") {
     const auto said = [](const char* yaw) {
         return said_of(
             edited("<pose>0 -2 0 0 0 1.57079</pose>", std::string("<pose>0 -2 0 0 0 ") + yaw + "</pose>"));
@@ -351,7 +351,7 @@ TEST_CASE("An angle of more than a turn is asked about") {
     CHECK(said("-6.28").empty());
 }
 
-TEST_CASE("What is wrong with an included model's place is said where it is included") {
+TEST_CASE("Errors of an included model's pose are reported at the include") {
     std::string said =
         said_of(edited("<pose>1.5 -2 0 0 0 1.57079</pose>", "<pose>1.5 -7 0 0 0 1.57079</pose>"));
     CHECK_THAT(said, Catch::StartsWith("85: error: 'Reset_2' at (1.5, -7) is not inside the bounds"));
@@ -363,7 +363,7 @@ TEST_CASE("What is wrong with an included model's place is said where it is incl
     CHECK_THAT(said, Catch::Contains("error: there are two robots named 'Bug'"));
 }
 
-TEST_CASE("A file that is no world is told what it is") {
+TEST_CASE("A file that is not a world gives an error that says what it is") {
     const auto said = [](const std::filesystem::path& path) {
         Diagnostics diagnostics;
         CHECK_FALSE(read_world(path.string(), diagnostics));
@@ -385,7 +385,8 @@ TEST_CASE("A file that is no world is told what it is") {
           "the root element is <sfd>; that of a world or a model is <sdf>");
 }
 
-TEST_CASE("An include takes name, place, fixedness and plugins from the world, the rest from the model") {
+TEST_CASE(
+    "An include has the name, pose, <static> and plugins of the world, and everything else of the model") {
     const Scratch scratch;
     const std::string config =
         "<?xml version='1.0'?><model><name>m</name><sdf version='1.4'>model.sdf</sdf></model>";
@@ -424,7 +425,7 @@ TEST_CASE("An include takes name, place, fixedness and plugins from the world, t
     CHECK(second.links[0].name == "o");
 }
 
-TEST_CASE("A mistake in a model's file is said there, and once however often it is included") {
+TEST_CASE("An error in a model's file is reported there, and only once") {
     const Scratch scratch;
     scratch.write("models/m/model.config",
                   "<?xml version='1.0'?><model><name>m</name><sdf version='1.4'>model.sdf</sdf></model>");
@@ -444,7 +445,7 @@ TEST_CASE("A mistake in a model's file is said there, and once however often it 
     CHECK(diagnostics.errors() == 1);
 }
 
-TEST_CASE("A model that includes itself is an error, not an endless loop") {
+TEST_CASE("A model that includes itself is an error, not an endless recursion") {
     const Scratch scratch;
     scratch.write("models/m/model.config",
                   "<?xml version='1.0'?><model><name>m</name><sdf version='1.4'>model.sdf</sdf></model>");

@@ -1,4 +1,4 @@
-// Worlds for the tests of motion, simulation and module.
+// Worlds for the tests of motion, simulation and the robot's module.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace forage::test {
 
-/// A world that ships with the project, read once.
+/// A world of the repository. Each is read only once.
 inline const bug::WorldDescription& description(const std::string& name) {
     static std::map<std::string, bug::WorldDescription> known;
     if (!known.contains(name)) {

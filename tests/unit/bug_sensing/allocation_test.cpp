@@ -1,4 +1,4 @@
-// Sensing does not allocate: neither Eigen's nor OpenCV's part of it.
+// Sensing does not allocate memory, neither in Eigen nor in OpenCV.
 #include "bug_interface/sensing/image_cells.h"
 #include "tests/support/count_allocations.h"
 #include "tests/unit/bug_sensing/arena.h"
@@ -8,14 +8,14 @@ using namespace forage::bug;
 using forage::bug::test::Arena;
 using forage::bug::test::up;
 
-TEST_CASE("Sensing allocates nothing") {
+TEST_CASE("Sensing does not allocate memory") {
     const Arena& arena = Arena::get();
     Camera camera = arena.camera();
     const RangeScanner scanner = arena.scanner("laser");
     const RandomStream random(1, "Bug");
     std::vector<Outline> outlines;
     for (const Solid& solid : arena.solids())
-        if (const auto outline = cut(solid, scanner.height())) outlines.push_back(*outline);
+        if (const auto outline = cross_section(solid, scanner.height())) outlines.push_back(*outline);
     const VisualSolid other = {{ShapeKind::cylinder, forage::bug::test::at(0, 2.7, 0.1), {0.4, 0.4, 0.2}},
                                {}};
     const std::vector<const VisualSolid*> moving = {&other};

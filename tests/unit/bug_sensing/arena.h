@@ -76,7 +76,7 @@ inline std::vector<double> cells_of(const RangeScanner& scanner, const std::vect
                                     const Pose2& body) {
     std::vector<Outline> outlines;
     for (const Solid& solid : solids)
-        if (const auto outline = cut(solid, scanner.height())) outlines.push_back(*outline);
+        if (const auto outline = cross_section(solid, scanner.height())) outlines.push_back(*outline);
     std::vector<double> ranges(static_cast<std::size_t>(scanner.rays())), cells(ranges.size());
     scanner.scan(body, outlines, ranges);
     scanner.to_activity(ranges, cells);

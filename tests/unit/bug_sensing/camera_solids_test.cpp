@@ -1,4 +1,4 @@
-// What the camera sees of things on the floor.
+// The camera's pictures of solids on the floor.
 #include <array>
 #include <cmath>
 #include <optional>
@@ -19,7 +19,7 @@ const float* pixel(const std::vector<float>& rgb, int column, int row) {
     return &rgb[3 * static_cast<std::size_t>(row * 32 + column)];
 }
 
-/// A camera like that of the larger robots: it sees far.
+/// A camera like that of the larger robots, with a large range.
 Camera far_camera(const Arena& arena, const std::shared_ptr<const Scene>& scene) {
     CameraSensor sensor = arena.link.cameras.at(0);
     sensor.pose = at(0.125, 0, 0.25) * Eigen::AngleAxisd(0.57, Eigen::Vector3d::UnitY());
@@ -106,7 +106,7 @@ TEST_CASE("Another robot hides the floor behind it, from every side") {
     }
 }
 
-TEST_CASE("Nearer things hide farther ones, whatever their order") {
+TEST_CASE("Near solids hide far ones, whatever their order") {
     const Arena& arena = Arena::get();
     const auto near = solid(ShapeKind::sphere, at(0, -0.6, 0.06), {0.16, 0.16, 0.16}, "Gazebo/Blue");
     const auto far = solid(ShapeKind::box, at(0, -0.4, 0.125), {0.6, 0.1, 0.25}, "Gazebo/Red");
@@ -122,7 +122,7 @@ TEST_CASE("Nearer things hide farther ones, whatever their order") {
     CHECK(red > 10);
 }
 
-TEST_CASE("A camera that looks far sees the horizon's background above the floor") {
+TEST_CASE("A camera with a large range sees the background above the horizon") {
     WorldDescription world;
     const Arena& arena = Arena::get();
     const auto scene = std::make_shared<Scene>(arena.world, arena.excluded);
@@ -134,7 +134,7 @@ TEST_CASE("A camera that looks far sees the horizon's background above the floor
     CHECK(pixel(rgb, 16, 27)[1] != 0.7f);
 }
 
-TEST_CASE("A robot does not see itself: its model is left out of the scene") {
+TEST_CASE("A robot does not see itself, as its model is not in the scene") {
     const Arena& arena = Arena::get();
     const Scene with(arena.world), without(arena.world, arena.excluded);
     CHECK(with.solids().size() == without.solids().size() + 2);
@@ -183,7 +183,7 @@ struct Entry {
     double depth, face;
 };
 
-/// Of a ray; 13 of them, for there are more ways to do many than one.
+/// Intersects 13 equal rays, as the code for many rays differs from that for one.
 std::optional<Entry> entry(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& origin,
                            const Eigen::Vector3d& ray) {
     constexpr std::size_t count = 13;
@@ -191,8 +191,8 @@ std::optional<Entry> entry(ShapeKind kind, const Eigen::Vector3d& half, const Ei
     std::array<double, count> depth, face;
     x.fill(static_cast<float>(ray.x())), y.fill(static_cast<float>(ray.y()));
     z.fill(static_cast<float>(ray.z()));
-    forage::bug::enter(kind, half, origin, Eigen::Matrix3d::Identity(), {x.data(), y.data(), z.data(), count},
-                       {depth.data(), face.data()});
+    forage::bug::intersect(kind, half, origin, Eigen::Matrix3d::Identity(),
+                           {x.data(), y.data(), z.data(), count}, {depth.data(), face.data()});
     for (std::size_t i = 1; i < count; ++i) {
         CHECK(depth[i] == depth[0]);
         CHECK(face[i] == face[0]);
@@ -223,7 +223,7 @@ TEST_CASE("A ray enters solids from outside only") {
     CHECK(forage::bug::curved_normal(ShapeKind::cylinder, {-5, 0, 2}, ahead, 4).z() == 0);
 }
 
-TEST_CASE("Rays enter solids where a walk along them does") {
+TEST_CASE("Rays enter solids at the point that small steps along the ray find") {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> any(-2, 2);
     for (int i = 0; i < 300; ++i) {
@@ -250,7 +250,7 @@ TEST_CASE("Rays enter solids where a walk along them does") {
         if (walked) {
             REQUIRE(met);
             CHECK(met->depth == Approx(*walked).margin(1.01 * step));
-        } else if (met) {  // a corner that the walk steps over, or far away
+        } else if (met) {  // a corner that the steps miss, or far away
             CHECK((met->depth > 8 - step || !inside(met->depth + step)));
         }
     }
@@ -262,8 +262,8 @@ bool meets(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& o
            const Eigen::Vector3d& ray) {
     const Eigen::Vector3f r = ray.cast<float>();
     double depth, face;
-    forage::bug::enter(kind, half, origin, Eigen::Matrix3d::Identity(), {&r.x(), &r.y(), &r.z(), 1},
-                       {&depth, &face});
+    forage::bug::intersect(kind, half, origin, Eigen::Matrix3d::Identity(), {&r.x(), &r.y(), &r.z(), 1},
+                           {&depth, &face});
     return depth < 20;  // m; the camera sees no farther
 }
 
@@ -291,7 +291,7 @@ TEST_CASE("A solid is drawn in the pixels whose rays meet it, and in no other") 
                        body.y + ahead * std::sin(body.yaw) + aside * std::cos(body.yaw), 0, uniform(-3, 3));
         if (i % 2) pose.rotate(Eigen::AngleAxisd(uniform(-1, 1), Eigen::Vector3d::UnitX()));
         pose.translation().z() =
-            half_height({kind, pose, size}) + uniform(0, 0.2);  // nothing is below the floor
+            half_height({kind, pose, size}) + uniform(0, 0.2);  // no solid is below the floor
         const VisualSolid visual = solid(kind, pose, size, "Gazebo/Red");
         const auto rgb = picture(camera, body, std::vector<VisualSolid>{visual});
         const Pose robot = at(body.x, body.y, 0, body.yaw);
@@ -308,9 +308,9 @@ TEST_CASE("A solid is drawn in the pixels whose rays meet it, and in no other") 
                                                   -std::sin(pitch) + b * std::cos(pitch));
                         rays += meets(kind, size / 2, eye, pose.linear().transpose() * robot.linear() * ray);
                     }
-                const bool seen = pixel(rgb, column, row)[1] < 0.699f;  // red hides some of the grey
+                const bool seen = pixel(rgb, column, row)[1] < 0.699f;  // red hides part of the grey
                 met += rays;
-                // A ray along an edge may fall on either side in single precision.
+                // In single precision, a ray along an edge may be on either side.
                 wrong += (rays == 4 && !seen) || (rays == 0 && seen);
             }
         drawn += met > 0, partly += met > 0 && met < 4 * 28 * 32;

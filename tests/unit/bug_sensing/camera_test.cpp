@@ -1,4 +1,4 @@
-// What the camera sees of the floor.
+// The camera's pictures of the floor.
 #include "bug_interface/sensing/camera.h"
 
 #include <cmath>
@@ -16,7 +16,7 @@ struct Count {
     int all = 0, cropped = 0;  ///< of all 32 columns, of the left 28
 };
 
-/// How many pixels have exactly these channels lit (half or more).
+/// The number of pixels in which exactly these channels are at least 0.5.
 Count count(const std::vector<float>& rgb, bool red, bool green, bool blue) {
     Count c;
     for (int i = 0; i < 32 * 28; ++i) {
@@ -30,7 +30,7 @@ Count count(const std::vector<float>& rgb, bool red, bool green, bool blue) {
 
 }  // namespace
 
-TEST_CASE("A patch ahead fills as many pixels as geometry says") {
+TEST_CASE("A patch ahead fills the number of pixels that the geometry gives") {
     const Arena& arena = Arena::get();
     const Camera camera = arena.camera(1);
     const auto seen = [&](const Pose2& body, bool r, bool g, bool b) {
@@ -82,7 +82,7 @@ TEST_CASE("A patch far ahead enters the picture from the top row down") {
     CHECK(rgb[3 * 16] > 0.5f);
 }
 
-TEST_CASE("Pixels look at the floor points that the projection gives") {
+TEST_CASE("Pixels show the floor points that the projection gives") {
     const Arena& arena = Arena::get();
     const Camera camera = arena.camera();
     const auto world = [&](int column, int row) -> Eigen::Vector2d {
@@ -130,7 +130,7 @@ TEST_CASE("The picture turns with the robot") {
     }
 }
 
-TEST_CASE("Supersampling smooths the rim of a patch and leaves its inside alone") {
+TEST_CASE("Supersampling smooths the rim of a patch and does not change its interior") {
     const Arena& arena = Arena::get();
     const auto one = picture(arena.camera(1), {0, 0.615, up}),
                four = picture(arena.camera(4), {0, 0.615, up});
@@ -144,7 +144,7 @@ TEST_CASE("Supersampling smooths the rim of a patch and leaves its inside alone"
     CHECK(inside > 700);
 }
 
-TEST_CASE("Light on a textured floor saturates, or is what was asked for") {
+TEST_CASE("The light on a textured floor saturates, or is `floor_gain`") {
     const auto world = forage::bug::test::world_of_project("open_arena.world");
     REQUIRE(world.sun);
     const double gain = world.ambient + world.sun->z();
@@ -171,7 +171,7 @@ TEST_CASE("Outside the floor picture the background is grey") {
     CHECK(edge[3 * (27 * 32 + 16)] < 0.3f);
 }
 
-TEST_CASE("The quick way for bare floor and the general way draw the same picture") {
+TEST_CASE("The fast path for bare floor and the general one render the same picture") {
     const Arena& arena = Arena::get();
     const Camera camera = arena.camera();
     // A solid in front of the camera's back: its bounds meet every tile, no ray meets it.

@@ -21,7 +21,7 @@ struct Groups {
     }
 };
 
-/// Red says the column, green the row.
+/// The red channel is the column, the green one the row.
 Picture coordinates() {
     Picture out;
     for (int row = 0; row < height; ++row)
@@ -52,7 +52,7 @@ void check(const std::array<double, 3>& got, double a, double b, double c) {
 
 }  // namespace
 
-TEST_CASE("A picture as large as the groups is copied cell by cell") {
+TEST_CASE("A picture of the size of the groups is copied cell by cell") {
     const Groups g(coordinates(), ColourSpace::rgb, 32, 28);
     CHECK(g.first[0] == 0);
     CHECK(g.first[31] == 31 / 255.0);
@@ -60,7 +60,7 @@ TEST_CASE("A picture as large as the groups is copied cell by cell") {
     CHECK(g.third[77] == 200 / 255.0);
 }
 
-TEST_CASE("Groups with only one side of the picture crop it: left columns, bottom rows") {
+TEST_CASE("Groups with the width or the height of the picture crop it to the left columns and the bottom rows") {
     const Groups narrow(coordinates(), ColourSpace::rgb, 28, 28);
     CHECK(narrow.first[27] == 27 / 255.0);
     CHECK(narrow.second[28 * 27] == 27 / 255.0);
@@ -70,10 +70,10 @@ TEST_CASE("Groups with only one side of the picture crop it: left columns, botto
     CHECK(low.first[31] == 31 / 255.0);
 }
 
-TEST_CASE("Groups that differ in both sides get a resampled picture") {
+TEST_CASE("Groups that differ in width and height receive a resampled picture") {
     const Groups half(coordinates(), ColourSpace::rgb, 16, 14);
     for (std::size_t row = 2; row < 12; ++row)
-        for (std::size_t column = 2; column < 14; ++column) {  // a straight slope stays one, but for rounding
+        for (std::size_t column = 2; column < 14; ++column) {  // a linear slope stays linear, except for rounding
             CHECK(half.first[row * 16 + column] * 255 == Approx(2.0 * double(column) + 0.5).margin(0.51));
             CHECK(half.second[row * 16 + column] * 255 == Approx(2.0 * double(row) + 0.5).margin(0.51));
         }
@@ -99,7 +99,7 @@ TEST_CASE("A step keeps the undershoot of the cubic kernel with B = C = 1/3") {
     CHECK(half.first[9] > 200 / 255.0);
 }
 
-TEST_CASE("Resampling always is a choice") {
+TEST_CASE("Resampling can be forced") {
     ImageQuirks quirks;
     quirks.always_resample = true;
     const Groups g(coordinates(), ColourSpace::rgb, 16, 28, quirks);
@@ -129,14 +129,14 @@ TEST_CASE("Grey uses the original's weights, so white is above 1") {
     check(one_pixel(ColourSpace::grey, 255, 255, 255, meant), 1, 1, 1);
 }
 
-TEST_CASE("Salt, when asked for, turns the value 1 into 1.0") {
+TEST_CASE("The option `salt` turns the value 1 into 1.0") {
     ImageQuirks salt;
     salt.salt = true;
     check(one_pixel(ColourSpace::rgb, 1, 0, 2), 1 / 255.0, 0, 2 / 255.0);
     check(one_pixel(ColourSpace::rgb, 1, 0, 2, salt), 1, 0, 2 / 255.0);
 }
 
-TEST_CASE("Impossible sizes are refused") {
+TEST_CASE("Impossible sizes are rejected") {
     CHECK_THROWS_AS(Groups(coordinates(), ColourSpace::rgb, 40, 28), std::invalid_argument);
     std::vector<double> few(10), enough(32 * 28);
     CHECK_THROWS_AS(image_cells(coordinates(), width, height, ColourSpace::rgb, 32, 28, few, enough, enough),

@@ -17,7 +17,7 @@ std::size_t strongest(const std::vector<double>& cells) {
 
 }  // namespace
 
-TEST_CASE("The place cell of the robot's place is the strongest, with activity 1") {
+TEST_CASE("The place cell at the robot's position is the most active one, with activity 1") {
     std::vector<double> cells(21 * 21);
     const PlaceField field{0, 0, 10, 10, 0.2};
     place_cells(0, 0, 21, 21, field, cells);
@@ -28,7 +28,7 @@ TEST_CASE("The place cell of the robot's place is the strongest, with activity 1
     CHECK(strongest(cells) == 2 * 21 + 15);  // row 0 is +y
 }
 
-TEST_CASE("Place cells of an even side are lopsided") {
+TEST_CASE("Place cells of an even side are asymmetric") {
     std::vector<double> cells(20);
     place_cells(9, 0, 20, 1, {0, 0, 10, 10, 0.2}, cells);
     CHECK(strongest(cells) == 19);
@@ -36,7 +36,7 @@ TEST_CASE("Place cells of an even side are lopsided") {
     CHECK(strongest(cells) == 0);
 }
 
-TEST_CASE("Offset and extent of a place field move and stretch it") {
+TEST_CASE("The offset and the extent move and stretch the area of the place cells") {
     std::vector<double> cells(11 * 11);
     place_cells(3, -1, 11, 11, {2, -2, 5, 5, 0.1}, cells);
     CHECK(strongest(cells) == 4 * 11 + 6);

@@ -28,7 +28,7 @@ RangeSensor one_ray(double angle, double min = 0.1, double max = 3) {
 
 double range_of(const RangeSensor& sensor, const Pose& link, const Pose2& body, const Solid& solid) {
     const RangeScanner scanner(sensor, link);
-    const auto outline = cut(solid, scanner.height());
+    const auto outline = cross_section(solid, scanner.height());
     REQUIRE(outline);
     double range = 0;
     scanner.scan(body, {&*outline, 1}, {&range, 1});
@@ -37,7 +37,7 @@ double range_of(const RangeSensor& sensor, const Pose& link, const Pose2& body, 
 
 }  // namespace
 
-TEST_CASE("The light sensors see the target where geometry puts it") {
+TEST_CASE("The light sensors measure the target at the distance that the geometry gives") {
     const Arena& arena = Arena::get();
     const auto light = arena.scanner("laser_target");
     const auto solids = arena.solids();
@@ -51,26 +51,26 @@ TEST_CASE("The light sensors see the target where geometry puts it") {
     check_from(cells_of(light, solids, {0.3, 1.5, 1.2}), 11, {0.6416, 0.6822, 0.6562});
 }
 
-TEST_CASE("Rays that start inside the target report its far side") {
+TEST_CASE("Rays that start inside the target measure its far side") {
     const Arena& arena = Arena::get();
     const auto cells = cells_of(arena.scanner("laser_target"), arena.solids(), {0, 2.2, up});
     check_from(cells, 11, {0.8830, 0.8406, 0.8108, 0.7911, 0.7812, 0.7812, 0.7911, 0.8108, 0.8406, 0.8830});
 }
 
-TEST_CASE("The light goes dark exactly under the target") {
+TEST_CASE("The light is not sensed exactly below the target") {
     const Arena& arena = Arena::get();
     for (const double cell : cells_of(arena.scanner("laser_target"), arena.solids(), {0.005, 2.5, 0.3}))
         CHECK(cell == 0);
 }
 
-TEST_CASE("The light is silent at the start positions") {
+TEST_CASE("The light is not sensed at the start poses") {
     const Arena& arena = Arena::get();
     for (const double x : {-1.5, 0.0, 1.5})
         for (const double cell : cells_of(arena.scanner("laser_target"), arena.solids(), {x, -2, up}))
             CHECK(cell == 0);
 }
 
-TEST_CASE("The proximity sensors see the wall where geometry puts it") {
+TEST_CASE("The proximity sensors measure the wall at the distance that the geometry gives") {
     const Arena& arena = Arena::get();
     const auto proximity = arena.scanner("laser");
     const auto solids = arena.solids();
@@ -86,7 +86,7 @@ TEST_CASE("The proximity sensors see the wall where geometry puts it") {
                 0.6895, 0.5876, 0.3499});
 }
 
-TEST_CASE("The gripper scan sees the palm around its own origin from inside") {
+TEST_CASE("The gripper scan measures the palm around its own origin from inside") {
     // The rays of the two outer cells start inside the palm (0.06 x 0.1, 2 cm behind the sensor) and leave
     // through its end.
     RangeSensor sensor = one_ray(-1, 0.0155, 0.2);
@@ -99,21 +99,21 @@ TEST_CASE("The gripper scan sees the palm around its own origin from inside") {
     CHECK(cells[1] == 0);
 }
 
-TEST_CASE("A ray looks through what ends before its least range") {
+TEST_CASE("A ray passes through solids that end before its minimum range") {
     const Solid post{ShapeKind::cylinder, at(0.2, 0, 0), {0.1, 0.1, 1}};
     CHECK(range_of(one_ray(0, 0.26), Pose::Identity(), {}, post) == 3);
     CHECK(range_of(one_ray(0, 0.24), Pose::Identity(), {}, post) == Approx(0.25));
     CHECK(range_of(one_ray(0, 0.1), Pose::Identity(), {}, post) == Approx(0.15));
 }
 
-TEST_CASE("A ray ends at its greatest range") {
+TEST_CASE("A ray ends at its maximum range") {
     const Solid post{ShapeKind::cylinder, at(3.04, 0, 0), {0.1, 0.1, 1}};
     CHECK(range_of(one_ray(0), Pose::Identity(), {}, post) == Approx(2.99));
     const Solid far_side{ShapeKind::box, at(2, 0, 0), {3.8, 1, 1}};  // starts inside, would leave at 3.9
     CHECK(range_of(one_ray(0, 0.2), Pose::Identity(), {}, far_side) == 3);
 }
 
-TEST_CASE("The mount of a sensor shifts and turns its rays with the robot") {
+TEST_CASE("The pose of a sensor shifts and rotates its rays with the robot") {
     RangeSensor sensor = one_ray(0.2);
     sensor.pose = at(0.1, 0.05, 0, 0.3);
     const Pose2 body{1, -1, 2};
@@ -132,7 +132,7 @@ TEST_CASE("A ray along the side of a box stays outside") {
     CHECK(range_of(one_ray(0), Pose::Identity(), {0, 0.2, 0}, box) == Approx(0.5));
 }
 
-TEST_CASE("Noise of a scan has the sensor's width, never exceeds the range, and repeats") {
+TEST_CASE("Noise of a scan has the sensor's deviation, never exceeds the range, and is reproducible") {
     const Arena& arena = Arena::get();
     const auto light = arena.scanner("laser_target");
     const RandomStream random(7, "Bug", 2);

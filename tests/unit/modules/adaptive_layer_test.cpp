@@ -59,7 +59,7 @@ TEST_CASE(
     CHECK(l.prototype().matrix().isApprox(w * (w.transpose() * x.matrix())));
 }
 
-TEST_CASE("A step changes the weights as the rule says") {
+TEST_CASE("A step changes the weights by the learning rule") {
     const Rates rates{0.05, 0.3, 2.5, 0.1};
     auto l = layer(0.5);
     const MatrixXd w = l.weights();
@@ -73,7 +73,7 @@ TEST_CASE("A step changes the weights as the rule says") {
     CHECK(is_single(l.weights()));
 }
 
-TEST_CASE("Without a stimulus nothing is answered, learned or measured") {
+TEST_CASE("Without a stimulus there is no response, no learning and no change of the discrepancy") {
     auto l = layer();
     l.update(cells(stimuli, {1}), cells(responses, {0}), {0.1, 0, 0, 0.5});
     const MatrixXd w = l.weights();
@@ -85,7 +85,7 @@ TEST_CASE("Without a stimulus nothing is answered, learned or measured") {
     CHECK(l.discrepancy() == discrepancy);
 }
 
-TEST_CASE("With a learning rate of 0 the layer answers and measures, but does not learn") {
+TEST_CASE("With a learning rate of 0, the layer responds and updates the discrepancy, but does not learn") {
     auto l = layer();
     const MatrixXd w = l.weights();
     CHECK(l.update(cells(stimuli, {0, 3}), cells(responses, {1}), {0, 0.97, 6, 0.5}));
@@ -93,7 +93,7 @@ TEST_CASE("With a learning rate of 0 the layer answers and measures, but does no
     CHECK(l.response().abs().maxCoeff() > 0);
 }
 
-TEST_CASE("A stimulus that is seen often enough is its own prototype when learning is perceptual") {
+TEST_CASE("With perceptual learning, a stimulus that is repeated becomes its own prototype") {
     auto l = layer();
     const ArrayXd x = cells(stimuli, {0, 2});
     for (int i = 0; i < 2000; ++i) l.update(x, none, {0.02, -1, 0, 0.01});
@@ -101,7 +101,7 @@ TEST_CASE("A stimulus that is seen often enough is its own prototype when learni
     CHECK(l.discrepancy() < 0.01);
 }
 
-TEST_CASE("Stimuli that go with responses call for them when learning is behavioural") {
+TEST_CASE("With behavioural learning, stimuli evoke the responses that occurred with them") {
     auto l = layer(0.01);
     for (int i = 0; i < 4000; ++i) {
         const Index which = i % 2;
@@ -114,7 +114,8 @@ TEST_CASE("Stimuli that go with responses call for them when learning is behavio
     CHECK(l.response()[1] > 0.5);
 }
 
-TEST_CASE("The discrepancy starts at 1, moves by its rate, and does not see the strength of the stimulus") {
+TEST_CASE(
+    "The discrepancy starts at 1, changes by its rate, and does not depend on the strength of the stimulus") {
     auto slow = layer(), fast = layer(), frozen = layer(), strong = layer();
     CHECK(slow.discrepancy() == 1);
     const ArrayXd x = cells(stimuli, {1, 4});
@@ -132,7 +133,7 @@ TEST_CASE("The discrepancy starts at 1, moves by its rate, and does not see the 
     CHECK(strong.discrepancy() == Approx(fast.discrepancy()));
 }
 
-TEST_CASE("The discrepancy rests while stimulus or prototype are no more than a trace") {
+TEST_CASE("The discrepancy is constant while the stimulus or the prototype is at most 1e-5") {
     auto l = layer();
     l.set_weights(MatrixXd::Constant(stimuli, responses, 1));
     l.update(cells(stimuli, {1}) * 1e-5, none, {0, 0, 0, 1});
@@ -143,14 +144,14 @@ TEST_CASE("The discrepancy rests while stimulus or prototype are no more than a 
     CHECK(l.discrepancy() < 1);
 }
 
-TEST_CASE("Weights that are set are rounded to single precision; all else stays") {
+TEST_CASE("set_weights() rounds to single precision and changes nothing else") {
     auto l = layer();
     l.set_weights(MatrixXd::Constant(stimuli, responses, 0.1));
     CHECK(l.weights()(3, 1) == static_cast<double>(0.1F));
     CHECK(l.discrepancy() == 1);
 }
 
-TEST_CASE("Weights that are infinite spread, also without a stimulus, as in the original") {
+TEST_CASE("Infinite weights propagate, also without a stimulus, as in the original") {
     auto l = layer();
     MatrixXd w = MatrixXd::Zero(stimuli, responses);
     w(2, 1) = std::numeric_limits<double>::infinity();
@@ -159,14 +160,14 @@ TEST_CASE("Weights that are infinite spread, also without a stimulus, as in the 
     CHECK(std::isnan(l.response()[1]));
 }
 
-TEST_CASE("A learning rate that is too large diverges, but the layer goes on") {
+TEST_CASE("Learning with too large a rate diverges without an error") {
     auto l = layer();
     for (int i = 0; i < 200; ++i)
         l.update(ArrayXd::Constant(stimuli, 2), cells(responses, {0}), {10, 0, 50, 0.1});
     CHECK_FALSE(l.weights().allFinite());
 }
 
-TEST_CASE("A layer of one stimulus and one response cell learns too") {
+TEST_CASE("A layer with one stimulus cell and one response cell learns") {
     AdaptiveLayer l(1, 1);
     l.start(std::vector{0.9}, 0.1);
     for (int i = 0; i < 500; ++i) l.update(ArrayXd::Ones(1), ArrayXd::Ones(1), {0.05, 0, 0, 1});

@@ -56,7 +56,7 @@ TEST_CASE("moduleAL shows its weights as one picture of the stimulus per respons
             for (Index c = 0; c < 2; ++c) CHECK(b.outputs[3][q * 8 + k * 2 + c] == w(q * 2 + c, k));
 }
 
-TEST_CASE("moduleAL writes the first cell of the discrepancy only, and works without a display") {
+TEST_CASE("moduleAL writes only the first cell of the discrepancy, and works without a display") {
     Bench b;
     bind(b, false);
     CHECK(b.problems().empty());
@@ -79,7 +79,7 @@ TEST_CASE(
     CHECK(first_weights(1) == one);
 }
 
-TEST_CASE("moduleAL reads its file at the end of an update, and shows it in the next") {
+TEST_CASE("moduleAL reads its file at the end of an update and displays it in the next") {
     const std::string path = temporary();
     std::ofstream(path) << "1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 3, 3, 3, 3, 3, 3, 4, 4, 4, 4, 4, 4";
     Bench b;
@@ -110,7 +110,7 @@ TEST_CASE("moduleAL writes its file once per request") {
     CHECK_FALSE(std::filesystem::exists(path));
 }
 
-TEST_CASE("moduleAL says before the run, or stops, when the file that it shall read is not there") {
+TEST_CASE("moduleAL reports a missing file before the run, or stops") {
     Bench b;
     bind(b);
     b.set("read", "true");
@@ -123,7 +123,7 @@ TEST_CASE("moduleAL says before the run, or stops, when the file that it shall r
     b.update();
 }
 
-TEST_CASE("moduleAL says which group has the wrong size, and which one it needs") {
+TEST_CASE("moduleAL reports groups of the wrong size and the required size") {
     const auto bound = [](Bench& b, int proto_w, int proto_h, int display_w, int out_w) {
         b.in("input", 2, 3).in("condition", 4, 1).out("prototype", proto_w, proto_h).out("output", out_w, 1);
         b.out("descripancy", 1, 1).out("weight display", display_w, 3);

@@ -1,4 +1,4 @@
-// Updates do not allocate.
+// Updates do not allocate memory.
 #include "modules/adaptive_layer/module.h"
 #include "modules/colour/module.h"
 #include "modules/contextual_layer/module.h"
@@ -13,7 +13,7 @@ using namespace forage::test;
 
 namespace {
 
-/// Allocations of updates with input that changes.
+/// The number of allocations in updates with changing input.
 std::size_t allocations_of(ModuleBench& b) {
     REQUIRE(b.problems().empty());
     b.start();
@@ -29,7 +29,7 @@ std::size_t allocations_of(ModuleBench& b) {
 
 }  // namespace
 
-TEST_CASE("No module allocates in an update") {
+TEST_CASE("No module allocates memory in an update") {
     ModuleBench adaptive(module_type<adaptive::AdaptiveLayerModule>()),
         contextual(module_type<contextual::ContextualLayerModule>());
     ModuleBench colour(module_type<colour::ColourModule>()),

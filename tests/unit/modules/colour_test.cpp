@@ -32,7 +32,7 @@ TEST_CASE("A pixel's value appears in exactly the bins that contain its hue") {
     }
 }
 
-TEST_CASE("Bins are centred on their colour, closed above, and the first one wraps round") {
+TEST_CASE("Bins are centred on their colour, include their upper limit, and the first one wraps around") {
     const HueBins bins(12);
     for (Index b = 0; b < 12; ++b)
         for (Index other = 0; other < 12; ++other)
@@ -63,7 +63,7 @@ TEST_CASE("A hue at a limit of two bins can be in both or in none, as in the ori
     CHECK(in_two > 0);
 }
 
-TEST_CASE("moduleColor shows each new picture, and keeps showing it") {
+TEST_CASE("moduleColor writes each new picture, and keeps it until the next one") {
     ModuleBench b(module_type<colour::ColourModule>());
     b.in("_hue", 2, 1).in("_value", 2, 1).out("_color", 2, 3);
     CHECK(b.problems().empty());
@@ -85,7 +85,7 @@ TEST_CASE("moduleColor shows each new picture, and keeps showing it") {
     CHECK(b.outputs[0].isZero());
 }
 
-TEST_CASE("moduleColor says which group has the wrong size") {
+TEST_CASE("moduleColor reports groups of the wrong size") {
     const auto problem = [](int value_h, int w, int h) {
         ModuleBench b(module_type<colour::ColourModule>());
         b.in("_hue", 4, 3).in("_value", 4, value_h).out("_color", w, h);

@@ -1,4 +1,4 @@
-// The contextual layer estimates distances and makes exact what may be selected: nothing that it does may
+// The contextual layer estimates distances and makes those of selectable segments exact. Its results must not
 // depend on that.
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,8 @@ using forage::Archive;
 
 namespace {
 
-/// Prototypes from 0 to 1, some without activity, some with few cells, some with tiny ones.
+/// Random prototypes from 0 to 1: some without activity, some with few active cells, some with tiny
+/// activities.
 class Drawn {
   public:
     explicit Drawn(unsigned seed) : random_(seed) {}
@@ -48,7 +49,7 @@ std::vector<float> exact_distances(const std::vector<ArrayXf>& stored, const Arr
 
 }  // namespace
 
-TEST_CASE("Estimated distances are off by no more than is said, and exact where they are needed") {
+TEST_CASE("Estimated distances have at most the stated error, and required ones are exact") {
     Drawn drawn(1);
     for (const Index cells : {1, 2, 48, 65, 400, 1023}) {
         const Index count = 300;
@@ -69,7 +70,7 @@ TEST_CASE("Estimated distances are off by no more than is said, and exact where 
             }
             std::set<Index> needed;
             for (Index n = drawn.below(6); n > 0; --n) needed.insert(drawn.below(count));
-            for (const Index key : needed) store.need(key);
+            for (const Index key : needed) store.require(key);
             store.refine(distances.data());
             for (const Index key : needed)
                 wrong += distances[static_cast<std::size_t>(key)] != exact[static_cast<std::size_t>(key)];
@@ -88,7 +89,7 @@ TEST_CASE("Estimated distances are off by no more than is said, and exact where 
     }
 }
 
-TEST_CASE("The error of an estimate is small where estimates are made") {
+TEST_CASE("The error of estimates is small if estimates are made") {
     Drawn drawn(2);
     for (const Index cells : {48, 1023, 1024, 5000}) {
         PrototypeStore store(2, 2, cells);
@@ -100,7 +101,7 @@ TEST_CASE("The error of an estimate is small where estimates are made") {
     }
 }
 
-TEST_CASE("Estimates are given up for a while where most have to be made exact") {
+TEST_CASE("Estimates pause when most distances have to be made exact") {
     Drawn drawn(3);
     const Index cells = 48, count = 100;
     PrototypeStore store(count, count, cells);
@@ -112,7 +113,7 @@ TEST_CASE("Estimates are given up for a while where most have to be made exact")
         present[0] = 1;
         store.estimate(present, distances.data());
         estimates += store.error() > 0;
-        for (Index key = 0; store.error() > 0 && key < needed; ++key) store.need(key);
+        for (Index key = 0; store.error() > 0 && key < needed; ++key) store.require(key);
         store.refine(distances.data());
     };
     for (int i = 0; i < 1000; ++i) compare(count);
@@ -124,7 +125,7 @@ TEST_CASE("Estimates are given up for a while where most have to be made exact")
     CHECK(estimates == 100);
 }
 
-TEST_CASE("What is not between 0 and 1 is compared exactly") {
+TEST_CASE("Prototypes that are not in 0..1 are compared exactly") {
     const Index cells = 3;
     PrototypeStore store(20, 20, cells);
     for (Index key = 0; key < 20; ++key) store.add(key, ArrayXf::Constant(cells, 1));
@@ -159,7 +160,8 @@ bool same(const Array& a, const Array& b) {
     return (a == b || (a.isNaN() && b.isNaN())).all();
 }
 
-/// Two layers in the same world: one has all distances exact, the other those that matter.
+/// Two layers with the same inputs: in one all distances are exact, in the other only those of selectable
+/// segments.
 struct Two {
     Index cells, actions = 4;
     ContextualLayer exact, estimating;
@@ -175,7 +177,7 @@ struct Two {
         acted[action] = 1;
         const ContextualLayer::Inputs in{acted, prototype, goal ? 0.3 : 0, 0, 0.05};
         exact.update(in, settings);
-        estimating.update(in, settings, ContextualLayer::Exact::what_matters);
+        estimating.update(in, settings, ContextualLayer::Exact::selectable);
     }
     bool agree() const {
         const auto &a = exact.memory(), &b = estimating.memory();
@@ -193,7 +195,7 @@ std::string bytes_of(ContextualLayer& layer) {
 
 }  // namespace
 
-TEST_CASE("A layer that makes exact what matters selects and does what one does that compares exactly") {
+TEST_CASE("A layer with estimates selects the same segments and has the same action as one without") {
     struct Of {
         Index height, width, cells;
     };
@@ -201,7 +203,7 @@ TEST_CASE("A layer that makes exact what matters selects and does what one does 
     for (const Of of : {Of{12, 20, 48}, Of{30, 30, 5}, Of{6, 40, 400}, Of{4, 4, 1100}}) {
         Drawn drawn(static_cast<unsigned>(of.cells));
         Two two(of.height, of.width, of.cells);
-        // Few patches that all look much the same: many candidates are nearly as good as the best.
+        // Few similar patches: many candidates are nearly as good as the best one.
         std::vector<ArrayXd> patches;
         const ArrayXd all = drawn.prototype(of.cells).cast<double>() + 0.2;
         for (int p = 0; p < 6; ++p) patches.push_back(all + 0.01 * drawn.prototype(of.cells).cast<double>());
@@ -215,7 +217,7 @@ TEST_CASE("A layer that makes exact what matters selects and does what one does 
                 if (drawn.below(10) == 0) seen.setZero();
                 if (drawn.below(40) == 0) seen[0] = -0.1;
             }
-            // Thresholds at which a collector is right at the edge.
+            // Thresholds that are equal to a collector.
             if (i % 5 == 0) {
                 two.settings.memory_threshold = 0.5 + 0.6 * drawn.uniform();
                 const auto& c = two.exact.memory().collector();
@@ -242,7 +244,7 @@ TEST_CASE("A layer that makes exact what matters selects and does what one does 
     CHECK(on_the_edge > 200);
 }
 
-TEST_CASE("A trigger that is not a number does not hide how much others may be off") {
+TEST_CASE("A trigger that is NaN does not hide the errors of others") {
     const Index cells = 100;
     int wrong = 0, not_numbers = 0;
     for (unsigned world = 0; world < 5000; ++world) {
@@ -268,8 +270,8 @@ TEST_CASE("A trigger that is not a number does not hide how much others may be o
     CHECK(not_numbers > 4000);
 }
 
-TEST_CASE("Nothing is selected otherwise where estimates are off by as much as they can be") {
-    // All cells of a prototype but one are the same, and so all are rounded to levels the same way.
+TEST_CASE("The selection is the same when the errors of estimates are as large as possible") {
+    // All cells of a prototype except one are equal, so that all are rounded in the same direction.
     Drawn drawn(7);
     const Index cells = 400;
     const auto even = [&] {
@@ -283,7 +285,7 @@ TEST_CASE("Nothing is selected otherwise where estimates are off by as much as t
     for (int i = 0; i < 20000; ++i) {
         const bool learns = i % 2000 < 300;
         auto& s = two.settings;
-        // Decided by the share alone, or at the edge of a collector.
+        // The threshold is decided by the share only, or is equal to a collector.
         s.memory_threshold = 0.1;
         s.winner_share = 1 - 0.01 * static_cast<double>(drawn.below(4));
         s.trigger_reset = 1.9;
@@ -306,7 +308,7 @@ TEST_CASE("Nothing is selected otherwise where estimates are off by as much as t
     CHECK(inexact > 50000);
 }
 
-TEST_CASE("A layer that is read back goes on the same, whatever of it is exact") {
+TEST_CASE("A layer continues from a checkpoint with the same results, whichever distances are exact") {
     Drawn drawn(5);
     Two two(8, 8, 20);
     for (int i = 0; i < 400; ++i) {
@@ -324,8 +326,8 @@ TEST_CASE("A layer that is read back goes on the same, whatever of it is exact")
         for (int k = 0; k < 5; ++k) {
             const ArrayXd seen = drawn.prototype(20).cast<double>();
             const ContextualLayer::Inputs same{ArrayXd::Ones(4), seen, k == 3 ? 0.3 : 0, 0, 0.05};
-            one.update(same, two.settings, ContextualLayer::Exact::what_matters);
-            read.update(same, two.settings, ContextualLayer::Exact::what_matters);
+            one.update(same, two.settings, ContextualLayer::Exact::selectable);
+            read.update(same, two.settings, ContextualLayer::Exact::selectable);
         }
         CHECK((bytes_of(one) == bytes_of(read)));
     }

@@ -17,21 +17,21 @@ ArrayXd cell(Index size, Index active) {
     return out;
 }
 
-/// An open layer whose prototypes are patches (one cell each) and whose actions are single cells.
+/// An open layer. A prototype is a patch (one active cell), an action is one active cell.
 struct Layer {
     static constexpr Index patches = 6, actions = 3;
     ContextualLayer layer;
     Settings settings{0.5, 0.95, 1.1, 0.005, 0.1};
 
     Layer(Index height, Index width) : layer(height, width, patches, actions) {}
-    /// One step; -1: no patch, no action.
+    /// One step. -1 stands for no patch, and for no action.
     void step(Index patch, Index action = -1, Goal goal = none, double discrepancy = 0.05) {
         layer.update({cell(actions, action), cell(patches, patch), goal == positive || goal == both ? 0.3 : 0,
                       goal == negative || goal == both ? 0.3 : 0, discrepancy},
                      settings);
     }
     const LongTermMemory& memory() const { return layer.memory(); }
-    /// Which patch a segment is of: the one that it is near to.
+    /// The patch of a segment: the nearest one.
     Index patch_of(Index row, Index column) {
         for (Index p = 0; p < patches; ++p) {
             auto copy = *this;
@@ -53,7 +53,7 @@ TEST_CASE(
         CHECK_FALSE(l.layer.open());
     }
     CHECK(l.memory().length(0) == 0);
-    CHECK(l.layer.recent().size() == 0);  // closed: not even remembered
+    CHECK(l.layer.recent().size() == 0);  // a closed layer stores nothing
     l.step(1, 0, none, 0.0999);
     CHECK(l.layer.open());
     l.step(2, 0, positive, 1);
@@ -77,7 +77,7 @@ TEST_CASE("A goal stores what happened before it as one sequence, newest first")
     CHECK(l.layer.stored_row() == -1);
 }
 
-TEST_CASE("What has no prototype is not remembered; what has no action is") {
+TEST_CASE("A couplet without a prototype is not stored; one without an action is") {
     Layer l(4, 4);
     l.step(-1, 2);
     CHECK(l.layer.recent().size() == 0);
@@ -85,15 +85,14 @@ TEST_CASE("What has no prototype is not remembered; what has no action is") {
     CHECK(l.layer.recent().size() == 1);
 }
 
-TEST_CASE("A goal with nothing remembered does nothing") {
+TEST_CASE("A goal with an empty short-term memory has no effect") {
     Layer l(3, 3);
     l.step(-1, 0, positive);
     CHECK(l.memory().next_row() == 0);
     CHECK(l.memory().length(0) == 0);
 }
 
-TEST_CASE(
-    "A negative goal forgets the episode, but for the step in which it comes; a positive one wins over it") {
+TEST_CASE("A negative goal deletes the episode except for its own step; a positive goal has precedence") {
     Layer l(4, 4);
     l.step(1);
     l.step(2);
@@ -113,7 +112,7 @@ TEST_CASE("A goal that lasts stores a sequence in every step with a prototype") 
     for (Index row = 0; row < 3; ++row) CHECK(l.memory().length(row) == 1);
 }
 
-TEST_CASE("A full memory forgets its oldest sequence, longer or shorter, wholly") {
+TEST_CASE("A full memory replaces its oldest sequence completely, whatever its length") {
     Layer l(3, 5);
     for (Index p = 0; p < 3; ++p) {
         l.step(0);
@@ -134,14 +133,14 @@ TEST_CASE("A full memory forgets its oldest sequence, longer or shorter, wholly"
     CHECK(l.memory().length(1) == 3);
 }
 
-TEST_CASE("A sequence has at most as many segments as the memory is high, the newest") {
+TEST_CASE("A sequence has at most the newest segments up to the height of the memory") {
     Layer l(3, 6);
     for (Index p = 0; p < 5; ++p) l.step(p, 0, p == 4 ? positive : none);
     REQUIRE(l.memory().length(0) == 3);
     for (Index column = 0; column < 3; ++column) CHECK(l.patch_of(0, column) == 4 - column);
 }
 
-TEST_CASE("A memory that is higher than wide keeps as many segments as fit") {
+TEST_CASE("A memory that is higher than wide keeps as many segments as its width") {
     Layer l(6, 2);
     for (int sequence = 0; sequence < 10; ++sequence)
         for (Index p = 0; p < 5; ++p) l.step(p, 0, p == 4 ? positive : none);
@@ -160,7 +159,7 @@ TEST_CASE("A memory of one segment remembers the last couplet") {
     CHECK(l.layer.action()[1] == Approx(1));
 }
 
-TEST_CASE("The action is that of the selected segments, weaker the farther they are from the goal") {
+TEST_CASE("The action is that of the selected segments, divided by their distance to the goal") {
     Layer l(4, 4);
     l.step(1, 0);
     l.step(2, 1);
@@ -176,10 +175,10 @@ TEST_CASE("The action is that of the selected segments, weaker the farther they 
     CHECK((l.layer.action() == 0).all());
     l.settings.memory_threshold = 0.9;
     l.step(5);
-    CHECK((l.layer.action() == 0).all());  // unlike all that is remembered
+    CHECK((l.layer.action() == 0).all());  // different from all stored prototypes
 }
 
-TEST_CASE("The trigger tells apart what looks the same by what came before") {
+TEST_CASE("The trigger distinguishes equal prototypes by their predecessors") {
     Layer l(4, 6);
     for (int repeat = 0; repeat < 2; ++repeat)
         for (const Index route : {0, 1}) {
@@ -199,7 +198,7 @@ TEST_CASE("The trigger tells apart what looks the same by what came before") {
     CHECK(l.layer.action()[0] == l.layer.action()[1]);
 }
 
-TEST_CASE("A raised trigger falls back to 1, and is used up when its segment is selected") {
+TEST_CASE("A raised trigger decays to 1, and is 1 after its segment is selected") {
     Layer l(2, 4);
     l.settings.trigger_decay = 0.5;
     l.step(1);
@@ -215,7 +214,7 @@ TEST_CASE("A raised trigger falls back to 1, and is used up when its segment is 
     CHECK(l.memory().trigger()(0, 0) == 1);
 }
 
-TEST_CASE("Of equal candidates all are selected, even when only the best may be") {
+TEST_CASE("All of several equal candidates are selected, also if only the best may be") {
     Layer l(3, 3);
     l.settings.winner_share = 1;
     for (int i = 0; i < 3; ++i) l.step(2, 1, positive);

@@ -34,7 +34,7 @@ std::string only_problem(ModuleBench& b) {
 
 }  // namespace
 
-TEST_CASE("moduleCL's displays show the whole memory at all times, and leave surplus cells alone") {
+TEST_CASE("The displays of moduleCL always show the complete memory, and do not change surplus cells") {
     Bench b("3", "5");
     b.out("action", 2, 1)
         .out("empty", 5, 4)
@@ -83,7 +83,7 @@ TEST_CASE("moduleCL works without displays") {
     CHECK(b.outputs[0][0] == Approx(0.5));
 }
 
-TEST_CASE("moduleCL reads its sizes at start only, and starts with an empty memory") {
+TEST_CASE("moduleCL reads its sizes only at the start, and starts with an empty memory") {
     Bench b("2", "2");
     b.out("action", 3, 1);
     for (const auto& d : displays) b.out(d, 2, 2);
@@ -98,7 +98,7 @@ TEST_CASE("moduleCL reads its sizes at start only, and starts with an empty memo
     CHECK(b.outputs[1].isZero());
 }
 
-TEST_CASE("moduleCL says which group or parameter does not fit the memory") {
+TEST_CASE("moduleCL reports groups and parameters that do not fit the memory") {
     const auto bound = [](Bench& b, int action, int collector, int trigger) {
         b.out("action", action, 1)
             .out("empty", 5, 3)
@@ -114,7 +114,7 @@ TEST_CASE("moduleCL says which group or parameter does not fit the memory") {
     CHECK_THAT(only_problem(action), Contains("'P/action' has 4"));
     bound(collector, 3, 6, 5);
     CHECK_THAT(only_problem(collector),
-               Contains("'collector' shows a memory of 5 x 3 segments; 'P/collector' has 18 cells"));
+               Contains("'collector' shows a memory of 5 x 3 segments, but 'P/collector' has 18 cells"));
     bound(trigger, 3, 5, 4);
     CHECK_THAT(only_problem(trigger), Contains("'trigger'") && Contains("make the group 5 x 3"));
     Bench none("0", "5"), vast("1e9", "1e9");

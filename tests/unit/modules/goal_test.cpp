@@ -22,35 +22,37 @@ ArrayXd one_hot(Index size, Index cell) {
 
 }  // namespace
 
-TEST_CASE("A place is the first highest cell; there is none when all cells are equal or none is above 0") {
+TEST_CASE(
+    "The peak is the first of the most active cells; there is none if all cells are equal or none is above "
+    "0") {
     ArrayXd cells = ArrayXd::Zero(6);
-    CHECK_FALSE(place_of(cells, 3));
+    CHECK_FALSE(peak_position(cells, 3));
     cells.setConstant(0.5);
-    CHECK_FALSE(place_of(cells, 3));
+    CHECK_FALSE(peak_position(cells, 3));
     cells << -1, -2, -3, -1, -1, -1;
-    CHECK_FALSE(place_of(cells, 3));
+    CHECK_FALSE(peak_position(cells, 3));
     cells << 0, 0, 0.1, 0, 0.4, 0.4;
-    CHECK(*place_of(cells, 3) == Place{1, 1});
+    CHECK(*peak_position(cells, 3) == GridPosition{1, 1});
     cells << 0, 0, 0.4, 0, 0.4 + 1e-12, 0;  // equal in single precision
-    CHECK(*place_of(cells, 3) == Place{0, 2});
+    CHECK(*peak_position(cells, 3) == GridPosition{0, 2});
 }
 
-TEST_CASE("The difference is one cell, at the centre when the goal is here") {
+TEST_CASE("The difference is one cell, which is the centre at the goal") {
     ArrayXd out = ArrayXd::Constant(5 * 3, 7);
-    show_difference(Place{1, 2}, Place{1, 2}, 3, 2, out);
+    show_difference(GridPosition{1, 2}, GridPosition{1, 2}, 3, 2, out);
     CHECK((out == one_hot(15, 1 * 5 + 2)).all());
-    show_difference(Place{1, 0}, Place{0, 2}, 3, 2, out);
+    show_difference(GridPosition{1, 0}, GridPosition{0, 2}, 3, 2, out);
     CHECK((out == one_hot(15, 0 * 5 + 4)).all());
-    show_difference(std::nullopt, Place{0, 0}, 3, 2, out);
+    show_difference(std::nullopt, GridPosition{0, 0}, 3, 2, out);
     CHECK(out.isZero());
     for (Index a = 0; a < 6; ++a)
         for (Index b = 0; b < 6; ++b) {
-            show_difference(Place{a / 3, a % 3}, Place{b / 3, b % 3}, 3, 2, out);
+            show_difference(GridPosition{a / 3, a % 3}, GridPosition{b / 3, b % 3}, 3, 2, out);
             CHECK(out.sum() == 1);
         }
 }
 
-TEST_CASE("differenceModule compares two groups of the same size, and says when they are not") {
+TEST_CASE("differenceModule requires two groups of the same size") {
     ModuleBench b(module_type<DifferenceModule>());
     b.in("_location", 3, 2).in("_goal", 3, 2).out("_diff", 5, 3);
     CHECK(b.problems().empty());
@@ -68,9 +70,8 @@ TEST_CASE("differenceModule compares two groups of the same size, and says when 
     CHECK_THAT(all[1].message, Contains("'_diff' needs 5 x 3"));
 }
 
-TEST_CASE(
-    "Bearings run once round, from the left over the top, to the right and over the bottom, downwards") {
-    const Place here{5, 5};
+TEST_CASE("Bearings decrease around the circle: left, top, right, bottom") {
+    const GridPosition here{5, 5};
     CHECK(bearing(here, {5, 2}) == 1);
     CHECK(bearing(here, {2, 5}) == Approx(0.75));
     CHECK(bearing(here, {5, 9}) == Approx(0.5));
@@ -81,7 +82,7 @@ TEST_CASE(
     CHECK(distance(here, {2, 1}) == 5);
 }
 
-TEST_CASE("A turn grows with the angle and is to the side of the shorter way") {
+TEST_CASE("A turn increases with the angle and has the direction of the shorter way") {
     CHECK(turn(0.52, 0.5) == 0.5);
     CHECK(turn(0.57, 0.5) == 0.6);
     CHECK(turn(0.43, 0.5) == 0.4);

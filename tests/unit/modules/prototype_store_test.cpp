@@ -13,7 +13,7 @@ using Eigen::ArrayXf;
 
 namespace {
 
-/// The definition, word by word.
+/// The definition of the distance, without optimisations.
 float distance(const ArrayXf& stored, const ArrayXd& present) {
     const float stored_peak = std::max(0.0F, stored.maxCoeff());
     const double present_peak = static_cast<float>(std::max(0.0, present.maxCoeff()));
@@ -30,7 +30,7 @@ float distance(const ArrayXf& stored, const ArrayXd& present) {
 
 }  // namespace
 
-TEST_CASE("Distances are the definition's to the last bit, whatever was added and removed before") {
+TEST_CASE("Distances have the same bits as the definition, whatever was added and removed before") {
     std::mt19937 random(1);
     std::normal_distribution<float> normal;
     const Index keys = 90, capacity = 60, cells = 11;
@@ -61,8 +61,7 @@ TEST_CASE("Distances are the definition's to the last bit, whatever was added an
     }
 }
 
-TEST_CASE(
-    "Distances are the definition's for any number of prototypes and cells, also the smallest numbers") {
+TEST_CASE("Distances have the same bits as the definition for any number of prototypes and cells") {
     std::mt19937 random(2);
     std::uniform_real_distribution<float> uniform;
     const auto drawn = [&](Index cells) {
@@ -92,7 +91,7 @@ TEST_CASE(
         }
 }
 
-TEST_CASE("A prototype is next to nothing from itself, at any strength, and at most 1 from any other") {
+TEST_CASE("A prototype has a distance near 0 to itself, at any strength, and at most 1 to others") {
     PrototypeStore store(3, 3, 4);
     const ArrayXf a = (ArrayXf(4) << 0.1F, 0.7F, 0, 0.3F).finished(),
                   b = (ArrayXf(4) << 0, 0, 1, 0).finished();
@@ -111,7 +110,7 @@ TEST_CASE("A prototype is next to nothing from itself, at any strength, and at m
     CHECK((d[0] == 1 && d[1] == 1 && d[2] == 1));
 }
 
-TEST_CASE("Distances are the definition's when each prototype has few cells of its own") {
+TEST_CASE("Distances have the same bits as the definition when each prototype has few active cells") {
     std::mt19937 random(3);
     for (const Index cells : {40, 64, 150}) {
         const Index capacity = 100;

@@ -38,7 +38,7 @@ MatrixXd two_by_two(double a, double b, double c, double d) {
 
 }  // namespace
 
-TEST_CASE("Weights are written a line per response, with six digits and a comma after each") {
+TEST_CASE("Weights are written one line per response, with six digits and a comma after each number") {
     const File file;
     MatrixXd w(3, 2);
     w << 0.5, -1, 1.0 / 3, 1e-7, 12345678, 0;
@@ -46,7 +46,7 @@ TEST_CASE("Weights are written a line per response, with six digits and a comma 
     CHECK(forage::test::read_text(file.path) == "0.5, 0.333333, 1.23457e+07, \n-1, 1e-07, 0, \n");
 }
 
-TEST_CASE("Weights that were written are read again, to six digits") {
+TEST_CASE("Weights are read as they were written, to six digits") {
     const File file;
     const MatrixXd w = MatrixXd::Random(5, 3);
     write_weights(file.path, w);
@@ -56,13 +56,13 @@ TEST_CASE("Weights that were written are read again, to six digits") {
     CHECK(read_weights(file.path, 5, 3) == again);
 }
 
-TEST_CASE("Line ends and blanks mean nothing between weights, and the last comma may be missing") {
+TEST_CASE("White space between weights is ignored, and the last comma may be missing") {
     const MatrixXd expected = two_by_two(1, 3, 2, 4);
     for (const char* text : {"1,2,3,4", "1, 2, \n3, 4, \n", " 1\n,\n\n2 ,\t3,4,\r\n", "+1,2.0,3e0,4,"})
         CHECK(read_weights(File(text).path, 2, 2) == expected);
 }
 
-TEST_CASE("A file that does not hold the weights is refused, with the place and the reason") {
+TEST_CASE("A file without valid weights is rejected, with the location and the reason") {
     CHECK_THAT(complaint("1, 2, 3"), Contains("FILE:1:8: 3 weights") && Contains("need 4"));
     CHECK_THAT(complaint("1, 2, \n3, 4, \n5, "), Contains("5 weights") && Contains("need 4"));
     CHECK_THAT(complaint("1, 2, \n3, 8x, \n"), Contains("FILE:2:4: '8x' is not a number"));
@@ -72,17 +72,16 @@ TEST_CASE("A file that does not hold the weights is refused, with the place and 
     CHECK_THAT(complaint("1, 1e300, 3, 4"), Contains("'1e300'"));
     CHECK_THAT(complaint(""), Contains("0 weights"));
     CHECK_THAT(complaint("\x1b[31m"), Contains("'?[31m'"));
-    CHECK_THAT(complaint("1, x, 3, \n4y, z"),
-               Contains("FILE:1:4: 'x'") && Contains("and 2 more errors"));
+    CHECK_THAT(complaint("1, x, 3, \n4y, z"), Contains("FILE:1:4: 'x'") && Contains("and 2 more errors"));
 }
 
-TEST_CASE("A file that is not there, or a folder, is refused by name") {
+TEST_CASE("A missing file and a folder are rejected by name") {
     const File file;
     CHECK_THROWS_WITH(read_weights(file.path, 2, 2), Contains("no such file") && Contains(file.path));
     CHECK_THROWS_WITH(read_weights(file.folder.string(), 2, 2), Contains("a directory"));
 }
 
-TEST_CASE("Weights that cannot be written leave nothing behind") {
+TEST_CASE("No file remains when weights cannot be written") {
     const File file;
     CHECK_THROWS_WITH(write_weights((file.folder / "none" / "weights").string(), MatrixXd::Zero(2, 2)),
                       Contains("cannot write"));

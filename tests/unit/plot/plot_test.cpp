@@ -17,7 +17,7 @@ std::vector<std::string> names(const Ticks& ticks) {
     return out;
 }
 
-/// Distance in CIE L*, what the eye sees as brightness.
+/// Distance in CIE L*, the perceived brightness.
 double lightness(const Colour& c) {
     const auto linear = [](double v) {
         return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
@@ -43,7 +43,7 @@ SpacePlot small_group(std::size_t frames) {
 
 }  // namespace
 
-TEST_CASE("Ticks are round, within the interval, and named with as many digits as they need") {
+TEST_CASE("Ticks are round numbers within the interval, and their labels have as many digits as necessary") {
     using V = std::vector<std::string>;
     CHECK(names({{0, 1}, 5}) == V{"0.0", "0.2", "0.4", "0.6", "0.8", "1.0"});
     CHECK(names({{-3, 3}, 6}) == V{"-3", "-2", "-1", "0", "1", "2", "3"});
@@ -148,7 +148,7 @@ TEST_CASE("A connection of large groups is drawn in a picture of bounded size") 
     p.source_shape = {100, 50, 5000}, p.target_shape = {3, 1, 3};
     p.pre = {0, 4999, 4999}, p.post = {0, 2, 2}, p.strength = {1, -1, 0.5}, p.delay = {0, 3, 1};
     const Picture picture = connection_plot(p);
-    CHECK(picture.width < 1600);  // two tables: there is a delay
+    CHECK(picture.width < 1600);  // two matrices, as there is a delay
     CHECK(picture.height < 800);
     CHECK(render(picture, Format::png).size() > 1000);
 }

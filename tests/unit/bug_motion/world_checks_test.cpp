@@ -1,4 +1,4 @@
-// What is well formed in a world file, and cannot be meant so: a warning where it stands.
+// Warnings about world files that are well formed but most likely contain a mistake.
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,12 +11,12 @@ using namespace forage::test;
 
 namespace {
 
-/// The basic arena with this in it, on a line of its own: the last one before </world>.
-std::string with(const std::string& what) { return edited("  </world>", what + "\n</world>"); }
+/// The text of the basic arena with `element` inserted as the last line before </world>.
+std::string with(const std::string& element) { return edited("  </world>", element + "\n</world>"); }
 
-/// What is said of the basic arena with this in it, which has to be at its line.
-std::string said_with(const std::string& what) {
-    const std::string text = with(what), line = line_of(text, "</world>");
+/// The diagnostics of the basic arena with `element` inserted. They must be located at its line.
+std::string said_with(const std::string& element) {
+    const std::string text = with(element), line = line_of(text, "</world>");
     std::string said = said_of(text);
     const std::string here = std::to_string(std::stoi(line) - 1) + ": ";
     INFO(said);
@@ -63,63 +63,67 @@ std::string joint(const std::string& type, const std::string& axis) {
 
 }  // namespace
 
-TEST_CASE("What is where it cannot be meant to be is a warning at its line") {
+TEST_CASE("Models at positions that are most likely a mistake give a warning at their line") {
     CHECK(said_with(sphere("0 3 0.1 0 0 0")) ==
-          "warning: 'm' starts inside of something, and may be stuck there | give it another <pose>\n");
+          "warning: 'm' starts inside another object and may be stuck | change its <pose>\n");
     CHECK(said_with(sphere("0.1 -2 0.1 0 0 0")) ==  // in the robot
-          "warning: 'm' starts inside of something, and may be stuck there | give it another <pose>\n");
-    const char* heights = " | the third number of a <pose> is the height, in m; the floor is at 0\n";
-    CHECK(said_with(sphere("1 0 3 0 0 0")) ==
-          std::string("warning: 'm' is 2.9 to 3.1 m high up: nothing touches it and no ray meets it") + heights);
+          "warning: 'm' starts inside another object and may be stuck | change its <pose>\n");
+    const char* heights = " | the third number of a <pose> is the height in m; the floor is at 0\n";
+    CHECK(
+        said_with(sphere("1 0 3 0 0 0")) ==
+        std::string("warning: 'm' is 2.9 to 3.1 m above the floor: nothing touches it and no ray meets it") +
+            heights);
     CHECK(said_with(sphere("1 0 -3 0 0 0")) ==
-          std::string("warning: 'm' is -3.1 to -2.9 m high up: nothing touches it and no ray meets it") + heights);
-    CHECK(said_with(sphere("1 0 3 0 0 0", true)) ==
-          std::string("warning: 'm' is 2.9 to 3.1 m high up: nothing touches it and no ray meets it") + heights);
+          std::string(
+              "warning: 'm' is -3.1 to -2.9 m above the floor: nothing touches it and no ray meets it") +
+              heights);
+    CHECK(
+        said_with(sphere("1 0 3 0 0 0", true)) ==
+        std::string("warning: 'm' is 2.9 to 3.1 m above the floor: nothing touches it and no ray meets it") +
+            heights);
     CHECK(said_with("<include><name>T</name><uri>model://target</uri><pose>0 8 0 0 0 0</pose></include>") ==
-          "warning: no robot reaches the target at (0, 8): it is put back before | the bounds are x -2.5 to "
+          "warning: no robot can reach the target at (0, 8): it is reset before | the bounds are x -2.5 to "
           "2.5, "
           "y -2.5 to 2.5\n");
     const std::string outside = edited("<pose>0 -2 0 0 0 1.57079</pose>", "<pose>0 -4 0 0 0 1.57079</pose>");
-    CHECK(
-        said_of(outside) ==
-        "55: warning: robot 'Bug' starts outside of the bounds, and is put back at once | they are x -2.5 to "
-        "2.5, y -2.5 to 2.5\n");
+    CHECK(said_of(outside) ==
+          "55: warning: robot 'Bug' starts outside the bounds and is reset at once | the bounds are x -2.5 "
+          "to 2.5, y -2.5 to 2.5\n");
     const std::string twice =
         with("<include><name>B</name><uri>model://forage_bug</uri><pose>0 -1.7 0 0 0 0</pose></include>");
     CHECK(said_of(twice) ==
-          "55: warning: robot 'Bug' starts inside of something, and may be stuck there | give it another "
-          "<pose>\n"
-          "90: warning: robot 'B' starts inside of something, and may be stuck there | give it another "
-          "<pose>\n");
+          "55: warning: robot 'Bug' starts inside another object and may be stuck | change its <pose>\n"
+          "90: warning: robot 'B' starts inside another object and may be stuck | change its <pose>\n");
 }
 
-TEST_CASE("Loose things that overlap make room for each other: nothing is said") {
+TEST_CASE("Movable objects that overlap each other give no warning") {
     CHECK(said_of(with(sphere("1 0 0.1 0 0 0") + "<model name='n'>" + sphere("1.1 0 0.1 0 0 0").substr(16)))
               .empty());
 }
 
-TEST_CASE("Plugins that have no effect, or are misspelt, are told with what to do") {
+TEST_CASE("Plugins that have no effect or are misspelt give a warning with a hint") {
     CHECK(said_with(sphere("1 0 0.1 0 0 0").insert(16, "<plugin name='p' filename='libreset_plugin.so'/>")) ==
-          "warning: 'm' is no robot, and is never put back | libreset_plugin.so has an effect in robots "
-          "only\n");
+          "warning: 'm' is not a robot and is never reset | libreset_plugin.so has an effect only in "
+          "robots\n");
     CHECK(
         said_with(
             sphere("1 0 0.1 0 0 0", true).insert(16, "<plugin name='p' filename='libtarget_plugin.so'/>")) ==
-        "warning: 'm' is static, and counts at no home | a resource is a model that can be pushed\n");
-    CHECK(said_with(robot("", "<plugin name='p' filename='libtarget_plugin.so'/>")) ==
-          "warning: 'm' is a robot, and counts at no home | a resource is a model that can be pushed\n");
+        "warning: 'm' is static and does not count at a home | a resource is a model that can be pushed\n");
+    CHECK(
+        said_with(robot("", "<plugin name='p' filename='libtarget_plugin.so'/>")) ==
+        "warning: 'm' is a robot and does not count at a home | a resource is a model that can be pushed\n");
     CHECK(said_with(sphere("1 0 0.1 0 0 0").insert(16, "<plugin name='p' filename='libvel_plugin.so'/>")) ==
           "error: 'm' has no link 'bug' that could be driven | name the link of the robot's body 'bug'\n");
     std::string misspelt = robot("");
     misspelt.replace(misspelt.find("libvel"), 6, "libvell");
     const std::string said = said_with(misspelt);
     CHECK_THAT(said,
-               Catch::Contains("plugin 'libvell_plugin.so' is not known here and does nothing | did you mean "
+               Catch::Contains("plugin 'libvell_plugin.so' is not known and has no effect | did you mean "
                                "libvel_plugin.so?"));
     CHECK_THAT(said, Catch::Contains("'m' has a link 'bug', but no plugin that drives it"));
 }
 
-TEST_CASE("Sensors that nobody reads are told with those that are read") {
+TEST_CASE("Sensors that have no effect give a warning") {
     CHECK(said_with(robot(ray("lazer"))) ==
           "warning: no group gets what a ray sensor called 'lazer' sees | did you mean 'laser'?\n");
     CHECK(said_with(robot(ray("laser", "sonar"))) ==
@@ -134,12 +138,11 @@ TEST_CASE("Sensors that nobody reads are told with those that are read") {
     CHECK(said_with(robot(camera + camera)) ==
           "warning: camera 'eye' is the second one of its link | robots see with the first one\n");
     CHECK(said_with(robot("", "<link name='head'>" + ray("laser") + "</link>")) ==
-          "warning: sensor 'laser' of 'm' has no effect in the link 'head' | the sensors of a robot stand in "
-          "its "
-          "link 'bug'\n");
+          "warning: sensor 'laser' of 'm' has no effect in the link 'head' | the sensors of a robot belong "
+          "in its link 'bug'\n");
 }
 
-TEST_CASE("Joints that do not turn, or turn for ever, are told") {
+TEST_CASE("Joints that do not turn, or turn without a limit, give a warning") {
     CHECK(said_with(joint("prismatic", "<axis><xyz>0 0 1</xyz></axis>")) ==
           "warning: joint 'j' does not turn here | only joints of type=\"revolute\" do, about z\n");
     CHECK(said_with(joint("revolute", "")) == "warning: joint 'j' does not turn here | give it an <axis>\n");
@@ -153,27 +156,25 @@ TEST_CASE("Joints that do not turn, or turn for ever, are told") {
     CHECK(said_of(with(joint("fixed", ""))).empty());
 }
 
-TEST_CASE("A game that cannot go as it is meant is told") {
+TEST_CASE("A game with inconsistent rules gives a warning") {
     CHECK_THAT(said_with(game("")),
-               Catch::Contains("no models are named Home_A and Home_B | the homes are taken to "
-                               "be at (-10, 10) and (10, -10)"));
+               Catch::Contains("no models are named Home_A and Home_B | the homes are assumed "
+                               "to be at (-10, 10) and (10, -10)"));
     CHECK_THAT(said_with(game("<stale_after>60</stale_after>")),
                Catch::Contains("resources dissolve before they turn yellow | <stale_after> is 60 s, "
                                "<dissolves_after> 50 s"));
-    CHECK_THAT(
-        said_with(game("<site>0 3 0.1</site>")),
-        Catch::Contains("something stands at the site (0, 3) | resources appear where there is room, within "
-                        "0.5 m"));
+    CHECK_THAT(said_with(game("<site>0 3 0.1</site>")),
+               Catch::Contains("the site (0, 3) is occupied | resources appear at free positions within "
+                               "0.5 m"));
 }
 
-TEST_CASE("Start poses without a robot that is put back to them are told") {
+TEST_CASE("Start poses that no robot uses give a warning") {
     const std::string text = edited("<uri>model://forage_bug</uri>", "<uri>model://team_a_bug</uri>");
     CHECK_THAT(said_of(text),
-               Catch::Contains("75: warning: there are start poses, but no robot is ever put back to "
-                               "them"));
+               Catch::Contains("75: warning: there are start poses, but no robot is ever reset"));
 }
 
-TEST_CASE("Of the worlds that ship nothing is said") {
+TEST_CASE("The worlds in the repository give no diagnostics") {
     for (const auto& entry : std::filesystem::directory_iterator(source_dir() / "systems" / "worlds")) {
         if (entry.path().extension() != ".world") continue;
         INFO(entry.path());

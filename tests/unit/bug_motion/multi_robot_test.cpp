@@ -1,4 +1,4 @@
-// Several robots in a world: what they say, when they sense, and the game they play.
+// Several robots in a world: communication, sensor rates, latency and the game.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -12,7 +12,7 @@ using test::make_world;
 
 namespace {
 
-/// The open arena without its robot, with one at each of these places: R0, R1, ...
+/// The open arena with robots R0, R1, ... at `places` instead of its own robot.
 WorldDescription crowd(const std::vector<Pose2>& places) {
     WorldDescription world = description("open_arena");
     const Model robot = *test::find_model(world, "Bug");
@@ -25,7 +25,7 @@ WorldDescription crowd(const std::vector<Pose2>& places) {
     return world;
 }
 
-/// The team arena with one robot that has a gripper, and no game.
+/// The team arena with a single robot, which has a gripper, and without a game.
 WorldDescription alone() {
     WorldDescription world = description("team_arena");
     world.game.reset();
@@ -47,33 +47,35 @@ std::vector<double> sound(double level) {
 
 }  // namespace
 
-TEST_CASE("What a robot says is heard in the next cycle, quieter with distance, by those with its key") {
+TEST_CASE("A message is received in the next cycle, attenuated with distance, by robots with the same key") {
     WorldOptions options;
     options.noise = false;
     const auto world = make_world(crowd({{0, 0, 0}, {2, 0, 0}, {-3, 1, 0}, {0, -3, 0}}), options);
     const std::vector<double> nothing(36, 0);
-    world->say(0, "blue", sound(0.8));
-    world->say(1, "blue", nothing), world->say(2, "blue", nothing), world->say(3, "red", nothing);
-    CHECK(world->snapshot(1).heard[3] == 0);
+    world->transmit(0, "blue", sound(0.8));
+    world->transmit(1, "blue", nothing), world->transmit(2, "blue", nothing),
+        world->transmit(3, "red", nothing);
+    CHECK(world->snapshot(1).received[3] == 0);
     world->step();
     const double reach = 10 * std::sqrt(2.0);
-    CHECK(world->snapshot(0).heard[3] == 0);  // not itself
-    CHECK(world->snapshot(1).heard[3] == Approx(0.8 * (reach - 2) / reach));
-    CHECK(world->snapshot(2).heard[3] == Approx(0.8 * (reach - std::hypot(3, 1)) / reach));
-    CHECK(world->snapshot(3).heard[3] == 0);  // another key
-    world->say(0, "blue", nothing), world->say(1, "blue", sound(0.5)), world->say(2, "blue", sound(0.25));
+    CHECK(world->snapshot(0).received[3] == 0);  // not itself
+    CHECK(world->snapshot(1).received[3] == Approx(0.8 * (reach - 2) / reach));
+    CHECK(world->snapshot(2).received[3] == Approx(0.8 * (reach - std::hypot(3, 1)) / reach));
+    CHECK(world->snapshot(3).received[3] == 0);  // another key
+    world->transmit(0, "blue", nothing), world->transmit(1, "blue", sound(0.5)),
+        world->transmit(2, "blue", sound(0.25));
     world->step();
-    CHECK(world->snapshot(1).heard[3] ==
-          Approx(0.25 * (reach - std::hypot(5, 1)) / reach));  // silence is said once
-    CHECK(world->snapshot(0).heard[3] ==
+    CHECK(world->snapshot(1).received[3] ==
+          Approx(0.25 * (reach - std::hypot(5, 1)) / reach));  // a silent message is transmitted once
+    CHECK(world->snapshot(0).received[3] ==
           Approx(0.5 * (reach - 2) / reach + 0.25 * (reach - std::hypot(3, 1)) / reach));
-    world->step();  // nobody says anything more, not even silence
-    CHECK(world->snapshot(0).heard[3] > 0.5);
+    world->step();  // no robot transmits, not even silence
+    CHECK(world->snapshot(0).received[3] > 0.5);
 }
 
-TEST_CASE("Sensors at their own rates hold what they saw until their time has come") {
+TEST_CASE("Sensors with rates of their own keep their measurements until they are due") {
     WorldOptions options;
-    options.native_rates = true, options.real_time_factor = 0.25;  // 10 ms of the world per cycle
+    options.sensor_rates = true, options.real_time_factor = 0.25;  // 10 ms of simulated time per cycle
     const auto world = make_world(crowd({{0, 0, 0}}), options);
     world->command(0, {1, 0});
     int changes = 0;
@@ -87,17 +89,17 @@ TEST_CASE("Sensors at their own rates hold what they saw until their time has co
     CHECK(world->pose(0).x == Approx(2).margin(0.01));
 }
 
-TEST_CASE("Each sensor has a rate of its own") {
+TEST_CASE("Each sensor has its own rate") {
     WorldDescription text = alone();
     Link& link = body_link(text);
     for (RangeSensor& s : link.range_sensors)
         s.rate = s.name == "laser" ? 20 : s.name == "laser_target" ? 50 : 10, s.noise = 0.01;
     link.cameras.front().rate = 5;
     WorldOptions options;
-    options.native_rates = true, options.real_time_factor = 0.25;  // 10 ms of the world per cycle
+    options.sensor_rates = true, options.real_time_factor = 0.25;  // 10 ms of simulated time per cycle
     const auto world = make_world(text, options);
     const auto robot = world->find("A_1").value();
-    world->need_gripper_scan(robot, true), world->need_image(robot, true);
+    world->request_gripper_scan(robot, true), world->request_image(robot, true);
     world->command(robot, {0.5, 1});
     int poses = 0, proximity = 0, target = 0, gripper = 0, pictures = 0;
     BugSnapshot last = world->snapshot(robot);
@@ -107,7 +109,8 @@ TEST_CASE("Each sensor has a rate of its own") {
         poses += now.pose.x != last.pose.x;
         proximity += now.proximity != last.proximity, target += now.target != last.target;
         gripper += now.gripper != last.gripper, pictures += now.image != last.image;
-        CHECK((now.pose.x != last.pose.x) == (now.proximity != last.proximity));  // GPS comes with it
+        CHECK((now.pose.x != last.pose.x) ==
+              (now.proximity != last.proximity));  // the GPS has the rate of the proximity sensor
         last = now;
     }
     CHECK(poses == 40);
@@ -117,15 +120,16 @@ TEST_CASE("Each sensor has a rate of its own") {
     CHECK(pictures == 10);
 }
 
-TEST_CASE("Onlookers see what a camera sees now: without a module, at a slow rate, and late") {
+TEST_CASE(
+    "Observers see the current image of a camera, also without a module, at a low rate, and with a latency") {
     WorldDescription text = alone();
     body_link(text).cameras.front().rate = 0.1;
     WorldOptions options, slow;
-    slow.native_rates = true, slow.late = 5;
+    slow.sensor_rates = true, slow.latency = 5;
     for (const bool read_by_module : {false, true}) {
         const auto a = make_world(text, options), b = make_world(text, slow);
         const auto robot = a->find("A_1").value();
-        if (read_by_module) b->need_image(robot, true);
+        if (read_by_module) b->request_image(robot, true);
         for (int cycle = 0; cycle < 20; ++cycle) {
             for (World* w : {a.get(), b.get()}) w->command(robot, {0.5, 1}), w->step();
             const auto prompt = a->image(robot), seen = b->image(robot);
@@ -136,12 +140,12 @@ TEST_CASE("Onlookers see what a camera sees now: without a module, at a slow rat
     }
 }
 
-TEST_CASE("What is sensed can come some cycles later") {
-    WorldOptions prompt, late;
-    late.late = 3;
-    const auto a = make_world(crowd({{0, 0, 0}}), prompt), b = make_world(crowd({{0, 0, 0}}), late);
+TEST_CASE("Snapshots can have a latency of several cycles") {
+    WorldOptions prompt, delayed;
+    delayed.latency = 3;
+    const auto a = make_world(crowd({{0, 0, 0}}), prompt), b = make_world(crowd({{0, 0, 0}}), delayed);
     a->command(0, {1, 0.3}), b->command(0, {1, 0.3});
-    a->need_image(0, true), b->need_image(0, true);
+    a->request_image(0, true), b->request_image(0, true);
     std::vector<BugSnapshot> seen{a->snapshot(0)};
     for (int cycle = 1; cycle < 30; ++cycle) {
         a->step(), b->step();
@@ -153,25 +157,26 @@ TEST_CASE("What is sensed can come some cycles later") {
     }
 }
 
-TEST_CASE("A resource brought home counts, grows stale, turns yellow and dissolves") {
+TEST_CASE("A resource ages, turns yellow and dissolves") {
     WorldDescription text = description("team_arena");
-    text.game->sites = {{-1, 1, 1}};  // one in every second
+    text.game->sites = {{-1, 1, 1}};  // one per second
     text.game->stale_after = 3, text.game->dissolves_after = 5, text.game->most = 4;
     std::erase_if(text.models, [](const Model& m) { return m.name.starts_with("B_") || m.name == "A_2"; });
     test::find_model(text, "A_1")->pose = in_space({3, -1, 3 * std::numbers::pi / 4});
     const auto world = make_world(text);
     const auto present = [&] {
         std::size_t n = 0;
-        for (std::size_t i = 0; i < world->things(); ++i) n += world->thing_pose(i).has_value();
+        for (std::size_t i = 0; i < world->movable_objects(); ++i)
+            n += world->movable_object_pose(i).has_value();
         return n;
     };
     CHECK(present() == 0);
     for (int cycle = 0; cycle < 27; ++cycle) world->step();
     CHECK(present() == 1);
-    const auto first = world->thing_pose(0);
+    const auto first = world->movable_object_pose(0);
     CHECK(std::hypot(first->x + 1, first->y - 1) <= 0.5);
     const auto is_yellow = [&](std::size_t thing) {
-        for (const MovingSight& s : world->moving_sights())
+        for (const MovingVisual& s : world->moving_visuals())
             if (s.body == world->bugs() + thing) return s.visual.material.diffuse[0] == 1;
         return false;
     };
@@ -179,12 +184,12 @@ TEST_CASE("A resource brought home counts, grows stale, turns yellow and dissolv
     for (int cycle = 0; cycle < 75; ++cycle) world->step();
     CHECK(is_yellow(0));
     for (int cycle = 0; cycle < 60; ++cycle) world->step();
-    CHECK(world->game().resources()[0].age < 5);  // it has been away, or is
+    CHECK(world->game().resources()[0].age < 5);  // it was removed, or is removed
     CHECK(present() >= 3);
     CHECK(world->game().deliveries().empty());
 }
 
-TEST_CASE("A resource that a robot pushes into a home counts for that team, and is gone") {
+TEST_CASE("A resource that a robot pushes into a home counts for that team and is removed") {
     WorldDescription text = description("team_arena");
     text.game->sites = {{-1, 1, 0.2}};
     std::erase_if(text.models, [](const Model& m) { return m.name.starts_with("B_") || m.name == "A_2"; });

@@ -1,23 +1,28 @@
-#include "bug_interface/simulation/surroundings.h"
+#include "bug_interface/simulation/world_queries.h"
 
 #include <algorithm>
 
-#include "bug_interface/simulation/thing.h"
+#include "bug_interface/simulation/movable_object.h"
 
 namespace forage::bug {
 namespace {
 
 constexpr double light_height = 0.35, proximity_height = 0.175;  ///< m
 
+/// Calls visit(collision, solid in world coordinates) for each collision shape of a model that is not a
+/// plane.
 template <class F>
-void each_static_collision(const WorldDescription& world, F&& visit) {
+void for_each_solid(const Model& model, F&& visit) {
+    for_each_link(model, Pose::Identity(), [&](const Link& link, const Pose& pose) {
+        for (const Collision& c : link.collisions)
+            if (c.shape.kind != ShapeKind::plane) visit(c, Solid{c.shape.kind, pose * c.pose, c.shape.size});
+    });
+}
+
+template <class F>
+void for_each_static_solid(const WorldDescription& world, F&& visit) {
     for (const Model& model : world.models)
-        if (model.is_static)
-            each_link(model, Pose::Identity(), [&](const Link& link, const Pose& pose) {
-                for (const Collision& c : link.collisions)
-                    if (c.shape.kind != ShapeKind::plane)
-                        visit(c, Solid{c.shape.kind, pose * c.pose, c.shape.size});
-            });
+        if (model.is_static) for_each_solid(model, visit);
 }
 
 }  // namespace
@@ -36,31 +41,28 @@ const Link* robot_link(const Model& model) {
 
 std::vector<Solid> solids_of(const Model& model) {
     std::vector<Solid> out;
-    each_link(model, Pose::Identity(), [&](const Link& link, const Pose& pose) {
-        for (const Collision& c : link.collisions)
-            if (c.shape.kind != ShapeKind::plane) out.push_back({c.shape.kind, pose * c.pose, c.shape.size});
-    });
+    for_each_solid(model, [&](const Collision&, const Solid& solid) { out.push_back(solid); });
     return out;
 }
 
 std::optional<double> common_height(const Solid& solid, double low, double high) {
-    const double middle = solid.pose.translation().z(), half = solid.size.z() / 2;
-    const double from = std::max(low, middle - half), to = std::min(high, middle + half);
+    const double centre = solid.pose.translation().z(), half = solid.size.z() / 2;
+    const double from = std::max(low, centre - half), to = std::min(high, centre + half);
     if (to - from < 0.001) return {};
-    return solid.kind == ShapeKind::sphere ? std::clamp(middle, from, to) : (from + to) / 2;
+    return solid.kind == ShapeKind::sphere ? std::clamp(centre, from, to) : (from + to) / 2;
 }
 
 std::vector<Obstacle> obstacles_of(const WorldDescription& world, const Heights& heights) {
     std::vector<Obstacle> out;
-    each_static_collision(world, [&](const Collision& collision, const Solid& solid) {
-        const std::size_t first = out.size();  // of this solid
+    for_each_static_solid(world, [&](const Collision& collision, const Solid& solid) {
+        const std::size_t first = out.size();  // the first obstacle of this solid
         for (std::size_t layer = 0; layer < heights.ranges().size(); ++layer) {
             const auto& [low, high] = heights.ranges()[layer];
             const auto height = common_height(solid, low, high);
             if (!height) continue;
-            const auto outline = cut(solid, *height);
+            const auto outline = cross_section(solid, *height);
             if (!outline) continue;
-            // Upright solids are the same at all heights; spheres are not.
+            // An upright solid has the same outline at all heights; a sphere does not.
             const auto same =
                 std::find_if(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
                              [&](const Obstacle& o) { return o.outline.radius == outline->radius; });
@@ -75,8 +77,9 @@ std::vector<Obstacle> obstacles_of(const WorldDescription& world, const Heights&
 
 std::vector<Eigen::Vector2d> targets_of(const WorldDescription& world) {
     std::vector<Eigen::Vector2d> out;
-    each_static_collision(world, [&](const Collision&, const Solid& solid) {
-        if (solid.kind == ShapeKind::cylinder && cut(solid, light_height) && !cut(solid, proximity_height))
+    for_each_static_solid(world, [&](const Collision&, const Solid& solid) {
+        if (solid.kind == ShapeKind::cylinder && cross_section(solid, light_height) &&
+            !cross_section(solid, proximity_height))
             out.push_back(solid.pose.translation().head<2>());
     });
     return out;
@@ -85,8 +88,8 @@ std::vector<Eigen::Vector2d> targets_of(const WorldDescription& world) {
 std::vector<DrawnSolid> drawing_of(const WorldDescription& world) {
     std::vector<DrawnSolid> out;
     for (const Model& model : world.models)
-        if (!robot_link(model) && !is_loose(model))
-            each_link(model, Pose::Identity(), [&](const Link& link, const Pose& pose) {
+        if (!robot_link(model) && !is_movable(model))
+            for_each_link(model, Pose::Identity(), [&](const Link& link, const Pose& pose) {
                 for (const Visual& v : link.visuals)
                     if (v.shape.kind != ShapeKind::plane)
                         out.push_back({{v.shape.kind, pose * v.pose, v.shape.size}, v.material.diffuse});

@@ -1,4 +1,4 @@
-#include "bug_interface/sensing/marked_cells.h"
+#include "bug_interface/sensing/bit_grid.h"
 
 #include <vector>
 
@@ -8,7 +8,7 @@
 using namespace forage;
 using namespace forage::bug;
 
-TEST_CASE("Marked cells are found in every rectangle, and nowhere else") {
+TEST_CASE("Set bits are found in every rectangle that contains them and in no other") {
     const RandomStream random(1, "cells");
     std::uint64_t draw = 0;
     const auto below = [&](std::size_t n) {
@@ -19,7 +19,7 @@ TEST_CASE("Marked cells are found in every rectangle, and nowhere else") {
         const double share = random.uniform(draw++, 0) * 0.05;
         std::vector<char> marked(columns * rows);
         for (char& m : marked) m = random.uniform(draw++, 0) < share;
-        const MarkedCells cells(columns, rows, [&](std::size_t column, std::size_t row, std::size_t count) {
+        const BitGrid cells(columns, rows, [&](std::size_t column, std::size_t row, std::size_t count) {
             unsigned bits = 0;
             for (std::size_t i = 0; i < count; ++i) bits |= marked[row * columns + column + i] ? 1u << i : 0u;
             return bits;
@@ -32,7 +32,7 @@ TEST_CASE("Marked cells are found in every rectangle, and nowhere else") {
                 for (std::size_t column = left; column <= right; ++column)
                     none &= !marked[row * columns + column];
             INFO(columns << " x " << rows << ": " << left << ".." << right << ", " << top << ".." << bottom);
-            REQUIRE(cells.none(left, right, top, bottom) == none);
+            REQUIRE(cells.none_in(left, right, top, bottom) == none);
         }
     }
 }

@@ -1,4 +1,4 @@
-// Loose things: pushed, blocked, at heights of their own, and held by a gripper.
+// Movable objects that are pushed, blocked, at different heights, and held by a gripper.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -19,7 +19,7 @@ constexpr double pi = std::numbers::pi, dt = 0.001;
 
 Body ball(double radius = 0.08, double mass = 0.01) {
     Body b;
-    b.radius = radius, b.mass = mass, b.driven = false, b.slowing = 0.98;
+    b.radius = radius, b.mass = mass, b.driven = false, b.deceleration = 0.98;
     return b;
 }
 
@@ -27,8 +27,8 @@ Body crate(double side, double mass) {
     Body b;
     Outline o;
     o.half_x = o.half_y = side / 2;
-    b.radius = 0, b.mass = mass, b.inertia = mass * side * side / 6, b.driven = false, b.slowing = 0.98;
-    b.slowing_turn = 3;
+    b.radius = 0, b.mass = mass, b.inertia = mass * side * side / 6, b.driven = false, b.deceleration = 0.98;
+    b.angular_deceleration = 3;
     b.parts.push_back({o, 0, 0.1});
     return b;
 }
@@ -41,7 +41,7 @@ Outline wall(double x, double y, double size_x, double size_y) {
 
 double apart(const Pose2& a, const Pose2& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-/// The team arena with one ball in front of A_1, which stands in the open.
+/// The team arena with a ball in front of the robot A_1, far from all walls.
 struct Court {
     std::unique_ptr<World> world;
     explicit Court(double ahead = 0.33, double aside = 0) {
@@ -63,22 +63,22 @@ struct Court {
         target.pose.translation() = Eigen::Vector3d(ahead, aside, 0);
         text.models.push_back(target);
         world = make_world(text);
-        world->need_gripper_scan(0, true);
+        world->request_gripper_scan(0, true);
     }
     void drive(MotorCommand command, int cycles) {
         world->command(0, command);
         for (int i = 0; i < cycles; ++i) world->step();
     }
-    /// Of the ball, seen from the robot.
+    /// The position of the ball in the frame of the robot.
     Eigen::Vector2d seen() const {
-        const Pose2 &r = world->pose(0), b = *world->thing_pose(0);
+        const Pose2 &r = world->pose(0), b = *world->movable_object_pose(0);
         return Eigen::Rotation2Dd(-r.yaw) * Eigen::Vector2d(b.x - r.x, b.y - r.y);
     }
 };
 
 }  // namespace
 
-TEST_CASE("A pushed ball moves ahead of the robot, and slides on by its friction when let go") {
+TEST_CASE("A pushed ball moves ahead of the robot, and slides until friction stops it when the robot stops") {
     Physics p({}, std::vector<Body>{Body{}, ball()}, dt);
     p.place(0, {0, 0, 0});
     p.place(1, {0.5, 0, 0});
@@ -106,7 +106,7 @@ TEST_CASE("A ball between a robot and a wall stops the robot") {
     CHECK(p.pose(0).x == Approx(1 - 0.36).margin(0.002));
 }
 
-TEST_CASE("A crate pushed off its middle turns") {
+TEST_CASE("A crate that is pushed off its centre turns") {
     Physics p({}, std::vector<Body>{Body{}, crate(0.3, 0.5)}, dt);
     p.place(0, {0, 0.1, 0});
     p.place(1, {0.6, 0, 0});
@@ -115,8 +115,8 @@ TEST_CASE("A crate pushed off its middle turns") {
     CHECK(p.pose(1).yaw < -0.05);
 }
 
-TEST_CASE("Things touch only where they share heights, robot by robot") {
-    // A low robot passes under the beam that stops a high one.
+TEST_CASE("Shapes touch only if they share heights") {
+    // A low robot passes below the beam that stops a high robot.
     std::vector<Obstacle> beam(1);
     beam[0].outline = wall(1, 0, 0.2, 4), beam[0].layers = 2;
     Body low, high;
@@ -129,7 +129,7 @@ TEST_CASE("Things touch only where they share heights, robot by robot") {
 }
 
 TEST_CASE(
-    "A million steps of random commands among walls, balls and crates: nothing gets into anything, no energy "
+    "In a million steps of random commands among walls, balls and crates, nothing penetrates, and no energy "
     "appears") {
     std::vector<Obstacle> walls(5);
     walls[0].outline = wall(0, 2.1, 5, 0.2), walls[1].outline = wall(0, -2.1, 5, 0.2);
@@ -159,12 +159,13 @@ TEST_CASE(
         }
     }
     INFO("fastest " << fastest << ", deepest " << deepest_wall);
-    CHECK(fastest < 1.3 * 1.5);  // a ball may be squeezed out faster than it is pushed, and no more
+    CHECK(fastest < 1.3 * 1.5);  // a ball that is squeezed out may be slightly faster than what pushes it
     CHECK(deepest_wall < 0.001);
     CHECK(farthest < 2);
 }
 
-TEST_CASE("A gripper closes only after it was opened, takes as long as its hinges allow, and sees the ball") {
+TEST_CASE(
+    "A gripper closes only after it was opened, at the speed of its hinges, and its rays see the ball") {
     Court court(1.5);
     const auto angle = [&](std::size_t hinge) { return court.world->gripper_angle(0, hinge); };
     court.world->grip(0, true);
@@ -181,7 +182,7 @@ TEST_CASE("A gripper closes only after it was opened, takes as long as its hinge
     CHECK(angle(1) == Approx(0.6));
 }
 
-TEST_CASE("A gripped ball stays gripped: turning, driving, braking and backwards") {
+TEST_CASE("A gripped ball stays gripped while the robot turns, drives, brakes and reverses") {
     for (const double aside : {0.0, 0.03, -0.04}) {
         Court court(0.34, aside);
         court.world->grip(0, false);

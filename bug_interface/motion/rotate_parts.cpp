@@ -1,0 +1,153 @@
+// The motion of parts within a body: the fingers of a gripper.
+#include <algorithm>
+#include <cmath>
+
+#include "bug_interface/motion/contact_solver.h"
+#include "bug_interface/motion/overlap.h"
+#include "bug_interface/motion/physics.h"
+
+namespace forage::bug {
+namespace {
+
+constexpr double tolerance = 1e-6;  ///< m; shapes may overlap by this
+
+/// An upper bound of the displacement of any point of a shape, m.
+double displacement_bound(const Outline& from, const Outline& to) {
+    return std::hypot(to.x - from.x, to.y - from.y) +
+           bounding_radius(to) * std::hypot(to.cos_yaw - from.cos_yaw, to.sin_yaw - from.sin_yaw);
+}
+
+/// Whether the motion of a shape from `from` to `to` makes it overlap `other`, or overlap it more.
+bool penetrates(const Outline& other, const Outline& from, const Outline& to) {
+    if (!closer_than(other, to, bounding_radius(other) + bounding_radius(to))) return false;
+    const double depth = overlap(other, to).depth;
+    return depth > tolerance && depth > overlap(other, from).depth;
+}
+
+}  // namespace
+
+/// Whether an obstacle or another robot blocks the motion of a part to the outline `target`.
+bool Physics::is_blocked(std::size_t body, const Part& part, const Outline& target) const {
+    const Transform2 pose(states_[body].pose);
+    const Outline from = pose * part.outline, to = pose * target;
+    for (const Obstacle& o : obstacles_)
+        if (o.layers >> part.layer & 1u && penetrates(o.outline, from, to)) return true;
+    for (std::size_t other = 0; other < states_.size(); ++other) {
+        const State& s = states_[other];
+        if (other == body || !s.present || !bodies_[other].driven ||
+            !closer_than(to, s.pose, bounding_radius(to) + s.bounding_radius))
+            continue;
+        bool blocked = false;
+        for_each_shape(other, s.pose, [&](const Outline& o, int layer) {
+            blocked |= can_collide(LayerMask{1} << part.layer, layer) && penetrates(o, from, to);
+        });
+        if (blocked) return true;
+    }
+    return false;
+}
+
+/// Whether a body can move from one pose to another without overlapping another shape more than before.
+bool Physics::can_move(std::size_t body, const Pose2& from, const Pose2& to) const {
+    bool free = true;
+    const auto test = [&](const Outline& before, const Outline& after, int layer) {
+        for (const Obstacle& o : obstacles_)
+            if (o.layers >> layer & 1u) free &= !penetrates(o.outline, before, after);
+        for (std::size_t other = 0; other < states_.size(); ++other) {
+            const State& s = states_[other];
+            if (other == body || !s.present ||
+                !closer_than(after, s.pose, bounding_radius(after) + s.bounding_radius))
+                continue;
+            for_each_shape(other, s.pose, [&](const Outline& o, int other_layer) {
+                if (can_collide(LayerMask{1} << layer, other_layer)) free &= !penetrates(o, before, after);
+            });
+        }
+    };
+    const Transform2 pose_before(from);
+    auto part = bodies_[body].parts.begin();
+    bool is_disc = bodies_[body].radius > 0;  // the central disc comes first
+    for_each_shape(body, to, [&](const Outline& after, int layer) {
+        Outline before = after;
+        if (is_disc)
+            before.x = from.x, before.y = from.y, is_disc = false;
+        else
+            before = pose_before * (part++)->outline;
+        test(before, after, layer);
+    });
+    return free;
+}
+
+bool Physics::is_collision_free(std::size_t body, const Pose2& pose) const {
+    const double far = 1e6;  // m; nothing overlaps the body there
+    return can_move(body, {pose.x + far, pose.y, pose.yaw}, pose);
+}
+
+/// Pushes movable objects out of parts that have moved from `outlines_before_`. Returns false when an object
+/// cannot be pushed; the objects in `pushed_` have moved in either case.
+bool Physics::push_objects(std::size_t body, std::span<const std::pair<std::size_t, Outline>> parts) {
+    const State& state = states_[body];
+    const Transform2 pose(state.pose);
+    for (std::size_t object = 0; object < states_.size(); ++object) {
+        State& other = states_[object];
+        if (bodies_[object].driven || !other.present) continue;
+        const double distance = std::hypot(other.pose.x - state.pose.x, other.pose.y - state.pose.y);
+        if (distance > state.bounding_radius + other.bounding_radius + 0.01) continue;
+        const Pose2 from = other.pose;
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            const Outline after = pose * parts[i].second, before = pose * outlines_before_[i];
+            const int layer = bodies_[body].parts[parts[i].first].layer;
+            Overlap deepest;
+            for_each_shape(object, other.pose, [&](const Outline& o, int object_layer) {
+                if (!can_collide(LayerMask{1} << layer, object_layer)) return;
+                const Overlap in = overlap(after, o);
+                if (in.depth > tolerance && in.depth > overlap(before, o).depth && in.depth > deepest.depth)
+                    deepest = in;
+            });
+            other.pose.x += deepest.depth * deepest.normal.x();
+            other.pose.y += deepest.depth * deepest.normal.y();
+        }
+        if (other.pose.x == from.x && other.pose.y == from.y) continue;
+        pushed_.emplace_back(object, from);
+        if (!can_move(object, from, other.pose)) return false;
+    }
+    return true;
+}
+
+bool Physics::rotate_parts(std::size_t body, std::span<const std::pair<std::size_t, Outline>> parts) {
+    State& state = states_[body];
+    Body& shape = bodies_[body];
+    double displacement = 0;
+    for (const auto& [number, outline] : parts)
+        displacement = std::max(displacement, displacement_bound(shape.parts[number].outline, outline));
+    const bool free = !state.present || has_clearance(body, displacement);
+    if (!free)
+        for (const auto& [number, outline] : parts)
+            if (is_blocked(body, shape.parts[number], outline)) return false;
+
+    // All parts move first. Objects that they overlap then are pushed; if that fails, everything is undone.
+    outlines_before_.clear(), pushed_.clear(), shape_caches_[body].valid = false;
+    for (const auto& [number, outline] : parts)
+        outlines_before_.push_back(std::exchange(shape.parts[number].outline, outline));
+    if (!free && !push_objects(body, parts)) {
+        for (const auto& [object, from] : pushed_) states_[object].pose = from;
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            shape.parts[parts[i].first].outline = outlines_before_[i];
+        return false;
+    }
+    const double radius_before = state.bounding_radius;
+    update_bounding_radius(body);
+    if (state.bounding_radius > radius_before || !pushed_.empty())
+        for (State& s : states_) s.clearance = 0;
+    state.clearance -= displacement;
+    if (contact_solver_) contact_solver_->update_shapes(body, shape.parts);
+    return true;
+}
+
+/// Reads or writes the poses of the parts of a body; everything else about them is constant.
+void Physics::checkpoint_parts(std::size_t body, Archive& archive) {
+    auto& parts = bodies_[body].parts;
+    for (Part& p : parts) archive(p.outline.x, p.outline.y, p.outline.cos_yaw, p.outline.sin_yaw);
+    shape_caches_[body].valid = false;
+    if (archive.loading() && contact_solver_ && !parts.empty()) contact_solver_->update_shapes(body, parts);
+}
+
+}  // namespace forage::bug

@@ -1,0 +1,73 @@
+// The poses of all bodies at one moment, and outlines, solids and visuals that move with a body.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "bug_interface/sensing/outline.h"
+#include "bug_interface/sensing/scene.h"
+#include "bug_interface/world/description.h"
+
+namespace forage::bug {
+
+/// Bodies are numbered: the robots of the world, then its movable objects.
+struct BodyPoses {
+    std::vector<Pose2> bodies;
+    std::vector<char> present;  ///< per body; one that has been removed is neither seen nor touched
+    std::vector<std::vector<Pose2>> hinges;  ///< per body: the displacement of what turns with each hinge
+
+    void checkpoint(Archive& archive) { archive(bodies, present, hinges); }
+};
+
+/// An outline that moves with a body.
+struct MovingOutline {
+    std::size_t body = 0;
+    int hinge = -1;   ///< the hinge that moves the outline; -1 for none
+    Outline outline;  ///< in the frame of the body, with its hinges at angle 0
+
+    /// The outline in world coordinates. `body_pose` is the pose of the body.
+    Outline at(const BodyPoses& poses, const Transform2& body_pose) const {
+        return body_pose * (hinge < 0 ? outline : Transform2(displacement(poses)) * outline);
+    }
+    /// An upper bound of the distance of any point of the outline from the origin of the body, m.
+    double max_distance(const BodyPoses& poses) const {
+        const auto from_origin = [](const auto& at) { return std::sqrt(at.x * at.x + at.y * at.y); };
+        const double at_home = from_origin(outline) + bounding_radius(outline);
+        return hinge < 0 ? at_home : at_home + from_origin(displacement(poses));
+    }
+
+  private:
+    const Pose2& displacement(const BodyPoses& poses) const {
+        return poses.hinges[body][static_cast<std::size_t>(hinge)];
+    }
+};
+
+/// A solid that moves with a body.
+struct MovingSolid {
+    std::size_t body = 0;
+    int hinge = -1;                ///< the hinge that moves the solid; -1 for none
+    Solid solid;                   ///< in the frame of the body, with its hinges at angle 0
+    bool is_central_disc = false;  ///< whether it is the cylinder of a robot's body
+};
+
+/// The three-dimensional pose of an object on the floor.
+Pose in_space(const Pose2& pose);
+
+/// A visual that moves with a body.
+struct MovingVisual {
+    std::size_t body = 0;
+    int hinge = -1;                ///< the hinge that moves the visual; -1 for none
+    Pose pose = Pose::Identity();  ///< in the frame of the body, with its hinges at angle 0
+    VisualSolid visual;
+    bool of_body_link = false;  ///< whether it belongs to the link of a robot's body, which its own camera
+                                ///< does not see
+
+    /// The pose of the visual in world coordinates.
+    Pose at(const BodyPoses& poses) const {
+        const Pose body_pose = in_space(poses.bodies[body]);
+        return hinge < 0 ? body_pose * pose
+                         : body_pose * in_space(poses.hinges[body][static_cast<std::size_t>(hinge)]) * pose;
+    }
+};
+
+}  // namespace forage::bug

@@ -1,0 +1,169 @@
+#include "bug_interface/simulation/robot_sensors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace forage::bug {
+
+RandomStream robot_stream(std::uint64_t seed, const std::string& robot, RobotStream use) {
+    return {seed, "bug " + robot, static_cast<std::uint32_t>(use)};
+}
+
+RobotSensors::RobotSensors(const Link& link, const std::string& robot, std::size_t body, std::uint64_t seed,
+                           bool noise)
+    : robot_(robot),
+      body_(body),
+      seed_(seed),
+      noise_(noise),
+      link_pose_(link.pose),
+      range_sensors_(link.range_sensors),
+      image_noise_(robot_stream(seed, robot, RobotStream::image_noise)) {
+    if (!link.cameras.empty()) camera_sensor_ = link.cameras.front();
+}
+
+std::optional<RobotSensors::Scan> RobotSensors::make_scan(std::string_view sensor, RobotStream use,
+                                                          std::span<const Solid> fixed,
+                                                          std::span<const MovingSolid> moving, double step,
+                                                          std::vector<double>& cells) const {
+    const auto found = std::find_if(range_sensors_.begin(), range_sensors_.end(),
+                                    [&](const RangeSensor& s) { return s.name == sensor; });
+    if (found == range_sensors_.end()) return {};
+    Scan scan{RangeScanner(*found, link_pose_),
+              robot_stream(seed_, robot_, use),
+              SensorClock(found->rate, step),
+              0,
+              {},
+              {},
+              std::vector<double>(static_cast<std::size_t>(found->rays))};
+    const double height = scan.scanner.height();
+    for (const Solid& solid : fixed)
+        if (const auto outline = cross_section(solid, height)) scan.outlines.push_back(*outline);
+    for (const MovingSolid& m : moving)
+        if (const auto outline = cross_section(m.solid, height);
+            outline && !(m.body == body_ && m.is_central_disc))
+            scan.moving.push_back({m.body, m.hinge, *outline});
+    scan.fixed = scan.outlines.size();
+    scan.outlines.reserve(scan.fixed + scan.moving.size());
+    cells.assign(scan.ranges.size(), 0);
+    return scan;
+}
+
+void RobotSensors::make_scanners(std::span<const Solid> fixed, std::span<const MovingSolid> moving,
+                                 double step) {
+    const auto make = [&](std::string_view sensor, RobotStream use, std::vector<double>& cells) {
+        return make_scan(sensor, use, fixed, moving, step, cells);
+    };
+    proximity_ = make("laser", RobotStream::proximity_noise, snapshot_.proximity);
+    target_ = make("laser_target", RobotStream::target_noise, snapshot_.target);
+    gripper_ = make("laser_gripper", RobotStream::gripper_noise, snapshot_.gripper);
+    if (!camera_sensor_) return;
+    camera_clock_.emplace(camera_sensor_->rate, step);
+    snapshot_.image_width = camera_sensor_->width, snapshot_.image_height = camera_sensor_->height;
+}
+
+void RobotSensors::Scan::measure(const Pose2& robot, std::uint64_t sample, bool with_noise,
+                                 const BodyPoses& poses, std::span<double> cells) {
+    outlines.resize(fixed);
+    std::size_t transformed = poses.bodies.size();  // the body that `body_pose` belongs to
+    Transform2 body_pose(0, 0, 1, 0);
+    for (const MovingOutline& m : moving) {
+        if (!poses.present[m.body]) continue;
+        const Pose2& pose = poses.bodies[m.body];
+        const double dx = pose.x - robot.x, dy = pose.y - robot.y;
+        const double reach = scanner.reach() + m.max_distance(poses);
+        if (dx * dx + dy * dy > reach * reach) continue;
+        if (transformed != m.body) transformed = m.body, body_pose = Transform2(pose);
+        outlines.push_back(m.at(poses, body_pose));
+    }
+    scanner.scan(robot, outlines, ranges);
+    if (with_noise) scanner.add_noise(ranges, noise, sample);
+    scanner.to_activity(ranges, cells);
+}
+
+void RobotSensors::scan(std::uint64_t sample, const BodyPoses& poses) {
+    const Pose2& pose = snapshot_.pose = poses.bodies[body_];
+    if (proximity_) proximity_->measure(pose, sample, noise_, poses, snapshot_.proximity);
+    if (target_) target_->measure(pose, sample, noise_, poses, snapshot_.target);
+    if (gripper_ && gripper_requested_) gripper_->measure(pose, sample, noise_, poses, snapshot_.gripper);
+}
+
+bool RobotSensors::due(double now) const {
+    const auto is_due = [&](const std::optional<Scan>& scan) { return scan && scan->clock.due(now); };
+    return !proximity_ || is_due(proximity_) || is_due(target_) || (gripper_requested_ && is_due(gripper_)) ||
+           (image_requested_ && camera_clock_ && camera_clock_->due(now));
+}
+
+void RobotSensors::sense_due(double now, const BodyPoses& poses, std::span<const MovingVisual> visuals) {
+    const Pose2& pose = poses.bodies[body_];
+    const auto sense = [&](std::optional<Scan>& scan, std::vector<double>& cells) {
+        if (!scan || !scan->clock.due(now)) return false;
+        scan->measure(pose, scan->clock.sample(now), noise_, poses, cells);
+        return true;
+    };
+    if (sense(proximity_, snapshot_.proximity) || !proximity_) snapshot_.pose = pose;
+    sense(target_, snapshot_.target);
+    if (gripper_requested_) sense(gripper_, snapshot_.gripper);
+    if (image_requested_ && camera_clock_ && camera_clock_->due(now))
+        render(camera_clock_->sample(now), poses, visuals);
+}
+
+void RobotSensors::make_camera(const std::shared_ptr<const Scene>& scene) {
+    if (!camera_sensor_ || camera_) return;
+    camera_.emplace(*camera_sensor_, link_pose_, scene);
+    const auto values =
+        3 * static_cast<std::size_t>(camera_->width()) * static_cast<std::size_t>(camera_->height());
+    picture_.resize(values);
+    snapshot_.image.resize(values);
+}
+
+void RobotSensors::render(std::uint64_t sample, const BodyPoses& poses,
+                          std::span<const MovingVisual> visuals) {
+    if (!camera_ || rendered_ == sample) return;
+    take_picture(sample, poses, visuals, snapshot_.image);
+    rendered_ = sample;
+}
+
+std::span<const std::uint8_t> RobotSensors::view(std::uint64_t sample, const BodyPoses& poses,
+                                                 std::span<const MovingVisual> visuals) {
+    if (!camera_) return {};
+    view_.resize(picture_.size());
+    take_picture(sample, poses, visuals, view_);
+    return view_;
+}
+
+void RobotSensors::take_picture(std::uint64_t sample, const BodyPoses& poses,
+                                std::span<const MovingVisual> visuals, std::vector<std::uint8_t>& out) {
+    visible_.clear();
+    for (const MovingVisual& moving : visuals)
+        if (!(moving.body == body_ && moving.of_body_link) && poses.present[moving.body])
+            visible_.push_back(&moving.visual);
+    camera_->render(poses.bodies[body_], visible_, picture_);
+    if (noise_) {
+        camera_->quantise(picture_, out, image_noise_, sample);
+    } else {
+        for (std::size_t i = 0; i < picture_.size(); ++i)
+            out[i] = static_cast<std::uint8_t>(std::clamp(picture_[i], 0.0f, 1.0f) * 255 + 0.5f);
+    }
+}
+
+void RobotSensors::remember(std::uint64_t cycle, int latency) {
+    if (latency <= 0) return;
+    const auto size = static_cast<std::size_t>(latency) + 1;
+    if (cycle == 0)
+        history_.assign(size, snapshot_);
+    else
+        history_[cycle % size] = snapshot_;
+}
+
+void RobotSensors::checkpoint(Archive& archive) {
+    archive(snapshot_, history_);
+    for (std::optional<Scan>* scan : {&proximity_, &target_, &gripper_})
+        if (*scan) archive((*scan)->clock);
+    if (!image_requested_) return;  // no module uses the images, and a film does not change them
+    archive(snapshot_.image, rendered_);
+    if (camera_clock_) archive(*camera_clock_);
+    for (BugSnapshot& s : history_) archive(s.image);
+}
+
+}  // namespace forage::bug
