@@ -38,7 +38,7 @@ class GazeboBug {
     double head_sigma = 0.2;
 
     static void describe(ModuleSpec<GazeboBug>& spec);
-    void check(const ModulePorts& ports, Problems& problems);
+    void check(const ModulePorts& ports, Diagnostics& diagnostics);
     /// Throws std::runtime_error without a world or robot, or when another module has the robot.
     void start(const ModulePorts& ports, ModuleFrame& frame);
     void update(ModuleFrame& frame);

@@ -24,7 +24,7 @@ class DifferenceModule {
         s.input("_goal", "Goal location");
         s.output("_diff", "Difference");
     }
-    void check(const ModulePorts& ports, Problems& problems) const;
+    void check(const ModulePorts& ports, Diagnostics& diagnostics) const;
     void start(const ModulePorts& ports) { size_ = ports.inputs[0].shape; }
     void update(ModuleFrame& frame) {
         show_difference(place_of(frame.input(0), size_.width), place_of(frame.input(1), size_.width),
