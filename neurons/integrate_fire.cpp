@@ -23,13 +23,12 @@ void IntegrateFire::describe(NeuronSpec<IntegrateFire>& s) {
     s.state("vm", "Membrane potential").output("act", "Activity");
 }
 
-void IntegrateFire::check(Problems& problems) const {
-    membrane::check_bounds(*this, problems);
+void IntegrateFire::check(Diagnostics& diagnostics) const {
+    membrane::check_bounds(*this, diagnostics);
     if (amplitude != 0 && amplitude != 1)
-        problems.all.push_back({"spkAmpl does not scale the spike, which is always 1; it divides the reset",
-                                "leave it at 1, and scale the weights of the connections instead",
-                                "spkAmpl",
-                                {}});
+        diagnostics.warning(at_parameter("spkAmpl"),
+                            "spkAmpl does not scale the spike, which is always 1; it divides the reset",
+                            "leave it at 1, and scale the weights of the connections instead");
 }
 
 namespace {

@@ -13,7 +13,7 @@ struct IntegrateFire {
     double minimum = 0, maximum = 1, probability = 1, threshold = 0, amplitude = 1, reset = 0;
 
     static void describe(NeuronSpec<IntegrateFire>& spec);
-    void check(Problems&) const;
+    void check(Diagnostics&) const;
     void update(NeuronColumns&) const;
 };
 

@@ -14,7 +14,7 @@ void LinearThreshold::describe(NeuronSpec<LinearThreshold>& s) {
     s.state("vm", "Membrane potential").output("act", "Activity");
 }
 
-void LinearThreshold::check(Problems& problems) const { membrane::check_bounds(*this, problems); }
+void LinearThreshold::check(Diagnostics& diagnostics) const { membrane::check_bounds(*this, diagnostics); }
 
 namespace {
 

@@ -12,7 +12,7 @@ struct LinearThreshold {
     double minimum = 0, maximum = 1, probability = 1, threshold = 0;
 
     static void describe(NeuronSpec<LinearThreshold>& spec);
-    void check(Problems&) const;
+    void check(Diagnostics&) const;
     void update(NeuronColumns&) const;
 };
 

@@ -47,10 +47,10 @@ void describe_firing(NeuronSpec<T>& s) {
 
 /// Finds clipping between bounds that are the wrong way round: then vm is always the maximum.
 template <class T>
-void check_bounds(const T& p, Problems& problems) {
+void check_bounds(const T& p, Diagnostics& diagnostics) {
     if (p.clip && p.minimum > p.maximum)
-        problems.all.push_back(
-            {"vmMin is above vmMax: the potential is always vmMax", "exchange them", "vmMin", {}});
+        diagnostics.warning(at_parameter("vmMin"), "vmMin is above vmMax: the potential is always vmMax",
+                            "exchange them");
 }
 
 /// What integrate() needs of a type and of one cycle.

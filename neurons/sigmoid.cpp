@@ -15,7 +15,7 @@ void Sigmoid::describe(NeuronSpec<Sigmoid>& s) {
     s.state("vm", "Membrane potential", 2).output("act", "Activity");
 }
 
-void Sigmoid::check(Problems& problems) const { membrane::check_bounds(*this, problems); }
+void Sigmoid::check(Diagnostics& diagnostics) const { membrane::check_bounds(*this, diagnostics); }
 
 namespace {
 

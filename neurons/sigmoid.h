@@ -12,7 +12,7 @@ struct Sigmoid {
     double minimum = 0, maximum = 1, midpoint = 0, slope = 1;
 
     static void describe(NeuronSpec<Sigmoid>& spec);
-    void check(Problems&) const;
+    void check(Diagnostics&) const;
     void update(NeuronColumns&) const;
 };
 

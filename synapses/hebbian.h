@@ -25,10 +25,10 @@ struct Hebbian {
         s.feedback("postact", "Postsynaptic activity");
         s.event_driven();
     }
-    void check(Problems& problems) const {
+    void check(Diagnostics& diagnostics) const {
         if (decay != 0 && decay != Hebbian{}.decay)
-            problems.all.push_back(
-                {"decay has no effect: weights do not decay, as in the original", {}, "decay", {}});
+            diagnostics.warning(at_parameter("decay"),
+                                "decay has no effect: weights do not decay, as in the original");
     }
     void update(SynapseColumns& c) const;
     void update_and_add(SynapseColumns& c) const;

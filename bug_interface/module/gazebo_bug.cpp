@@ -133,9 +133,9 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
     s.output("_audio_in", "Listen").optional().cells(36);
 }
 
-void GazeboBug::check(const ModulePorts& ports, Problems& problems) {
+void GazeboBug::check(const ModulePorts& ports, Diagnostics& diagnostics) {
     const auto report = [&](const ModulePorts::Group& group, std::string message, std::string hint) {
-        problems.all.push_back({std::move(message), std::move(hint), {}, group.port});
+        diagnostics.error(at_port(group.port), std::move(message), std::move(hint));
     };
     const auto size = [](const ModulePorts::Group& group) {
         return fmt::format("'{}' is {} x {}", group.path, group.shape.width, group.shape.height);
@@ -176,20 +176,18 @@ void GazeboBug::check(const ModulePorts& ports, Problems& problems) {
                    "change its size, or set 'gripper' to false");
     }
     if (!(place_x_max > 0 && place_y_max > 0 && place_sigma > 0 && head_sigma > 0))
-        problems.all.push_back({"placeXMax, placeYMax, placeSigma and headSigma must be above 0",
-                                {},
-                                !(place_x_max > 0)   ? "placeXMax"
-                                : !(place_y_max > 0) ? "placeYMax"
-                                : !(place_sigma > 0) ? "placeSigma"
-                                                     : "headSigma",
-                                {}});
+        diagnostics.error(at_parameter(!(place_x_max > 0)   ? "placeXMax"
+                                       : !(place_y_max > 0) ? "placeYMax"
+                                       : !(place_sigma > 0) ? "placeSigma"
+                                                            : "headSigma"),
+                          "placeXMax, placeYMax, placeSigma and headSigma must be above 0");
 
     world_ = dynamic_cast<World*>(ports.environment);
     if (!world_) return;
     const auto bug = world_->find(device_name);
     if (!bug) {
-        problems.all.push_back(
-            {no_robot(*world_, device_name), robots_of(*world_, device_name), "device_name", {}});
+        diagnostics.error(at_parameter("device_name"), no_robot(*world_, device_name),
+                          robots_of(*world_, device_name));
         return;
     }
     const auto scanner = [&](std::size_t port, std::size_t rays, const char* sensor) {
@@ -206,10 +204,8 @@ void GazeboBug::check(const ModulePorts& ports, Problems& problems) {
     const bool connected =
         ports.inputs[gripper_command].shape.cells == 1 || ports.outputs[gripper_scan].shape.cells == 16;
     if (gripper && connected && !world_->has_gripper(*bug))  // the original waits forever
-        problems.all.push_back({fmt::format("robot '{}' has no gripper", device_name),
-                                "set 'gripper' to false, or use a robot with a gripper",
-                                "gripper",
-                                {}});
+        diagnostics.error(at_parameter("gripper"), fmt::format("robot '{}' has no gripper", device_name),
+                          "set 'gripper' to false, or use a robot with a gripper");
     if (gripper && world_->has_gripper(*bug))
         scanner(gripper_scan, world_->snapshot(*bug).gripper.size(), "laser_gripper");
 }

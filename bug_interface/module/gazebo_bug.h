@@ -45,7 +45,7 @@ class GazeboBug {
     double head_sigma = 0.2;
 
     static void describe(ModuleSpec<GazeboBug>& spec);
-    void check(const ModulePorts& ports, Problems& problems);
+    void check(const ModulePorts& ports, Diagnostics& diagnostics);
     /// Throws std::runtime_error when there is no world or no robot with this name, and when another module
     /// drives the robot.
     void start(const ModulePorts& ports, ModuleFrame& frame);

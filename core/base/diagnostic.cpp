@@ -94,29 +94,6 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-void Diagnostics::add(Severity severity, Location where, std::string message, std::string hint) {
-    constexpr std::size_t most = 1000;  // a file of a million mistakes must not cost a gigabyte
-    ++(severity == Severity::error ? errors_ : warnings_);
-    // An error is never lost behind warnings.
-    if (all_.size() < most || (severity == Severity::error && errors_ == 1))
-        all_.push_back({severity, std::move(where), std::move(message), std::move(hint)});
-}
-
-void Diagnostics::error(Location where, std::string message, std::string hint) {
-    add(Severity::error, std::move(where), std::move(message), std::move(hint));
-}
-
-void Diagnostics::warning(Location where, std::string message, std::string hint) {
-    add(Severity::warning, std::move(where), std::move(message), std::move(hint));
-}
-
-void Diagnostics::unknown(Location where, std::string message, std::string hint) {
-    if (lenient)
-        warning(std::move(where), std::move(message), std::move(hint));
-    else
-        error(std::move(where), std::move(message), std::move(hint));
-}
-
 Location location_of(std::shared_ptr<const SourceFile> file, std::size_t offset) {
     const std::string_view before = std::string_view(file->text).substr(0, offset);
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');

@@ -1,18 +1,21 @@
-// Diagnostics: every problem of a file in one run, each written for the person who made the mistake.
+// Diagnostics: every problem of a file in one run, each written for the author of the file. Plugins report
+// with the classes, which are complete in this header; the functions need the library.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace forage {
 
-/// A file that a person edits, as it was read.
+/// A file that users edit, as it was read.
 struct SourceFile {
-    std::string path;  ///< as given by the person
-    std::string text;
+    std::string path;  ///< as the user gave it
+    std::string text;  ///< may end early: excerpts are all that it serves
 };
 
 /// A place in a file. `line` and `column` count from 1 (bytes); 0: the file as a whole. No file: a command
@@ -28,20 +31,73 @@ struct Location {
 
 enum class Severity { error, warning };
 
+/// What the check() of a type points at. Types know names and not places in a file: validation finds the
+/// place.
+struct Subject {
+    Subject(std::string parameter_name, std::string port_name)
+        : parameter(std::move(parameter_name)), port(std::move(port_name)) {}
+    std::string parameter;  ///< a parameter of the type; empty for none
+    std::string port;       ///< a cross reference of a module type; empty for none
+};
+inline Subject at_parameter(std::string name) { return {std::move(name), {}}; }
+inline Subject at_port(std::string name) { return {{}, std::move(name)}; }
+
+/// One problem of a file or of a command line.
 struct Diagnostic {
     Severity severity = Severity::error;
     Location where;
     std::string message;
-    std::string hint;  ///< what to do about it; may be empty
+    std::string hint;             ///< what to do about it; may be empty
+    std::string parameter, port;  ///< as in Subject, until the place is known
 };
+
+/// An error in a file that the caller names later. `line` and `column` as in Location.
+inline Diagnostic error_at(int line, int column, std::string message, std::string hint = {}) {
+    return {Severity::error, {nullptr, line, column}, std::move(message), std::move(hint), {}, {}};
+}
 
 /// Collects diagnostics; nothing is thrown. Of very many it keeps the first thousand and counts the rest.
 class Diagnostics {
   public:
-    void error(Location where, std::string message, std::string hint = {});
-    void warning(Location where, std::string message, std::string hint = {});
+    void error(Location where, std::string message, std::string hint = {}) {
+        add({Severity::error, std::move(where), std::move(message), std::move(hint), {}, {}});
+    }
+    void warning(Location where, std::string message, std::string hint = {}) {
+        add({Severity::warning, std::move(where), std::move(message), std::move(hint), {}, {}});
+    }
+    /// The same for the check() of a type.
+    void error(Subject about, std::string message, std::string hint = {}) {
+        add({Severity::error,
+             {},
+             std::move(message),
+             std::move(hint),
+             std::move(about.parameter),
+             std::move(about.port)});
+    }
+    void warning(Subject about, std::string message, std::string hint = {}) {
+        add({Severity::warning,
+             {},
+             std::move(message),
+             std::move(hint),
+             std::move(about.parameter),
+             std::move(about.port)});
+    }
     /// Something unknown that the original would ignore: an error, or under `lenient` a warning.
-    void unknown(Location where, std::string message, std::string hint = {});
+    void unknown(Location where, std::string message, std::string hint = {}) {
+        add({lenient ? Severity::warning : Severity::error,
+             std::move(where),
+             std::move(message),
+             std::move(hint),
+             {},
+             {}});
+    }
+    void add(Diagnostic diagnostic) {
+        constexpr std::size_t most = 1000;  // a file of a million mistakes must not cost a gigabyte
+        const bool is_error = diagnostic.severity == Severity::error;
+        ++(is_error ? errors_ : warnings_);
+        // An error is never lost behind warnings.
+        if (all_.size() < most || (is_error && errors_ == 1)) all_.push_back(std::move(diagnostic));
+    }
 
     bool failed() const { return errors_ > 0; }
     int errors() const { return errors_; }
@@ -51,8 +107,6 @@ class Diagnostics {
     bool lenient = false;
 
   private:
-    void add(Severity severity, Location where, std::string message, std::string hint);
-
     std::vector<Diagnostic> all_;
     int errors_ = 0, warnings_ = 0;
 };

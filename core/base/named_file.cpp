@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 #include <vector>
 
 #include <fmt/format.h>
@@ -30,10 +29,10 @@ std::string near_file(const fs::path& path) {
 }  // namespace
 
 void report(const FileError& error, Diagnostics& diagnostics) {
-    const auto file = std::make_shared<SourceFile>(SourceFile{error.path(), error.text()});
-    for (const auto& f : error.faults())
-        diagnostics.error({file, f.line, f.column}, f.message,
-                          f.hint.empty() && f.line == 0 ? near_file(error.path()) : f.hint);
+    for (Diagnostic e : error.errors()) {
+        if (e.hint.empty() && e.where.line == 0) e.hint = near_file(error.file()->path);
+        diagnostics.add(std::move(e));
+    }
 }
 
 std::optional<std::string> read_file(const std::string& path, std::size_t most, Diagnostics& diagnostics) {
@@ -46,11 +45,11 @@ std::optional<std::string> read_file(const std::string& path, std::size_t most, 
 }
 
 bool find_file(const std::string& path, const Location& where, Diagnostics& diagnostics) {
-    const auto fault = why_unreadable(path);
-    if (fault)
-        diagnostics.error(where, fmt::format("'{}': {}", path, fault->message),
-                          fault->hint.empty() ? near_file(path) : fault->hint);
-    return !fault;
+    const auto error = why_unreadable(path);
+    if (error)
+        diagnostics.error(where, fmt::format("'{}': {}", path, error->message),
+                          error->hint.empty() ? near_file(path) : error->hint);
+    return !error;
 }
 
 }  // namespace forage

@@ -1,4 +1,4 @@
-// Files that a person names: what to say when they cannot be read.
+// Files that users name: what to say when they cannot be read.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace forage {
 
-/// Says all that is wrong with a file; of one that is not there, what may have been meant.
+/// Reports all that is wrong with a file; for one that is not there, which file may have been meant.
 void report(const FileError& error, Diagnostics& diagnostics);
 
 /// The text of the file at `path`, as read_file(); reports why there is none.

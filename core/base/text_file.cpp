@@ -19,43 +19,43 @@ namespace {
 
 constexpr std::size_t excerpted = std::size_t{1} << 20;
 
-std::string summary(const std::string& path, const std::vector<FileError::Fault>& faults) {
-    const FileError::Fault& first = faults.front();
+std::string summary(const std::string& path, const std::vector<Diagnostic>& errors) {
+    const Diagnostic& first = errors.front();
     std::string place = path;
-    for (const int number : {first.line, first.column})
+    for (const int number : {first.where.line, first.where.column})
         if (number > 0) place += fmt::format(":{}", number);
     return fmt::format("{}: {}{}", place, first.message,
-                       faults.size() > 1 ? fmt::format(", and {} more errors", faults.size() - 1) : "");
+                       errors.size() > 1 ? fmt::format(", and {} more errors", errors.size() - 1) : "");
 }
 
 [[noreturn]] void unreadable(const std::string& path, std::string why) {
-    throw FileError(path, {}, {{0, 0, std::move(why)}});
+    throw FileError(path, {}, {error_at(0, 0, std::move(why))});
 }
 
-FileError::Fault refusal(const std::string& path, int error) {
-    if (path.empty()) return {0, 0, "no file is named"};
+Diagnostic refusal(const std::string& path, int error) {
+    if (path.empty()) return error_at(0, 0, "no file is named");
     switch (error) {
         case ENOENT:
         case ENOTDIR:
-            return {0, 0, "there is no such file"};
+            return error_at(0, 0, "there is no such file");
         case ENAMETOOLONG:
-            return {0, 0, "there is no such file: its name is longer than names can be"};
+            return error_at(0, 0, "there is no such file: its name is longer than names can be");
         case ELOOP:
-            return {0, 0, "this link leads back to itself", "name the file that it should lead to"};
+            return error_at(0, 0, "this link leads back to itself", "name the file that it should lead to");
         case EACCES:
-            return {0, 0, "cannot read the file: Permission denied",
-                    "'chmod +r' gives leave to read a file, 'chmod +x' to enter a folder"};
+            return error_at(0, 0, "cannot read the file: Permission denied",
+                            "'chmod +r' gives leave to read a file, 'chmod +x' to enter a folder");
         default:
-            return {0, 0, fmt::format("cannot read the file: {}", std::strerror(error))};
+            return error_at(0, 0, fmt::format("cannot read the file: {}", std::strerror(error)));
     }
 }
 
-/// The place of the byte `at`.
-FileError::Fault fault_at(std::string_view text, std::size_t at, std::string message, std::string hint) {
+/// An error at the byte `at`.
+Diagnostic error_in(std::string_view text, std::size_t at, std::string message, std::string hint) {
     const std::string_view before = text.substr(0, at);
-    return {1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
-            static_cast<int>(at - (before.rfind('\n') + 1)) + 1,  // npos + 1 is 0
-            std::move(message), std::move(hint)};
+    return error_at(1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+                    static_cast<int>(at - (before.rfind('\n') + 1)) + 1,  // npos + 1 is 0
+                    std::move(message), std::move(hint));
 }
 
 struct FileHandle {
@@ -70,11 +70,15 @@ struct FileHandle {
 
 }  // namespace
 
-FileError::FileError(std::string path, std::string text, std::vector<Fault> faults)
-    : std::runtime_error(summary(path, faults)),
-      path_(std::move(path)),
-      text_(text.size() > excerpted ? text.substr(0, excerpted) : std::move(text)),
-      faults_(std::move(faults)) {}
+FileError::FileError(std::string path, std::string text, std::vector<Diagnostic> errors)
+    : FileError(std::make_shared<SourceFile>(SourceFile{
+                    std::move(path), text.size() > excerpted ? text.substr(0, excerpted) : std::move(text)}),
+                std::move(errors)) {}
+
+FileError::FileError(std::shared_ptr<const SourceFile> file, std::vector<Diagnostic> errors)
+    : std::runtime_error(summary(file->path, errors)), file_(std::move(file)), errors_(std::move(errors)) {
+    for (auto& e : errors_) e.where.file = file_;
+}
 
 std::string read_file(const std::string& path, std::size_t most) {
     std::error_code ignored;
@@ -98,7 +102,7 @@ std::string read_file(const std::string& path, std::size_t most) {
         if (count == 0 && pipe && text.empty()) {
             if (waited)
                 throw FileError(path, {},
-                                {{0, 0, "this is a pipe, and nobody writes into it", "name a file"}});
+                                {error_at(0, 0, "this is a pipe, and nobody writes into it", "name a file")});
             poll(&ready, 1, 300), waited = true;
             continue;
         }
@@ -118,15 +122,15 @@ std::string escaped(std::string_view piece) {
     return piece.size() > out.size() ? out + "..." : out;
 }
 
-std::optional<FileError::Fault> why_unreadable(const std::string& path) {
+std::optional<Diagnostic> why_unreadable(const std::string& path) {
     const FileHandle in(path.empty() ? -1 : open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
     if (in.number < 0) return refusal(path, errno);
     if (std::error_code ignored; std::filesystem::is_directory(path, ignored))
-        return FileError::Fault{0, 0, "this is a directory, not a file"};
+        return error_at(0, 0, "this is a directory, not a file");
     return std::nullopt;
 }
 
-std::optional<FileError::Fault> not_lines(std::string_view text, std::string_view wanted) {
+std::optional<Diagnostic> not_lines(std::string_view text, std::string_view wanted) {
     using namespace std::string_view_literals;
     static constexpr std::array<std::pair<std::string_view, std::string_view>, 7> known = {
         {{"\x1f\x8b"sv, "a gzip archive"},
@@ -139,16 +143,16 @@ std::optional<FileError::Fault> not_lines(std::string_view text, std::string_vie
          {"\x93NUMPY"sv, "a NumPy file"},
          {"%PDF"sv, "a PDF document"}}};
     for (const auto& [bytes, what] : known)
-        if (text.starts_with(bytes)) return FileError::Fault{0, 0, fmt::format("{}, but {}", wanted, what)};
+        if (text.starts_with(bytes)) return error_at(0, 0, fmt::format("{}, but {}", wanted, what));
     const std::size_t nul = text.find('\0'), cr = text.find('\r');
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") ||
         (nul <= 1 && text.find_first_not_of('\0') < 2))
-        return FileError::Fault{0, 0, "the file is encoded as UTF-16", "save it as UTF-8"};
+        return error_at(0, 0, "the file is encoded as UTF-16", "save it as UTF-8");
     if (nul != text.npos)
-        return fault_at(text, nul, "the byte 0x00 does not occur in a text",
+        return error_in(text, nul, "the byte 0x00 does not occur in a text",
                         "is the file damaged? Remove the byte");
     if (cr != text.npos && cr + 1 < text.size() && text[cr + 1] != '\n')
-        return fault_at(text, cr, "a carriage return that ends no line",
+        return error_in(text, cr, "a carriage return that ends no line",
                         "save the file with the line ends of Unix or Windows");
     return std::nullopt;
 }

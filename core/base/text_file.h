@@ -1,34 +1,32 @@
-// Text files that a person names, and what is wrong with them.
+// Text files that users name, and what is wrong with them.
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/base/diagnostic.h"
+
 namespace forage {
 
 /// A file that cannot be read, or does not hold what it should: everything that is wrong with it.
 class FileError : public std::runtime_error {
   public:
-    struct Fault {
-        int line = 0, column = 0;  ///< from 1, bytes; 0: the file as a whole
-        std::string message;
-        std::string hint = {};  ///< may be empty
-    };
+    /// `text` is the content of the file, of which the first mebibyte is kept. what() is
+    /// "path:line:column: message" of the first error, and how many more there are.
+    FileError(std::string path, std::string text, std::vector<Diagnostic> errors);
+    FileError(std::shared_ptr<const SourceFile> file, std::vector<Diagnostic> errors);
 
-    /// what() is "path:line:column: message" of the first fault, and how many more there are.
-    FileError(std::string path, std::string text, std::vector<Fault> faults);
-
-    const std::string& path() const { return path_; }
-    const std::string& text() const { return text_; }  ///< its first mebibyte, for excerpts
-    const std::vector<Fault>& faults() const { return faults_; }
+    const std::shared_ptr<const SourceFile>& file() const { return file_; }
+    const std::vector<Diagnostic>& errors() const { return errors_; }  ///< at least one; all are in file()
 
   private:
-    std::string path_, text_;
-    std::vector<Fault> faults_;
+    std::shared_ptr<const SourceFile> file_;
+    std::vector<Diagnostic> errors_;
 };
 
 /// The bytes of the file at `path`. Reading ends behind the first NUL byte, which no text holds: whoever
@@ -39,13 +37,13 @@ std::string read_file(const std::string& path, std::size_t most = std::size_t{12
 /// A piece of a file for a message: shortened, and harmless on a terminal.
 std::string escaped(std::string_view piece);
 
-/// Why no file can be read at `path`, as a fault of the whole; nothing when one can. Its content is not
-/// looked at.
-std::optional<FileError::Fault> why_unreadable(const std::string& path);
+/// Why no file can be read at `path`, as an error of the file as a whole; nothing when one can. The content
+/// is not looked at.
+std::optional<Diagnostic> why_unreadable(const std::string& path);
 
 /// What shows that a file of lines is no such text: the beginning of a file of another kind, a NUL byte, line
 /// ends that no program writes any more. `wanted`: "this is no table".
-std::optional<FileError::Fault> not_lines(std::string_view text, std::string_view wanted);
+std::optional<Diagnostic> not_lines(std::string_view text, std::string_view wanted);
 
 /// What is wrong with a word that stands where a finite number is wanted.
 std::string no_number(std::string_view word);

@@ -67,13 +67,13 @@ class Rehearsal {
         const ModulePlan& m = *find(plan_.modules, &ModulePlan::process_id, a.id);
         ModuleInstance& copy = copied(modules_, m, &ModulePlan::module);
         a.parameter->set(copy.parameters(), a.value);
-        Problems problems;
+        Diagnostics found;
         try {
-            copy.check(m.ports, problems);
+            copy.check(m.ports, found);
         } catch (const FileError& e) {
             return report(e, diagnostics_);
         }
-        for (const auto& p : problems.all) diagnostics_.error(a.at, said(a, p), p.hint);
+        pass_on(a, found);
     }
 
   private:
@@ -100,12 +100,16 @@ class Rehearsal {
         T& copy = copied(copies, item, instance);
         a.parameter->set(copy.parameters(), a.value);
         if (!item.type.check) return;
-        Problems problems;
-        item.type.check(copy.parameters(), problems);
-        for (const auto& p : problems.all) diagnostics_.warning(a.at, said(a, p), p.hint);
+        Diagnostics found;
+        item.type.check(copy.parameters(), found);
+        pass_on(a, found);
     }
-    static std::string said(const Assignment& a, const Problems::Problem& p) {
-        return fmt::format("'{}': {}", a.text, p.message);
+    void pass_on(const Assignment& a, const Diagnostics& found) {
+        for (Diagnostic d : found.all()) {
+            d.where = a.at;
+            d.message = fmt::format("'{}': {}", a.text, d.message);
+            diagnostics_.add(std::move(d));
+        }
     }
 
     Plan& plan_;

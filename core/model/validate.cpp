@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "core/model/lookup.h"
-#include "core/base/named_file.h"
 #include "core/base/exception_message.h"
+#include "core/base/named_file.h"
+#include "core/model/lookup.h"
 
 namespace forage::model {
 namespace {
@@ -111,26 +111,32 @@ class Validator {
         }
     }
 
-    /// Lets a neuron or synapse type look at its parameters: what it finds is legal, and perhaps not meant.
+    /// The setting that a type's check() points at, or the use as a whole.
+    static Location place_of(const Diagnostic& d, const TypeUse& use) {
+        Location at = use.at;
+        for (const auto& s : use.settings)
+            if (s.name == d.parameter) at = s.value_at;
+        return at;
+    }
+
+    /// Lets a neuron or synapse type check its parameters.
     template <class Type>
     void check_with_type(const TypeUse& use, const Type& type, std::string_view whose) {
         if (!type.check) return;
-        Problems problems;
+        Diagnostics found;
         try {
             const auto object = type.make();
             apply(use.settings, type.parameters, object->parameters());
-            type.check(object->parameters(), problems);
+            type.check(object->parameters(), found);
         } catch (...) {
-            return out_.error(use.at,
-                              fmt::format("{} failed to check its parameters: {}", type.name, current_exception_message()));
+            return out_.error(use.at, fmt::format("{} failed to check its parameters: {}", type.name,
+                                                  current_exception_message()));
         }
-        for (const auto& problem : problems.all) {
-            Location at = use.at;
-            for (const auto& s : use.settings)
-                if (s.name == problem.parameter) at = s.value_at;
+        for (Diagnostic d : found.all()) {
+            d.where = place_of(d, use);
             // What was set on the command line stands in no line that would show whose it is.
-            out_.warning(at, at.file ? problem.message : fmt::format("'{}': {}", whose, problem.message),
-                         problem.hint);
+            if (!d.where.file) d.message = fmt::format("'{}': {}", whose, d.message);
+            out_.add(std::move(d));
         }
     }
 
@@ -250,29 +256,27 @@ class Validator {
         }
     }
 
-    /// Lets the module itself look at its parameters and groups.
+    /// Lets a module type check its parameters and groups.
     void check_with_type(const ModuleUse& use, const ModuleType& type, const ModulePorts& ports) {
-        Problems problems;
+        Diagnostics found;
         try {
             const auto module = type.make();
             apply(use.settings, type.parameters, module->parameters());
-            module->check(ports, problems);
+            module->check(ports, found);
         } catch (const FileError& e) {
             ++found_by_modules_;
             return report(e, out_);
         } catch (...) {
-            return out_.error(use.at,
-                              fmt::format("{} failed to check its parameters: {}", type.name, current_exception_message()));
+            return out_.error(use.at, fmt::format("{} failed to check its parameters: {}", type.name,
+                                                  current_exception_message()));
         }
-        for (const auto& problem : problems.all) {
-            Location at = use.at;
-            for (const auto& s : use.settings)
-                if (s.name == problem.parameter) at = s.value_at;
+        for (Diagnostic d : found.all()) {
+            d.where = place_of(d, use);
             for (const auto* references : {&use.inputs, &use.outputs})
                 for (const auto& r : *references)
-                    if (r.name == problem.port) at = r.at;
-            out_.error(at, problem.message, problem.hint);
-            ++found_by_modules_;
+                    if (r.name == d.port) d.where = r.at;
+            found_by_modules_ += d.severity == Severity::error;
+            out_.add(std::move(d));
         }
     }
 

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "core/observe/hdf5_handle.h"
 #include "core/base/text_file.h"
+#include "core/observe/hdf5_handle.h"
 
 namespace forage::observe {
 namespace {
@@ -125,7 +125,7 @@ std::vector<std::unique_ptr<Recording>> open_hdf5_recording(const std::string& p
     for (const auto& p : places) out.push_back(std::make_unique<Hdf5Recording>(file, p));
     return out;
 } catch (const std::exception& e) {
-    throw FileError(path, {}, {{0, 0, fmt::format("this is no recording: {}", e.what())}});
+    throw FileError(path, {}, {error_at(0, 0, fmt::format("this is no recording: {}", e.what()))});
 }
 
 }  // namespace forage::observe

@@ -96,9 +96,10 @@ class PatternReader {
 std::vector<std::vector<double>> parse_patterns(const std::string& text, const std::string& path,
                                                 const GroupShape& shape, Diagnostics& diagnostics) {
     auto file = std::make_shared<SourceFile>(SourceFile{path, text});
-    if (const auto fault = not_lines(text, "these are no patterns")) {
-        diagnostics.error({std::move(file), fault->line, fault->column}, fault->message,
-                          fault->hint.empty() ? "a list of patterns is a text" : fault->hint);
+    if (auto error = not_lines(text, "these are no patterns")) {
+        error->where.file = std::move(file);
+        if (error->hint.empty()) error->hint = "a list of patterns is a text";
+        diagnostics.add(std::move(*error));
         return {};
     }
     return PatternReader(std::move(file), shape, diagnostics).run();

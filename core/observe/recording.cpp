@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "core/observe/hdf5_recording.h"
 #include "core/base/text_file.h"
+#include "core/observe/hdf5_recording.h"
 
 namespace forage::observe {
 namespace {
@@ -22,7 +22,7 @@ std::filesystem::path final_name(const std::string& path) {
 }
 
 [[noreturn]] void no_recording(const std::string& path, const std::string& why) {
-    throw FileError(path, {}, {{0, 0, "this is no recording: " + why}});
+    throw FileError(path, {}, {error_at(0, 0, "this is no recording: " + why)});
 }
 
 /// A group of more cells does not fit into memory anyway; a damaged file may say anything.
@@ -34,7 +34,8 @@ void open(std::ifstream& in, const std::string& path) {
         no_recording(path, "it is no file, but a directory, a pipe or a device");
     in.open(path, std::ios::binary);
     if (!in)
-        throw FileError(path, {}, {{0, 0, fmt::format("cannot read the file: {}", std::strerror(errno))}});
+        throw FileError(path, {},
+                        {error_at(0, 0, fmt::format("cannot read the file: {}", std::strerror(errno)))});
 }
 
 std::vector<std::string_view> fields(std::string_view line, char separator) {
@@ -138,7 +139,7 @@ class CsvRecording final : public Recording {
         return true;
     }
     [[noreturn]] void bad(std::ptrdiff_t column, const std::string& why) {
-        throw FileError(path_, {}, {{static_cast<int>(number_), static_cast<int>(column), why}});
+        throw FileError(path_, {}, {error_at(static_cast<int>(number_), static_cast<int>(column), why)});
     }
 
     static constexpr std::size_t longest_line = 64 << 20;
@@ -197,7 +198,8 @@ class NpyRecording final : public Recording {
         in_.read(reinterpret_cast<char*>(&cycle), sizeof cycle);
         in_.read(reinterpret_cast<char*>(numbers.data()),
                  static_cast<std::streamsize>(numbers.size() * sizeof(double)));
-        if (!in_) throw FileError(path_, {}, {{0, 0, fmt::format("it ends in row {} of {}", row_, rows_)}});
+        if (!in_)
+            throw FileError(path_, {}, {error_at(0, 0, fmt::format("it ends in row {} of {}", row_, rows_))});
         return true;
     }
 

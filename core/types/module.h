@@ -3,7 +3,7 @@
 // A module type is a plain struct whose members are its parameters, with
 //
 //     static void describe(ModuleSpec<T>&);          // name, parameters, inputs, outputs
-//     void check(const ModulePorts&, Problems&);     // optional: sizes that belong together
+//     void check(const ModulePorts&, Diagnostics&);  // optional: sizes that belong together
 //     void start(const ModulePorts&);                // optional: once, before the first cycle; or
 //     void start(const ModulePorts&, ModuleFrame&);  // ... what it writes is received in cycle 0
 //     void update(ModuleFrame&);                     // once per cycle, between groups and connections
@@ -22,10 +22,10 @@
 
 #include "core/base/archive.h"
 #include "core/base/column.h"
+#include "core/base/diagnostic.h"
+#include "core/base/random.h"
 #include "core/types/members.h"
 #include "core/types/parameter.h"
-#include "core/types/problems.h"
-#include "core/base/random.h"
 #include "core/types/type_error.h"
 
 namespace forage {
@@ -103,7 +103,7 @@ class ModuleInstance {
   public:
     virtual ~ModuleInstance() = default;
     virtual void* parameters() = 0;
-    virtual void check(const ModulePorts&, Problems&) = 0;
+    virtual void check(const ModulePorts&, Diagnostics&) = 0;
     virtual void start(const ModulePorts&, ModuleFrame&) = 0;
     virtual void update(ModuleFrame&) = 0;
     /// Members beside the parameters, which change while the system runs.
@@ -174,8 +174,8 @@ class ModuleModel final : public ModuleInstance {
   public:
     explicit ModuleModel(T value) : value_(std::move(value)) {}
     void* parameters() override { return &value_; }
-    void check(const ModulePorts& ports, Problems& problems) override {
-        if constexpr (requires { value_.check(ports, problems); }) value_.check(ports, problems);
+    void check(const ModulePorts& ports, Diagnostics& diagnostics) override {
+        if constexpr (requires { value_.check(ports, diagnostics); }) value_.check(ports, diagnostics);
     }
     void start(const ModulePorts& ports, ModuleFrame& frame) override {
         if constexpr (requires { value_.start(ports, frame); })

@@ -2,7 +2,7 @@
 // parameters, with
 //
 //     static void describe(NeuronSpec<T>&);      // name, parameters, states: the only place that lists them
-//     void check(Problems&) const;               // optional: warns of parameters that do not fit together
+//     void check(Diagnostics&) const;               // optional: warns of parameters that do not fit together
 //     void update(NeuronColumns&) const;         // one cycle, for all cells of a group
 //
 // neurons/linear_threshold.h is the example to copy.
@@ -18,9 +18,9 @@
 #include <vector>
 
 #include "core/base/column.h"
-#include "core/types/parameter.h"
-#include "core/types/problems.h"
+#include "core/base/diagnostic.h"
 #include "core/base/random.h"
+#include "core/types/parameter.h"
 #include "core/types/type_error.h"
 
 namespace forage {
@@ -155,9 +155,9 @@ struct NeuronType {
     std::vector<Parameter> parameters;
     std::vector<StateInfo> states;
     std::array<bool, input_kinds> reads{};  ///< which kinds of input the type uses; the others stay 0
-    bool elementwise = false;         ///< see NeuronSpec
+    bool elementwise = false;               ///< see NeuronSpec
     std::function<std::unique_ptr<NeuronInstance>()> make;
-    std::function<void(const void*, Problems&)> check;  ///< of an object's parameters; may be empty
+    std::function<void(const void*, Diagnostics&)> check;  ///< of an object's parameters; may be empty
 
     int output() const {  ///< index of the output state
         for (int i = 0; i < static_cast<int>(states.size()); ++i)
@@ -226,9 +226,9 @@ NeuronType neuron_type() {
     NeuronSpec<T> spec(type);
     T::describe(spec);
     type.make = [] { return std::make_unique<detail::NeuronModel<T>>(); };
-    if constexpr (requires(const T t, Problems p) { t.check(p); })
-        type.check = [](const void* object, Problems& problems) {
-            static_cast<const T*>(object)->check(problems);
+    if constexpr (requires(const T t, Diagnostics d) { t.check(d); })
+        type.check = [](const void* object, Diagnostics& diagnostics) {
+            static_cast<const T*>(object)->check(diagnostics);
         };
     return type;
 }

@@ -21,7 +21,7 @@ namespace forage {
 
 /// Grows whenever a plugin that was built before can no longer be used: when a declaration that types see
 /// has changed.
-inline constexpr int sdk_version = 5;
+inline constexpr int sdk_version = 6;
 
 /// What a plugin declares.
 struct PluginTypes {
@@ -58,27 +58,15 @@ inline constexpr const char* abi = FORAGE_ABI_PROCESSOR
 /// The same in numbers: the sizes of what is handed over.
 inline constexpr unsigned long long layout = [] {
     unsigned long long hash = 0xcbf29ce484222325u;
-    for (const std::size_t size : {sizeof(NeuronType),
-                                   sizeof(SynapseType),
-                                   sizeof(ModuleType),
-                                   sizeof(Parameter),
-                                   sizeof(StateInfo),
-                                   sizeof(SynapseStateInfo),
-                                   sizeof(FeedbackInfo),
-                                   sizeof(ModulePort),
-                                   sizeof(NeuronColumns),
-                                   sizeof(SynapseColumns),
-                                   sizeof(ModuleFrame),
-                                   sizeof(ModulePorts),
-                                   sizeof(Problems::Problem),
-                                   sizeof(RandomStream),
-                                   sizeof(Column),
-                                   sizeof(Archive),
-                                   sizeof(NeuronColumns::State),
-                                   sizeof(std::string),
-                                   sizeof(std::vector<char>),
-                                   alignof(std::max_align_t),
-                                   sizeof(long double)})
+    for (const std::size_t size :
+         {sizeof(NeuronType),     sizeof(SynapseType),       sizeof(ModuleType),
+          sizeof(Parameter),      sizeof(StateInfo),         sizeof(SynapseStateInfo),
+          sizeof(FeedbackInfo),   sizeof(ModulePort),        sizeof(NeuronColumns),
+          sizeof(SynapseColumns), sizeof(ModuleFrame),       sizeof(ModulePorts),
+          sizeof(Diagnostic),     sizeof(Diagnostics),       sizeof(RandomStream),
+          sizeof(Column),         sizeof(Archive),           sizeof(NeuronColumns::State),
+          sizeof(std::string),    sizeof(std::vector<char>), alignof(std::max_align_t),
+          sizeof(long double)})
         hash = (hash ^ size) * 0x100000001b3u;
     return hash;
 }();

@@ -2,7 +2,7 @@
 // its parameters, with
 //
 //     static void describe(SynapseSpec<T>&);
-//     void check(Problems&) const;               // optional: warns of parameters that do not fit together
+//     void check(Diagnostics&) const;               // optional: warns of parameters that do not fit together
 //     void update(SynapseColumns&) const;        // one cycle, for some synapses at a time
 //     void output(SynapseColumns&) const;        // optional: writes the output state, and nothing else, as
 //                                                // the last update() did, from pre and the other states
@@ -23,8 +23,8 @@
 #include <vector>
 
 #include "core/base/column.h"
+#include "core/base/diagnostic.h"
 #include "core/types/parameter.h"
-#include "core/types/problems.h"
 #include "core/types/type_error.h"
 
 namespace forage {
@@ -87,10 +87,10 @@ struct SynapseType {
     std::vector<FeedbackInfo> feedback;
     bool has_gain = false;
     bool event_driven = false;  ///< see SynapseSpec
-    bool tells_output = false;       ///< has an output()
-    bool adds_output = false;        ///< has an update_and_add()
+    bool tells_output = false;  ///< has an output()
+    bool adds_output = false;   ///< has an update_and_add()
     std::function<std::unique_ptr<SynapseInstance>()> make;
-    std::function<void(const void*, Problems&)> check;  ///< of an object's parameters; may be empty
+    std::function<void(const void*, Diagnostics&)> check;  ///< of an object's parameters; may be empty
 
     int output() const {
         for (int i = 0; i < static_cast<int>(states.size()); ++i)
@@ -184,9 +184,9 @@ SynapseType synapse_type() {
     type.tells_output = detail::TellsOutput<const T>;
     type.adds_output = detail::AddsOutput<const T>;
     type.make = [] { return std::make_unique<detail::SynapseModel<T>>(); };
-    if constexpr (requires(const T t, Problems p) { t.check(p); })
-        type.check = [](const void* object, Problems& problems) {
-            static_cast<const T*>(object)->check(problems);
+    if constexpr (requires(const T t, Diagnostics d) { t.check(d); })
+        type.check = [](const void* object, Diagnostics& diagnostics) {
+            static_cast<const T*>(object)->check(diagnostics);
         };
     return type;
 }

@@ -19,12 +19,13 @@ bool is_rectangle(const GroupShape& s) { return s.cells == s.width * s.height; }
 std::string size(const GroupShape& s) { return fmt::format("{} x {}", s.width, s.height); }
 
 void require(const ModulePorts::Group& group, int width, int height, const std::string& why,
-             Problems& problems) {
+             Diagnostics& diagnostics) {
     if (group.shape == GroupShape{width, height, width * height}) return;
-    problems.all.push_back(
-        {fmt::format("'{}' needs {} x {} cells, {}; '{}' has {}", group.port, width, height, why, group.path,
-                     is_rectangle(group.shape) ? size(group.shape) : "another number"),
-         fmt::format("make the group {} x {}", width, height), "", group.port});
+    diagnostics.error(
+        at_port(group.port),
+        fmt::format("'{}' needs {} x {} cells, {}; '{}' has {}", group.port, width, height, why, group.path,
+                    is_rectangle(group.shape) ? size(group.shape) : "another number"),
+        fmt::format("make the group {} x {}", width, height));
 }
 
 }  // namespace
@@ -72,37 +73,39 @@ void AdaptiveLayerModule::describe(ModuleSpec<AdaptiveLayerModule>& s) {
     s.output("weight display", "Weight Display").optional();
 }
 
-void AdaptiveLayerModule::check(const ModulePorts& ports, Problems& problems) const {
+void AdaptiveLayerModule::check(const ModulePorts& ports, Diagnostics& diagnostics) const {
     const auto& cs = ports.inputs[input];
     const auto& ur = ports.inputs[condition];
     for (const auto* group : {&cs, &ur})
         if (!is_rectangle(group->shape))
-            problems.all.push_back(
-                {fmt::format("'{}' needs a rectangular group; '{}' is sparse", group->port, group->path),
-                 "give the group a TopologyRect", "", group->port});
-    if (!problems.all.empty()) return;
+            diagnostics.error(
+                at_port(group->port),
+                fmt::format("'{}' needs a rectangular group; '{}' is sparse", group->port, group->path),
+                "give the group a TopologyRect");
+    if (diagnostics.failed()) return;
     require(ports.outputs[prototype], cs.shape.width, cs.shape.height,
-            fmt::format("the size of '{}' ({})", cs.port, cs.path), problems);
+            fmt::format("the size of '{}' ({})", cs.port, cs.path), diagnostics);
     const auto& picture = ports.outputs[display];
     if (picture.shape.cells > 0)
         require(picture, ur.shape.cells * cs.shape.width, cs.shape.height,
                 fmt::format("one {} picture of '{}' for each of the {} cells of '{}', side by side",
                             size(cs.shape), cs.port, ur.shape.cells, ur.port),
-                problems);
+                diagnostics);
     require(ports.outputs[output], ur.shape.width, ur.shape.height,
-            fmt::format("the size of '{}' ({})", ur.port, ur.path), problems);
+            fmt::format("the size of '{}' ({})", ur.port, ur.path), diagnostics);
     if ((read || write) && file_name.empty())
-        problems.all.push_back({fmt::format("'{}' is set, but 'File Name' is empty", read ? "read" : "write"),
-                                "set it to the path of the file with the weights", "File Name", ""});
+        diagnostics.error(at_parameter("File Name"),
+                          fmt::format("'{}' is set, but 'File Name' is empty", read ? "read" : "write"),
+                          "set it to the path of the file with the weights");
     else if (read) {
         try {
             read_weights(file_name, cs.shape.cells, ur.shape.cells);
         } catch (const FileError& e) {
-            auto faults = e.faults();
-            for (auto& fault : faults)
-                if (fault.hint.empty())
-                    fault.hint = "the weights are read in the first cycle, because 'read' is set";
-            throw FileError(e.path(), e.text(), std::move(faults));
+            auto errors = e.errors();
+            for (auto& error : errors)
+                if (error.hint.empty())
+                    error.hint = "the weights are read in the first cycle, because 'read' is set";
+            throw FileError(e.file(), std::move(errors));
         }
     }
 }

@@ -19,7 +19,7 @@ class AdaptiveLayerModule {
     bool write = false, read = false;
 
     static void describe(ModuleSpec<AdaptiveLayerModule>& spec);
-    void check(const ModulePorts& ports, Problems& problems) const;
+    void check(const ModulePorts& ports, Diagnostics& diagnostics) const;
     /// Draws the initial weights from the module's own random stream.
     void start(const ModulePorts& ports);
     /// Throws std::runtime_error when a requested file cannot be read or written.

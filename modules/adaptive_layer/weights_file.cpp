@@ -35,46 +35,47 @@ std::string parse(std::string_view text, double& value) {
     if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
         return no_number(text);
     value = static_cast<double>(static_cast<float>(value));
-    return std::isfinite(value) ? ""
-                                : fmt::format("'{}' is too large: weights are stored as float", escaped(text));
+    return std::isfinite(value)
+               ? ""
+               : fmt::format("'{}' is too large: weights are stored as float", escaped(text));
 }
 
-constexpr std::size_t most_faults = 100;
+constexpr std::size_t most_errors = 100;
 
 }  // namespace
 
 Eigen::MatrixXd parse_weights(const std::string& text, const std::string& path, Index stimuli,
                               Index responses) {
-    std::vector<FileError::Fault> faults;
+    std::vector<Diagnostic> errors;
     int line = 1;
     std::size_t counted = 0, line_start = 0;  // lines are counted up to here
-    const auto fault = [&](std::size_t at, std::string message) {
+    const auto add_error = [&](std::size_t at, std::string message) {
         for (; counted < at; ++counted)
             if (text[counted] == '\n') ++line, line_start = counted + 1;
-        faults.push_back(
-            {line, static_cast<int>(at - line_start) + 1, std::move(message),
-             fmt::format("weights are numbers with commas between them, {} x {} of them: a row of "
-                         "stimulus cells for each response cell",
-                         responses, stimuli)});
+        errors.push_back(
+            error_at(line, static_cast<int>(at - line_start) + 1, std::move(message),
+                     fmt::format("weights are numbers with commas between them, {} x {} of them: a row of "
+                                 "stimulus cells for each response cell",
+                                 responses, stimuli)));
     };
     if (const auto wrong = not_lines(text, "these are no weights")) throw FileError(path, text, {*wrong});
     Eigen::MatrixXd weights(stimuli, responses);
     Index count = 0;
-    for (std::size_t at = 0; at < text.size() && faults.size() < most_faults; ++at) {
+    for (std::size_t at = 0; at < text.size() && errors.size() < most_errors; ++at) {
         at = std::min(text.find_first_not_of(blanks, at), text.size());
         const auto comma = std::min(text.find(',', at), text.size());
         const auto token = trimmed(std::string_view(text).substr(at, comma - at));
         if (token.empty() && comma == text.size()) break;  // what follows the last comma
         double value = 0;
-        if (const auto wrong = parse(token, value); !wrong.empty()) fault(at, wrong);
+        if (const auto wrong = parse(token, value); !wrong.empty()) add_error(at, wrong);
         if (count < weights.size()) weights(count % stimuli, count / stimuli) = value;
         ++count;
         at = comma;
     }
-    if (faults.empty() && count != weights.size())
-        fault(text.size(), fmt::format("{} weights, but {} stimulus cells and {} response cells need {}",
-                                       count, stimuli, responses, weights.size()));
-    if (!faults.empty()) throw FileError(path, text, std::move(faults));
+    if (errors.empty() && count != weights.size())
+        add_error(text.size(), fmt::format("{} weights, but {} stimulus cells and {} response cells need {}",
+                                           count, stimuli, responses, weights.size()));
+    if (!errors.empty()) throw FileError(path, text, std::move(errors));
     return weights;
 }
 

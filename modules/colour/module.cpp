@@ -14,29 +14,31 @@ bool same(const double* a, const Eigen::ArrayXd& b) {
 
 }  // namespace
 
-void ColourModule::check(const ModulePorts& ports, Problems& problems) const {
+void ColourModule::check(const ModulePorts& ports, Diagnostics& diagnostics) const {
     const auto &hue = ports.inputs[0], &value = ports.inputs[1], &colour = ports.outputs[0];
     const auto rectangular = [](const GroupShape& s) { return s.cells == s.width * s.height; };
     for (const auto* group : {&hue, &colour})
         if (!rectangular(group->shape)) {
-            problems.all.push_back(
-                {fmt::format("'{}' needs a rectangular group; '{}' is sparse", group->port, group->path),
-                 "give the group a TopologyRect", "", group->port});
+            diagnostics.error(
+                at_port(group->port),
+                fmt::format("'{}' needs a rectangular group; '{}' is sparse", group->port, group->path),
+                "give the group a TopologyRect");
             return;
         }
     if (colour.shape.width != hue.shape.width || colour.shape.height % hue.shape.height != 0)
-        problems.all.push_back(
-            {fmt::format("'_color' needs the width of '_hue' and a multiple of its height: '{}' has {} x {} "
-                         "cells, '{}' has {} x {}",
-                         colour.path, colour.shape.width, colour.shape.height, hue.path, hue.shape.width,
-                         hue.shape.height),
-             fmt::format("make it {} x {} for 12 colours", hue.shape.width, 12 * hue.shape.height), "",
-             "_color"});
+        diagnostics.error(
+            at_port("_color"),
+            fmt::format("'_color' needs the width of '_hue' and a multiple of its height: '{}' has {} x {} "
+                        "cells, '{}' has {} x {}",
+                        colour.path, colour.shape.width, colour.shape.height, hue.path, hue.shape.width,
+                        hue.shape.height),
+            fmt::format("make it {} x {} for 12 colours", hue.shape.width, 12 * hue.shape.height));
     if (value.shape.cells < hue.shape.cells)
-        problems.all.push_back(
-            {fmt::format("'_value' needs a value for each of the {} cells of '_hue'; '{}' has {}",
-                         hue.shape.cells, value.path, value.shape.cells),
-             fmt::format("make the group {} x {}", hue.shape.width, hue.shape.height), "", "_value"});
+        diagnostics.error(
+            at_port("_value"),
+            fmt::format("'_value' needs a value for each of the {} cells of '_hue'; '{}' has {}",
+                        hue.shape.cells, value.path, value.shape.cells),
+            fmt::format("make the group {} x {}", hue.shape.width, hue.shape.height));
 }
 
 void ColourModule::start(const ModulePorts& ports) {

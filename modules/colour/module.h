@@ -17,7 +17,7 @@ class ColourModule {
         s.input("_value", "Value");
         s.output("_color", "Color");
     }
-    void check(const ModulePorts& ports, Problems& problems) const;
+    void check(const ModulePorts& ports, Diagnostics& diagnostics) const;
     void start(const ModulePorts& ports);
     void update(ModuleFrame& frame);
     void checkpoint(Archive& archive) { archive(hue_, value_, computed_); }

@@ -67,15 +67,16 @@ void ContextualLayerModule::describe(ModuleSpec<ContextualLayerModule>& s) {
     s.output("trigger", "Trigger").optional();
 }
 
-void ContextualLayerModule::check(const ModulePorts& ports, Problems& problems) const {
+void ContextualLayerModule::check(const ModulePorts& ports, Diagnostics& diagnostics) const {
     const auto report = [&](const ModulePorts::Group& group, std::string message, std::string hint) {
-        problems.all.push_back({std::move(message), std::move(hint), "", group.port});
+        diagnostics.error(at_port(group.port), std::move(message), std::move(hint));
     };
     bool sized = true;
     for (const auto& [name, value] : {std::pair{"Memory Height", height}, std::pair{"Memory Width", width}})
         if (!(value >= 1 && value < 1e6)) {
-            problems.all.push_back(
-                {fmt::format("'{}' is {}, which is not a possible size of the memory", name, value), "use 1 to 1000", name, ""});
+            diagnostics.error(at_parameter(name),
+                              fmt::format("'{}' is {}, which is not a possible size of the memory", name, value),
+                              "use 1 to 1000");
             sized = false;
         }
     if (sized) {

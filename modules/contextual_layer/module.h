@@ -18,7 +18,7 @@ class ContextualLayerModule {
     double threshold = 0, share = 0, reset = 0, decay = 0, discrepancy = 0;
 
     static void describe(ModuleSpec<ContextualLayerModule>& spec);
-    void check(const ModulePorts& ports, Problems& problems) const;
+    void check(const ModulePorts& ports, Diagnostics& diagnostics) const;
     void start(const ModulePorts& ports);
     void update(ModuleFrame& frame);
     void checkpoint(Archive& archive) {

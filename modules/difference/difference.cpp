@@ -13,13 +13,14 @@ void show_difference(const std::optional<GridPosition>& location, const std::opt
     out[row * (2 * width - 1) + column] = 1;
 }
 
-void DifferenceModule::check(const ModulePorts& ports, Problems& problems) const {
+void DifferenceModule::check(const ModulePorts& ports, Diagnostics& diagnostics) const {
     const auto require = [&](const ModulePorts::Group& group, int width, int height, const char* why) {
         if (group.shape == GroupShape{width, height, width * height}) return;
-        problems.all.push_back(
-            {fmt::format("'{}' needs {} x {} cells, {}; '{}' has {} in {} x {}", group.port, width, height,
-                         why, group.path, group.shape.cells, group.shape.width, group.shape.height),
-             fmt::format("make the group {} x {}", width, height), "", group.port});
+        diagnostics.error(
+            at_port(group.port),
+            fmt::format("'{}' needs {} x {} cells, {}; '{}' has {} in {} x {}", group.port, width, height,
+                        why, group.path, group.shape.cells, group.shape.width, group.shape.height),
+            fmt::format("make the group {} x {}", width, height));
     };
     const auto& location = ports.inputs[0].shape;
     require(ports.inputs[0], location.width, location.height, "a full rectangle");

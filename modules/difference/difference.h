@@ -25,7 +25,7 @@ class DifferenceModule {
         s.input("_goal", "Goal location");
         s.output("_diff", "Difference");
     }
-    void check(const ModulePorts& ports, Problems& problems) const;
+    void check(const ModulePorts& ports, Diagnostics& diagnostics) const;
     void start(const ModulePorts& ports) { size_ = ports.inputs[0].shape; }
     void update(ModuleFrame& frame) {
         show_difference(peak_position(frame.input(0), size_.width),

@@ -42,23 +42,23 @@ double turn(double bearing, double orientation) {
     return forwards ? 0.5 + step : 0.5 - step;
 }
 
-void DirectionModule::check(const ModulePorts& ports, Problems& problems) const {
+void DirectionModule::check(const ModulePorts& ports, Diagnostics& diagnostics) const {
     const auto &location = ports.inputs[location_in], &goal = ports.inputs[goal_in];
     if (location.shape.cells != location.shape.width * location.shape.height)
-        problems.all.push_back(
-            {fmt::format("'_location' needs a rectangular group; '{}' is sparse", location.path),
-             "give the group a TopologyRect", "", "_location"});
+        diagnostics.error(at_port("_location"),
+                          fmt::format("'_location' needs a rectangular group; '{}' is sparse", location.path),
+                          "give the group a TopologyRect");
     if (!(goal.shape == location.shape))
-        problems.all.push_back(
-            {fmt::format("'_goal' needs {} x {} cells, the size of '_location' ({}); '{}' has {} x {}",
-                         location.shape.width, location.shape.height, location.path, goal.path,
-                         goal.shape.width, goal.shape.height),
-             "give both groups the same size", "", "_goal"});
+        diagnostics.error(at_port("_goal"),
+                          fmt::format("'_goal' needs {} x {} cells, the size of '_location' ({}); '{}' has {} x {}",
+                                      location.shape.width, location.shape.height, location.path, goal.path,
+                                      goal.shape.width, goal.shape.height),
+                          "give both groups the same size");
     if (const auto& orientation = ports.inputs[orientation_in]; orientation.shape.cells < 2)
-        problems.all.push_back(
-            {fmt::format("'_ori' needs at least 2 cells, which cover a full turn; '{}' has {}",
-                         orientation.path, orientation.shape.cells),
-             "use one cell per direction, as for head direction cells", "", "_ori"});
+        diagnostics.error(at_port("_ori"),
+                          fmt::format("'_ori' needs at least 2 cells, which cover a full turn; '{}' has {}",
+                                      orientation.path, orientation.shape.cells),
+                          "use one cell per direction, as for head direction cells");
 }
 
 void DirectionModule::update(ModuleFrame& frame) const {

@@ -34,7 +34,7 @@ class DirectionModule {
         s.output("_dir", "Goal direction");
         s.output("_dist", "Goal distance");
     }
-    void check(const ModulePorts& ports, Problems& problems) const;
+    void check(const ModulePorts& ports, Diagnostics& diagnostics) const;
     void start(const ModulePorts& ports) { width_ = ports.inputs[0].shape.width; }
     void update(ModuleFrame& frame) const;
     void checkpoint(Archive&) {}  // it has no state

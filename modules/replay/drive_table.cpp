@@ -13,7 +13,7 @@ namespace forage::replay {
 namespace {
 
 constexpr const char* form = "a row is cycle,process,target,v0,v1,...";
-constexpr std::size_t most_faults = 100;
+constexpr std::size_t most_errors = 100;
 
 std::string_view trimmed(std::string_view text) {
     const auto first = text.find_first_not_of(" \t\r");
@@ -50,7 +50,7 @@ std::string no_cycle(std::string_view field) {
 class Parser {
   public:
     std::vector<DriveTable::Row> rows;
-    std::vector<FileError::Fault> faults;
+    std::vector<Diagnostic> errors;
 
     void line(std::string_view text, int line) {
         line_ = text, number_ = line;
@@ -60,28 +60,28 @@ class Parser {
         const auto fields = fields_of(content);
         const auto other = content.find_first_of(";\t");
         if (fields.size() < 4 && other != content.npos)
-            return fault(content.substr(other),
+            return error(content.substr(other),
                          content[other] == ';' ? "a semicolon between values" : "a tab between values",
                          fmt::format("{}, with commas; numbers have a decimal point", form));
         if (fields.size() < 4)
-            return fault(content, fmt::format("'{}' is no row of a table", escaped(content)), form);
+            return error(content, fmt::format("'{}' is no row of a table", escaped(content)), form);
         for (std::size_t i = 1; i <= 2; ++i) {
             if (fields[i].empty())
-                return fault(fields[i], fmt::format("the row names no {}", i == 1 ? "process" : "group"),
+                return error(fields[i], fmt::format("the row names no {}", i == 1 ? "process" : "group"),
                              form);
             if (fields[i].starts_with('"'))
-                return fault(fields[i], fmt::format("{} stands in quotes", escaped(fields[i])),
+                return error(fields[i], fmt::format("{} stands in quotes", escaped(fields[i])),
                              "write names without quotes");
         }
         DriveTable::Row row{0, std::string(fields[1]), std::string(fields[2]), {}, line, column(fields[1])};
         if (const auto cycle = number<std::int64_t>(fields[0]); !cycle)
-            fault(fields[0], no_cycle(fields[0]), form);
+            error(fields[0], no_cycle(fields[0]), form);
         else if ((row.cycle = *cycle) < -1)
-            fault(fields[0], fmt::format("there is no cycle {}", row.cycle), "-1 means from the start");
-        for (std::size_t i = 3; i < fields.size() && faults.size() < most_faults; ++i) {
+            error(fields[0], fmt::format("there is no cycle {}", row.cycle), "-1 means from the start");
+        for (std::size_t i = 3; i < fields.size() && errors.size() < most_errors; ++i) {
             const auto value = number<double>(fields[i]);
             if (!value)
-                fault(fields[i], no_number(fields[i]),
+                error(fields[i], no_number(fields[i]),
                       "a value is a finite number with a decimal point; commas stand between values");
             row.values.push_back(value.value_or(0));
         }
@@ -90,8 +90,8 @@ class Parser {
 
   private:
     int column(std::string_view piece) const { return static_cast<int>(piece.data() - line_.data()) + 1; }
-    void fault(std::string_view piece, std::string message, std::string hint) {
-        faults.push_back({number_, column(piece), std::move(message), std::move(hint)});
+    void error(std::string_view piece, std::string message, std::string hint) {
+        errors.push_back(error_at(number_, column(piece), std::move(message), std::move(hint)));
     }
 
     std::string_view line_;
@@ -101,41 +101,39 @@ class Parser {
 }  // namespace
 
 DriveTable DriveTable::parse(std::string_view text, const std::string& name) {
-    const auto wrong = [&](std::vector<FileError::Fault> faults) {
-        return FileError(name, std::string(text.substr(0, std::size_t{1} << 20)), std::move(faults));
-    };
-    if (auto fault = not_lines(text, "this is no table")) {
-        if (fault->hint.empty()) fault->hint = form;
-        throw wrong({*fault});
+    const auto file =
+        std::make_shared<SourceFile>(SourceFile{name, std::string(text.substr(0, std::size_t{1} << 20))});
+    if (auto error = not_lines(text, "this is no table")) {
+        if (error->hint.empty()) error->hint = form;
+        throw FileError(file, {*error});
     }
     Parser parser;
     std::string_view rest = text;
-    for (int line = 1; !rest.empty() && parser.faults.size() < most_faults; ++line) {
+    for (int line = 1; !rest.empty() && parser.errors.size() < most_errors; ++line) {
         const auto end = std::min(rest.find('\n'), rest.size());
         parser.line(rest.substr(0, end), line);
         rest.remove_prefix(std::min(end + 1, rest.size()));
     }
-    if (!parser.faults.empty()) throw wrong(std::move(parser.faults));
-    if (parser.rows.empty()) throw wrong({{0, 0, "there are no rows in it", form}});
+    if (!parser.errors.empty()) throw FileError(file, std::move(parser.errors));
+    if (parser.rows.empty()) throw FileError(file, {error_at(0, 0, "there are no rows in it", form)});
     std::stable_sort(parser.rows.begin(), parser.rows.end(),
                      [](const Row& a, const Row& b) { return a.cycle < b.cycle; });
     DriveTable table;
-    table.name_ = name;
-    table.beginning_ = text.substr(0, std::size_t{1} << 20);
+    table.file_ = file;
     table.rows_ = std::move(parser.rows);
     return table;
 }
 
-FileError::Fault DriveTable::misfit(const Row& row, std::string_view group, const GroupShape& shape) {
+Diagnostic DriveTable::misfit(const Row& row, std::string_view group, const GroupShape& shape) {
     const std::size_t n = row.values.size();
     const std::string order =
         shape.cells == shape.width * shape.height
             ? fmt::format("{} x {} of them, row by row from the upper left", shape.width, shape.height)
             : "as many as the group has cells";
-    return {row.line, row.column,
-            fmt::format("{} value{} for '{}', which has {} cell{}", n, n == 1 ? "" : "s", group, shape.cells,
-                        shape.cells == 1 ? "" : "s"),
-            fmt::format("a row has one value per cell: {}", order)};
+    return error_at(row.line, row.column,
+                    fmt::format("{} value{} for '{}', which has {} cell{}", n, n == 1 ? "" : "s", group,
+                                shape.cells, shape.cells == 1 ? "" : "s"),
+                    fmt::format("a row has one value per cell: {}", order));
 }
 
 DriveTable DriveTable::read(const std::string& path) { return parse(read_file(path), path); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,14 +30,13 @@ class DriveTable {
     static DriveTable read(const std::string& path);
 
     /// What to say of a row that has not as many values as its group has cells.
-    static FileError::Fault misfit(const Row& row, std::string_view group, const GroupShape& shape);
+    static Diagnostic misfit(const Row& row, std::string_view group, const GroupShape& shape);
 
-    const std::string& name() const { return name_; }            ///< of the file
-    const std::string& beginning() const { return beginning_; }  ///< its first mebibyte, for excerpts
+    const std::shared_ptr<const SourceFile>& file() const { return file_; }  ///< with its first mebibyte
     const std::vector<Row>& rows() const { return rows_; }
 
   private:
-    std::string name_, beginning_;
+    std::shared_ptr<const SourceFile> file_;
     std::vector<Row> rows_;
 };
 

@@ -10,13 +10,13 @@ namespace forage::replay {
 namespace {
 
 void require_sizes(const DriveTable& table, const ModulePorts& ports) {
-    std::vector<FileError::Fault> faults;
+    std::vector<Diagnostic> errors;
     for (const auto& row : table.rows())
         for (const auto& output : ports.outputs)
             if (plays(row, ports.process, output) &&
                 row.values.size() != static_cast<std::size_t>(output.shape.cells))
-                faults.push_back(DriveTable::misfit(row, output.path, output.shape));
-    if (!faults.empty()) throw FileError(table.name(), table.beginning(), std::move(faults));
+                errors.push_back(DriveTable::misfit(row, output.path, output.shape));
+    if (!errors.empty()) throw FileError(table.file(), std::move(errors));
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ bool plays(const DriveTable::Row& row, std::string_view process, const ModulePor
            (row.target == output.port || row.target == group);
 }
 
-void Replay::check(const ModulePorts& ports, Problems&) {
+void Replay::check(const ModulePorts& ports, Diagnostics&) {
     if (!file.empty()) require_sizes(DriveTable::read(file), ports);
 }
 

@@ -25,7 +25,7 @@ struct Replay {
             .at_start()
             .doc("Table of rows cycle,process,target,v0,v1,...");
     }
-    void check(const ModulePorts& ports, Problems& problems);
+    void check(const ModulePorts& ports, Diagnostics& diagnostics);
     void start(const ModulePorts& ports, ModuleFrame& frame);
     void update(ModuleFrame& frame);
     void checkpoint(Archive& archive) {

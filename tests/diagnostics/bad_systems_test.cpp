@@ -33,10 +33,10 @@ struct TestModule {
         s.input("_in", "Where it reads");
         s.output("_out", "Where it writes").size(3, 2);
     }
-    void check(const ModulePorts& ports, Problems& problems) const {
+    void check(const ModulePorts& ports, Diagnostics& diagnostics) const {
         if (gain == 13)
-            problems.all.push_back(
-                {"a gain of 13 brings bad luck to " + ports.process, "choose another", "gain", ""});
+            diagnostics.error(at_parameter("gain"), "a gain of 13 brings bad luck to " + ports.process,
+                              "choose another");
     }
     void update(ModuleFrame&) {}
 };

@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const auto table = forage::replay::DriveTable::parse(text, "input.csv");
         holds(!table.rows().empty(), "a table has rows");
     } catch (const forage::FileError& e) {
-        holds(!e.faults().empty(), "an error says what is wrong");
+        holds(!e.errors().empty(), "an error says what is wrong");
         report(e, diagnostics);
     }
     const forage::GroupShape shape{3, 2, 6};

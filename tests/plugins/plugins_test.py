@@ -32,7 +32,7 @@ CORPUS = {
     "other_sum": (r"'synapseOtherSum' that does not work: its update_and_add\(\) adds something else than its update\(\)", ""),
     "other_output": (r"'synapseOtherOutput' that does not work: its output\(\) tells something else than its update\(\)", ""),
     "other_size": (r"'neuronOtherSize' that does not work: it computes with columns of different sizes", ""),
-    "other_version": (r"was built with version 6 of the SDK, this program has version 5", "build the plugin again"),
+    "other_version": (r"was built with version 7 of the SDK, this program has version 6", "build the plugin again"),
     "shipped_name": (r"has a neuron type 'neuronLinearThreshold', and so has Forage itself", "another name"),
     "restless": (r"'synapseRestless' that does not work: it promises event_driven\(\), and changes state 'weight'", ""),
     "silent_output": (r"'synapseSilentOutput' that does not work: it has an output\(\), which is called only of types that "

@@ -80,10 +80,10 @@ struct TestModule {
         s.input("_in", "Where it reads");
         s.output("_out", "Where it writes").size(3, 2).optional();
     }
-    void check(const ModulePorts& ports, Problems& problems) const {
+    void check(const ModulePorts& ports, Diagnostics& diagnostics) const {
         if (gain == 13)
-            problems.all.push_back({"unlucky gain in " + ports.process, "choose another", "gain", ""});
-        if (gain == 14) problems.all.push_back({"input is " + ports.inputs[0].path, "", "", "_in"});
+            diagnostics.error(at_parameter("gain"), "unlucky gain in " + ports.process, "choose another");
+        if (gain == 14) diagnostics.error(at_port("_in"), "input is " + ports.inputs[0].path);
     }
     void update(ModuleFrame&) {}
 };

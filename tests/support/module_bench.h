@@ -50,10 +50,10 @@ class ModuleBench {
         throw std::runtime_error("no parameter " + name);
     }
 
-    std::vector<Problems::Problem> problems() {
-        Problems problems;
-        module_->check(ports_, problems);
-        return problems.all;
+    std::vector<Diagnostic> problems() {
+        Diagnostics diagnostics;
+        module_->check(ports_, diagnostics);
+        return diagnostics.all();
     }
     /// Outputs 0, as at the start of a run. Groups are bound, in order of declaration, before.
     void start() {

@@ -75,9 +75,9 @@ void play(const replay::DriveTable& table, model::System& system) {
         const auto file =
             std::find_if(settings.begin(), settings.end(), [](const auto& s) { return s.name == "file"; });
         if (file == settings.end())
-            settings.push_back({"file", table.name(), {}, {}});
+            settings.push_back({"file", table.file()->path, {}, {}});
         else if (file->value.empty())
-            file->value = table.name(), file->value_at = {};
+            file->value = table.file()->path, file->value_at = {};
     }
 }
 

@@ -37,16 +37,16 @@ std::vector<int> groups_of(const replay::DriveTable::Row& row, const Location& a
 
 void add_table(const replay::DriveTable& table, const engine::Layout& s, observe::Clamp& out,
                Diagnostics& diagnostics) {
-    const auto file = std::make_shared<SourceFile>(SourceFile{table.name(), table.beginning()});
     for (const auto& row : table.rows()) {
-        const Location at{file, row.line, row.column};
+        const Location at{table.file(), row.line, row.column};
         for (const int group : groups_of(row, at, s, diagnostics)) {
             if (row.values.size() == static_cast<std::size_t>(s.groups[group].shape.cells)) {
                 out.add(row.cycle, group, row.values);
                 continue;
             }
-            const auto fault = replay::DriveTable::misfit(row, s.groups[group].path, s.groups[group].shape);
-            diagnostics.error(at, fault.message, fault.hint);
+            auto error = replay::DriveTable::misfit(row, s.groups[group].path, s.groups[group].shape);
+            error.where = at;
+            diagnostics.add(std::move(error));
         }
     }
 }
@@ -65,7 +65,7 @@ std::unique_ptr<observe::Clamp> make_clamp(const std::vector<std::string>& wishe
                 report(e, diagnostics);
             else  // perhaps no file was meant
                 diagnostics.error(
-                    {}, fmt::format("--clamp '{}': {}", wish, e.faults().front().message),
+                    {}, fmt::format("--clamp '{}': {}", wish, e.errors().front().message),
                     "a clamp is a file of rows cycle,process,group,v0,v1,... or 'Process/Group(x,y)=value'");
         }
     }
@@ -90,20 +90,20 @@ void check_replay(const replay::DriveTable& table, const model::System& system, 
             }
     }
     if (outputs.empty()) {
-        diagnostics.error(
-            {}, fmt::format("--replay '{}': no process has an enabled moduleReplay to play it", table.name()),
-            "--clamp overwrites the activity of any group");
+        diagnostics.error({},
+                          fmt::format("--replay '{}': no process has an enabled moduleReplay to play it",
+                                      table.file()->path),
+                          "--clamp overwrites the activity of any group");
         return;
     }
-    const auto file = std::make_shared<SourceFile>(SourceFile{table.name(), table.beginning()});
     std::set<std::string> reported;
     for (const auto& row : table.rows()) {
         const bool played = std::any_of(outputs.begin(), outputs.end(),
                                         [&](const auto& o) { return replay::plays(row, o.first, o.second); });
         const std::string target = row.process + "," + row.target;
         if (!played && reported.insert(target).second)
-            diagnostics.error({file, row.line, row.column}, fmt::format("no moduleReplay plays '{}'", target),
-                              suggest(target, names));
+            diagnostics.error({table.file(), row.line, row.column},
+                              fmt::format("no moduleReplay plays '{}'", target), suggest(target, names));
     }
 }
 

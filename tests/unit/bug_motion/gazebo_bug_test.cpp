@@ -52,11 +52,11 @@ struct Bench {
         FAIL("no parameter " << name);
     }
     std::string problem() {
-        Problems problems;
-        module->check(ports, problems);
-        if (problems.all.empty()) return {};
-        CHECK(problems.all.size() == 1);
-        const auto& p = problems.all.front();
+        Diagnostics diagnostics;
+        module->check(ports, diagnostics);
+        if (diagnostics.all().empty()) return {};
+        CHECK(diagnostics.all().size() == 1);
+        const auto& p = diagnostics.all().front();
         return p.message + (p.hint.empty() ? "" : " | " + p.hint) + (p.port.empty() ? "" : " @" + p.port) +
                (p.parameter.empty() ? "" : " @" + p.parameter);
     }

@@ -15,8 +15,8 @@ struct Say {
         s.param("value", &Say::value);
         s.param("size", &Say::size).at_start();
     }
-    void check(const ModulePorts&, Problems& problems) const {
-        if (value == 13) problems.all.push_back({"13 is unlucky", "take 14", "value", ""});
+    void check(const ModulePorts&, Diagnostics& diagnostics) const {
+        if (value == 13) diagnostics.error(at_parameter("value"), "13 is unlucky", "take 14");
     }
     void update(ModuleFrame& frame) { frame.output(0) = value; }
 };
