@@ -12,7 +12,7 @@ using namespace forage::bug;
 
 namespace {
 
-constexpr double step = 0.001, noise = 0.005;
+constexpr double step = 0.001, driving_noise = 0.005;
 
 /// Substep by substep, as spec'd: the velocity plugin, then the motion.
 Pose2 stepped(Pose2 at, const MotorCommand& command, std::uint64_t steps, const RandomStream* random,
@@ -20,8 +20,8 @@ Pose2 stepped(Pose2 at, const MotorCommand& command, std::uint64_t steps, const 
     for (std::uint64_t k = 0; k < steps; ++k) {
         std::array<double, 2> u = {0.5, 0.5};
         if (random) random->uniform(first + k, u);
-        const double forward = command.forward + (2 * u[0] - 1) * noise,
-                     turn = command.turn + (2 * u[1] - 1) * noise;
+        const double forward = command.forward + (2 * u[0] - 1) * driving_noise,
+                     turn = command.turn + (2 * u[1] - 1) * driving_noise;
         at = {at.x + forward * std::cos(at.yaw) * step, at.y + forward * std::sin(at.yaw) * step,
               at.yaw + turn * step};
     }
@@ -60,7 +60,7 @@ TEST_CASE("Free driving with noise spreads as the substeps do, in place and head
         return all;
     };
     const Eigen::ArrayX3d free = measure([&](std::uint64_t i) {
-        return free_drive(from, {forward, turn}, steps, step, noise, random, i);
+        return free_drive(from, {forward, turn}, steps, step, driving_noise, random, i);
     });
     const Eigen::ArrayX3d walked = measure([&](std::uint64_t i) {
         return stepped(from, {forward, turn}, steps, &other, i * steps);

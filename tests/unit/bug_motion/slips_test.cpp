@@ -113,10 +113,10 @@ TEST_CASE("Plugins that have no effect, or are misspelt, are told with what to d
     std::string misspelt = robot("");
     misspelt.replace(misspelt.find("libvel"), 6, "libvell");
     const std::string said = said_with(misspelt);
-    CHECK_THAT(said,
-               Catch::Contains("plugin 'libvell_plugin.so' is not known here and does nothing | did you mean "
-                               "libvel_plugin.so?"));
-    CHECK_THAT(said, Catch::Contains("'m' has a link 'bug', but no plugin that drives it"));
+    CHECK_THAT(said, ContainsSubstring(
+                         "plugin 'libvell_plugin.so' is not known here and does nothing | did you mean "
+                         "libvel_plugin.so?"));
+    CHECK_THAT(said, ContainsSubstring("'m' has a link 'bug', but no plugin that drives it"));
 }
 
 TEST_CASE("Sensors that nobody reads are told with those that are read") {
@@ -155,22 +155,22 @@ TEST_CASE("Joints that do not turn, or turn for ever, are told") {
 
 TEST_CASE("A game that cannot go as it is meant is told") {
     CHECK_THAT(said_with(game("")),
-               Catch::Contains("no models are named Home_A and Home_B | the homes are taken to "
-                               "be at (-10, 10) and (10, -10)"));
+               ContainsSubstring("no models are named Home_A and Home_B | the homes are taken to "
+                                 "be at (-10, 10) and (10, -10)"));
     CHECK_THAT(said_with(game("<stale_after>60</stale_after>")),
-               Catch::Contains("resources dissolve before they turn yellow | <stale_after> is 60 s, "
-                               "<dissolves_after> 50 s"));
-    CHECK_THAT(
-        said_with(game("<site>0 3 0.1</site>")),
-        Catch::Contains("something stands at the site (0, 3) | resources appear where there is room, within "
-                        "0.5 m"));
+               ContainsSubstring("resources dissolve before they turn yellow | <stale_after> is 60 s, "
+                                 "<dissolves_after> 50 s"));
+    CHECK_THAT(said_with(game("<site>0 3 0.1</site>")),
+               ContainsSubstring(
+                   "something stands at the site (0, 3) | resources appear where there is room, within "
+                   "0.5 m"));
 }
 
 TEST_CASE("Start poses without a robot that is put back to them are told") {
     const std::string text = edited("<uri>model://forage_bug</uri>", "<uri>model://team_a_bug</uri>");
     CHECK_THAT(said_of(text),
-               Catch::Contains("75: warning: there are start poses, but no robot is ever put back to "
-                               "them"));
+               ContainsSubstring("75: warning: there are start poses, but no robot is ever put back to "
+                                 "them"));
 }
 
 TEST_CASE("Of the worlds that ship nothing is said") {
