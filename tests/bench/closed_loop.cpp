@@ -27,6 +27,7 @@
 #include "synapses/synapses.h"
 #include "tests/bench/report.h"
 #include "tests/support/golden.h"
+#include "tests/support/paths.h"
 #include "tools/forage/layers.h"
 
 namespace {
