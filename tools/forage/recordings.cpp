@@ -187,8 +187,7 @@ std::string Recordings::finish() {
     for (const auto& [name, arrays] : archives)
         attempt([&, &name = name, &arrays = arrays] {
             const std::string path = directory_ + "/" + name;
-            observe::join_npz(partial(path), arrays);
-            tool::finish(path);
+            observe::join_npz(path, arrays);
             for (const auto& [array, file] : arrays) std::remove(file.c_str());
         });
     return problems;
