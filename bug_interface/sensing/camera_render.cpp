@@ -9,7 +9,6 @@
 #include "bug_interface/sensing/solid_ray.h"
 
 namespace forage::bug {
-namespace {
 
 /// From the robot's frame to texels of a floor: u = ux x + uy y + u0, v likewise.
 struct ToTexels {
@@ -29,6 +28,8 @@ struct ToTexels {
     float u(float x, float y) const { return ux * x + uy * y + u0; }
     float v(float x, float y) const { return vx * x + vy * y + v0; }
 };
+
+namespace {
 
 constexpr std::size_t tile_samples = 32 * 16;
 
