@@ -53,6 +53,7 @@ struct RunOptions {
     bool paths = true;  ///< follow the robots
     std::string video;  ///< .gif or .png file to film the world to; none when empty
     std::optional<CheckpointInterval> checkpoint_every;  ///< none without
+    bool discard_checkpoint = false;  ///< that an unfinished run left in the directory
     OnNan on_nan = OnNan::warn;
     bool hash = false;  ///< give a digest of the state at the end
     bool real_time = false, quiet = false;

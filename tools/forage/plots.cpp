@@ -1,6 +1,7 @@
 #include "tools/forage/plots.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -19,7 +20,13 @@ constexpr double seconds_per_frame = 0.12;
 
 RowPlot::RowPlot(PlotSpec wish, const observe::Recorded& what) : wish_(std::move(wish)), what_(what) {
     if (wish_.kind != PlotSpec::Kind::time) return;
-    for (std::size_t i = 0; i < what_.size(); ++i) {
+    const bool as_lines = what_.size() <= plot::most_lines;
+    cells_per_row_ = (what_.size() + plot::most_rows - 1) / plot::most_rows;
+    for (std::size_t i = 0; i < what_.size(); i += cells_per_row_) {
+        if (!as_lines) {  // rows have no names
+            curves_.emplace_back("", plot::row_bins);
+            continue;
+        }
         const int n = static_cast<int>(i);
         curves_.emplace_back(what_.mean       ? "mean"
                              : what_.numbered ? fmt::format("cell {}", what_.cells.x + n)
@@ -33,7 +40,12 @@ void RowPlot::add(std::uint64_t cycle, std::span<const double> numbers) {
     last_ = cycle;
     if (!wish_.wants(cycle)) return;
     if (wish_.kind != PlotSpec::Kind::time) return add_frame(cycle, numbers);
-    for (std::size_t i = 0; i < curves_.size(); ++i) curves_[i].add(static_cast<double>(cycle), numbers[i]);
+    const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
+    for (auto& curve : curves_) {
+        const auto cells = numbers.first(std::min(cells_per_row_, numbers.size()));
+        curve.add(static_cast<double>(cycle), *std::max_element(cells.begin(), cells.end(), smaller));
+        numbers = numbers.subspan(cells.size());
+    }
 }
 
 void RowPlot::add_frame(std::uint64_t cycle, std::span<const double> numbers) {
@@ -73,6 +85,7 @@ std::string RowPlot::draw(plot::Format format, const PlotContext& context) const
         p.title = title, p.subtitle = context.run, p.quantity = quantity;
         p.cells = what_.cells.height > 1 && !what_.numbered ? "cell, row by row" : "cell";
         p.curves = curves_;
+        p.cells_per_row = cells_per_row_;
         p.seconds_per_cycle = context.seconds_per_cycle;
         if (context.trials.size() > 1 && context.trials.size() <= most_marks)
             p.marks = context.trials, p.mark_name = "a trial begins";

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include "tools/forage/checkpoint.h"
@@ -86,6 +87,23 @@ std::vector<std::string> write_results(const RunOptions& o, Running& r, Outcome&
     return problems;
 }
 
+/// Removes what a run that was killed left unfinished in the directory of results, or refuses to: its
+/// checkpoint is worth the time that it took.
+void clear_directory(const RunOptions& o, Diagnostics& diagnostics) {
+    if (has_checkpoint(o.directory) && !o.discard_checkpoint)
+        return diagnostics.error(
+            {}, fmt::format("'{}' holds the checkpoint of a run that has not finished", o.directory),
+            fmt::format("'forage resume {}' continues that run; --discard-checkpoint gives it up, and -o "
+                        "names another directory",
+                        o.directory));
+    remove_checkpoints(o.directory);
+    const auto removed = remove_unfinished(o.directory);
+    if (!removed.empty())
+        diagnostics.warning(
+            {}, fmt::format("removed from '{}', as a run was killed before it finished them: {}", o.directory,
+                            fmt::join(removed, ", ")));
+}
+
 }  // namespace
 
 int run(const RunOptions& options) {
@@ -95,11 +113,11 @@ int run(const RunOptions& options) {
                           "leave out -o '' or name one");
     const Sources sources = read(options.input, diagnostics);
     auto running = prepare(sources, options, diagnostics);
+    if (running && !options.directory.empty()) clear_directory(options, diagnostics);
     if (diagnostics.failed() || !options.quiet) fmt::print(stderr, "{}", format(diagnostics));
-    if (!running) return bad_input;
+    if (!running || diagnostics.failed()) return bad_input;
     try {
         check_result_names(options, *running);
-        if (!options.directory.empty()) remove_checkpoints(options.directory);  // of another run
         if (running->recordings) running->recordings->begin();
     } catch (const std::exception& e) {
         fmt::print(stderr, "error: {}\n  hint: choose another directory for the results with -o\n", e.what());
