@@ -11,8 +11,8 @@ struct NamedMaterial {
     std::array<float, 3> ambient, diffuse;
 };
 
-// The order is that of `names`.
-const std::array<std::string, 13> names = {
+// The order is that of `known_materials`.
+const std::array<std::string, 13> known_materials = {
     "Gazebo/Grey",      "Gazebo/White",     "Gazebo/Black",  "Gazebo/Red",    "Gazebo/Green",
     "Gazebo/Blue",      "Gazebo/Yellow",    "Gazebo/Purple", "Gazebo/Orange", "Gazebo/DarkGrey",
     "Gazebo/Turquoise", "Gazebo/RedBright", "Gazebo/Indigo"};
@@ -37,13 +37,13 @@ Colour colour(const std::array<float, 3>& c) { return {c[0], c[1], c[2]}; }
 }  // namespace
 
 std::optional<Material> named_material(std::string_view name) {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) return {};
-    const auto& m = table[static_cast<std::size_t>(found - names.begin())];
+    const auto found = std::find(known_materials.begin(), known_materials.end(), name);
+    if (found == known_materials.end()) return {};
+    const auto& m = table[static_cast<std::size_t>(found - known_materials.begin())];
     return Material{colour(m.ambient), colour(m.diffuse), {}};
 }
 
-std::span<const std::string> material_names() { return names; }
+std::span<const std::string> material_names() { return known_materials; }
 
 std::string texture_in_script(std::string_view script_text, std::string_view name) {
     std::istringstream in{std::string(script_text)};

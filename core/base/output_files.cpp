@@ -1,10 +1,12 @@
 #include "core/base/output_files.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <stdexcept>
 
 #include <fcntl.h>
@@ -41,6 +43,23 @@ void finish(const std::string& path) {
     std::error_code error;
     std::filesystem::rename(partial(path), path, error);
     if (error) throw std::runtime_error(fmt::format("cannot write '{}': {}", path, error.message()));
+}
+
+std::vector<std::string> remove_unfinished(const std::string& directory) {
+    namespace fs = std::filesystem;
+    const std::set<fs::path> kinds = {".csv",  ".npy", ".unpacked", ".npz", ".h5",    ".dat",
+                                      ".json", ".png", ".svg",      ".pdf", ".forage"};
+    std::vector<std::string> out;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(directory, none)) {
+        const fs::path name = entry.path().filename();
+        const fs::path kind = name.stem().extension();
+        const bool ours = entry.is_regular_file(none) || kind == ".npz";  // archives grow in a folder
+        if (name.extension() == ".part" && ours && kinds.contains(kind)) out.push_back(name.string());
+    }
+    std::sort(out.begin(), out.end());
+    for (const auto& name : out) fs::remove_all(fs::path(directory) / name, none);
+    return out;
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/base/diagnostic.h"
 
@@ -19,6 +20,9 @@ void check_output(const std::string& path, const std::string& example, Diagnosti
 std::string partial(const std::string& path);
 /// Gives a file that was written as partial(path) its name. Throws std::runtime_error.
 void finish(const std::string& path);
+/// Removes the results that a program left unfinished in a directory when it was killed, under names that
+/// partial() gives them. Returns these names.
+std::vector<std::string> remove_unfinished(const std::string& directory);
 /// Writes `text` to `path` by way of partial(path). Throws std::runtime_error.
 void write_file(const std::string& path, std::string_view text);
 /// The same, and makes sure that the file survives a power cut. What was there before gets the name `keep`,

@@ -106,9 +106,14 @@ class Hdf5Recording final : public Recording {
     std::vector<double> numbers_;
 };
 
-herr_t note_set(hid_t, const char* name, const H5O_info_t* info, void* out) {
-    if (info->type == H5O_TYPE_DATASET && std::string_view(name) != "cycle")
-        static_cast<std::vector<std::string>*>(out)->emplace_back(name);
+/// Notes the data sets of a file, except those of cycles. The links of a file are visited instead of its
+/// objects because this function has the same form in HDF5 1.10 and in later versions.
+herr_t note_set(hid_t file, const char* name, const H5L_info_t* link, void* out) {
+    if (link->type != H5L_TYPE_HARD || std::string_view(name) == "cycle") return 0;
+    const hid_t object = H5Oopen(file, name, H5P_DEFAULT);
+    if (object < 0) return 0;
+    if (H5Iget_type(object) == H5I_DATASET) static_cast<std::vector<std::string>*>(out)->emplace_back(name);
+    H5Oclose(object);
     return 0;
 }
 
@@ -120,7 +125,7 @@ std::vector<std::unique_ptr<Recording>> open_hdf5_recording(const std::string& p
     if (id < 0) id = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT);  // left behind
     const auto file = std::make_shared<Hdf5Handle>(id, H5Fclose, "read it as HDF5");
     std::vector<std::string> places;
-    H5Ovisit2(*file, H5_INDEX_NAME, H5_ITER_NATIVE, note_set, &places, H5O_INFO_BASIC);
+    H5Lvisit(*file, H5_INDEX_NAME, H5_ITER_NATIVE, note_set, &places);
     std::vector<std::unique_ptr<Recording>> out;
     for (const auto& p : places) out.push_back(std::make_unique<Hdf5Recording>(file, p));
     return out;

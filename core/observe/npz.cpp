@@ -10,28 +10,17 @@
 #include <zip.h>
 
 namespace forage::observe {
-namespace {
-
-/// libzip writes beside the archive, with a dot and six letters more, until it is whole. Who was killed
-/// meanwhile left that.
-void remove_leftovers(const std::filesystem::path& archive) {
-    const std::string start = archive.filename().string() + ".";
-    const auto folder = archive.has_parent_path() ? archive.parent_path() : ".";
-    std::error_code ignored;
-    std::vector<std::filesystem::path> leftovers;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-        const std::string name = entry.path().filename().string();
-        if (name.size() == start.size() + 6 && name.starts_with(start)) leftovers.push_back(entry.path());
-    }
-    for (const auto& path : leftovers) std::filesystem::remove(path, ignored);
-}
-
-}  // namespace
 
 void join_npz(const std::string& path, const std::vector<std::pair<std::string, std::string>>& arrays) {
-    remove_leftovers(path);
+    namespace fs = std::filesystem;
+    // libzip writes under a name of its own choice beside the archive until the archive is whole. A folder
+    // for both leaves nothing else to look for when a program was killed meanwhile.
+    const std::string folder = path + ".part", growing = folder + "/archive.npz";
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+    fs::create_directory(folder, ignored);
     int error = 0;
-    zip_t* archive = zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &error);
+    zip_t* archive = zip_open(growing.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &error);
     bool fine = archive != nullptr;
     for (std::size_t i = 0; fine && i < arrays.size(); ++i) {
         const auto& [name, file] = arrays[i];
@@ -44,10 +33,17 @@ void join_npz(const std::string& path, const std::vector<std::pair<std::string, 
                zip_set_file_compression(archive, static_cast<zip_uint64_t>(index), ZIP_CM_STORE, 0) == 0 &&
                zip_file_set_dostime(archive, static_cast<zip_uint64_t>(index), 0, 0x21, 0) == 0;
     }
-    if (fine && zip_close(archive) == 0) return;
-    const std::string reason = archive ? zip_strerror(archive) : "it cannot be opened";
-    if (archive) zip_discard(archive);
-    throw std::runtime_error(fmt::format("cannot write '{}': {}", path, reason));
+    std::string reason;
+    if (!fine || zip_close(archive) != 0) {
+        reason = archive ? zip_strerror(archive) : "it cannot be opened";
+        if (archive) zip_discard(archive);
+    } else {
+        std::error_code moved;
+        fs::rename(growing, path, moved);
+        if (moved) reason = moved.message();
+    }
+    fs::remove_all(folder, ignored);
+    if (!reason.empty()) throw std::runtime_error(fmt::format("cannot write '{}': {}", path, reason));
 }
 
 void extract_npz(const std::string& path, const std::string& name, const std::string& npy) {

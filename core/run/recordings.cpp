@@ -183,8 +183,7 @@ void Recordings::finish(RunView&, ResultFiles& files) {
     for (const auto& [name, arrays] : archives)
         attempt([&, &name = name, &arrays = arrays] {
             const std::string path = directory_ + "/" + name;
-            observe::join_npz(partial(path), arrays);
-            forage::finish(path);
+            observe::join_npz(path, arrays);
             for (const auto& [array, file] : arrays) std::remove(file.c_str());
         });
 }

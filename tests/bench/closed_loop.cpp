@@ -28,6 +28,7 @@
 #include "tests/bench/report.h"
 #include "tests/support/golden.h"
 #include "core/run/layers.h"
+#include "tests/support/paths.h"
 
 namespace {
 

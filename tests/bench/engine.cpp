@@ -27,6 +27,7 @@
 #include "tests/bench/report.h"
 #include "tests/bench/two_threads.h"
 #include "tests/support/golden.h"
+#include "tests/support/paths.h"
 
 namespace {
 

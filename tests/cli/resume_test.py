@@ -176,6 +176,23 @@ class Resume(Stopped):
         self.assertIsNone(self.stop(process, 0))  # a kill lets go of it
         self.assertEqual(self.stop(self.start("resume", "out", "-q"), 2, signal.SIGINT), 130)
 
+    def test_a_new_run_does_not_take_the_place_of_one_that_can_go_on(self):
+        killed = self.start(*self.arguments, "--realtime", "--checkpoint-every", 5, "-o", "out")
+        self.until_there_is("out/checkpoint.previous.forage")
+        self.until_there_is("out/checkpoint.forage")
+        self.assertIsNone(self.stop(killed, 0))
+        before = self.content("out")
+        self.assertIn("cs.npy.part", before)
+        new = ("run", SYSTEM, "--world", WORLD, "--cycles", 5, "-r", "Bug/Light", "-o", "out")
+        done = self.forage(*new, status=2)
+        self.assertRegex(done.stderr, "error: 'out' holds the checkpoint of a run that has not finished\n  hint: 'forage resume out' .*--discard-checkpoint")
+        self.assertEqual(self.content("out"), before)
+        (self.here / "out/notes.part").write_text("not of forage")
+        done = self.forage(*new, "--discard-checkpoint")
+        self.assertRegex(done.stderr, "(?m)^warning: removed from 'out', as a run was killed before it finished them: .*cs.npy.part")
+        self.assertEqual(sorted(self.content("out")), ["Bug_Light_act.csv", "notes.part", "run.json", "trajectory.csv", "trajectory.png", "trials.csv"])
+        self.assertEqual(self.forage(*new).stderr, "")
+
     def test_a_file_of_a_module_that_has_changed_is_refused_and_one_that_the_run_wrote_is_not(self):
         weights = self.here / "learned.weights"
         arguments = ("run", DAC, "--world", WORLD, "--seed", 2, "--cycles", 4000, "-q", "--hash",

@@ -8,6 +8,7 @@ import html.parser
 import json
 import pathlib
 import re
+import resource
 import shutil
 import signal
 import struct
@@ -132,7 +133,7 @@ class Formats(Cli):
         numpy.testing.assert_allclose(means[:, 1:], rows.mean(axis=1), rtol=1e-13, atol=1e-15)
 
     def kill(self, form):
-        command = [FORAGE, "run", SYSTEM, "--world", WORLD, "--seconds", "1000", "--realtime", "-r", "Bug/Light", "--format", form, "-o", "killed"]
+        command = [FORAGE, "run", SYSTEM, "--world", WORLD, "--seconds", "1000", "--realtime", "-r", "Bug/Light", "--format", form, "-o", f"killed_{form}"]
         process = subprocess.Popen(command, cwd=self.here, stdout=subprocess.PIPE)
         time.sleep(2.8)
         process.send_signal(signal.SIGKILL)
@@ -144,18 +145,18 @@ class Formats(Cli):
         self.kill("csv")
         self.kill("npy")
         self.kill("h5")
-        rows = [line.split(",") for line in (self.here / "killed/Bug_Light_act.csv.part").read_text().splitlines(keepends=True)]
+        rows = [line.split(",") for line in (self.here / "killed_csv/Bug_Light_act.csv.part").read_text().splitlines(keepends=True)]
         self.assertGreater(len(rows), 10)
         self.assertEqual([float(v) for v in rows[9]], list(light[8]))
-        array = numpy.load(self.here / "killed/Bug_Light_act.npy.part")
+        array = numpy.load(self.here / "killed_npy/Bug_Light_act.npy.part")
         self.assertGreater(len(array), 10)
         self.assertTrue((array["act"].reshape(-1, 32) == light[:len(array), 1:]).all())
-        with h5py.File(self.here / "killed/recording.h5.part", swmr=True) as file:
+        with h5py.File(self.here / "killed_h5/recording.h5.part", swmr=True) as file:
             count = len(file["cycle"])
             self.assertGreater(count, 10)
             self.assertTrue((file["Bug/Light/act"][:count].reshape(-1, 32) == light[:count, 1:]).all())
-        self.forage("plot", "killed/recording.h5.part", "time", "-o", "pictures")
-        self.forage("plot", "killed")
+        self.forage("plot", "killed_h5/recording.h5.part", "time", "-o", "pictures")
+        self.forage("plot", "killed_csv")
 
     def test_an_interrupted_run_keeps_every_row(self):
         for form in ("npz", "h5"):
@@ -245,6 +246,40 @@ class Pictures(Cli):
         (self.here / "small.iqr").write_text(SMALL_SYSTEM.replace('enableModule="true"', 'enableModule="false"'))
         self.forage("run", "small.iqr", "--cycles", 5, "-o", "small")
         self.assertIn("results of a run in a world", self.forage("plot", "small", "trajectory", status=2).stderr)
+
+    def test_a_trajectory_of_damaged_tables_is_refused_with_the_place(self):
+        self.run_robot("--trials", 2)
+        tables = {name: (self.here / "out" / name).read_text() for name in ("trials.csv", "trajectory.csv")}
+        for name, old, new, place in (
+            ("trajectory.csv", r"\A(.*\n.*\n\d+,\d+,)[^,]+", r"\g<1>x1", "trajectory.csv:3:[0-9]+: error: 'x1' is not a number"),
+            ("trajectory.csv", r"\A(.*\n.*\n\d+,\d+,)[^,]+", r"\g<1>nan", "trajectory.csv:3:[0-9]+: error: 'nan' is not a finite number"),
+            ("trajectory.csv", r"\A(.*\n)\d+", r"\g<1>7", "trajectory.csv:2:1: error: trials.csv has no trial 7"),
+            ("trajectory.csv", r"\A(.*\n.*\n\d+),\d+", r"\g<1>", "trajectory.csv:3:1: error: 4 fields in this row, not 5"),
+            ("trajectory.csv", r"\A(.*\n.*\n\d+,\d+)(.|\n)*", r"\g<1>", "trajectory.csv:3:1: error: the file ends within this row"),
+            ("trajectory.csv", r"\Atrial,cycle,x,", "trial,cycle,u,", "trajectory.csv:1:1: error: there is no column 'x'"),
+            ("trajectory.csv", r"\A(.|\n)*", "", "trajectory.csv: error: it is empty"),
+            ("trials.csv", r"\btarget\b|\bmissed\b", "lost", "trials.csv:2:[0-9]+: error: 'lost' is no outcome of a trial"),
+            ("trials.csv", r"\A(.*\n)(?:[^,\n]*,){7}[^,]+", r"\g<1>1,2,3,4,5,6,target,-", "trials.csv:2:[0-9]+: error: '-' is not a number"),
+        ):
+            changed = re.sub(old, new, tables[name], count=1)
+            self.assertNotEqual(changed, tables[name])
+            (self.here / "out" / name).write_text(changed)
+            done = self.forage("plot", "out", "trajectory", "-o", "again", status=2)
+            self.assertRegex(done.stderr, f"(?m)^out/{place}")
+            self.assertFalse((self.here / "again/trajectory.png").exists())
+            (self.here / "out" / name).write_text(tables[name])
+        self.forage("plot", "out", "trajectory", "-o", "again")
+        (self.here / "out/trials.csv").unlink()
+        self.assertIn("out/trials.csv: error: ", self.forage("plot", "out", "trajectory", status=2).stderr)
+
+    def test_a_time_plot_of_many_cells_takes_little_memory(self):
+        system = re.sub("<Module.*</Module>", "", SMALL_SYSTEM, flags=re.DOTALL)
+        (self.here / "large.iqr").write_text(system.replace('hcount="2" vcount="1"', 'hcount="100" vcount="50"'))
+        most = 600 << 20
+        done = subprocess.run([FORAGE, "run", "large.iqr", "--cycles", "4000", "-p", "time:P/A", "--as", "svg", "-o", "out"], cwd=self.here, capture_output=True,
+                              text=True, timeout=300, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (most, most)))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertLess((self.here / "out/time_P_A.svg").stat().st_size, 10 << 20)
 
     def test_a_moving_picture(self):
         self.run_robot("--cycles", 300, "-p", "movie:Bug/Place Cells@0..290/10", "-p", "movie:Bug/Light")

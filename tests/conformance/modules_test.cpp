@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <functional>
 #include <iostream>
+#include <map>
 #include <random>
 #include <sstream>
 
@@ -9,8 +10,8 @@
 #include "modules/colour/module.h"
 #include "modules/contextual_layer/module.h"
 #include "tests/support/catch.h"
-#include "tests/support/golden.h"
 #include "tests/support/module_bench.h"
+#include "tests/support/recorded_cases.h"
 
 using namespace forage;
 using namespace forage::test;
@@ -19,14 +20,15 @@ namespace {
 
 using Path = std::filesystem::path;
 
-Path modules_dir() { return shared_dir() / "golden" / "modules"; }
-
+/// The recorded cases of a module type, each name once.
 std::vector<Path> cases_of(const std::string& type) {
-    std::vector<Path> out;
-    for (const auto& entry : std::filesystem::directory_iterator(modules_dir() / type))
-        out.push_back(entry.path());
-    std::sort(out.begin(), out.end());
-    return out;
+    std::map<std::string, Path> out;
+    for (const auto& folder : trace_folders("modules/" + type))
+        for (const auto& entry : std::filesystem::directory_iterator(folder))
+            out.emplace(entry.path().filename().string(), entry.path());
+    std::vector<Path> paths;
+    for (const auto& [name, path] : out) paths.push_back(path);
+    return paths;
 }
 
 /// Reads rows `step,v0,v1,...` into arrays that lie side by side.
@@ -196,9 +198,9 @@ void report(const char* type, std::size_t cases, std::size_t numbers) {
 }  // namespace
 
 TEST_CASE("The adaptive layer gives the recorded numbers and ends with the recorded weights, bit by bit") {
-    if (absent(modules_dir())) return;
     std::size_t numbers = 0;
     const auto cases = cases_of("moduleAL");
+    REQUIRE(cases.size() >= 11);
     for (const auto& path : cases) {
         INFO(path.filename());
         Scratch scratch;
@@ -218,9 +220,9 @@ TEST_CASE("The adaptive layer gives the recorded numbers and ends with the recor
 }
 
 TEST_CASE("The contextual layer gives the recorded numbers, bit by bit") {
-    if (absent(modules_dir())) return;
     std::size_t numbers = 0;
     const auto cases = cases_of("moduleCL");
+    REQUIRE(cases.size() >= 12);
     for (const auto& path : cases) {
         INFO(path.filename());
         ModuleBench bench(module_type<contextual::ContextualLayerModule>());
@@ -232,9 +234,9 @@ TEST_CASE("The contextual layer gives the recorded numbers, bit by bit") {
 }
 
 TEST_CASE("The colour module gives the recorded numbers, bit by bit") {
-    if (absent(modules_dir())) return;
     std::size_t numbers = 0;
     const auto cases = cases_of("moduleColor");
+    REQUIRE(cases.size() >= 6);
     for (const auto& path : cases) {
         INFO(path.filename());
         ModuleBench bench(module_type<colour::ColourModule>());

@@ -102,8 +102,7 @@ TEST_CASE("The adaptive system learns what it learned when it was recorded") {
 }
 
 TEST_CASE("An adaptive layer in a small system gives the recorded numbers") {
-    const auto all = shared_dir() / "golden" / "modules" / "in_engine";
-    if (absent(all)) return;
+    const auto all = traces_dir() / "modules" / "in_engine";
     for (const std::string name : {"moduleAL_default", "moduleAL_behavioural_only"}) {
         const auto recorded = all / name;
         // In cycle 1 the display shows weights that were drawn at random; those of the file come after.
@@ -115,8 +114,7 @@ TEST_CASE("An adaptive layer in a small system gives the recorded numbers") {
 
 TEST_CASE(
     "An adaptive layer that begins with the weights that the original drew gives the recorded numbers") {
-    const auto recorded = conformance_dir() / "native_moduleAL_RANDOM";
-    if (absent(recorded)) return;
+    const auto recorded = traces_dir() / "conformance" / "native_moduleAL_RANDOM";
     const auto rows = rows_of({recorded / "expected.csv"});
     // The original's first picture of its weights: 3 blocks, one per response, of 2 x 4 stimulus cells.
     const auto picture = std::find_if(

@@ -90,7 +90,6 @@ std::string run(const Case& c, bool general_forms) {
 }  // namespace
 
 TEST_CASE("Every recorded case gives the recorded numbers") {
-    if (absent(conformance_dir())) return;
     const bool general_forms = GENERATE(false, true);
     int met = 0;
     for (const auto& c : cases()) {

@@ -19,6 +19,7 @@
 #include "synapses/fixed_weight.h"
 #include "tests/support/catch.h"
 #include "tests/support/golden.h"
+#include "tests/support/paths.h"
 
 using namespace forage;
 namespace fs = std::filesystem;

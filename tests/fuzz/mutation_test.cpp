@@ -9,6 +9,7 @@
 #include "tests/fuzz/whole_way.h"
 #include "tests/support/catch.h"
 #include "tests/support/golden.h"
+#include "tests/support/paths.h"
 #include "tests/support/model_text.h"
 
 using namespace forage;

@@ -1,4 +1,4 @@
-// The recorded traces of the original: a list of cases and a fast reader of their tables.
+// A fast reader of recorded tables, and the tolerance of their numbers.
 #pragma once
 
 #include <charconv>
@@ -10,8 +10,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "tests/support/paths.h"
 
 namespace forage::test {
 
@@ -74,26 +72,6 @@ inline bool same(double ours, double recorded, double tolerance = 1e-12) {
     if (std::isnan(recorded) || std::isnan(ours)) return std::isnan(recorded) && std::isnan(ours);
     if (std::isinf(recorded) || std::isinf(ours)) return ours == recorded;
     return std::abs(ours - recorded) <= tolerance * std::max(1.0, std::abs(recorded));
-}
-
-struct Case {
-    std::string name;
-    std::string status;  ///< ok, refused, original-crashes
-    std::string note;
-    std::filesystem::path path;  ///< the case's folder
-};
-
-inline std::filesystem::path conformance_dir() { return shared_dir() / "golden" / "conformance"; }
-
-/// The conformance cases, in the order of their index.
-inline std::vector<Case> cases() {
-    std::vector<Case> out;
-    Rows index(conformance_dir() / "INDEX.tsv", '\t');
-    for (std::vector<std::string_view> f; index.next(f);)
-        if (f.size() >= 3)
-            out.push_back({std::string(f[0]), std::string(f[1]), f.size() > 3 ? std::string(f[3]) : "",
-                           conformance_dir() / f[0]});
-    return out;
 }
 
 }  // namespace forage::test

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/engine/simulation.h"
-#include "tests/support/golden.h"
+#include "tests/support/recorded_cases.h"
 
 namespace forage::test {
 

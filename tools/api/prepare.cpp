@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "bug_interface/versions.h"
 #include "core/base/cores.h"
@@ -144,13 +145,27 @@ std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given,
     }
 }
 
+void clear_directory(const RunSpec& spec, Diagnostics& diagnostics) {
+    const std::string& directory = spec.directory;
+    if (has_checkpoint(directory) && !spec.discard_checkpoint)
+        return diagnostics.error(
+            {}, fmt::format("'{}' holds the checkpoint of a run that has not finished", directory),
+            fmt::format("'forage resume {}' continues that run; --discard-checkpoint gives it up, and -o names another "
+                        "directory",
+                        directory));
+    remove_checkpoints(directory);
+    const auto removed = remove_unfinished(directory);
+    if (!removed.empty())
+        diagnostics.warning({}, fmt::format("removed from '{}', as a run was killed before it finished them: {}",
+                                            directory, fmt::join(removed, ", ")));
+}
+
 void begin(PreparedRun& p) {
     if (p.spec.directory.empty()) return;
     ResultFiles files(p.spec.directory);
     refuse_no_file(files.path("run.json"));
     for (const auto& o : p.run.observers())
         for (const auto& name : o->file_names()) refuse_no_file(files.path(name));
-    remove_checkpoints(p.spec.directory);  // of another run
     for (const auto& o : p.run.observers()) o->begin_files(files);
 }
 

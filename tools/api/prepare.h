@@ -13,6 +13,10 @@ namespace forage {
 /// before anything is written; empty when `diagnostics` got an error.
 std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& spec, Diagnostics& diagnostics);
 
+/// Removes what a run that was killed left unfinished in spec.directory, with a warning. Reports an error instead when the directory
+/// holds the checkpoint of an unfinished run, unless spec.discard_checkpoint gives it up.
+void clear_directory(const RunSpec& spec, Diagnostics& diagnostics);
+
 /// Begins the files of a run that is not resumed. Throws std::runtime_error, also when something that is no file has the name of
 /// a file to be written.
 void begin(PreparedRun& prepared);

@@ -208,6 +208,9 @@ void add_run(CLI::App& app, RunOptions& options) {
            "'forage resume' goes on from there")
         ->option_text("N")
         ->excludes("--video");  // a film cannot go on
+    run.add_flag(
+        "--discard-checkpoint", o.discard_checkpoint,
+        "Give up a run that has not finished: without it, a directory with its checkpoint is refused");
     run.add_option_function<std::string>(
            "--on-nan",
            [&o](const std::string& text) {

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -40,39 +42,60 @@ nlohmann::json read_json(const fs::path& path) {
     return in ? nlohmann::json::parse(in, nullptr, false) : nlohmann::json();
 }
 
-/// A CSV file.
-struct Table {
-    std::vector<std::string> header;
-    std::vector<std::vector<std::string>> rows;
-
-    /// What stands in a row under a name; empty when nothing does.
-    std::string at(const std::vector<std::string>& row, std::string_view name) const {
-        const auto column =
-            static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
-        return column < row.size() ? row[column] : "";
-    }
-    double number(const std::vector<std::string>& row, std::string_view name) const {
-        return std::strtod(at(row, name).c_str(), nullptr);
-    }
-};
-
-Table read_table(const fs::path& path) {
-    Table out;
-    std::ifstream in(path);
-    for (std::string line; std::getline(in, line);) {
-        std::vector<std::string> row;
-        for (std::size_t at = 0; at <= line.size();) {
-            const auto end = std::min(line.find(',', at), line.size());
-            row.push_back(line.substr(at, end - at));
-            at = end + 1;
+/// A table that a run has left behind. What is damaged is refused with its place, as a FileError.
+class Table {
+  public:
+    explicit Table(const fs::path& path) : path_(path.string()), text_(read_file(path_)) {
+        std::string_view rest = text_;
+        while (!rest.empty()) {
+            const auto end = rest.find('\n');
+            if (end == rest.npos)
+                fail(static_cast<int>(lines_.size()) + 1, rest, "the file ends within this row");
+            lines_.push_back(fields(rest.substr(0, end)));
+            rest.remove_prefix(end + 1);
+            if (lines_.back().size() != lines_[0].size())
+                fail(static_cast<int>(lines_.size()), lines_.back()[0],
+                     fmt::format("{} fields in this row, not {}", lines_.back().size(), lines_[0].size()));
         }
-        if (out.header.empty())
-            out.header = std::move(row);
-        else
-            out.rows.push_back(std::move(row));
+        if (lines_.empty()) throw FileError(path_, {}, {{0, 0, "it is empty"}});
     }
-    return out;
-}
+
+    int rows() const { return static_cast<int>(lines_.size()) - 1; }
+    /// What stands in a row, counted from 1, under a name.
+    std::string_view word(int row, std::string_view name) const {
+        const auto column = std::find(lines_[0].begin(), lines_[0].end(), name);
+        if (column == lines_[0].end()) fail(1, lines_[0][0], fmt::format("there is no column '{}'", name));
+        return lines_[static_cast<std::size_t>(row)][static_cast<std::size_t>(column - lines_[0].begin())];
+    }
+    double number(int row, std::string_view name) const {
+        const std::string_view text = word(row, name);
+        double out = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+        if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(out))
+            fail(row + 1, text, no_number(text));
+        return out;
+    }
+    /// A piece of the text in this line is not what it should be.
+    [[noreturn]] void fail(int line, std::string_view piece, std::string message) const {
+        const auto place = static_cast<std::size_t>(piece.data() - text_.data());
+        const auto begin = place == 0 ? 0 : text_.rfind('\n', place - 1) + 1;  // 0 in the first line
+        throw FileError(path_, text_, {{line, static_cast<int>(place - begin) + 1, std::move(message)}});
+    }
+
+  private:
+    static std::vector<std::string_view> fields(std::string_view line) {
+        std::vector<std::string_view> out;
+        for (auto comma = line.find(','); comma != line.npos; comma = line.find(',')) {
+            out.push_back(line.substr(0, comma));
+            line.remove_prefix(comma + 1);
+        }
+        out.push_back(line);
+        return out;
+    }
+
+    std::string path_, text_;
+    std::vector<std::vector<std::string_view>> lines_;  ///< the first holds the names of the columns
+};
 
 std::string base(const std::string& path) { return fs::path(path).filename().string(); }
 
@@ -105,8 +128,11 @@ std::map<std::string, Named> read_run(const fs::path& directory, Source& out) {
     for (const auto& r :
          json.value("result", nlohmann::json::object()).value("recordings", nlohmann::json::array()))
         names[text(r, "file")] = {text(r, "source"), text(r, "label"), names[text(r, "file")].count + 1};
-    const Table trials = read_table(directory / "trials.csv");
-    for (const auto& row : trials.rows) out.context.trials.push_back(trials.number(row, "first_cycle"));
+    if (fs::exists(directory / "trials.csv")) {
+        const Table trials(directory / "trials.csv");
+        for (int row = 1; row <= trials.rows(); ++row)
+            out.context.trials.push_back(trials.number(row, "first_cycle"));
+    }
     return names;
 }
 
@@ -190,20 +216,24 @@ void draw_rows(const Source& source, const PlotSpec& wish, const std::string& di
     written.push_back(wish.file(format));
 }
 
+/// The paths of all trials. Throws FileError for tables that are damaged or do not belong together.
 std::vector<plot::Path> read_paths(const std::string& directory) {
-    std::vector<plot::Path> out;
-    const Table trials = read_table(directory + "/trials.csv"),
-                path = read_table(directory + "/trajectory.csv");
-    for (const auto& row : path.rows) {
-        const auto trial = static_cast<std::size_t>(path.number(row, "trial"));
-        if (trial < 1 || trial > trials.rows.size()) continue;
-        out.resize(std::max(out.size(), trial));
-        out[trial - 1].points.emplace_back(path.number(row, "x"), path.number(row, "y"));
+    const Table trials(directory + "/trials.csv"), points(directory + "/trajectory.csv");
+    std::vector<plot::Path> out(static_cast<std::size_t>(trials.rows()));
+    for (int row = 1; row <= trials.rows(); ++row) {
+        const std::string_view outcome = trials.word(row, "outcome");
+        if (outcome != "target" && outcome != "missed" && outcome != "unfinished")
+            trials.fail(row + 1, outcome, fmt::format("'{}' is no outcome of a trial", escaped(outcome)));
+        out[static_cast<std::size_t>(row) - 1].reached = outcome == "target";
+        out[static_cast<std::size_t>(row) - 1].finished = outcome != "unfinished";
     }
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        const std::string outcome = trials.at(trials.rows[i], "outcome");
-        out[i].reached = outcome == "target";
-        out[i].finished = outcome != "unfinished";
+    for (int row = 1; row <= points.rows(); ++row) {
+        const double trial = points.number(row, "trial");
+        if (trial < 1 || trial > trials.rows() || trial != std::floor(trial))
+            points.fail(row + 1, points.word(row, "trial"),
+                        fmt::format("trials.csv has no trial {}", points.word(row, "trial")));
+        out[static_cast<std::size_t>(trial) - 1].points.emplace_back(points.number(row, "x"),
+                                                                     points.number(row, "y"));
     }
     return out;
 }
@@ -286,14 +316,18 @@ int plot(const PlotOptions& o) {
             }
             continue;
         }
-        const plot::Picture picture =
-            w.kind == Kind::trajectory
-                ? plot::trajectory_plot(*loaded->world, read_paths(source.directory), source.context.run)
-                : plot::structure_plot(w, loaded->system, loaded->registry, nullptr, source.input.seed,
-                                 source.context.run);
-        written.push_back(w.file(format));
-        make_directory(directory);
-        write_file(directory + "/" + written.back(), plot::render(picture, format));
+        try {
+            const plot::Picture picture =
+                w.kind == Kind::trajectory
+                    ? plot::trajectory_plot(*loaded->world, read_paths(source.directory), source.context.run)
+                    : plot::structure_plot(w, loaded->system, loaded->registry, nullptr, source.input.seed,
+                                     source.context.run);
+            make_directory(directory);
+            write_file(directory + "/" + w.file(format), plot::render(picture, format));
+            written.push_back(w.file(format));
+        } catch (const FileError& e) {
+            report(e, diagnostics);
+        }
     }
     for (auto& w : written)
         if (directory != ".") w = directory + "/" + w;

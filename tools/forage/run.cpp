@@ -19,8 +19,9 @@ int run(const RunOptions& o) {
         diagnostics.error({}, "--record and --plot need a directory to write to", "leave out -o '' or name one");
     const Sources sources = read_sources(spec.input, diagnostics);
     auto prepared = prepare(sources, spec, diagnostics);
+    if (prepared && !spec.directory.empty()) clear_directory(spec, diagnostics);
     if (diagnostics.failed() || !o.quiet) fmt::print(stderr, "{}", format(diagnostics));
-    if (!prepared) return bad_input;
+    if (!prepared || diagnostics.failed()) return bad_input;
     try {
         begin(*prepared);
     } catch (const std::exception& e) {

@@ -13,16 +13,10 @@
 
 #include "bug_interface/world/png.h"
 #include "tools/plot/apng.h"
+#include "tools/plot/cairo_handle.h"
 
 namespace forage::plot {
 namespace {
-
-struct Free {
-    void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
-    void operator()(cairo_t* c) const { cairo_destroy(c); }
-};
-using Surface = std::unique_ptr<cairo_surface_t, Free>;
-using Context = std::unique_ptr<cairo_t, Free>;
 
 constexpr double points_per_pixel = 72.0 / 96.0;
 
@@ -37,7 +31,7 @@ void check(cairo_status_t status) {
 }
 
 void draw(const Picture& picture, cairo_surface_t* surface, double scale) {
-    const Context context(cairo_create(surface));
+    const CairoContext context(cairo_create(surface));
     cairo_scale(context.get(), scale, scale);
     Canvas canvas(context.get());
     canvas.colour(white);
@@ -46,10 +40,11 @@ void draw(const Picture& picture, cairo_surface_t* surface, double scale) {
     check(cairo_status(context.get()));
 }
 
-/// Cairo numbers what an SVG file refers to by a count that goes on from picture to picture. Here they are
-/// numbered by their first place, so that a picture's bytes do not depend on what was drawn before it.
+/// Cairo numbers what an SVG file refers to ("surface7", and from 1.18 on "source-7") by a count that goes on
+/// from picture to picture. Here ids are numbered by their first place, so that a picture's bytes do not
+/// depend on what was drawn before it. Glyphs, which have two numbers, are counted anew in each file.
 std::string renumbered(const std::string& svg) {
-    static const std::regex reference("(id=\"|#)(surface|image|source|clip|mask|pattern)([0-9]+)(?![0-9-])");
+    static const std::regex reference("(id=\"|#)([a-z-]+)([0-9]+)(?=[\")])");
     std::map<std::string, std::size_t> numbers;
     std::string out;
     auto copied = svg.begin();
@@ -62,9 +57,9 @@ std::string renumbered(const std::string& svg) {
 }
 
 std::string png(const Picture& picture) {
-    const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24,
-                                                     static_cast<int>(std::ceil(picture.width)),
-                                                     static_cast<int>(std::ceil(picture.height))));
+    const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24,
+                                                          static_cast<int>(std::ceil(picture.width)),
+                                                          static_cast<int>(std::ceil(picture.height))));
     draw(picture, surface.get(), 1);
     cairo_surface_flush(surface.get());
     const int width = cairo_image_surface_get_width(surface.get());
@@ -172,9 +167,9 @@ std::string render(const Picture& picture, Format format) {
     std::string out;
     {
         const double w = picture.width * points_per_pixel, h = picture.height * points_per_pixel;
-        const Surface surface(format == Format::svg
-                                  ? cairo_svg_surface_create_for_stream(append, &out, w, h)
-                                  : cairo_pdf_surface_create_for_stream(append, &out, w, h));
+        const CairoSurface surface(format == Format::svg
+                                       ? cairo_svg_surface_create_for_stream(append, &out, w, h)
+                                       : cairo_pdf_surface_create_for_stream(append, &out, w, h));
         if (format == Format::pdf)  // the same bytes at any time
             cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
                                            "2000-01-01T00:00:00Z");
@@ -194,10 +189,10 @@ std::string render_animation(const std::vector<Picture>& frames, double seconds)
 Measure::Measure()
     : context_(
           [] {
-              const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
+              const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
               return cairo_create(surface.get());
           }(),
-          Free{}),
+          DestroyCairo{}),
       canvas_(context_.get()) {}
 
 }  // namespace forage::plot

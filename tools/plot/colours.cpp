@@ -28,16 +28,16 @@ constexpr std::array<std::array<int, 3>, 9> viridis = {{{68, 1, 84},
                                                         {253, 231, 37}}};
 constexpr std::array<std::array<int, 3>, 5> blue_white_red = {
     {{33, 102, 172}, {146, 197, 222}, {247, 247, 247}, {244, 165, 130}, {178, 24, 43}}};
-constexpr std::array<std::array<int, 3>, 10> lines = {{{0, 114, 178},
-                                                       {213, 94, 0},
-                                                       {0, 158, 115},
-                                                       {204, 121, 167},
-                                                       {86, 180, 233},
-                                                       {230, 159, 0},
-                                                       {0, 0, 0},
-                                                       {200, 185, 20},
-                                                       {140, 86, 75},
-                                                       {140, 140, 140}}};
+constexpr std::array<std::array<int, 3>, 10> line_colours = {{{0, 114, 178},
+                                                              {213, 94, 0},
+                                                              {0, 158, 115},
+                                                              {204, 121, 167},
+                                                              {86, 180, 233},
+                                                              {230, 159, 0},
+                                                              {0, 0, 0},
+                                                              {200, 185, 20},
+                                                              {140, 86, 75},
+                                                              {140, 140, 140}}};
 
 }  // namespace
 
@@ -46,7 +46,7 @@ Colour sequential(double part) { return between(viridis, part); }
 Colour diverging(double part) { return between(blue_white_red, (part + 1) / 2); }
 
 Colour category(std::size_t n) {
-    const auto& c = lines[n % lines.size()];
+    const auto& c = line_colours[n % line_colours.size()];
     return {c[0] / 255.0, c[1] / 255.0, c[2] / 255.0};
 }
 

@@ -11,13 +11,12 @@
 namespace forage::plot {
 namespace {
 
-constexpr int most = 560;  ///< pixels and bins of a side
-constexpr double left = 78, top = 66, bottom = 50, gap = 22, bar = 16;
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr int longest_side = 560;  ///< of a table, in pixels and in bins
+constexpr double no_synapse = std::numeric_limits<double>::quiet_NaN();
 
 /// Numbers by target row and source column; of groups that are larger than the picture, several cells share
 /// one place, and the number furthest from zero is shown.
-struct Table {
+struct SynapseTable {
     int columns, rows;
     std::vector<double> numbers;
 
@@ -28,15 +27,17 @@ struct Table {
 };
 
 template <class Values, class Join>
-Table table_of(const ConnectionPlot& p, const Values& values, Join join) {
+SynapseTable table_of(const ConnectionPlot& p, const Values& values, Join join) {
     // Synapses between the same two cells first come together, whatever the size of the groups.
     std::vector<std::size_t> order(p.pre.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return std::pair(p.post[a], p.pre[a]) < std::pair(p.post[b], p.pre[b]);
     });
-    Table out{std::min(p.source_shape.cells, most), std::min(p.target_shape.cells, most), {}};
-    out.numbers.assign(static_cast<std::size_t>(out.columns) * static_cast<std::size_t>(out.rows), none);
+    SynapseTable out{
+        std::min(p.source_shape.cells, longest_side), std::min(p.target_shape.cells, longest_side), {}};
+    out.numbers.assign(static_cast<std::size_t>(out.columns) * static_cast<std::size_t>(out.rows),
+                       no_synapse);
     for (std::size_t i = 0; i < order.size();) {
         const int pre = p.pre[order[i]], post = p.post[order[i]];
         double value = static_cast<double>(values[order[i]]);
@@ -59,8 +60,9 @@ std::string cells_of(const std::string& name, const GroupShape& s) {
 }  // namespace
 
 Picture connection_plot(const ConnectionPlot& plot) {
+    constexpr double left = 78, top = 66, bottom = 50, gap = 22, bar = 16;  // pixels around the tables
     struct Panel {
-        Table table;
+        SynapseTable table;
         ColourScale scale;
         std::string quantity;
     };
@@ -73,8 +75,8 @@ Picture connection_plot(const ConnectionPlot& plot) {
                           "delay (cycles)"});
     for (auto& p : panels)
         for (const double v : p.table.numbers) p.scale.include(v);
-    const Table& t = panels[0].table;
-    const int cell = std::clamp(most / std::max(t.columns, t.rows), 1, 28);
+    const SynapseTable& t = panels[0].table;
+    const int cell = std::clamp(longest_side / std::max(t.columns, t.rows), 1, 28);
     const double width = cell * t.columns, height = cell * t.rows, tall = std::max(height, 110.0);
     const double step = left + width + gap + bar + colour_bar_labels;
     Measure measure;
@@ -88,7 +90,7 @@ Picture connection_plot(const ConnectionPlot& plot) {
             double x = left;
             for (const auto& p : panels) {
                 const Box box{x, top, width, height};
-                Table table = p.table;
+                SynapseTable table = p.table;
                 draw_cells(canvas, box, table.columns, table.rows, [&](int column, int row) {
                     const double v = table.at(column, row);
                     return std::isnan(v) ? Colour{0.93, 0.93, 0.93} : p.scale(v);

@@ -13,8 +13,8 @@
 namespace forage::plot {
 namespace {
 
-constexpr double scale = 1.7;  ///< pixels per unit of the file: room for names
-constexpr double margin = 26, heading = 34, name_size = 11, small_size = 10;
+constexpr double diagram_scale = 1.7;  ///< pixels per unit of the file: room for names
+constexpr double sheet_margin = 26, heading = 34, name_size = 11, small_size = 10;
 
 struct Point2 {
     double x, y;
@@ -70,13 +70,13 @@ struct Edge {
     std::string label;
 };
 
-struct Sheet {
+struct DiagramSheet {
     std::string title;
     std::vector<Node> nodes;
     std::vector<Edge> edges;
     Box extent{};
 
-    /// Moves everything so that it begins at (margin, heading).
+    /// Moves everything so that it begins at (sheet_margin, heading).
     void fit(Canvas& measure) {
         double x0 = std::numeric_limits<double>::max(), y0 = x0, x1 = -x0, y1 = -x0;
         const auto take = [&](double x, double y) {
@@ -89,12 +89,13 @@ struct Sheet {
         for (const auto& e : edges)
             for (const auto& p : e.points) take(p.x, p.y);
         if (nodes.empty()) take(0, 0), take(120, 20);
-        const double dx = margin - x0, dy = heading + margin - y0;
+        const double dx = sheet_margin - x0, dy = heading + sheet_margin - y0;
         for (auto& n : nodes) n.box.x += dx, n.box.y += dy;
         for (auto& e : edges)
             for (auto& p : e.points) p.x += dx, p.y += dy;
-        extent.width = std::max(x1 - x0 + 2 * margin, 2 * margin + measure.width_of(title, 14, true));
-        extent.height = y1 - y0 + 2 * margin + heading;
+        extent.width =
+            std::max(x1 - x0 + 2 * sheet_margin, 2 * sheet_margin + measure.width_of(title, 14, true));
+        extent.height = y1 - y0 + 2 * sheet_margin + heading;
     }
 };
 
@@ -163,18 +164,18 @@ void draw(Canvas& canvas, const Edge& e) {
     canvas.text(x, y + 3.5, e.label, small_size, 0.5, colour_of(e.kind));
 }
 
-void draw(Canvas& canvas, const Sheet& sheet) {
-    canvas.text(margin, 22, sheet.title, 14, 0, black, true);
+void draw(Canvas& canvas, const DiagramSheet& sheet) {
+    canvas.text(sheet_margin, 22, sheet.title, 14, 0, black, true);
     for (const auto& e : sheet.edges) draw(canvas, e);
     for (const auto& n : sheet.nodes) draw(canvas, n);
 }
 
 Box box_of(const std::optional<model::Icon>& icon, std::size_t number) {
     if (icon)
-        return {icon->x * scale, icon->y * scale, std::max(icon->width, 20) * scale,
-                std::max(icon->height, 20) * scale};
-    return {static_cast<double>(number % 6) * 100 * scale, static_cast<double>(number / 6) * 90 * scale,
-            50 * scale, 50 * scale};
+        return {icon->x * diagram_scale, icon->y * diagram_scale, std::max(icon->width, 20) * diagram_scale,
+                std::max(icon->height, 20) * diagram_scale};
+    return {static_cast<double>(number % 6) * 100 * diagram_scale,
+            static_cast<double>(number / 6) * 90 * diagram_scale, 50 * diagram_scale, 50 * diagram_scale};
 }
 
 std::string size_of(const model::Group& group) {
@@ -185,8 +186,8 @@ std::string size_of(const model::Group& group) {
 
 std::string trimmed(const std::string& name) { return std::string(model::trim(name)); }
 
-Sheet system_sheet(const model::System& system) {
-    Sheet out;
+DiagramSheet system_sheet(const model::System& system) {
+    DiagramSheet out;
     out.title = "The system's processes";
     std::map<const model::Process*, std::size_t> node_of;
     for (const auto& p : system.processes) {
@@ -219,7 +220,7 @@ Sheet system_sheet(const model::System& system) {
 }
 
 /// Groups of other processes in a row above the process's own, each near the groups it is connected to.
-void add_outside(Sheet& sheet, const model::System& system,
+void add_outside(DiagramSheet& sheet, const model::System& system,
                  std::map<std::string_view, std::size_t>& node_of) {
     const model::GroupIndex groups(system);
     std::map<std::string_view, std::vector<double>> partners;
@@ -241,10 +242,10 @@ void add_outside(Sheet& sheet, const model::System& system,
     double free_from = std::numeric_limits<double>::lowest();
     for (const auto& [x, id] : order) {
         const auto entry = groups.find(id);
-        const double width = 62 * scale, left = std::max(x - width / 2, free_from);
+        const double width = 62 * diagram_scale, left = std::max(x - width / 2, free_from);
         free_from = left + width + 14;
         node_of[entry.group->id] = sheet.nodes.size();
-        sheet.nodes.push_back({{left, top - 105 * scale, width, 36 * scale},
+        sheet.nodes.push_back({{left, top - 105 * diagram_scale, width, 36 * diagram_scale},
                                trimmed(entry.process->name) + " / " + trimmed(entry.group->name),
                                size_of(*entry.group),
                                "",
@@ -253,8 +254,8 @@ void add_outside(Sheet& sheet, const model::System& system,
     }
 }
 
-Sheet process_sheet(const model::System& system, const model::Process& process) {
-    Sheet out;
+DiagramSheet process_sheet(const model::System& system, const model::Process& process) {
+    DiagramSheet out;
     out.title = trimmed(process.name) + (process.module ? "  –  " + process.module->type : "");
     std::map<std::string_view, std::size_t> node_of;
     for (const auto& g : process.groups) {
@@ -282,7 +283,8 @@ Sheet process_sheet(const model::System& system, const model::Process& process) 
             e.points = {{r - 10, t}, {r - 10, t - 18}, {r + 18, t - 18}, {r + 18, t + 12}, {r, t + 12}};
         } else {
             e.points.push_back(c.line ? a.anchor(line.source_anchor) : a.border(b.centre()));
-            for (const auto& v : line.vertices) e.points.push_back({v.x * scale, v.y * scale});
+            for (const auto& v : line.vertices)
+                e.points.push_back({v.x * diagram_scale, v.y * diagram_scale});
             e.points.push_back(c.line ? b.anchor(line.target_anchor) : b.border(a.centre()));
         }
         out.edges.push_back(std::move(e));
@@ -290,7 +292,7 @@ Sheet process_sheet(const model::System& system, const model::Process& process) 
     return out;
 }
 
-Picture picture_of(Sheet sheet) {
+Picture picture_of(DiagramSheet sheet) {
     Measure measure;
     sheet.fit(measure.canvas());
     return {sheet.extent.width, sheet.extent.height, [sheet](Canvas& canvas) { draw(canvas, sheet); }};

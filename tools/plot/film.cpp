@@ -7,25 +7,21 @@
 #include <cairo.h>
 #include <fmt/format.h>
 
+#include "tools/plot/cairo_handle.h"
 #include "tools/plot/film_panel.h"
 #include "tools/plot/world_labels.h"
 
 namespace forage::plot {
 namespace {
 
-struct Free {
-    void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
-    void operator()(cairo_t* c) const { cairo_destroy(c); }
-};
-
-constexpr double margin = 10, head = 30, foot = 26;
+constexpr double film_margin = 10, film_head = 30, film_foot = 26;
 
 /// In a large arena robots and grippers would be dots.
 WorldMap map_of(const bug::World& world) {
     constexpr double size = 600, largest = 900, pixels_per_metre = 30;
-    const WorldMap map(world, {}, size, margin, head);
+    const WorldMap map(world, {}, size, film_margin, film_head);
     if (map.scale() >= pixels_per_metre) return map;
-    return {world, {}, std::min(largest, size * pixels_per_metre / map.scale()), margin, head};
+    return {world, {}, std::min(largest, size * pixels_per_metre / map.scale()), film_margin, film_head};
 }
 
 }  // namespace
@@ -37,18 +33,20 @@ class Film::Screen {
         : world_(world),
           map_(map_of(world)),
           panel_(world),
-          width_(static_cast<int>(std::ceil(margin + map_.width() + margin + panel_width + margin))),
-          height_(static_cast<int>(std::ceil(head + std::max(map_.height(), panel_.height()) + foot))),
+          width_(static_cast<int>(
+              std::ceil(film_margin + map_.width() + film_margin + panel_width + film_margin))),
+          height_(
+              static_cast<int>(std::ceil(film_head + std::max(map_.height(), panel_.height()) + film_foot))),
           ground_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_)),
           surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_)),
           context_(cairo_create(surface_.get())),
           canvas_(context_.get()) {
-        const std::unique_ptr<cairo_t, Free> context(cairo_create(ground_.get()));
+        const CairoContext context(cairo_create(ground_.get()));
         Canvas canvas(context.get());
         canvas.fill(0, 0, width_, height_, white);
-        canvas.text(margin, 20, title, 14, 0, black, true);
-        draw_legend(canvas, world, margin, width_ - margin, height_ - 9);
-        cairo_rectangle(context.get(), margin, head, map_.width(), map_.height());
+        canvas.text(film_margin, 20, title, 14, 0, black, true);
+        draw_legend(canvas, world, film_margin, width_ - film_margin, height_ - 9);
+        cairo_rectangle(context.get(), film_margin, film_head, map_.width(), map_.height());
         cairo_clip(context.get());
         map_.draw_ground(canvas);
         map_.draw_marks(canvas);
@@ -60,14 +58,14 @@ class Film::Screen {
         cairo_set_source_surface(c, ground_.get(), 0, 0);
         cairo_paint(c);
         cairo_save(c);
-        cairo_rectangle(c, margin, head, map_.width(), map_.height());
+        cairo_rectangle(c, film_margin, film_head, map_.width(), map_.height());
         cairo_clip(c);
         map_.draw_loose(canvas_);
         for (std::size_t i = 0; i < world_.bugs(); ++i) map_.draw_robot(canvas_, i, true);
         if (world_.bugs() > 1)
             for (std::size_t i = 0; i < world_.bugs(); ++i) draw_number(i);
         cairo_restore(c);
-        panel_.draw(canvas_, margin + map_.width() + margin, head);
+        panel_.draw(canvas_, film_margin + map_.width() + film_margin, film_head);
     }
 
     Pixels pixels() const {
@@ -98,8 +96,8 @@ class Film::Screen {
     WorldMap map_;
     FilmPanel panel_;
     int width_, height_;
-    std::unique_ptr<cairo_surface_t, Free> ground_, surface_;
-    std::unique_ptr<cairo_t, Free> context_;
+    CairoSurface ground_, surface_;
+    CairoContext context_;
     Canvas canvas_;
 };
 

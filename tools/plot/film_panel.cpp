@@ -7,14 +7,11 @@
 #include <cairo.h>
 #include <fmt/format.h>
 
+#include "tools/plot/cairo_handle.h"
 #include "tools/plot/world_map.h"
 
 namespace forage::plot {
 namespace {
-
-struct Free {
-    void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
-};
 
 constexpr double clock_height = 30, name_height = 14, picture_aspect = 28.0 / 32;
 constexpr std::size_t most_with_rays = 4, rows_of_rays = 3;
@@ -75,8 +72,7 @@ void FilmPanel::draw_picture(Canvas& canvas, std::size_t robot, double x, double
         canvas.text(x + wide / 2, y + tall / 2, "no camera", 11, 0.5, grey);
         return;
     }
-    const std::unique_ptr<cairo_surface_t, Free> image(
-        cairo_image_surface_create(CAIRO_FORMAT_RGB24, columns, rows));
+    const CairoSurface image(cairo_image_surface_create(CAIRO_FORMAT_RGB24, columns, rows));
     auto* data = cairo_image_surface_get_data(image.get());
     const int stride = cairo_image_surface_get_stride(image.get());
     for (int row = 0; row < rows; ++row)

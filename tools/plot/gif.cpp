@@ -15,8 +15,8 @@ namespace {
 
 constexpr int cube = 6, greys = 256 - cube * cube * cube;
 
-int level(int i) { return (i * 255 + (cube - 1) / 2) / (cube - 1); }
-int grey(int i) { return ((i + 1) * 255 + (greys + 1) / 2) / (greys + 1); }
+int cube_level(int i) { return (i * 255 + (cube - 1) / 2) / (cube - 1); }
+int grey_level(int i) { return ((i + 1) * 255 + (greys + 1) / 2) / (greys + 1); }
 
 std::array<GifColorType, 256> make_table() {
     std::array<GifColorType, 256> table{};
@@ -24,11 +24,11 @@ std::array<GifColorType, 256> make_table() {
     for (int r = 0; r < cube; ++r)
         for (int g = 0; g < cube; ++g)
             for (int b = 0; b < cube; ++b)
-                table[static_cast<std::size_t>((r * cube + g) * cube + b)] = {byte(level(r)), byte(level(g)),
-                                                                              byte(level(b))};
+                table[static_cast<std::size_t>((r * cube + g) * cube + b)] = {
+                    byte(cube_level(r)), byte(cube_level(g)), byte(cube_level(b))};
     for (int i = 0; i < greys; ++i)
-        table[static_cast<std::size_t>(cube * cube * cube + i)] = {byte(grey(i)), byte(grey(i)),
-                                                                   byte(grey(i))};
+        table[static_cast<std::size_t>(cube * cube * cube + i)] = {byte(grey_level(i)), byte(grey_level(i)),
+                                                                   byte(grey_level(i))};
     return table;
 }
 
@@ -43,10 +43,11 @@ std::uint8_t nearest_colour(std::uint32_t rgb) {
     const auto away = [&](int x, int y, int z) {
         return (r - x) * (r - x) + (g - y) * (g - y) + (b - z) * (b - z);
     };
-    const int grey_away = away(grey(in_greys), grey(in_greys), grey(in_greys));
-    return static_cast<std::uint8_t>(grey_away < away(level(step(r)), level(step(g)), level(step(b)))
-                                         ? cube * cube * cube + in_greys
-                                         : in_cube);
+    const int grey_away = away(grey_level(in_greys), grey_level(in_greys), grey_level(in_greys));
+    return static_cast<std::uint8_t>(
+        grey_away < away(cube_level(step(r)), cube_level(step(g)), cube_level(step(b)))
+            ? cube * cube * cube + in_greys
+            : in_cube);
 }
 
 }  // namespace

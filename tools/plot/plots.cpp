@@ -1,6 +1,7 @@
 #include "tools/plot/plots.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -23,7 +24,13 @@ constexpr double film_frame = 0.1;  ///< s of the world, about
 
 RowPlot::RowPlot(PlotSpec spec, const observe::Recorded& what) : spec_(std::move(spec)), what_(what) {
     if (spec_.kind != PlotSpec::Kind::time) return;
-    for (std::size_t i = 0; i < what_.size(); ++i) {
+    const bool as_lines = what_.size() <= most_lines;
+    cells_per_row_ = (what_.size() + most_rows - 1) / most_rows;
+    for (std::size_t i = 0; i < what_.size(); i += cells_per_row_) {
+        if (!as_lines) {  // rows have no names
+            curves_.emplace_back("", row_bins);
+            continue;
+        }
         const int n = static_cast<int>(i);
         curves_.emplace_back(what_.mean       ? "mean"
                              : what_.numbered ? fmt::format("cell {}", what_.cells.x + n)
@@ -37,7 +44,12 @@ void RowPlot::add(std::uint64_t cycle, std::span<const double> numbers) {
     last_ = cycle;
     if (!spec_.wants(cycle)) return;
     if (spec_.kind != PlotSpec::Kind::time) return add_frame(cycle, numbers);
-    for (std::size_t i = 0; i < curves_.size(); ++i) curves_[i].add(static_cast<double>(cycle), numbers[i]);
+    const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
+    for (auto& curve : curves_) {
+        const auto cells = numbers.first(std::min(cells_per_row_, numbers.size()));
+        curve.add(static_cast<double>(cycle), *std::max_element(cells.begin(), cells.end(), smaller));
+        numbers = numbers.subspan(cells.size());
+    }
 }
 
 void RowPlot::add_frame(std::uint64_t cycle, std::span<const double> numbers) {
@@ -77,6 +89,7 @@ std::string RowPlot::draw(Format format, const PlotContext& context) const {
         p.title = title, p.subtitle = context.run, p.quantity = quantity;
         p.cells = what_.cells.height > 1 && !what_.numbered ? "cell, row by row" : "cell";
         p.curves = curves_;
+        p.cells_per_row = cells_per_row_;
         p.seconds_per_cycle = context.seconds_per_cycle;
         if (context.trials.size() > 1 && context.trials.size() <= most_marks)
             p.marks = context.trials, p.mark_name = "a trial begins";

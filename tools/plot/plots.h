@@ -26,8 +26,9 @@ struct PlotContext {
     std::vector<double> trials;    ///< first cycle of each
 };
 
-/// Takes up the rows of a source and draws them, in bounded memory: a time plot joins neighbours, a moving
-/// picture without cycles leaves frames out, and of a space plot only the wanted cycles are kept.
+/// Takes up the rows of a source and draws them, in bounded memory: a time plot joins neighbours in time, and among cells where
+/// they are more than a picture has rows, a moving picture without cycles leaves frames out, and of a space plot only the wanted
+/// cycles are kept.
 class RowPlot {
   public:
     RowPlot(PlotSpec spec, const observe::Recorded& what);
@@ -48,7 +49,8 @@ class RowPlot {
 
     PlotSpec spec_;
     observe::Recorded what_;
-    std::vector<Curve> curves_;
+    std::vector<Curve> curves_;  ///< of a cell each, or of cells_per_row_ neighbours
+    std::size_t cells_per_row_ = 1;
     std::vector<SpaceFrame> frames_;
     std::uint64_t rows_ = 0, keep_every_ = 1, first_ = 0, last_ = 0;
 };

@@ -18,12 +18,12 @@ ColourScale scale_of(const SpacePlot& plot) {
 }
 
 /// Where things are on the sheet, in pixels.
-struct Sheet {
+struct PanelSheet {
     static constexpr double left = 66, top = 76, bar = 16, bar_gap = 22, bottom = 46;
     int cell, across, down;
     double step_x, step_y, panel_width, panel_height, width, height;
 
-    Sheet(const CellGrid& grid, std::size_t frames) {
+    PanelSheet(const CellGrid& grid, std::size_t frames) {
         const auto n = static_cast<int>(frames);
         const int room_x = n == 1 ? 640 : 210, room_y = n == 1 ? 480 : 170;
         cell = std::clamp(std::min(room_x / grid.width, room_y / grid.height), 1, n == 1 ? 48 : 20);
@@ -74,7 +74,7 @@ void draw_panel(Canvas& canvas, const SpacePlot& plot, const SpaceFrame& frame, 
 }
 
 Picture sheet_of(const SpacePlot& plot, std::vector<SpaceFrame> frames, const ColourScale& scale) {
-    const Sheet sheet(plot.grid, frames.size());
+    const PanelSheet sheet(plot.grid, frames.size());
     const std::string subtitle =
         frames.size() == 1
             ? fmt::format("cycle {}{}{}", frames[0].cycle, plot.subtitle.empty() ? "" : " · ", plot.subtitle)

@@ -9,8 +9,8 @@
 namespace forage::plot {
 namespace {
 
-constexpr std::size_t most_bins = 4000, most_lines = 10;
-constexpr double left = 84, top = 62, bottom = 50, area = 760;
+constexpr double time_left = 84, time_top = 62, time_bottom = 50,
+                 time_width = 760;  ///< pixels around and across the curves
 
 Interval cycles_of(const TimePlot& plot) {
     double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
@@ -98,8 +98,9 @@ Picture lines(const TimePlot& plot) {
     const bool marked = !plot.marks.empty() && !plot.mark_name.empty();
     if (marked) names = std::max(names, measure.canvas().width_of(plot.mark_name, 12));
     const double right = legend || marked ? 52 + names : 24;
-    const Axes axes{{left, top, area, 320}, cycles_of(plot), values_of(plot)};
-    return {left + area + right, top + 320 + bottom, [=](Canvas& canvas) {
+    const Axes axes{{time_left, time_top, time_width, 320}, cycles_of(plot), values_of(plot)};
+    const std::vector<Curve> curves(plot.curves.begin(), plot.curves.end());
+    return {time_left + time_width + right, time_top + 320 + time_bottom, [=](Canvas& canvas) {
                 draw_titles(canvas, plot);
                 if (axes.y.low < 0 && axes.y.high > 0)
                     canvas.line(axes.box.x, axes.py(0), axes.box.right(), axes.py(0), pale);
@@ -107,15 +108,15 @@ Picture lines(const TimePlot& plot) {
                 cairo_save(canvas.cairo());
                 cairo_rectangle(canvas.cairo(), axes.box.x, axes.box.y, axes.box.width, axes.box.height);
                 cairo_clip(canvas.cairo());
-                for (std::size_t i = 0; i < plot.curves.size(); ++i)
-                    draw_curve(canvas, axes, plot.curves[i], category(i));
+                for (std::size_t i = 0; i < curves.size(); ++i)
+                    draw_curve(canvas, axes, curves[i], category(i));
                 cairo_restore(canvas.cairo());
                 draw_axes(canvas, axes, {time_title(plot), true}, {plot.quantity});
-                double y = top + 10;
+                double y = time_top + 10;
                 const double x = axes.box.right() + 14;
-                for (std::size_t i = 0; legend && i < plot.curves.size(); ++i, y += 20) {
+                for (std::size_t i = 0; legend && i < curves.size(); ++i, y += 20) {
                     canvas.line(x, y, x + 20, y, category(i), 2.5);
-                    canvas.text(x + 27, y + 4, plot.curves[i].name(), 12);
+                    canvas.text(x + 27, y + 4, curves[i].name(), 12);
                 }
                 if (!marked) return;
                 const double dash[] = {2, 3};
@@ -126,6 +127,26 @@ Picture lines(const TimePlot& plot) {
             }};
 }
 
+/// For each pixel of a row, the value in the bins there that is the furthest from zero.
+std::vector<double> row_values(const Curve& curve, const Interval& cycles) {
+    std::vector<double> out;
+    const auto& bins = curve.bins();
+    for (int column = 0; column < static_cast<int>(time_width) && !bins.empty(); ++column) {
+        const double from = cycles.low + cycles.size() * column / time_width,
+                     to = cycles.low + cycles.size() * (column + 1) / time_width;
+        auto at =
+            std::partition_point(bins.begin(), bins.end(), [&](const auto& b) { return b.last < from; });
+        if (at == bins.end()) --at;
+        if (at != bins.begin() && at->first > to) --at;  // between two samples: the earlier one
+        double value = std::abs(at->high) >= std::abs(at->low) ? at->high : at->low;
+        for (++at; at != bins.end() && at->first < to; ++at)
+            for (const double v : {at->low, at->high})
+                if (std::abs(v) > std::abs(value)) value = v;
+        out.push_back(value);
+    }
+    return out;
+}
+
 Picture rows(const TimePlot& plot) {
     const auto count = static_cast<int>(plot.curves.size());
     const int row = std::clamp(400 / count, 1, 16);
@@ -133,32 +154,26 @@ Picture rows(const TimePlot& plot) {
     ColourScale scale;
     for (const auto& c : plot.curves)
         for (const auto& b : c.bins()) scale.include(b.high), scale.include(b.low);
-    const Axes axes{{left, top, area, tall}, cycles_of(plot), {0.5, count + 0.5}, true};
+    const Interval cells{0.5, static_cast<double>(plot.curves.size() * plot.cells_per_row) + 0.5};
+    const Axes axes{{time_left, time_top, time_width, tall}, cycles_of(plot), cells, true};
     const double bar = std::max(tall, 90.0);
-    return {left + area + 22 + 16 + colour_bar_labels, top + bar + bottom, [=](Canvas& canvas) {
-                draw_titles(canvas, plot);
-                // One column per pixel: the value in the bin there that is the furthest from zero.
-                const auto value = [&](const Curve& curve, int column) {
-                    const double from = axes.x.low + axes.x.size() * column / area,
-                                 to = axes.x.low + axes.x.size() * (column + 1) / area;
-                    const auto& bins = curve.bins();
-                    auto at = std::partition_point(bins.begin(), bins.end(),
-                                                   [&](const auto& b) { return b.last < from; });
-                    if (at == bins.end()) --at;
-                    if (at != bins.begin() && at->first > to) --at;  // between two samples: the earlier one
-                    double out = std::abs(at->high) >= std::abs(at->low) ? at->high : at->low;
-                    for (++at; at != bins.end() && at->first < to; ++at)
-                        for (const double v : {at->low, at->high})
-                            if (std::abs(v) > std::abs(out)) out = v;
-                    return out;
-                };
-                draw_cells(canvas, axes.box, static_cast<int>(area), count, [&](int column, int r) {
-                    const auto& curve = plot.curves[static_cast<std::size_t>(r)];
-                    return curve.bins().empty() ? grey : scale(value(curve, column));
+    std::vector<std::vector<double>> values;
+    for (const auto& c : plot.curves) values.push_back(row_values(c, axes.x));
+    TimePlot shown = plot;
+    shown.curves = {};
+    if (plot.cells_per_row > 1)
+        shown.cells +=
+            fmt::format("; a row shows the value furthest from zero of {} cells", plot.cells_per_row);
+    return {time_left + time_width + 22 + 16 + colour_bar_labels, time_top + bar + time_bottom,
+            [=](Canvas& canvas) {
+                draw_titles(canvas, shown);
+                draw_cells(canvas, axes.box, static_cast<int>(time_width), count, [&](int column, int r) {
+                    const auto& row_of = values[static_cast<std::size_t>(r)];
+                    return row_of.empty() ? grey : scale(row_of[static_cast<std::size_t>(column)]);
                 });
-                draw_marks(canvas, plot, axes, scale.interval().low < 0 ? grey : white);
-                draw_axes(canvas, axes, {time_title(plot), true}, {plot.cells, true});
-                draw_colour_bar(canvas, scale, {axes.box.right() + 22, top, 16, bar}, plot.quantity);
+                draw_marks(canvas, shown, axes, scale.interval().low < 0 ? grey : white);
+                draw_axes(canvas, axes, {time_title(shown), true}, {shown.cells, true});
+                draw_colour_bar(canvas, scale, {axes.box.right() + 22, time_top, 16, bar}, shown.quantity);
             }};
 }
 
@@ -174,7 +189,7 @@ void Curve::add(double cycle, double value) {
         join(bins_.back(), point);
     else
         bins_.push_back(point);
-    if (bins_.size() <= most_bins) return;
+    if (bins_.size() <= most_bins_) return;
     for (std::size_t i = 0; 2 * i + 1 < bins_.size(); ++i) {
         bins_[i] = bins_[2 * i];
         join(bins_[i], bins_[2 * i + 1]);

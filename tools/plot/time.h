@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,11 +12,12 @@
 
 namespace forage::plot {
 
-/// A curve in bounded memory: from some thousand points on, neighbours are joined, and of each such bin the
+/// A curve in bounded memory: beyond `most_bins` points, neighbours are joined, and of each such bin the
 /// first, last, smallest and largest value are kept, so that no peak is lost.
 class Curve {
   public:
-    explicit Curve(std::string name) : name_(std::move(name)) {}
+    explicit Curve(std::string name, std::size_t most_bins = 4000)
+        : name_(std::move(name)), most_bins_(most_bins) {}
     void add(double cycle, double value);
 
     struct Bin {
@@ -32,21 +34,30 @@ class Curve {
 
   private:
     std::string name_;
+    std::size_t most_bins_;
     std::vector<Bin> bins_;
     double per_bin_ = 1;
 };
+
+/// Up to so many curves are drawn as lines, and more as rows of colours.
+inline constexpr std::size_t most_lines = 10;
+/// A picture has at most so many rows; where there are more cells, neighbours share one.
+inline constexpr std::size_t most_rows = 1000;
+/// The most bins of a row, with which each of its pixels has one.
+inline constexpr std::size_t row_bins = 1520;
 
 struct TimePlot {
     std::string title, subtitle;
     std::string quantity;        ///< what the numbers are
     std::string cells = "cell";  ///< what the curves are
-    std::vector<Curve> curves;   ///< all with the same cycles
+    std::span<const Curve> curves;  ///< all with the same cycles
+    std::size_t cells_per_row = 1;  ///< how many cells each curve stands for
     std::vector<double> marks;   ///< cycles at which a line is drawn, such as the starts of trials
     std::string mark_name;
     double seconds_per_cycle = 0;  ///< 0: unknown
 };
 
-/// Up to ten curves are lines with a legend; more are rows of colours.
+/// Lines with a legend, or rows of colours. The picture does not refer to the curves.
 Picture time_plot(const TimePlot& plot);
 
 }  // namespace forage::plot

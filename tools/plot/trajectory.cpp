@@ -13,8 +13,6 @@
 namespace forage::plot {
 namespace {
 
-using Box = Eigen::AlignedBox2d;
-
 enum class End { reached, missed, unfinished };
 
 End end_of(const Path& p) { return p.reached ? End::reached : p.finished ? End::missed : End::unfinished; }
@@ -60,8 +58,8 @@ class Drawing {
     cairo_t* c() const { return canvas_->cairo(); }
     double px(double x) const { return map_.px(x); }
     double py(double y) const { return map_.py(y); }
-    static Box points_of(const std::vector<Path>& paths) {
-        Box box;
+    static Eigen::AlignedBox2d points_of(const std::vector<Path>& paths) {
+        Eigen::AlignedBox2d box;
         for (const auto& p : paths)
             for (const auto& point : p.points) box.extend(point);
         return box;
@@ -104,7 +102,7 @@ class Drawing {
     }
 
     void draw_axes() {
-        const Box& view = map_.view();
+        const Eigen::AlignedBox2d& view = map_.view();
         const Axes axes{{left, top, map_.width(), map_.height()},
                         {view.min().x(), view.max().x()},
                         {view.min().y(), view.max().y()}};

@@ -10,7 +10,7 @@
 namespace forage::plot {
 namespace {
 
-constexpr double letters = 11, tall = 14;
+constexpr double label_size = 11, label_height = 14;
 
 /// The middle of its base line, half its width.
 struct Label {
@@ -19,13 +19,13 @@ struct Label {
 };
 
 Label label_of(Canvas& canvas, double x, double y, std::string text) {
-    const double half = canvas.width_of(text, letters) / 2 + 2;
+    const double half = canvas.width_of(text, label_size) / 2 + 2;
     return {x, y, half, std::move(text)};
 }
 
 void draw(Canvas& canvas, const Label& l) {
-    canvas.fill(l.x - l.half, l.y - letters, 2 * l.half, tall, white);
-    canvas.text(l.x, l.y, l.text, letters, 0.5);
+    canvas.fill(l.x - l.half, l.y - label_size, 2 * l.half, label_height, white);
+    canvas.text(l.x, l.y, l.text, label_size, 0.5);
 }
 
 /// Moved to where all of it is within the map.
@@ -33,7 +33,7 @@ Label within(const WorldMap& map, Label l) {
     const double left = map.px(map.view().min().x()), right = map.px(map.view().max().x()),
                  top = map.py(map.view().max().y()), bottom = map.py(map.view().min().y());
     l.x = std::clamp(l.x, std::min(left + l.half + 3, right), std::max(right - l.half - 3, left));
-    l.y = std::clamp(l.y, std::min(top + tall, bottom), std::max(bottom - 6, top));
+    l.y = std::clamp(l.y, std::min(top + label_height, bottom), std::max(bottom - 6, top));
     return l;
 }
 
@@ -47,11 +47,12 @@ std::vector<Label> robot_labels(Canvas& canvas, const bug::World& world, const W
                      y = map.py(world.pose(i).y);
         const auto is_free = [&](const Label& l) {
             for (const Label& other : out)
-                if (std::abs(l.x - other.x) < l.half + other.half + 1 && std::abs(l.y - other.y) < tall + 1)
+                if (std::abs(l.x - other.x) < l.half + other.half + 1 &&
+                    std::abs(l.y - other.y) < label_height + 1)
                     return false;
             for (std::size_t j = 0; j < world.bugs(); ++j)
                 if (std::abs(map.px(world.pose(j).x) - l.x) < r + l.half &&
-                    std::abs(map.py(world.pose(j).y) - (l.y - tall / 2 + 3)) < r + tall / 2)
+                    std::abs(map.py(world.pose(j).y) - (l.y - label_height / 2 + 3)) < r + label_height / 2)
                     return false;
             return true;
         };
@@ -59,10 +60,10 @@ std::vector<Label> robot_labels(Canvas& canvas, const bug::World& world, const W
         bool found = false;
         for (double ring = 0; ring < 6 && !found; ++ring)
             for (const auto& [dx, dy] : sides) {
-                const double away = r + 5 + ring * (tall + 2);
+                const double away = r + 5 + ring * (label_height + 2);
                 Label tried = best;
                 tried.x = x + dx * (away + best.half);
-                tried.y = y + dy * (away + (dy > 0 ? letters : 0)) + (dy == 0 ? 4 : 0);
+                tried.y = y + dy * (away + (dy > 0 ? label_size : 0)) + (dy == 0 ? 4 : 0);
                 tried = within(map, tried);
                 if (!is_free(tried)) continue;
                 best = tried, found = true;
@@ -138,10 +139,10 @@ void draw_robot_names(Canvas& canvas, const bug::World& world, const WorldMap& m
 double draw_legend(Canvas& canvas, const bug::World& world, double left, double right, double y) {
     double x = left;
     for (const Entry& entry : entries_of(world)) {
-        const double wide = 24 + canvas.width_of(entry.name, letters);
+        const double wide = 24 + canvas.width_of(entry.name, label_size);
         if (x > left && x + wide > right) x = left, y += 20;
         entry.draw(canvas, x, y);
-        canvas.text(x + 24, y, entry.name, letters);
+        canvas.text(x + 24, y, entry.name, label_size);
         x += wide + 18;
     }
     return y;

@@ -9,6 +9,7 @@
 
 #include "bug_interface/sensing/scene.h"
 #include "tools/plot/axes.h"
+#include "tools/plot/cairo_handle.h"
 #include "tools/plot/world_labels.h"
 
 namespace forage::plot {
@@ -16,17 +17,12 @@ namespace {
 
 using bug::ShapeKind;
 
-struct Free {
-    void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
-};
-using Surface = std::unique_ptr<cairo_surface_t, Free>;
-
 double top_of(const bug::DrawnSolid& d) { return d.solid.pose.translation().z() + d.solid.size.z() / 2; }
 
 /// A floor's picture; each n x n pixels become one, their mean. At the right and lower edge fewer do.
-Surface picture_of(const bug::FloorTexture& floor, int n) {
+CairoSurface picture_of(const bug::FloorTexture& floor, int n) {
     const int width = (floor.width() + n - 1) / n, height = (floor.height() + n - 1) / n;
-    Surface out(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
+    CairoSurface out(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
     if (cairo_surface_status(out.get()) != CAIRO_STATUS_SUCCESS) return out;  // larger than cairo draws
     auto* data = cairo_image_surface_get_data(out.get());
     const int stride = cairo_image_surface_get_stride(out.get());
@@ -119,7 +115,7 @@ void WorldMap::draw_floor(Canvas& canvas, const bug::FloorSurface& floor) const 
     const bool on_screen = cairo_surface_get_type(cairo_get_target(c)) == CAIRO_SURFACE_TYPE_IMAGE;
     const int n = on_screen ? static_cast<int>(std::lround(1 / std::clamp(pixel, 0.01, 1.0))) : 1;  // to 100
     pixel *= n;
-    const Surface picture = picture_of(texture, n);
+    const CairoSurface picture = picture_of(texture, n);
     cairo_save(c);
     cairo_translate(c, px(floor.pose.x), py(floor.pose.y));
     cairo_rotate(c, -floor.pose.yaw);

@@ -174,12 +174,12 @@ TEST_CASE("The module reports errors of its groups and parameters") {
 TEST_CASE(
     "A module without a world can be checked but not started, and a robot is driven by one module only") {
     Bench lonely(nullptr);
-    CHECK_THROWS_WITH(lonely.start(), Catch::Contains("--world"));
+    CHECK_THROWS_WITH(lonely.start(), ContainsSubstring("--world"));
     const auto world = test::make_world(test::description("basic_arena"));
     auto first = std::make_unique<Bench>(world.get());
     first->start();
     Bench second(world.get());
-    CHECK_THROWS_WITH(second.start(), Catch::Contains("two modules drive the robot 'Bug'"));
+    CHECK_THROWS_WITH(second.start(), ContainsSubstring("two modules drive the robot 'Bug'"));
     first.reset();
     second.start();
 }

@@ -166,5 +166,5 @@ TEST_CASE("A robot with too many heights gives one error, at the shape") {
     REQUIRE(diagnostics.errors() == 1);
     const Diagnostic& d = diagnostics.all().front();
     CHECK(d.where.line > 120);
-    CHECK_THAT(d.message, Catch::Contains("more than 32 different ranges of heights"));
+    CHECK_THAT(d.message, ContainsSubstring("more than 32 different ranges of heights"));
 }

@@ -118,9 +118,9 @@ TEST_CASE("Plugins that have no effect or are misspelt give a warning with a hin
     misspelt.replace(misspelt.find("libvel"), 6, "libvell");
     const std::string said = said_with(misspelt);
     CHECK_THAT(said,
-               Catch::Contains("plugin 'libvell_plugin.so' is not known and has no effect | did you mean "
+               ContainsSubstring("plugin 'libvell_plugin.so' is not known and has no effect | did you mean "
                                "libvel_plugin.so?"));
-    CHECK_THAT(said, Catch::Contains("'m' has a link 'bug', but no plugin that drives it"));
+    CHECK_THAT(said, ContainsSubstring("'m' has a link 'bug', but no plugin that drives it"));
 }
 
 TEST_CASE("Sensors that have no effect give a warning") {
@@ -158,20 +158,20 @@ TEST_CASE("Joints that do not turn, or turn without a limit, give a warning") {
 
 TEST_CASE("A game with inconsistent rules gives a warning") {
     CHECK_THAT(said_with(game("")),
-               Catch::Contains("no models are named Home_A and Home_B | the homes are assumed "
+               ContainsSubstring("no models are named Home_A and Home_B | the homes are assumed "
                                "to be at (-10, 10) and (10, -10)"));
     CHECK_THAT(said_with(game("<stale_after>60</stale_after>")),
-               Catch::Contains("resources dissolve before they turn yellow | <stale_after> is 60 s, "
+               ContainsSubstring("resources dissolve before they turn yellow | <stale_after> is 60 s, "
                                "<dissolves_after> 50 s"));
     CHECK_THAT(said_with(game("<site>0 3 0.1</site>")),
-               Catch::Contains("the site (0, 3) is occupied | resources appear at free positions within "
+               ContainsSubstring("the site (0, 3) is occupied | resources appear at free positions within "
                                "0.5 m"));
 }
 
 TEST_CASE("Start poses that no robot uses give a warning") {
     const std::string text = edited("<uri>model://forage_bug</uri>", "<uri>model://team_a_bug</uri>");
     CHECK_THAT(said_of(text),
-               Catch::Contains("75: warning: there are start poses, but no robot is ever reset"));
+               ContainsSubstring("75: warning: there are start poses, but no robot is ever reset"));
 }
 
 TEST_CASE("The worlds in the repository give no diagnostics") {

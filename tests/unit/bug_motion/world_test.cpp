@@ -288,15 +288,14 @@ TEST_CASE("An unknown element is a warning at its line, with the nearest name") 
           "<materal> is not known in <visual> and has no effect | did you mean <material>?",
           "<horizontl> is not known in <scan> and has no effect | did you mean <horizontal>?",
           "<lihgt> is not known in <world> and has no effect | did you mean <light>?"})
-        CHECK_THAT(model, Catch::Contains(what));
+        CHECK_THAT(model, ContainsSubstring(what));
 }
 
 TEST_CASE("An incomplete or wrong include gives an error with a hint") {
     const std::string uri = "<uri>model://wall_straight</uri>";
     const auto said = [&](const std::string& instead) {
         const std::string text = edited(uri, instead), out = said_of(text);
-        CHECK_THAT(out, Catch::StartsWith(std::string("64: error: ")) ||
-                            Catch::StartsWith(std::string("62: error: ")));
+        CHECK_THAT(out, StartsWith(std::string("64: error: ")) || StartsWith(std::string("62: error: ")));
         CHECK(std::count(out.begin(), out.end(), '\n') == 1);
         return out.substr(out.find("error: ") + 7);
     };
@@ -312,7 +311,7 @@ TEST_CASE("An incomplete or wrong include gives an error with a hint") {
           "'model://floor_basic' or "
           "'model://floor_open'?\n");
     CHECK(said("<uri>target</uri>") == "there is no model 'target' | write model://target\n");
-    CHECK_THAT(said("<uri>model://quux</uri>"), Catch::Contains("the models are floor_ambiguous, "));
+    CHECK_THAT(said("<uri>model://quux</uri>"), ContainsSubstring("the models are floor_ambiguous, "));
 }
 
 TEST_CASE("Models that are not found give one error with a hint") {
@@ -354,13 +353,13 @@ TEST_CASE("An angle of more than a turn gives a warning") {
 TEST_CASE("Errors of an included model's pose are reported at the include") {
     std::string said =
         said_of(edited("<pose>1.5 -2 0 0 0 1.57079</pose>", "<pose>1.5 -7 0 0 0 1.57079</pose>"));
-    CHECK_THAT(said, Catch::StartsWith("85: error: 'Reset_2' at (1.5, -7) is not inside the bounds"));
+    CHECK_THAT(said, StartsWith("85: error: 'Reset_2' at (1.5, -7) is not inside the bounds"));
     said = said_of(edited("<name>GroundPlane</name>", "<name>Ground</name>"));
-    CHECK_THAT(said, Catch::StartsWith(
-                         "75: error: there is a start pose 'Reset_0', but no model named GroundPlane"));
+    CHECK_THAT(said,
+               StartsWith("75: error: there is a start pose 'Reset_0', but no model named GroundPlane"));
     said = said_of(
         edited("</world>", "<include><name>Bug</name><uri>model://forage_bug</uri></include></world>"));
-    CHECK_THAT(said, Catch::Contains("error: there are two robots named 'Bug'"));
+    CHECK_THAT(said, ContainsSubstring("error: there are two robots named 'Bug'"));
 }
 
 TEST_CASE("A file that is not a world gives an error that says what it is") {
@@ -374,12 +373,12 @@ TEST_CASE("A file that is not a world gives an error that says what it is") {
     const Scratch scratch;
     CHECK(said(systems / "reactive_foraging.iqr") ==
           "the root element is <System>; that of a world or a model is <sdf>");
-    CHECK_THAT(said(systems / "worlds"), Catch::Contains("is a folder, not a world file"));
+    CHECK_THAT(said(systems / "worlds"), ContainsSubstring("is a folder, not a world file"));
     CHECK_THAT(said(systems / "worlds/models/floor_open/materials/floor_open.png"),
-               Catch::Contains("the byte 0x89 is not UTF-8"));
+               ContainsSubstring("the byte 0x89 is not UTF-8"));
     CHECK_THAT(said(scratch.write("a.world", std::string("a\0b", 3))),
-               Catch::Contains("the byte 0x00 does not occur in a text"));
-    CHECK_THAT(said(scratch.write("a.world", " \n")), Catch::Contains("is empty"));
+               ContainsSubstring("the byte 0x00 does not occur in a text"));
+    CHECK_THAT(said(scratch.write("a.world", " \n")), ContainsSubstring("is empty"));
     CHECK(said(scratch.write("a.world", "hello")) == "there is text before the first element");
     CHECK(said(scratch.write("a.world", "<!-- <sdf> --><sfd/>")) ==
           "the root element is <sfd>; that of a world or a model is <sdf>");

@@ -35,13 +35,13 @@ TEST_CASE(
     "A system that needs more memory than is allowed is refused before it is taken, and its largest part is "
     "named") {
     const std::string wired = refusal(large(300, 100'000));
-    CHECK_THAT(wired, Catch::Contains("the system needs 72.01 GB of memory, the most is 17.18 GB"));
-    CHECK_THAT(wired,
-               Catch::Contains("the largest part is connection 'long': delay 100000 x 90000 cells = 72 GB"));
+    CHECK_THAT(wired, ContainsSubstring("the system needs 72.01 GB of memory, the most is 17.18 GB"));
+    CHECK_THAT(wired, ContainsSubstring(
+                          "the largest part is connection 'long': delay 100000 x 90000 cells = 72 GB"));
     const std::string plastic = refusal(large(200, 30'000, "synapseHebbian"));
     CHECK_THAT(
         plastic,
-        Catch::Contains(
+        ContainsSubstring(
             "the largest part is connection 'long': (4 numbers + delay 30000) x 40000 synapses = 9.602 GB"));
 }
 
@@ -53,6 +53,6 @@ TEST_CASE("A system for which there is not enough memory is refused with words")
     const auto system = large(300, 1000);  // 0.7 GB
     const LimitedMemory limit(std::size_t{200} << 20);
     const std::string text = refusal(system);
-    CHECK_THAT(text, Catch::Contains("there is not enough memory for the system"));
-    CHECK_THAT(text, Catch::Contains("connection 'long': delay 1000 x 90000 cells = 0.72 GB"));
+    CHECK_THAT(text, ContainsSubstring("there is not enough memory for the system"));
+    CHECK_THAT(text, ContainsSubstring("connection 'long': delay 1000 x 90000 cells = 0.72 GB"));
 }

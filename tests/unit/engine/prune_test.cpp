@@ -127,11 +127,11 @@ TEST_CASE("Whatever of a group is demanded, the group is computed; only what is 
     CHECK(s.input(b, InputKind::excitatory)[0] == 1);
     CHECK_THROWS_WITH(
         s.input(c, InputKind::excitatory),
-        Catch::Contains("the input of group 'P/C' is pruned") && Catch::Contains("Demand::read_input()"));
+        ContainsSubstring("the input of group 'P/C' is pruned") && ContainsSubstring("Demand::read_input()"));
     s.update_groups();
     s.output(c).setConstant(7);
-    CHECK_THROWS_WITH(s.output(b), Catch::Contains("group 'P/B' is not to be overwritten") &&
-                                       Catch::Contains("Demand::overwrite_group()"));
+    CHECK_THROWS_WITH(s.output(b), ContainsSubstring("group 'P/B' is not to be overwritten") &&
+                                       ContainsSubstring("Demand::overwrite_group()"));
     CHECK_THROWS_AS(s.writable_state(b, 0), std::logic_error);
     s.update_modules(), s.update_connections();
     CHECK(activity(s, "P/C")[0] == 7);
@@ -162,8 +162,8 @@ TEST_CASE("What a module takes as an input is read; its outputs are, when their 
     CHECK(*chain.asking.read == std::vector<bool>{false, true, false});
     CHECK(s.has_written(0, 0));
     CHECK_FALSE(s.has_written(0, 1));
-    CHECK_THROWS_WITH(s.module_output(0, 0), Catch::Contains("output 'first' of process 'P' is pruned") &&
-                                                 Catch::Contains("Demand::read_output()"));
+    CHECK_THROWS_WITH(s.module_output(0, 0), ContainsSubstring("output 'first' of process 'P' is pruned") &&
+                                                 ContainsSubstring("Demand::read_output()"));
     CHECK(s.module_output(0, 1).size() == 2);
     CHECK(s.module_output(0, 2).size() == 0);  // unset
 }
@@ -204,7 +204,7 @@ TEST_CASE("Synapses that are demanded learn as ever; others to pruned groups can
     CHECK((activity(s, "P/E") == activity(all, "P/E")).all());
 
     auto without = build(chain.system, chain.types, {"A"});
-    CHECK_THROWS_WITH(without.synapse_state(Chain::learning, 0), Catch::Contains("Demand::read_synapses()"));
+    CHECK_THROWS_WITH(without.synapse_state(Chain::learning, 0), ContainsSubstring("Demand::read_synapses()"));
 }
 
 TEST_CASE("Reading what is pruned is an error that names it and says how to demand it") {
@@ -213,7 +213,7 @@ TEST_CASE("Reading what is pruned is an error that names it and says how to dema
     s.start();
     s.step();
     const int c = group(s.layout(), "P/C");
-    const auto told = Catch::Contains(
+    const auto told = ContainsSubstring(
         "group 'P/C' is pruned: nothing that was demanded depends on it. To read it, call "
         "Demand::read_group()");
     CHECK_THROWS_WITH(s.state(c, 0), told);
@@ -242,5 +242,5 @@ TEST_CASE("A checkpoint is one of a run that prunes the same") {
     CHECK((activity(same, "P/D") == activity(all, "P/D")).all());
     CHECK((activity(one, "P/D") == activity(all, "P/D")).all());
     Archive wrong{std::string_view(written.bytes())};
-    CHECK_THROWS_WITH(other.checkpoint(wrong), Catch::Contains("what is pruned differs"));
+    CHECK_THROWS_WITH(other.checkpoint(wrong), ContainsSubstring("what is pruned differs"));
 }

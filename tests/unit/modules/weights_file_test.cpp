@@ -8,7 +8,6 @@
 #include "tests/support/golden.h"
 
 using namespace forage::adaptive;
-using Catch::Matchers::Contains;
 using Eigen::MatrixXd;
 
 namespace {
@@ -63,29 +62,31 @@ TEST_CASE("White space between weights is ignored, and the last comma may be mis
 }
 
 TEST_CASE("A file without valid weights is rejected, with the location and the reason") {
-    CHECK_THAT(complaint("1, 2, 3"), Contains("FILE:1:8: 3 weights") && Contains("need 4"));
-    CHECK_THAT(complaint("1, 2, \n3, 4, \n5, "), Contains("5 weights") && Contains("need 4"));
-    CHECK_THAT(complaint("1, 2, \n3, 8x, \n"), Contains("FILE:2:4: '8x' is not a number"));
-    CHECK_THAT(complaint("1, 2 \n3, 4, \n"), Contains("FILE:1:4: '2 ?3' is not a number"));
-    CHECK_THAT(complaint("1, , 3, 4"), Contains("there is no number here"));
-    CHECK_THAT(complaint("1, nan, 3, 4"), Contains("'nan'"));
-    CHECK_THAT(complaint("1, 1e300, 3, 4"), Contains("'1e300'"));
-    CHECK_THAT(complaint(""), Contains("0 weights"));
-    CHECK_THAT(complaint("\x1b[31m"), Contains("'?[31m'"));
-    CHECK_THAT(complaint("1, x, 3, \n4y, z"), Contains("FILE:1:4: 'x'") && Contains("and 2 more errors"));
+    CHECK_THAT(complaint("1, 2, 3"), ContainsSubstring("FILE:1:8: 3 weights") && ContainsSubstring("need 4"));
+    CHECK_THAT(complaint("1, 2, \n3, 4, \n5, "), ContainsSubstring("5 weights") && ContainsSubstring("need 4"));
+    CHECK_THAT(complaint("1, 2, \n3, 8x, \n"), ContainsSubstring("FILE:2:4: '8x' is not a number"));
+    CHECK_THAT(complaint("1, 2 \n3, 4, \n"), ContainsSubstring("FILE:1:4: '2 ?3' is not a number"));
+    CHECK_THAT(complaint("1, , 3, 4"), ContainsSubstring("there is no number here"));
+    CHECK_THAT(complaint("1, nan, 3, 4"), ContainsSubstring("'nan'"));
+    CHECK_THAT(complaint("1, 1e300, 3, 4"), ContainsSubstring("'1e300'"));
+    CHECK_THAT(complaint(""), ContainsSubstring("0 weights"));
+    CHECK_THAT(complaint("\x1b[31m"), ContainsSubstring("'?[31m'"));
+    CHECK_THAT(complaint("1, x, 3, \n4y, z"), ContainsSubstring("FILE:1:4: 'x'") && ContainsSubstring("and 2 more errors"));
 }
 
 TEST_CASE("A missing file and a folder are rejected by name") {
     const File file;
-    CHECK_THROWS_WITH(read_weights(file.path, 2, 2), Contains("no such file") && Contains(file.path));
-    CHECK_THROWS_WITH(read_weights(file.folder.string(), 2, 2), Contains("a directory"));
+    CHECK_THROWS_WITH(read_weights(file.path, 2, 2),
+                      ContainsSubstring("no such file") && ContainsSubstring(file.path));
+    CHECK_THROWS_WITH(read_weights(file.folder.string(), 2, 2), ContainsSubstring("a directory"));
 }
 
 TEST_CASE("No file remains when weights cannot be written") {
     const File file;
     CHECK_THROWS_WITH(write_weights((file.folder / "none" / "weights").string(), MatrixXd::Zero(2, 2)),
-                      Contains("cannot write"));
-    CHECK_THROWS_WITH(write_weights(file.folder.string(), MatrixXd::Zero(2, 2)), Contains("cannot write"));
+                      ContainsSubstring("cannot write"));
+    CHECK_THROWS_WITH(write_weights(file.folder.string(), MatrixXd::Zero(2, 2)),
+                      ContainsSubstring("cannot write"));
     CHECK(std::filesystem::is_empty(file.folder));
     CHECK_FALSE(std::filesystem::exists(file.folder.string() + ".part"));
 }

@@ -6,6 +6,7 @@
 
 #include <unistd.h>
 
+#include "core/observe/npz.h"
 #include "core/observe/recorder.h"
 #include "tests/unit/engine/simulations.h"
 
@@ -181,5 +182,25 @@ TEST_CASE("What is no recording is refused by name") {
     }
     std::ofstream(directory / "g.csv") << "cycle,x1_y1\n0,1\n1,x\n";
     auto recording = open_recording(directory / "g.csv");
-    CHECK_THROWS_WITH(rows_of(*recording[0]), Catch::Matchers::EndsWith("g.csv:3:3: 'x' is not a number"));
+    CHECK_THROWS_WITH(rows_of(*recording[0]), EndsWith("g.csv:3:3: 'x' is not a number"));
+}
+
+TEST_CASE("Writing an archive touches nothing beside it but what a killed program left of the same archive") {
+    const Directory directory;
+    const auto write = [&](const std::string& name) { std::ofstream(directory / name) << name; };
+    const std::vector<std::string> neighbours = {"a.npz.backup", "a.npz.part.backup", "a.npz.abcdef"};
+    for (const auto& name : neighbours) write(name);
+    fs::create_directory(directory / "a.npz.part");
+    write("a.npz.part/archive.npz.Xy12Zz");
+    write("row.npy");
+
+    join_npz(directory / "a.npz", {{"row", directory / "row.npy"}});
+    extract_npz(directory / "a.npz", "row", directory / "again.npy");
+    CHECK(text_of(directory / "again.npy") == "row.npy");
+    for (const auto& name : neighbours) CHECK(text_of(directory / name) == name);
+    CHECK_FALSE(fs::exists(directory / "a.npz.part"));
+    CHECK_THROWS_WITH(join_npz(directory / "none/a.npz", {}), ContainsSubstring("cannot write"));
+    CHECK_THROWS_WITH(join_npz(directory / "a.npz", {{"row", directory / "none.npy"}}),
+                      ContainsSubstring("cannot write"));
+    CHECK_FALSE(fs::exists(directory / "a.npz.part"));
 }

@@ -97,13 +97,28 @@ TEST_CASE("A curve of any length stays small and loses no peak") {
     CHECK((low == -7 && high == 9 && count == 1'000'000 && last == 999'999));
 }
 
+TEST_CASE("A picture of rows outlives its curves and says how many cells share a row") {
+    const auto drawn = [](std::size_t cells_per_row) {
+        std::vector<Curve> curves(30, Curve("", row_bins));
+        for (auto& c : curves)
+            for (int i = 0; i < 5000; ++i) c.add(i, i);
+        CHECK(curves[0].bins().size() <= row_bins);
+        TimePlot plot;
+        plot.title = "a", plot.quantity = "b", plot.curves = curves, plot.cells_per_row = cells_per_row;
+        return time_plot(plot);
+    };
+    const Picture one = drawn(1), seven = drawn(7);
+    CHECK(one.height == seven.height);
+    CHECK(render(one, Format::png) != render(seven, Format::png));
+}
+
 TEST_CASE("A picture is the same in all formats, and the same bytes whatever was drawn before") {
     TimePlot time;
     time.title = "a", time.quantity = "b";
-    for (int c = 0; c < 12; ++c) {
-        time.curves.emplace_back("c");
-        for (int i = 0; i < 50; ++i) time.curves.back().add(i, c * i);
-    }
+    std::vector<Curve> curves(12, Curve("c"));
+    for (int c = 0; c < 12; ++c)
+        for (int i = 0; i < 50; ++i) curves[static_cast<std::size_t>(c)].add(i, c * i);
+    time.curves = curves;
     for (const Format f : {Format::png, Format::svg, Format::pdf}) {
         const std::string first = render(space_plot(small_group(1)), f);
         CHECK(first.size() > 1000);

@@ -9,6 +9,7 @@
 #include "core/model/validate.h"
 #include "tests/support/catch.h"
 #include "tests/support/golden.h"
+#include "tests/support/paths.h"
 #include "tests/support/model_text.h"
 
 using namespace forage;

@@ -1,0 +1,17 @@
+// Surfaces and contexts of cairo, each destroyed with its handle.
+#pragma once
+
+#include <memory>
+
+#include <cairo.h>
+
+namespace forage::plot {
+
+struct DestroyCairo {
+    void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
+    void operator()(cairo_t* c) const { cairo_destroy(c); }
+};
+using CairoSurface = std::unique_ptr<cairo_surface_t, DestroyCairo>;
+using CairoContext = std::unique_ptr<cairo_t, DestroyCairo>;
+
+}  // namespace forage::plot
