@@ -57,7 +57,7 @@ class Table {
                 fail(static_cast<int>(lines_.size()), lines_.back()[0],
                      fmt::format("{} fields in this row, not {}", lines_.back().size(), lines_[0].size()));
         }
-        if (lines_.empty()) throw FileError(path_, {}, {{0, 0, "it is empty"}});
+        if (lines_.empty()) throw FileError(path_, {}, {error_at(0, 0, "it is empty")});
     }
 
     int rows() const { return static_cast<int>(lines_.size()) - 1; }
@@ -79,7 +79,7 @@ class Table {
     [[noreturn]] void fail(int line, std::string_view piece, std::string message) const {
         const auto place = static_cast<std::size_t>(piece.data() - text_.data());
         const auto begin = place == 0 ? 0 : text_.rfind('\n', place - 1) + 1;  // 0 in the first line
-        throw FileError(path_, text_, {{line, static_cast<int>(place - begin) + 1, std::move(message)}});
+        throw FileError(path_, text_, {error_at(line, static_cast<int>(place - begin) + 1, std::move(message))});
     }
 
   private:
