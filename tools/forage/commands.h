@@ -15,7 +15,8 @@ namespace forage::tool {
 enum ExitStatus { fine = 0, run_failed = 1, bad_input = 2 };
 
 struct RunOptions {
-    RunSpec spec = {.directory = "forage-out"};
+    RunOptions() { spec.directory = "forage-out"; }
+    RunSpec spec;
     bool real_time = false;  ///< no faster than the clock
     bool quiet = false;
 };

@@ -11,19 +11,19 @@ Location place(const std::string& text, int line, int column, const std::string&
 }
 
 std::string escaped(const std::string& text, int line, int column) {
-    return format(Diagnostic{Severity::error, place(text, line, column), "m", ""});
+    return format(Diagnostic{Severity::error, place(text, line, column), "m", "", {}, {}});
 }
 
 }  // namespace
 
 TEST_CASE("A diagnostic shows its place, its line with a caret, and its hint") {
-    const Diagnostic d{Severity::warning, place("one\n  <two three='3'/>\n", 2, 8), "what", "how"};
+    const Diagnostic d{Severity::warning, place("one\n  <two three='3'/>\n", 2, 8), "what", "how", {}, {}};
     CHECK(format(d) == "a.iqr:2:8: warning: what\n      <two three='3'/>\n           ^\n  hint: how\n");
 }
 
 TEST_CASE("A diagnostic leaves out what it does not know") {
-    CHECK(format(Diagnostic{Severity::error, {}, "what", ""}) == "error: what\n");
-    CHECK(format(Diagnostic{Severity::error, place("x", 0, 0), "what", ""}) == "a.iqr: error: what\n");
+    CHECK(format(Diagnostic{Severity::error, {}, "what", "", {}, {}}) == "error: what\n");
+    CHECK(format(Diagnostic{Severity::error, place("x", 0, 0), "what", "", {}, {}}) == "a.iqr: error: what\n");
     CHECK(escaped("x\ny", 2, 0) == "a.iqr:2: error: m\n      y\n");  // a line without a column has no caret
     CHECK(escaped("x", 7, 3) == "a.iqr:7:3: error: m\n");            // a line that the file does not have
 }
@@ -52,7 +52,7 @@ TEST_CASE("A long line is cut round the place, and never inside of a character")
 }
 
 TEST_CASE("A file cannot send commands to the terminal that shows its mistakes") {
-    const Diagnostic d{Severity::error, place("a\x1b[31mb\x07", 1, 1), "id '\x1b[2J\n'", "\x1b]0;x\x07"};
+    const Diagnostic d{Severity::error, place("a\x1b[31mb\x07", 1, 1), "id '\x1b[2J\n'", "\x1b]0;x\x07", {}, {}};
     const std::string said = format(d);
     CHECK(said.find('\x1b') == std::string::npos);
     CHECK(said.find('\x07') == std::string::npos);
@@ -61,7 +61,7 @@ TEST_CASE("A file cannot send commands to the terminal that shows its mistakes")
 }
 
 TEST_CASE("A message is cut to a length that people read") {
-    const Diagnostic d{Severity::error, {}, std::string(1'000'000, 'x'), ""};
+    const Diagnostic d{Severity::error, {}, std::string(1'000'000, 'x'), "", {}, {}};
     CHECK(format(d).size() < 500);
 }
 

@@ -131,7 +131,7 @@ TEST_CASE("moduleAL reports groups of the wrong size and the required size") {
     bound(transposed, 3, 2, 8, 4);
     CHECK_THAT(
         only_problem(transposed),
-        ContainsSubstring("'prototype' needs 2 x 3 cells, as 'input' (P/input); 'P/prototype' has 3 x 2"));
+        ContainsSubstring("'prototype' needs 2 x 3 cells, the size of 'input' (P/input); 'P/prototype' has 3 x 2"));
     bound(narrow, 2, 3, 7, 4);
     CHECK_THAT(only_problem(narrow),
                ContainsSubstring("'weight display' needs 8 x 3 cells, one 2 x 3 picture") &&

@@ -95,7 +95,7 @@ TEST_CASE("moduleColor reports groups of the wrong size") {
     CHECK(problem(3, 4, 36) == "0 problems");
     CHECK(problem(9, 4, 3) == "0 problems");
     CHECK_THAT(problem(3, 5, 36), ContainsSubstring("_color: ") &&
-                                      ContainsSubstring("'P/_color' has 5 x 36 cells, 'P/_hue' 4 x 3"));
+                                      ContainsSubstring("'P/_color' has 5 x 36 cells, 'P/_hue' has 4 x 3"));
     CHECK_THAT(problem(3, 4, 35), ContainsSubstring("multiple of its height"));
     CHECK_THAT(problem(2, 4, 36), ContainsSubstring("_value: ") && ContainsSubstring("has 8"));
 }
