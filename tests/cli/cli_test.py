@@ -531,7 +531,7 @@ class Others(Cli):
         self.assertEqual(complete("forage", "run", "c."), ["c.bash"])
         for shell in ("zsh", "fish"):
             text = self.forage("completion", shell).stdout
-            for word in ("describe", "longest-trial", "csv npy npz h5 dat"):
+            for word in ("describe", "trial-timeout", "csv npy npz h5 dat"):
                 self.assertIn(word, text)
             if shutil.which(shell):
                 (self.here / "c").write_text(text)
