@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/observe/observer.h"
 #include "core/observe/recorder.h"
 #include "core/run/result_files.h"
 #include "core/run/run_spec.h"
