@@ -15,7 +15,7 @@ namespace forage {
 namespace {
 
 constexpr std::string_view magic = "forage checkpoint\n";
-constexpr std::uint32_t version = 7;  ///< of everything that is in one
+constexpr std::uint32_t format_version = 7;  ///< of everything that is in one
 
 }  // namespace
 
@@ -26,7 +26,7 @@ std::string previous_checkpoint_path(const std::string& directory) {
 
 void write_checkpoint(const std::string& directory, std::string_view content) {
     Archive head;
-    std::uint32_t number = version;
+    std::uint32_t number = format_version;
     std::uint64_t length = content.size();
     std::string sum = digest(content);
     head(number, length, sum);
@@ -53,8 +53,8 @@ std::string read_checkpoint(const std::string& path) {
     std::string sum;
     try {
         head(number);
-        if (number != version)
-            refuse(fmt::format("has version {}, and this forage reads version {}", number, version));
+        if (number != format_version)
+            refuse(fmt::format("has version {}, and this forage reads version {}", number, format_version));
         head(length, sum);
     } catch (const ArchiveError&) {
         refuse("is damaged: it ends too early");
