@@ -67,7 +67,7 @@ std::string animated_png(const std::vector<std::string>& frames, double seconds)
             throw std::runtime_error("the frames of an animation differ in size");
         out += chunk("fcTL", number(sequence++, 4) + std::string(first.header.substr(0, 8)) +
                                  std::string(8, '\0') + number(milliseconds, 2) + number(1000, 2) +
-                                 std::string(2, '\0'));  // at (0, 0); replaces the frame before
+                                 std::string(2, '\0'));  // at (0, 0); replaces the previous frame
         for (const auto data : frame.pixels)
             out += i == 0 ? chunk("IDAT", data) : chunk("fdAT", number(sequence++, 4) + std::string(data));
     }

@@ -26,13 +26,14 @@ Ticks::Ticks(Interval interval, int count, bool whole) : step_(1) {
     if (whole) step_ = std::max(1.0, std::round(step_));
     const auto first = std::ceil(interval.low / step_ - 1e-9);
     for (double i = first; i * step_ <= interval.high + 1e-9 * step_ && at_.size() < 100; ++i)
-        at_.push_back(i * step_ + 0.0);  // + 0.0: no minus before a zero
+        at_.push_back(i * step_ + 0.0);  // + 0.0 turns -0 into 0
 }
 
 std::string Ticks::name(double value) const {
     const double size = std::max(std::abs(value), step_);
     if (size >= 1e6 || step_ < 1e-5) {
-        const int digits = static_cast<int>(std::floor(std::log10(size) + 1e-9) - std::floor(std::log10(step_) + 1e-9));
+        const int digits =
+            static_cast<int>(std::floor(std::log10(size) + 1e-9) - std::floor(std::log10(step_) + 1e-9));
         return value == 0 ? "0" : fmt::format("{:.{}e}", value, digits);
     }
     const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step_) + 1e-9)));
@@ -83,7 +84,9 @@ Interval ColourScale::interval() const {
     return {0, high_ > 0 ? high_ : 1};
 }
 
-Colour ColourScale::at(double part) const { return low_ < 0 ? diverging(2 * part - 1) : sequential(part); }
+Colour ColourScale::at(double fraction) const {
+    return low_ < 0 ? diverging(2 * fraction - 1) : sequential(fraction);
+}
 
 Colour ColourScale::operator()(double value) const {
     if (!std::isfinite(value)) return grey;
@@ -112,7 +115,7 @@ void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const Box& box, c
 
 void draw_cells(Canvas& canvas, const Box& box, int columns, int rows,
                 const std::function<Colour(int, int)>& colour) {
-    // An image of the box's own pixels: cells stay sharp in viewers that smooth what they enlarge.
+    // The image has the resolution of the box, so that cells are sharp in viewers that interpolate images.
     const int width = std::max(1, static_cast<int>(std::lround(box.width)));
     const int height = std::max(1, static_cast<int>(std::lround(box.height)));
     cairo_surface_t* image = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);

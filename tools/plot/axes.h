@@ -1,4 +1,4 @@
-// Axes, ticks and colour bars: what makes a picture's numbers readable.
+// Axes, ticks and colour bars.
 #pragma once
 
 #include <functional>
@@ -14,12 +14,13 @@ struct Interval {
     double size() const { return high - low; }
 };
 
-/// Multiples of a round step within an interval, and their names.
+/// The multiples of a round step within an interval, and their labels.
 class Ticks {
   public:
-    /// About `count` of them; of whole numbers only when `whole`.
+    /// Makes about `count` ticks; only whole numbers if `whole` is set.
     Ticks(Interval interval, int count, bool whole = false);
     const std::vector<double>& at() const { return at_; }
+    /// The label of a tick.
     std::string name(double value) const;
 
   private:
@@ -34,47 +35,47 @@ struct Box {
     double bottom() const { return y + height; }
 };
 
-/// A box whose points are values: x to the right, y upwards, or downwards as cells are numbered.
+/// A box with coordinates: x to the right, and y upwards, or downwards if `y_down` is set.
 struct Axes {
     Box box;
     Interval x, y;
     bool y_down = false;
     double px(double v) const { return box.x + (v - x.low) / x.size() * box.width; }
     double py(double v) const {
-        const double part = (v - y.low) / y.size();
-        return box.y + (y_down ? part : 1 - part) * box.height;
+        const double fraction = (v - y.low) / y.size();
+        return box.y + (y_down ? fraction : 1 - fraction) * box.height;
     }
 };
 
 struct AxisStyle {
     std::string title;
-    bool whole = false;  ///< ticks at whole numbers only
-    bool named = true;   ///< ticks have their numbers
+    bool whole = false;  ///< whether ticks are only at whole numbers
+    bool named = true;   ///< whether ticks have labels
 };
 
-/// Frame, ticks with numbers, and titles.
+/// Draws the frame, the ticks with labels, and the titles.
 void draw_axes(Canvas& canvas, const Axes& axes, const AxisStyle& x, const AxisStyle& y);
 
-/// What colour a value has: blue to yellow between the smallest and largest value, zero included; blue over
-/// white to red, with zero in the middle, when there are values below zero. Values that are no numbers are
-/// grey.
+/// Maps values to colours. If all values are at least 0: from blue to yellow between 0 and the largest value.
+/// Else: from blue over white to red, with white at 0. Values that are not finite are grey.
 class ColourScale {
   public:
+    /// Extends the scale to a value.
     void include(double value);
     Colour operator()(double value) const;
     Interval interval() const;
-    Colour at(double part) const;  ///< of the bar, 0..1
+    Colour at(double fraction) const;  ///< the colour at a fraction of the colour bar, 0..1
 
   private:
     double low_ = 0, high_ = 0;
 };
 
-/// A bar with ticks and, beside it, what it shows.
+/// Draws a colour bar with ticks and a title beside it.
 void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const Box& box, const std::string& title);
-/// What a colour bar takes to the right of its box.
+/// The width of the ticks and the title to the right of a colour bar's box.
 inline constexpr double colour_bar_labels = 78;
 
-/// A rectangle of `columns` x `rows` cells of one colour each.
+/// Draws a rectangle of `columns` x `rows` cells, each with a uniform colour.
 void draw_cells(Canvas& canvas, const Box& box, int columns, int rows,
                 const std::function<Colour(int column, int row)>& colour);
 

@@ -1,4 +1,4 @@
-// Surfaces and contexts of cairo, each destroyed with its handle.
+// Owning handles of cairo's surfaces and contexts.
 #pragma once
 
 #include <memory>

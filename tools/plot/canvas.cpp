@@ -91,7 +91,7 @@ std::string_view ending(Format format) {
 }
 
 Canvas::Canvas(cairo_t* context) : c_(context) {
-    // Letters lie where they would on paper, so that all formats look the same.
+    // Glyph positions are not rounded to pixels, so that all formats look the same.
     cairo_font_options_t* options = cairo_font_options_create();
     cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
     cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
@@ -133,7 +133,7 @@ void Canvas::text(double x, double y, const std::string& what, double size, doub
     colour(c);
     cairo_move_to(c_, x - anchor * extents.x_advance, y);
     cairo_show_text(c_, what.c_str());
-    cairo_new_path(c_);  // showing text leaves a current point, from which an arc would draw a line
+    cairo_new_path(c_);  // text leaves a current point, and an arc would be connected to it by a line
 }
 
 void Canvas::text_upwards(double x, double y, const std::string& what, double size) {
@@ -156,7 +156,7 @@ std::string Canvas::fitted(const std::string& what, double size, double width) {
     std::string out = what;
     while (!out.empty() && width_of(out + "…", size) > width) {
         while ((static_cast<unsigned char>(out.back()) & 0xC0) == 0x80)
-            out.pop_back();  // rest of a character
+            out.pop_back();  // the rest of a multi-byte character
         out.pop_back();
     }
     return out + "…";
@@ -170,7 +170,7 @@ std::string render(const Picture& picture, Format format) {
         const CairoSurface surface(format == Format::svg
                                        ? cairo_svg_surface_create_for_stream(append, &out, w, h)
                                        : cairo_pdf_surface_create_for_stream(append, &out, w, h));
-        if (format == Format::pdf)  // the same bytes at any time
+        if (format == Format::pdf)  // the bytes must not depend on the time
             cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
                                            "2000-01-01T00:00:00Z");
         draw(picture, surface.get(), points_per_pixel);

@@ -1,4 +1,4 @@
-// The surface that every picture is drawn on, and the formats it can be written in.
+// The drawing surface of all pictures, and their file formats.
 #pragma once
 
 #include <functional>
@@ -16,29 +16,32 @@ namespace forage::plot {
 
 enum class Format { png, svg, pdf };
 
-/// The format that ".png", ".svg" or ".pdf" at the end of a name asks for; empty for other names.
+/// The format of a file name that ends with ".png", ".svg" or ".pdf"; empty for other names.
 std::optional<Format> format_of(std::string_view name);
-/// ".png", ".svg", ".pdf"
+/// The end of file names: ".png", ".svg" or ".pdf".
 std::string_view ending(Format format);
 
-/// What the pictures need of cairo, in units of 1/96 inch: a pixel of a PNG. y points downwards.
+/// The functions of cairo that pictures need. The unit is a pixel of a PNG file, 1/96 inch; y points
+/// downwards.
 class Canvas {
   public:
     explicit Canvas(cairo_t* context);
 
     cairo_t* cairo() const { return c_; }
     void colour(const Colour& c, double alpha = 1) { cairo_set_source_rgba(c_, c.r, c.g, c.b, alpha); }
-    /// Of lines from now on, until they are 0 and 0: lengths drawn and left out.
+    /// Draws lines with dashes of the length `on` and gaps of the length `off`, until both are set to 0.
     void dashes(double on, double off);
     void fill(double x, double y, double width, double height, const Colour& c);
     void line(double x0, double y0, double x1, double y1, const Colour& c, double width = 1);
-    /// `anchor` 0: starts at x; 0.5: centred; 1: ends at x. y is the base line.
+    /// `anchor`: 0 when the text starts at x, 0.5 when it is centred at x, 1 when it ends at x. y is the base
+    /// line.
     void text(double x, double y, const std::string& what, double size, double anchor = 0,
               const Colour& c = black, bool bold = false);
-    /// Text that reads upwards, centred at (x, y).
+    /// Draws text that runs upwards, centred at (x, y).
     void text_upwards(double x, double y, const std::string& what, double size);
+    /// The width of a text.
     double width_of(const std::string& what, double size, bool bold = false);
-    /// `what`, with its end replaced by an ellipsis when it is wider than `width`.
+    /// The text `what`; its end is replaced by an ellipsis when it is wider than `width`.
     std::string fitted(const std::string& what, double size, double width);
 
   private:
@@ -46,20 +49,22 @@ class Canvas {
     cairo_t* c_;
 };
 
-/// A picture: how large it is, and how it is drawn. It can be drawn several times, onto any surface.
+/// A picture: its size and a function that draws it. It can be drawn several times, on any surface.
 struct Picture {
     double width = 0, height = 0;
     std::function<void(Canvas&)> draw;
 };
 
-/// The picture as the content of a file; the same picture gives the same bytes. Throws std::runtime_error.
+/// The content of a file with the picture. The same picture gives the same bytes. Throws std::runtime_error
+/// when cairo fails.
 std::string render(const Picture& picture, Format format);
 
-/// The pictures, all of the first one's size, as an animated PNG that shows each for `seconds` and repeats
-/// for ever. Viewers that know no animation show the first. Throws std::runtime_error.
+/// The content of an animated PNG that shows each picture for `seconds` and repeats forever. All pictures
+/// have the size of the first one. Viewers that do not support animations show the first picture. Throws
+/// std::runtime_error when cairo fails.
 std::string render_animation(const std::vector<Picture>& frames, double seconds);
 
-/// A context to measure text with before a picture's size is known.
+/// A canvas that measures text before the size of the picture is known.
 class Measure {
   public:
     Measure();

@@ -6,11 +6,13 @@
 namespace forage::plot {
 namespace {
 
+/// Interpolates between evenly spaced samples (0..255). `fraction`: 0..1; NaN counts as 0.
 template <std::size_t N>
-Colour between(const std::array<std::array<int, 3>, N>& samples, double part) {
-    const double place = std::clamp(std::isnan(part) ? 0 : part, 0.0, 1.0) * static_cast<double>(N - 1);
-    const auto low = std::min(static_cast<std::size_t>(place), N - 2);
-    const double f = place - static_cast<double>(low);
+Colour between(const std::array<std::array<int, 3>, N>& samples, double fraction) {
+    const double position =
+        std::clamp(std::isnan(fraction) ? 0 : fraction, 0.0, 1.0) * static_cast<double>(N - 1);
+    const auto low = std::min(static_cast<std::size_t>(position), N - 2);
+    const double f = position - static_cast<double>(low);
     const auto mix = [&](std::size_t i) {
         return ((1 - f) * samples[low][i] + f * samples[low + 1][i]) / 255;
     };
@@ -41,9 +43,9 @@ constexpr std::array<std::array<int, 3>, 10> line_colours = {{{0, 114, 178},
 
 }  // namespace
 
-Colour sequential(double part) { return between(viridis, part); }
+Colour sequential(double fraction) { return between(viridis, fraction); }
 
-Colour diverging(double part) { return between(blue_white_red, (part + 1) / 2); }
+Colour diverging(double value) { return between(blue_white_red, (value + 1) / 2); }
 
 Colour category(std::size_t n) {
     const auto& c = line_colours[n % line_colours.size()];

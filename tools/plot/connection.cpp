@@ -14,8 +14,8 @@ namespace {
 constexpr int longest_side = 560;  ///< of a table, in pixels and in bins
 constexpr double no_synapse = std::numeric_limits<double>::quiet_NaN();
 
-/// Numbers by target row and source column; of groups that are larger than the picture, several cells share
-/// one place, and the number furthest from zero is shown.
+/// A matrix with a row per target cell and a column per source cell. In groups that are larger than the
+/// picture, several cells share a bin, which has the value with the largest absolute value.
 struct SynapseTable {
     int columns, rows;
     std::vector<double> numbers;
@@ -28,7 +28,7 @@ struct SynapseTable {
 
 template <class Values, class Join>
 SynapseTable table_of(const ConnectionPlot& p, const Values& values, Join join) {
-    // Synapses between the same two cells first come together, whatever the size of the groups.
+    // Synapses between the same two cells are joined first, independently of the size of the groups.
     std::vector<std::size_t> order(p.pre.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

@@ -1,4 +1,4 @@
-// Connection plot: which cells of the source reach which cells of the target.
+// Connection plot: the synapses between the cells of two groups.
 #pragma once
 
 #include <string>
@@ -13,13 +13,13 @@ struct ConnectionPlot {
     std::string title, subtitle;
     std::string source, target;  ///< names of the groups
     GroupShape source_shape, target_shape;
-    std::vector<int> pre, post;    ///< cells of each synapse, from 0
-    std::vector<double> strength;  ///< what a synapse makes of activity 1
+    std::vector<int> pre, post;    ///< source and target cell of each synapse, from 0
+    std::vector<double> strength;  ///< the input that a synapse delivers for an activity of 1
     std::vector<int> delay;        ///< cycles
 };
 
-/// A table of source cells against target cells in colours of the summed strength, and one of the longest
-/// delay when there is any.
+/// A matrix of source and target cells with the sum of the strengths in colours, and one with the longest
+/// delays if there are delays.
 Picture connection_plot(const ConnectionPlot& plot);
 
 }  // namespace forage::plot

@@ -13,14 +13,14 @@
 namespace forage::plot {
 namespace {
 
-constexpr double diagram_scale = 1.7;  ///< pixels per unit of the file: room for names
+constexpr double diagram_scale = 1.7;  ///< pixels per unit of the file; leaves room for names
 constexpr double sheet_margin = 26, heading = 34, name_size = 11, small_size = 10;
 
 struct Point2 {
     double x, y;
 };
 
-/// The original's colours.
+/// The colours of the original.
 Colour colour_of(InputKind kind) {
     switch (kind) {
         case InputKind::excitatory:
@@ -35,12 +35,12 @@ Colour colour_of(InputKind kind) {
 
 struct Node {
     Box box;
-    std::string name, size, below;  ///< size stands in the box, below its name
+    std::string name, size, below;  ///< `size` is shown inside the box, `below` underneath
     bool process = false, outside = false, disabled = false;
 
     Point2 centre() const { return {box.x + box.width / 2, box.y + box.height / 2}; }
-    /// One of the 16 points round the icon, four a side: above, right, below, left; to the right and
-    /// downwards.
+    /// One of the 16 points around the icon, four per side: above, right, below, left; numbered to the right
+    /// and downwards.
     Point2 anchor(int n) const {
         const double part = (n % 4 + 0.5) / 4;
         switch ((n / 4) % 4) {
@@ -54,7 +54,7 @@ struct Node {
                 return {box.x, box.y + part * box.height};
         }
     }
-    /// Where the line from the centre to `p` leaves the box.
+    /// The point where the line from the centre to `p` leaves the box.
     Point2 border(Point2 p) const {
         const Point2 c = centre();
         const double dx = p.x - c.x, dy = p.y - c.y;
@@ -99,7 +99,7 @@ struct DiagramSheet {
     }
 };
 
-/// `text` in lines that are not wider than `width`.
+/// Breaks `text` into lines that are at most `width` wide.
 std::vector<std::string> lines_of(Canvas& canvas, const std::string& text, double width) {
     std::vector<std::string> out;
     std::string line;
@@ -197,7 +197,7 @@ DiagramSheet system_sheet(const model::System& system) {
         out.nodes.push_back({box_of(p.icon, out.nodes.size()), trimmed(p.name), size, below, true, false,
                              p.module && !p.module_enabled});
     }
-    // One arrow for all connections of a kind between two processes.
+    // One arrow stands for all connections of a kind between two processes.
     std::map<std::tuple<std::size_t, std::size_t, InputKind>, int> counts;
     const model::GroupIndex groups(system);
     for (const auto& c : system.connections) {
@@ -209,7 +209,9 @@ DiagramSheet system_sheet(const model::System& system) {
         const auto& [from, to, kind] = key;
         const Point2 a = out.nodes[from].centre(), b = out.nodes[to].centre();
         const double length = std::max(std::hypot(b.x - a.x, b.y - a.y), 1.0);
-        const double shift = 9 + 12 * static_cast<double>(kind);  // beside the way back and the other kinds
+        const double shift =
+            9 +
+            12 * static_cast<double>(kind);  // beside the arrows of the opposite direction and of other kinds
         const double dx = -(b.y - a.y) / length * shift, dy = (b.x - a.x) / length * shift;
         Point2 start = out.nodes[from].border(b), end = out.nodes[to].border(a);
         out.edges.push_back({{{start.x + dx, start.y + dy}, {end.x + dx, end.y + dy}},
@@ -219,7 +221,7 @@ DiagramSheet system_sheet(const model::System& system) {
     return out;
 }
 
-/// Groups of other processes in a row above the process's own, each near the groups it is connected to.
+/// Places the groups of other processes in a row above the process's own groups, near those they connect to.
 void add_outside(DiagramSheet& sheet, const model::System& system,
                  std::map<std::string_view, std::size_t>& node_of) {
     const model::GroupIndex groups(system);
@@ -278,7 +280,7 @@ DiagramSheet process_sheet(const model::System& system, const model::Process& pr
                              outer.box.bottom()};
             e.points = a.outside ? std::vector{end, inner} : std::vector{inner, end};
         } else if (from->second == to->second &&
-                   line.vertices.empty()) {  // a loop above the upper right corner
+                   line.vertices.empty()) {  // a self-connection is a loop above the upper right corner
             const double r = b.box.right(), t = b.box.y;
             e.points = {{r - 10, t}, {r - 10, t - 18}, {r + 18, t - 18}, {r + 18, t + 12}, {r, t + 12}};
         } else {
@@ -319,7 +321,7 @@ Picture process_diagram(const model::System& system, const model::Process& proce
 Picture diagram(const model::System& system, const std::string& title) {
     std::vector<Picture> all = {system_diagram(system)};
     for (const auto& p : system.processes) all.push_back(process_diagram(system, p));
-    // Rows of sheets, not much wider than the widest of them.
+    // The sheets are in rows that are not much wider than the widest sheet.
     constexpr double top = 62, gap = 12;
     double area = 0, widest = 0;
     for (const auto& p : all) {

@@ -1,4 +1,4 @@
-// Diagram: processes, groups and connections as the file lays them out.
+// Diagram: processes, groups and connections, at the positions that the file gives.
 #pragma once
 
 #include <optional>
@@ -10,14 +10,14 @@
 
 namespace forage::plot {
 
-/// The processes of a system with the connections between them.
+/// The processes of a system and the connections between them.
 Picture system_diagram(const model::System& system);
 
-/// The groups of a process with their connections; groups of other processes that they are connected to stand
-/// above, dashed. `process` is one of the system's.
+/// The groups of a process and their connections. Connected groups of other processes are above them, with
+/// dashed borders. `process` must belong to `system`.
 Picture process_diagram(const model::System& system, const model::Process& process);
 
-/// All of it on one sheet: the system, then its processes.
+/// A sheet with the diagram of the system and those of all its processes.
 Picture diagram(const model::System& system, const std::string& title);
 
 }  // namespace forage::plot

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double film_margin = 10, film_head = 30, film_foot = 26;
 
-/// In a large arena robots and grippers would be dots.
+/// The size of the map. It is larger for large arenas, in which robots would be too small.
 WorldMap map_of(const bug::World& world) {
     constexpr double size = 600, largest = 900, pixels_per_metre = 30;
     const WorldMap map(world, {}, size, film_margin, film_head);
@@ -26,7 +26,7 @@ WorldMap map_of(const bug::World& world) {
 
 }  // namespace
 
-/// The surface that every frame is drawn on. What stands still is drawn once.
+/// The surface for all frames. The static part of the world is drawn only once.
 class Film::Screen {
   public:
     Screen(bug::World& world, const std::string& title)
@@ -60,7 +60,7 @@ class Film::Screen {
         cairo_save(c);
         cairo_rectangle(c, film_margin, film_head, map_.width(), map_.height());
         cairo_clip(c);
-        map_.draw_loose(canvas_);
+        map_.draw_movable_objects(canvas_);
         for (std::size_t i = 0; i < world_.bugs(); ++i) map_.draw_robot(canvas_, i, true);
         if (world_.bugs() > 1)
             for (std::size_t i = 0; i < world_.bugs(); ++i) draw_number(i);
@@ -120,7 +120,7 @@ void Film::add() {
         gif_->add(screen_->pixels());
     else
         screen_->write_png(frame_name(name_, frames_ + 1));
-    ++frames_;  // that are there
+    ++frames_;
 }
 
 std::size_t Film::finish() {

@@ -1,4 +1,4 @@
-// A run to look at: the world from above, and what the robots' cameras see, side by side.
+// Films of a run: the world from above and the pictures of the robots' cameras, side by side.
 #pragma once
 
 #include <memory>
@@ -10,20 +10,22 @@
 
 namespace forage::plot {
 
-/// Films a world. A name that ends with .gif becomes an animated GIF, one with .png numbered pictures
-/// (NAME_00001.png).
+/// Films a world: as an animated GIF when the name ends with .gif, and as numbered pictures (NAME_00001.png)
+/// when it ends with .png.
 class Film {
   public:
-    /// `seconds_per_frame`: of the world; it plays at that pace. The world must outlive the film.
+    /// `seconds_per_frame`: simulated time between two frames; the film is played at this rate. `world` must
+    /// outlive the film.
     Film(bug::World& world, std::string name, double seconds_per_frame, const std::string& title);
     ~Film();
-    /// A frame of the world as it is now. Throws std::runtime_error.
+    /// Adds a frame with the current state of the world. Throws std::runtime_error when it cannot be written.
     void add();
-    /// Gives the file its name. Returns how many frames there are.
+    /// Completes the file. Returns the number of frames.
     std::size_t finish();
 
+    /// Whether a name ends with .gif or .png.
     static bool is_name(const std::string& name);
-    /// The file of a frame, the first is 1, of a film with a name that ends with .png.
+    /// The file name of a frame (counted from 1) of a film whose name ends with .png.
     static std::string frame_name(const std::string& name, std::size_t frame);
 
   private:

@@ -16,7 +16,7 @@ namespace {
 constexpr double clock_height = 30, name_height = 14, picture_aspect = 28.0 / 32;
 constexpr std::size_t most_with_rays = 4, rows_of_rays = 3;
 
-/// Of the cells of one ray sensor: their name, and bars as high as they are active.
+/// The layout of a ray sensor's bars; their height shows the activity of the cells.
 struct Bars {
     double name, height, gap;  ///< pixels
     double total() const { return name + height + gap; }
@@ -33,13 +33,13 @@ double FilmPanel::part_height() const {
 }
 
 double FilmPanel::height() const {
-    const double rows = single() ? 1.0 : static_cast<double>((escaped() + 1) / 2);
+    const double rows = single() ? 1.0 : static_cast<double>((robots_shown() + 1) / 2);
     return clock_height + rows * part_height();
 }
 
 void FilmPanel::draw(Canvas& canvas, double x, double y) {
     draw_clock(canvas, x, y);
-    for (std::size_t i = 0; i < escaped(); ++i) {
+    for (std::size_t i = 0; i < robots_shown(); ++i) {
         const double left = x + (i % 2 ? part_width() + 10 : 0),
                      top = y + clock_height + static_cast<double>(i / 2) * part_height();
         const std::string name = world_.robot_names()[i];
@@ -93,7 +93,7 @@ void FilmPanel::draw_picture(Canvas& canvas, std::size_t robot, double x, double
     cairo_restore(c);
 }
 
-/// The cells of the ray sensors, from the left to the right of the robot.
+/// Draws the cells of the ray sensors, ordered from the left to the right of the robot.
 void FilmPanel::draw_rays(Canvas& canvas, std::size_t robot, double x, double y) {
     const auto& seen = world_.robot(robot).sensors.snapshot();
     const Bars size = single() ? large_bars : small_bars;

@@ -1,4 +1,4 @@
-// What stands beside the map of a film: the time, the score, and what the robots see.
+// The panel beside the map of a film: the time, the score, and what the robots sense.
 #pragma once
 
 #include <algorithm>
@@ -10,19 +10,19 @@ namespace forage::plot {
 
 inline constexpr double panel_width = 270;  ///< pixels
 
-/// Camera picture and ray sensors of one robot; the same smaller for up to four, the pictures for up to
-/// eight.
+/// Shows the camera picture and the ray sensors of one robot, a smaller version of both for up to four
+/// robots, and only the pictures for up to eight.
 class FilmPanel {
   public:
-    /// The world must outlive it.
+    /// `world` must outlive the panel.
     explicit FilmPanel(bug::World& world) : world_(world) {}
 
-    double height() const;  ///< pixels, at most
-    /// The world as it is now, below and to the right of (x, y).
+    double height() const;  ///< maximum height, pixels
+    /// Draws the current state of the world. (x, y) is the upper left corner.
     void draw(Canvas& canvas, double x, double y);
 
   private:
-    std::size_t escaped() const { return std::min(world_.bugs(), std::size_t{8}); }
+    std::size_t robots_shown() const { return std::min(world_.bugs(), std::size_t{8}); }
     bool single() const { return world_.bugs() == 1; }
     double part_width() const { return single() ? panel_width : (panel_width - 10) / 2; }
     double part_height() const;

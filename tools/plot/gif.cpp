@@ -32,7 +32,7 @@ std::array<GifColorType, 256> make_table() {
     return table;
 }
 
-/// The number of the nearest colour of the table.
+/// The number of the nearest colour in the table.
 std::uint8_t nearest_colour(std::uint32_t rgb) {
     const int r = static_cast<int>(rgb >> 16 & 255), g = static_cast<int>(rgb >> 8 & 255),
               b = static_cast<int>(rgb & 255);
@@ -105,7 +105,7 @@ void GifFile::add(const Pixels& frame) {
                 left = std::min(left, x), right = std::max(right, x);
                 top = std::min(top, y), bottom = std::max(bottom, y);
             }
-        if (left > right) left = right = top = bottom = 0;  // a frame has a pixel at least
+        if (left > right) left = right = top = bottom = 0;  // a frame has at least one pixel
     }
     GraphicsControlBlock control{};
     control.DisposalMode = DISPOSE_DO_NOT, control.DelayTime = hundredths_,

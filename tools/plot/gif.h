@@ -1,4 +1,4 @@
-// GIF files: moving pictures that every viewer shows.
+// Animated GIF files.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,16 @@ struct GifFileType;
 
 namespace forage::plot {
 
-/// Pixels of a picture, 4 bytes each as cairo has them: 0x00RRGGBB.
+/// The pixels of a picture, in cairo's format: 0x00RRGGBB.
 struct Pixels {
     int width = 0, height = 0;
     std::vector<std::uint32_t> rgb;
 };
 
-/// Writes an animated GIF, frame by frame, that repeats for ever. Colours are those of a fixed table of 256
-/// (6 x 6 x 6 and 40 greys), so that the same frames give the same bytes; of every frame only the rectangle
-/// that changed is written. While it grows it is called NAME.part; without a frame nothing is left behind.
-/// Throws std::runtime_error.
+/// Writes an animated GIF that repeats forever, frame by frame. The colours are from a fixed table of 256 (6
+/// x 6 x 6 colours and 40 greys), so that the same frames give the same bytes. Only the rectangle of a frame
+/// that has changed is written. The file is called NAME.part until finish(); without frames, no file remains.
+/// Functions throw std::runtime_error when the file cannot be written.
 class GifFile {
   public:
     GifFile(std::string name, double seconds_per_frame);
@@ -27,9 +27,9 @@ class GifFile {
     GifFile(const GifFile&) = delete;
     GifFile& operator=(const GifFile&) = delete;
 
-    /// All frames have the size of the first.
+    /// Adds a frame. All frames must have the size of the first one.
     void add(const Pixels& frame);
-    /// Gives the file its name.
+    /// Completes the file and renames it to NAME.
     void finish();
     std::size_t frames() const { return frames_; }
 
@@ -42,7 +42,7 @@ class GifFile {
     GifFileType* file_ = nullptr;
     int width_ = 0, height_ = 0;
     std::size_t frames_ = 0;
-    std::vector<std::uint8_t> before_, now_;  ///< numbers of colours
+    std::vector<std::uint8_t> before_, now_;  ///< colour numbers of the last frame and of this one
 };
 
 }  // namespace forage::plot

@@ -17,7 +17,7 @@ ColourScale scale_of(const SpacePlot& plot) {
     return scale;
 }
 
-/// Where things are on the sheet, in pixels.
+/// The layout of the sheet, in pixels.
 struct PanelSheet {
     static constexpr double left = 66, top = 76, bar = 16, bar_gap = 22, bottom = 46;
     int cell, across, down;
@@ -31,7 +31,7 @@ struct PanelSheet {
         panel_height = cell * grid.height;
         step_x = n == 1 ? panel_width : std::max(panel_width + 46, 96.0);
         step_y = panel_height + (n == 1 ? 0 : 56);
-        // As many across as give a sheet about as wide as a page is, 4 to 3.
+        // The number of columns gives the sheet an aspect ratio of about 4 to 3.
         across = std::clamp(static_cast<int>(std::lround(std::sqrt(n * step_y / step_x * 4 / 3))), 1, n);
         down = (n + across - 1) / across;
         across = (n + down - 1) / down;

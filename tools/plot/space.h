@@ -1,4 +1,4 @@
-// Space plot: the numbers of a group's cells as a picture of the group.
+// Space plot: the values of a group's cells as a picture of the group.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace forage::plot {
 
-/// A rectangle of cells, numbered as in the group.
+/// A rectangle of cells, with the coordinates of the group.
 struct CellGrid {
-    int x = 1, y = 1;  ///< its upper left cell
+    int x = 1, y = 1;  ///< upper left cell
     int width = 1, height = 1;
-    bool numbered = false;  ///< the cells have no places: x is their number, from 1
+    bool numbered = false;  ///< whether the cells have no positions; x is their number then, from 1
 };
 
 struct SpaceFrame {
@@ -25,15 +25,15 @@ struct SpaceFrame {
 
 struct SpacePlot {
     std::string title, subtitle;
-    std::string quantity;  ///< what the numbers are, beside the colour bar
+    std::string quantity;  ///< what the values are; shown beside the colour bar
     CellGrid grid;
-    int blocks_across = 1, blocks_down = 1;  ///< lines divide the group into so many blocks
+    int blocks_across = 1, blocks_down = 1;  ///< lines divide the group into these blocks
     std::vector<SpaceFrame> frames;
 };
 
-/// All frames on one sheet, with one scale of colours. There must be a frame.
+/// A sheet with all frames, which share a colour scale. There must be at least one frame.
 Picture space_plot(const SpacePlot& plot);
-/// A picture per frame, with one scale of colours: for render_animation().
+/// One picture per frame for render_animation(). They share a colour scale.
 std::vector<Picture> space_animation(const SpacePlot& plot);
 
 }  // namespace forage::plot

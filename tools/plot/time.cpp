@@ -33,7 +33,7 @@ Interval values_of(const TimePlot& plot) {
                           : Interval{b.low, b.high};
                 any = true;
             }
-    // Zero belongs to the picture unless the values are far from it.
+    // The axis includes zero unless the values are far from it.
     if (out.low > 0 && out.low < 0.6 * out.high) out.low = 0;
     if (out.high < 0 && out.high > 0.6 * out.low) out.high = 0;
     if (out.size() <= 1e-12 * std::max(std::abs(out.low), std::abs(out.high)))
@@ -137,7 +137,7 @@ std::vector<double> row_values(const Curve& curve, const Interval& cycles) {
         auto at =
             std::partition_point(bins.begin(), bins.end(), [&](const auto& b) { return b.last < from; });
         if (at == bins.end()) --at;
-        if (at != bins.begin() && at->first > to) --at;  // between two samples: the earlier one
+        if (at != bins.begin() && at->first > to) --at;  // between two samples, the earlier one is used
         double value = std::abs(at->high) >= std::abs(at->low) ? at->high : at->low;
         for (++at; at != bins.end() && at->first < to; ++at)
             for (const double v : {at->low, at->high})

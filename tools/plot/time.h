@@ -1,4 +1,4 @@
-// Time plot: numbers over the cycles of a run.
+// Time plot: values over the cycles of a run.
 #pragma once
 
 #include <cstdint>
@@ -48,13 +48,13 @@ inline constexpr std::size_t row_bins = 1520;
 
 struct TimePlot {
     std::string title, subtitle;
-    std::string quantity;        ///< what the numbers are
-    std::string cells = "cell";  ///< what the curves are
-    std::span<const Curve> curves;  ///< all with the same cycles
+    std::string quantity;           ///< what the values are
+    std::string cells = "cell";     ///< what a curve belongs to
+    std::span<const Curve> curves;  ///< all for the same cycles
     std::size_t cells_per_row = 1;  ///< how many cells each curve stands for
-    std::vector<double> marks;   ///< cycles at which a line is drawn, such as the starts of trials
+    std::vector<double> marks;      ///< cycles at which a line is drawn, such as the starts of trials
     std::string mark_name;
-    double seconds_per_cycle = 0;  ///< 0: unknown
+    double seconds_per_cycle = 0;  ///< 0 if unknown
 };
 
 /// Lines with a legend, or rows of colours. The picture does not refer to the curves.

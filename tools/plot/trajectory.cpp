@@ -17,12 +17,13 @@ enum class End { reached, missed, unfinished };
 
 End end_of(const Path& p) { return p.reached ? End::reached : p.finished ? End::missed : End::unfinished; }
 
-/// Of a trial by its outcome, and by its place among all, 0..1: blue, orange or white, from dark to light.
-Colour path_colour(End end, double part) {
+/// The colour of a path: blue, orange or white by the outcome of the trial, from dark to light by the number
+/// of the trial relative to all trials, 0..1.
+Colour path_colour(End end, double fraction) {
     const Colour c = end == End::reached  ? Colour{0.40, 0.80, 1}
                      : end == End::missed ? Colour{1, 0.60, 0.15}
                                           : white;
-    const double light = 0.6 + 0.4 * std::clamp(part, 0.0, 1.0);
+    const double light = 0.6 + 0.4 * std::clamp(fraction, 0.0, 1.0);
     return {c.r * light, c.g * light, c.b * light};
 }
 
@@ -40,9 +41,9 @@ class Drawing {
         cairo_rectangle(c(), left, top, map_.width(), map_.height());
         cairo_clip(c());
         map_.draw_ground(canvas);
-        map_.draw_loose(canvas);
+        map_.draw_movable_objects(canvas);
         map_.draw_marks(canvas);
-        for (const bool reached : {true, false})  // the missed ones on top: they are fewer
+        for (const bool reached : {true, false})  // missed trials are drawn on top, as they are fewer
             for (std::size_t i = 0; i < paths_.size(); ++i)
                 if (paths_[i].reached == reached) draw_path(i);
         map_.draw_targets(canvas);
@@ -72,7 +73,7 @@ class Drawing {
             end_of(paths_[i]),
             paths_.size() > 1 ? static_cast<double>(i) / static_cast<double>(paths_.size() - 1) : 1);
         const double width = paths_.size() > 60 ? 1 : 1.6;
-        for (const bool halo : {true, false}) {  // a dark rim keeps a path visible on bright patches
+        for (const bool halo : {true, false}) {  // a dark outline keeps paths visible on bright patches
             canvas_->colour(halo ? black : colour);
             cairo_set_line_width(c(), halo ? width + 1.4 : width);
             cairo_move_to(c(), px(points[0].x()), py(points[0].y()));
@@ -156,7 +157,7 @@ class Drawing {
     const bug::World& world_;
     const std::vector<Path>& paths_;
     WorldMap map_;
-    Canvas* canvas_ = nullptr;  ///< while it is drawn on
+    Canvas* canvas_ = nullptr;  ///< null except while drawing
 };
 
 }  // namespace

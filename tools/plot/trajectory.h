@@ -1,4 +1,4 @@
-// The paths of a robot over the floor of its world, as a picture.
+// Trajectory plot: the paths of a robot in its world.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace forage::plot {
 
-/// Where a robot drove in one trial.
+/// The path of a robot in one trial.
 struct Path {
     std::vector<Eigen::Vector2d> points;  ///< m
-    bool reached = false;                 ///< the target
-    bool finished = true;                 ///< false for the trial that ran when the run ended
+    bool reached = false;                 ///< whether the robot reached a target
+    bool finished = true;                 ///< false for the trial that the end of the run interrupted
 };
 
-/// The floor from above with walls, start positions and targets, and the paths on it: in one colour those
-/// that reached the target, in another those that missed it, darker the earlier the trial; with a dot, a
-/// cross or, where the robot was when the run ended, a square at the end. The world must outlive the picture.
+/// A map of the floor, walls, start poses and targets with the paths. Paths that reached a target and paths
+/// that missed it have different colours, which are darker for earlier trials. A path ends with a dot (target
+/// reached), a cross (missed) or a square (the run ended). The world must outlive the picture.
 Picture trajectory_plot(const bug::World& world, std::vector<Path> paths, const std::string& title);
 
 }  // namespace forage::plot

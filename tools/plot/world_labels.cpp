@@ -12,7 +12,7 @@ namespace {
 
 constexpr double label_size = 11, label_height = 14;
 
-/// The middle of its base line, half its width.
+/// A label: the centre of its base line, and half its width.
 struct Label {
     double x, y, half;
     std::string text;
@@ -28,7 +28,7 @@ void draw(Canvas& canvas, const Label& l) {
     canvas.text(l.x, l.y, l.text, label_size, 0.5);
 }
 
-/// Moved to where all of it is within the map.
+/// Moves a label so that all of it is within the map.
 Label within(const WorldMap& map, Label l) {
     const double left = map.px(map.view().min().x()), right = map.px(map.view().max().x()),
                  top = map.py(map.view().max().y()), bottom = map.py(map.view().min().y());
@@ -74,7 +74,8 @@ std::vector<Label> robot_labels(Canvas& canvas, const bug::World& world, const W
     return out;
 }
 
-/// What a line means: how it is drawn within 18 x 12 pixels whose lower left corner is given.
+/// An entry of the legend. `draw` draws a sample of the line within 18 x 12 pixels, given the lower left
+/// corner.
 struct Entry {
     const char* name;
     std::function<void(Canvas&, double x, double y)> draw;
@@ -87,7 +88,7 @@ std::vector<Entry> entries_of(const bug::World& world) {
     };
     const auto ring = [](const Colour& colour, double on, double off) {
         return [=](Canvas& canvas, double x, double y) {
-            canvas.fill(x, y - 11, 18, 14, {0.5, 0.5, 0.5});  // as on the ground
+            canvas.fill(x, y - 11, 18, 14, {0.5, 0.5, 0.5});  // the colour of the ground
             canvas.colour(colour);
             canvas.dashes(on, off);
             cairo_set_line_width(canvas.cairo(), 1.5);

@@ -1,17 +1,19 @@
-// Names in a map of a world, and what its lines mean.
+// The names and the legend in a map of a world.
 #pragma once
 
 #include "tools/plot/world_map.h"
 
 namespace forage::plot {
 
-/// "home A" and "home B" where robots are least in the way of reading it: outwards from their middles.
+/// Writes "home A" and "home B" beside the centres of the homes, on the outer side, where there are fewer
+/// robots.
 void draw_home_names(Canvas& canvas, const bug::World& world, const WorldMap& map);
-/// The names of the robots beside them, within the map, none on another one or on a robot where that can be.
+/// Writes the names of the robots beside them, within the map. Overlaps with other names and robots are
+/// avoided if possible.
 void draw_robot_names(Canvas& canvas, const bug::World& world, const WorldMap& map);
 
-/// What the lines of the world's map mean, those only that it can have: from (left, y) to the right and on
-/// to further lines before `right`. Returns the base line of the last one.
+/// Draws the legend of the map, for those lines that the world can have. It starts at (left, y) and has as
+/// many rows as needed to end before `right`. Returns the base line of the last row.
 double draw_legend(Canvas& canvas, const bug::World& world, double left, double right, double y);
 
 }  // namespace forage::plot

@@ -19,14 +19,15 @@ using bug::ShapeKind;
 
 double top_of(const bug::DrawnSolid& d) { return d.solid.pose.translation().z() + d.solid.size.z() / 2; }
 
-/// A floor's picture; each n x n pixels become one, their mean. At the right and lower edge fewer do.
+/// A floor's picture, reduced by averaging n x n pixels; fewer at the right and lower edges.
 CairoSurface picture_of(const bug::FloorTexture& floor, int n) {
     const int width = (floor.width() + n - 1) / n, height = (floor.height() + n - 1) / n;
     CairoSurface out(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
-    if (cairo_surface_status(out.get()) != CAIRO_STATUS_SUCCESS) return out;  // larger than cairo draws
+    if (cairo_surface_status(out.get()) != CAIRO_STATUS_SUCCESS) return out;  // too large for cairo
     auto* data = cairo_image_surface_get_data(out.get());
     const int stride = cairo_image_surface_get_stride(out.get());
-    // The sums of n rows, by column: those of blue in the high half of a word, of red in the low half.
+    // The sums of n rows, per column. A word has the sum of blue in its high half and that of red in its low
+    // half.
     std::vector<std::uint32_t> red_blue(static_cast<std::size_t>(floor.width())), green(red_blue.size());
     for (int y = 0; y < height; ++y) {
         const int rows = std::min(n, floor.height() - y * n);
@@ -60,7 +61,7 @@ bool has_homes(const bug::World& world) {
 
 WorldMap::WorldMap(const bug::World& world, const Box& extra, double pixels, double left, double top)
     : world_(world), left_(left), top_(top) {
-    Box box = extra, near;  // of what is far outside the bounds nothing is shown
+    Box box = extra, near;  // solids far outside the bounds are not shown
     const auto plan = world.reset_plan();
     if (plan) {
         box.extend(plan->bounds);
@@ -68,7 +69,7 @@ WorldMap::WorldMap(const bug::World& world, const Box& extra, double pixels, dou
         near = Box(box.min().array() - 1, box.max().array() + 1);
     }
     for (const auto& d : world.drawing()) {
-        if (d.solid.size.z() < 0.02) continue;  // paint may reach under the walls
+        if (d.solid.size.z() < 0.02) continue;  // paint may extend below the walls
         const Eigen::Vector2d at = d.solid.pose.translation().head<2>();
         const Eigen::Vector2d half = (d.solid.pose.linear().cwiseAbs() * d.solid.size / 2).head<2>();
         const Box solid(at - half, at + half);
@@ -92,7 +93,7 @@ void WorldMap::draw_ground(Canvas& canvas) const {
         for (const auto& floor : world_.scene()->floors())
             if (floor.texture.width() * floor.texture.height() > 1) draw_floor(canvas, floor);
     } catch (const std::exception&) {
-        // The map shows the rest all the same; the camera reports a floor that cannot be read.
+        // The map is drawn without the floor; the camera reports that its picture cannot be read.
     }
     auto solids = bug::drawing_of(world_.description());
     std::stable_sort(solids.begin(), solids.end(),
@@ -100,7 +101,7 @@ void WorldMap::draw_ground(Canvas& canvas) const {
     for (const auto& d : solids) draw_solid(canvas, d);
 }
 
-void WorldMap::draw_loose(Canvas& canvas) const {
+void WorldMap::draw_movable_objects(Canvas& canvas) const {
     const auto still = bug::drawing_of(world_.description()).size();
     const auto all = world_.drawing();
     for (std::size_t i = still; i < all.size(); ++i) draw_solid(canvas, all[i]);
@@ -109,11 +110,14 @@ void WorldMap::draw_loose(Canvas& canvas) const {
 void WorldMap::draw_floor(Canvas& canvas, const bug::FloorSurface& floor) const {
     cairo_t* c = canvas.cairo();
     const bug::FloorTexture& texture = floor.texture;
-    double pixel = floor.size_x * scale_ / texture.width();  // of the floor's picture on ours
+    double pixel =
+        floor.size_x * scale_ / texture.width();  // size of a pixel of the floor's picture on the map
     const double aspect = floor.size_y / texture.height() / (floor.size_x / texture.width());
-    // It has more than are seen, and cairo takes its time with each. On paper one may look closer.
+    // On the screen, pixels that are too small to be visible are averaged first, which is faster than cairo.
+    // SVG and PDF files keep all pixels, as users can enlarge them.
     const bool on_screen = cairo_surface_get_type(cairo_get_target(c)) == CAIRO_SURFACE_TYPE_IMAGE;
-    const int n = on_screen ? static_cast<int>(std::lround(1 / std::clamp(pixel, 0.01, 1.0))) : 1;  // to 100
+    const int n =
+        on_screen ? static_cast<int>(std::lround(1 / std::clamp(pixel, 0.01, 1.0))) : 1;  // at most 100
     pixel *= n;
     const CairoSurface picture = picture_of(texture, n);
     cairo_save(c);
@@ -142,7 +146,7 @@ void WorldMap::draw_solid(Canvas& canvas, const bug::DrawnSolid& d) const {
         cairo_arc(c, 0, 0, w / 2, 0, 2 * M_PI);
     cairo_set_source_rgb(c, d.colour[0], d.colour[1], d.colour[2]);
     cairo_fill_preserve(c);
-    if (d.solid.size.z() > 0.02) {  // a wall on a floor of its colour
+    if (d.solid.size.z() > 0.02) {  // an outline, as the floor may have the same colour
         cairo_set_source_rgba(c, 0, 0, 0, 0.6);
         cairo_set_line_width(c, 0.8);
         cairo_stroke(c);
@@ -153,7 +157,7 @@ void WorldMap::draw_solid(Canvas& canvas, const bug::DrawnSolid& d) const {
 
 namespace {
 
-/// Whose homes are where, and where resources appear.
+/// Draws the homes of the teams and the sites of the resources.
 void draw_homes(Canvas& canvas, const bug::World& world, const WorldMap& map) {
     if (!has_homes(world)) return;
     cairo_t* c = canvas.cairo();
@@ -190,7 +194,7 @@ void WorldMap::draw_marks(Canvas& canvas) const {
                     plan->bounds.sizes().x() * scale_, plan->bounds.sizes().y() * scale_);
     cairo_stroke(c);
     canvas.dashes(0, 0);
-    for (const auto& s : plan->starts) {  // an arrow in the robot's direction
+    for (const auto& s : plan->starts) {  // an arrow in the direction of the start pose
         cairo_set_source_rgb(c, 0.1, 0.1, 0.1);
         cairo_set_line_width(c, 2);
         const double x = px(s.x), y = py(s.y), l = 0.17 * scale_;
@@ -216,7 +220,7 @@ void WorldMap::draw_targets(Canvas& canvas) const {
     }
 }
 
-/// Proximity rays as far as they see something; light rays to the light.
+/// Draws the rays that meet something: proximity rays to obstacles, light rays to the light.
 void WorldMap::draw_rays(Canvas& canvas, std::size_t robot) const {
     cairo_t* c = canvas.cairo();
     const auto& pose = world_.pose(robot);
@@ -230,7 +234,7 @@ void WorldMap::draw_rays(Canvas& canvas, std::size_t robot) const {
         cairo_set_line_width(c, light ? 1.8 : 1.1);
         const double n = std::max(1, sensor.rays - 1);
         const double nothing =
-            std::max(0.03, 5 * sensor.noise / sensor.max_range);  // of a ray that meets nothing
+            std::max(0.03, 5 * sensor.noise / sensor.max_range);  // the noise of a ray that meets nothing
         for (std::size_t k = 0; k < cells.size(); ++k) {
             if (cells[k] < nothing) continue;
             const double angle = pose.yaw + sensor.last_angle -
@@ -260,7 +264,7 @@ void WorldMap::draw_robot(Canvas& canvas, std::size_t robot, bool rays) const {
         }
     const auto& pose = world_.pose(robot);
     const double r = world_.robot(robot).body.radius * scale_, x = px(pose.x), y = py(pose.y);
-    for (const double out : {1.2, 0.0}) {  // seen on any ground, also on a patch of the robot's colour
+    for (const double out : {1.2, 0.0}) {  // an outline makes the robot visible on patches of its colour
         canvas.colour(out > 0 ? white : black);
         cairo_set_line_width(c, 1.2);
         cairo_arc(c, x, y, r + out, 0, 2 * M_PI);
@@ -283,7 +287,7 @@ Picture world_plot(const bug::World& world, const std::string& title) {
                 cairo_clip(c);
                 map.draw_ground(canvas);
                 map.draw_marks(canvas);
-                map.draw_loose(canvas);
+                map.draw_movable_objects(canvas);
                 for (std::size_t i = 0; i < world.bugs(); ++i) map.draw_robot(canvas, i, true);
                 map.draw_targets(canvas);
                 draw_robot_names(canvas, world, map);

@@ -1,4 +1,4 @@
-// A world from above.
+// A map of a world, seen from above.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,20 +8,20 @@
 
 namespace forage::plot {
 
-// Of lines in a world's map.
+// Colours of the lines in a map.
 inline constexpr Colour near_ray{0.95, 0.25, 0.15}, light_ray{0.95, 0.75, 0.05}, site_colour{0.1, 0.2, 0.9},
     bounds_colour{0.65, 0.65, 0.65};
 
-/// Whether teams bring something home in it.
+/// Whether the world has homes to which resources are brought.
 bool has_homes(const bug::World& world);
 
-/// Draws a world into a rectangle of a picture, y upwards. The world must outlive it.
+/// Draws a world into a rectangle of a picture, with y upwards. The world must outlive the map.
 class WorldMap {
   public:
     using Box = Eigen::AlignedBox2d;
 
-    /// What is shown: bounds, walls, targets, robots and `extra`, m, and a little more. The longer side has
-    /// `pixels`; the upper left corner stands at (left, top).
+    /// The map contains the bounds, walls, targets, robots and `extra` (m), with a margin. Its longer side
+    /// has `pixels` pixels; its upper left corner is at (left, top).
     WorldMap(const bug::World& world, const Box& extra, double pixels, double left, double top);
 
     double width() const { return view_.sizes().x() * scale_; }   ///< pixels
@@ -31,11 +31,11 @@ class WorldMap {
     double px(double x) const { return left_ + (x - view_.min().x()) * scale_; }
     double py(double y) const { return top_ + (view_.max().y() - y) * scale_; }
 
-    void draw_ground(Canvas& canvas) const;   ///< floors, then what stands still, from the lowest top up
-    void draw_loose(Canvas& canvas) const;    ///< what can be pushed, where it is now
-    void draw_marks(Canvas& canvas) const;    ///< bounds and starts
-    void draw_targets(Canvas& canvas) const;  ///< the rings that count as reached
-    /// A robot where it is now, with its gripper; with `rays` also what its ray sensors see.
+    void draw_ground(Canvas& canvas) const;  ///< floors, then static solids, from the lowest to the highest
+    void draw_movable_objects(Canvas& canvas) const;  ///< at their current poses
+    void draw_marks(Canvas& canvas) const;            ///< bounds and start poses
+    void draw_targets(Canvas& canvas) const;          ///< with the rings in which they count as reached
+    /// Draws a robot and its gripper at the current pose, and its range scans if `rays` is set.
     void draw_robot(Canvas& canvas, std::size_t robot, bool rays) const;
 
   private:
@@ -48,7 +48,7 @@ class WorldMap {
     double left_, top_, scale_;
 };
 
-/// The world as it is now, as a picture with axes and the names of its robots.
+/// The current state of a world as a picture with axes and the names of the robots.
 Picture world_plot(const bug::World& world, const std::string& title);
 
 }  // namespace forage::plot
