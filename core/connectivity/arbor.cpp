@@ -7,12 +7,12 @@
 namespace forage::connectivity {
 namespace {
 
-/// Rows covered by an ellipse at column x; `xs` are the columns that it covers.
+/// The rows that an ellipse covers at column x. `xs` are the columns that it covers.
 Span ellipse_rows(Place c, Span xs, int x, int width, int height) {
     const double a = width / 2.0, b = height / 2.0;
     const double offset = x - (xs.first + xs.last) / 2.0;
     const double squared = b * b - offset * offset * (b * b) / (a * a);
-    // Not a number where the ellipse has no width: it covers nothing.
+    // NaN when the ellipse has no width: it covers nothing.
     return squared >= 0 ? cover(c.y, 2 * std::sqrt(squared)) : Span{1, 0};
 }
 
@@ -22,7 +22,7 @@ double length(Span s) { return s.last < s.first ? 0 : s.last - s.first + 1.0; }
 
 bool inside(Span s, int k) { return s.first <= k && k <= s.last; }
 
-/// Coordinates from which a cell is reached, given that a cylinder wraps once.
+/// The coordinates of points that can be a cell, when a cylinder wraps around once.
 Span reach(int first, int size, bool wraps) {
     return wraps ? Span{first - size, first + 2 * size - 1} : Span{first, first + size - 1};
 }
@@ -56,7 +56,8 @@ Arbor::Arbor(const model::Arborization& arborization, const Grid& grid, RandomSt
     }
 }
 
-// What lies beyond reach is no cell: leaving it out early keeps a large arborization on a small group cheap.
+// Points out of reach are not cells. They are skipped early, so that a large arborization on a small group is
+// cheap.
 void Arbor::rectangle(Place c, int width, int height, const PointVisitor& visit) const {
     const Span xs = overlap(cover(c.x, width), reach_x_), ys = overlap(cover(c.y, height), reach_y_);
     for (int x = xs.first; x <= xs.last; ++x)
@@ -111,10 +112,10 @@ void Arbor::points(Place c, const PointVisitor& visit) {
                     for (int x = grid_.left(); x < grid_.left() + grid_.width(); ++x) visit(x, y);
             },
             [&](const model::RandomArbor& a) {
-                // Partial Fisher-Yates shuffle: `count` distinct cells, each set of them equally likely, in
-                // whatever order the places begin. So there is no need to put them back in order for the next
-                // centre. In grid order a target reads its sources from the first to the last, which is kind
-                // to the cache; the original's order is that of its unseeded draws.
+                // Partial Fisher-Yates shuffle: draws `count` distinct cells. All sets of cells are equally
+                // likely whatever the initial order is, so the order is not restored for the next centre. The
+                // cells are then sorted in grid order: a target reads its sources from the first to the last,
+                // which caches well. The original's order is that of its unseeded draws.
                 const std::size_t count =
                     std::min(places_.size(), static_cast<std::size_t>(std::max(a.count, 0)));
                 for (std::size_t i = 0; i < count; ++i) {

@@ -1,26 +1,27 @@
-// Arborizations as lists of points around a centre.
+// Arborizations as points around a centre.
 #pragma once
 
 #include <functional>
 #include <vector>
 
+#include "core/base/random.h"
 #include "core/connectivity/grid.h"
 #include "core/connectivity/pairs.h"
-#include "core/base/random.h"
 
 namespace forage::connectivity {
 
-/// Spreads around centres in one group.
+/// The arborization of a connection in one group, around any centre.
 class Arbor {
   public:
-    /// `random` decides which points are kept (probability) and chosen (ArbRandom).
+    /// `random` decides which points are kept (probability) and drawn (ArbRandom).
     Arbor(const model::Arborization& arborization, const Grid& grid, RandomStream random);
 
-    /// Calls `visit(cell, distance)` for each point around `centre` that is a cell of the group: `cell` is
-    /// its index, `distance` that of the point from the centre, in cells, before a cylinder wrapped it.
+    /// Calls `visit(cell, distance)` for each point around `centre` that is a cell of the group. `cell` is
+    /// the index of the cell; `distance` is the distance between the point and the centre, in cells, before
+    /// it was wrapped around a cylinder.
     void spread(Place centre, const std::function<void(int, double)>& visit);
 
-    /// No centre has more points than this that can be cells of the group; counted without making them.
+    /// An upper bound of the number of cells around any centre, computed without listing them.
     double most_points() const;
 
   private:
@@ -33,8 +34,10 @@ class Arbor {
     const Grid& grid_;
     RandomStream random_;
     std::uint64_t draws_ = 0;
-    Span reach_x_, reach_y_;   ///< where a point can be a cell, directly or over the seam of a cylinder
-    std::vector<int> places_;  ///< of ArbRandom: all places, in the order that the draws have left
+    /// Coordinates at which a point can be a cell, directly or across the seam of a cylinder.
+    Span reach_x_, reach_y_;
+    /// Of ArbRandom: all positions, in the order that the draws so far have given them.
+    std::vector<int> places_;
 };
 
 }  // namespace forage::connectivity

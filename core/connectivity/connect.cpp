@@ -46,7 +46,7 @@ Synapses connect(const model::Connection& connection, const model::Topology& sou
         connection.pattern, source, target,
         [&](Place s, Place t) {
             const Place& fixed =
-                receptive ? t : s;  // the side that is not spread: the nearest cell, half to even
+                receptive ? t : s;  // the side without arborization: the nearest cell, halves to even
             const int cell = (receptive ? target : source)
                                  .index(static_cast<int>(std::nearbyint(fixed.x)),
                                         static_cast<int>(std::nearbyint(fixed.y)));
@@ -60,7 +60,7 @@ Synapses connect(const model::Connection& connection, const model::Topology& sou
         },
         diagnostics);
     if (out.size() == 0) {
-        if (diagnostics.errors() > errors_before) return out;  // the reason is told
+        if (diagnostics.errors() > errors_before) return out;  // the reason was reported
         diagnostics.error(paired ? connection.arborization.at : connection.at,
                           fmt::format("connection '{}' has no synapses", connection.name),
                           paired ? "its pattern pairs cells, but its arborization (count, window, "

@@ -1,4 +1,4 @@
-// From what a file says of a connection to its list of synapses: a pure function.
+// Builds the list of synapses of a connection: a pure function.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,8 @@
 
 namespace forage::connectivity {
 
-/// The synapses of a connection, in the order in which a target's inputs are summed. Arrays of equal length.
+/// The synapses of a connection, in the order in which the inputs of a target are summed. All arrays have the
+/// same length.
 struct Synapses {
     std::vector<int> pre, post;    ///< cell indices in source and target
     std::vector<double> distance;  ///< in cells
@@ -19,12 +20,13 @@ struct Synapses {
     std::size_t size() const { return pre.size(); }
 };
 
-/// The largest connection that is built: 2.8 GB while it is (measured: 2.74 GB), then 0.4 to 2 GB of it.
+/// The largest number of synapses that is accepted. It takes up to 2.8 GB during the build (measured: 2.74
+/// GB), and 0.4 to 2 GB afterwards.
 inline constexpr double most_synapses = 1e8;
 
 /// Builds the synapses of `connection` between groups of these topologies. `seed` decides everything random.
-/// Reports a connection without synapses, one that could have more than `most`, and what else its pattern
-/// cannot mean.
+/// Reports a connection without synapses, a connection that could have more than `most`, and mistakes in its
+/// pattern.
 Synapses connect(const model::Connection& connection, const model::Topology& source,
                  const model::Topology& target, std::uint64_t seed, Diagnostics& diagnostics,
                  double most = most_synapses);

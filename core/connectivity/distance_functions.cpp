@@ -7,8 +7,8 @@
 namespace forage::connectivity {
 namespace {
 
-/// Calls take(i, value) for the function's value at each distance; `whole` reads the bounds as whole numbers,
-/// as delays do.
+/// Calls take(i, value) with the function's value at each distance. `whole`: the bounds are read as whole
+/// numbers, as for delays.
 template <class Take>
 void evaluate(const model::DistanceFunction& function, std::span<const double> distances,
               const RandomStream& random, bool whole, Take take) {
@@ -32,7 +32,7 @@ void evaluate(const model::DistanceFunction& function, std::span<const double> d
     } else if (const auto* block = std::get_if<model::BlockFunction>(&function.form)) {
         const double min = bound(block->min), max = bound(block->max);
         for (std::size_t i = 0; i < n; ++i)
-            take(i, distances[i] <= block->width / 2 ? min : max);  // whole half
+            take(i, distances[i] <= block->width / 2 ? min : max);  // integer division, as in the original
     } else {
         const double scale = std::trunc(bound(std::get<model::RandomFunction>(function.form).max) * 1e4);
         for (std::size_t i = 0; i < n; ++i)

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "core/model/arborization.h"
 #include "core/base/random.h"
+#include "core/model/arborization.h"
 
 namespace forage::connectivity {
 
@@ -16,17 +16,19 @@ struct Attenuation {
     double reference = 1;
 };
 
-/// Attenuation of synapses at these distances. NaN where the original divides 0 by 0 (Linear, all distances
-/// 0).
+/// The attenuation of synapses with these distances. It is NaN where the original divides 0 by 0 (Linear with
+/// all distances 0).
 Attenuation attenuation(const model::DistanceFunction& function, std::span<const double> distances,
                         const RandomStream& random);
 
-/// Delays in cycles, at least 0: rounded to the nearest whole number, a half away from 0 as in the recorded
-/// cases delay_linear_0_5 (2.5 gives 3) and delay_linear_2_7 (4.5 gives 5); truncated for Uniform and Block.
+/// The delays of synapses with these distances, in cycles, at least 0. They are rounded to the nearest whole
+/// number, halves away from 0, as in the recorded cases delay_linear_0_5 (2.5 gives 3) and delay_linear_2_7
+/// (4.5 gives 5); truncated for Uniform and Block.
 std::vector<int> delays(const model::DistanceFunction& function, std::span<const double> distances,
                         const RandomStream& random);
 
-/// `value` as it comes out of a text with 6 significant digits: function parameters pass through one.
+/// `value` rounded to 6 significant digits, like the parameters of functions in the original, which pass
+/// through a text.
 double six_digits(double value);
 
 }  // namespace forage::connectivity

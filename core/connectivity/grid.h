@@ -1,4 +1,4 @@
-// The cells of a group as places: x to the right, y downwards, both from 1.
+// The positions of the cells of a group: x to the right, y downwards, both from 1.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ class Grid {
     int width() const { return width_; }
     int height() const { return height_; }
     int cells() const { return cells_; }
-    /// Index of the cell at (x, y), or -1 where there is none.
+    /// The index of the cell at (x, y), or -1 when there is none.
     int index(int x, int y) const {
         if (x < left_ || y < top_ || x >= left_ + width_ || y >= top_ + height_) return -1;
         const int place = (y - top_) * width_ + (x - left_);
@@ -28,7 +28,7 @@ class Grid {
   private:
     int left_ = 1, top_ = 1, width_ = 0, height_ = 0, cells_ = 0;
     bool wrap_x_ = false, wrap_y_ = false;
-    std::vector<int> rank_;  ///< of a sparse group: cell index by place, -1 for none
+    std::vector<int> rank_;  ///< of a sparse group: the cell index per position, -1 for none
 };
 
 }  // namespace forage::connectivity

@@ -15,7 +15,8 @@ struct Rect {
     int x, y, width, height;
 };
 
-/// A region that reaches out of its group is moved to the left or upwards, and cut when it is larger.
+/// Moves a region that extends beyond its group to the left or upwards, and cuts it when it is larger than
+/// the group.
 void fit(int& start, int& extent, int first, int available) {
     extent = std::min(extent, available);
     if (start + extent > first + available) start = first + available - extent;
@@ -31,7 +32,7 @@ Rect extent(const model::Population& population, const Grid& grid) {
     return {grid.left(), grid.top(), grid.width(), grid.height()};
 }
 
-/// What the original does without a word, though it is hardly meant.
+/// Warns about what the original does silently, although it is probably not meant.
 void warn_of_fit(const model::Population& population, const Grid& grid, Diagnostics& diagnostics) {
     const auto* region = std::get_if<model::Region>(&population);
     if (!region) return;
@@ -44,8 +45,8 @@ void warn_of_fit(const model::Population& population, const Grid& grid, Diagnost
                                         r.x, r.y, r.width, r.height));
 }
 
-/// Whether there is a cell at `p`. Below 1 the original computes an index outside the group: an error. Other
-/// places without a cell it leaves out.
+/// Whether there is a cell at `p`. A coordinate below 1 is an error, as the original computes an index
+/// outside the group. Other positions without a cell are skipped, as in the original.
 bool usable(const Point& p, const Grid& grid, Diagnostics& diagnostics) {
     if (grid.index(p.x, p.y) >= 0) return true;
     const std::string message = fmt::format("there is no cell at x = {}, y = {}", p.x, p.y);
@@ -57,7 +58,7 @@ bool usable(const Point& p, const Grid& grid, Diagnostics& diagnostics) {
     return false;
 }
 
-/// The cells of a population: row by row; of a list, in grid order and without duplicates.
+/// The cells of a population, row by row; those of a list in grid order and without duplicates.
 std::vector<Place> cells(const model::Population& population, const Grid& grid, Diagnostics& diagnostics) {
     std::vector<Place> out;
     if (const auto* list = std::get_if<model::List>(&population)) {
@@ -75,7 +76,7 @@ std::vector<Place> cells(const model::Population& population, const Grid& grid, 
     return out;
 }
 
-/// The smaller population, cell by cell, and the larger one that it is projected onto.
+/// The cells of the smaller population, and the larger population that it is projected onto.
 struct Projection {
     Rect iterated, projected;
     bool over_targets;

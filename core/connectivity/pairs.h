@@ -1,4 +1,4 @@
-// Patterns as lists of pairs of places.
+// Patterns as pairs of positions.
 #pragma once
 
 #include <functional>
@@ -8,21 +8,20 @@
 
 namespace forage::connectivity {
 
-/// A place in a group; fractional where a population was projected onto a finer one.
+/// A position in a group. It is fractional when a population was projected onto a finer one.
 struct Place {
     double x, y;
 };
 
-/// Calls `visit(source, target)` for each pair of the pattern, in order. Reports what the pattern cannot
-/// mean.
+/// Calls `visit(source, target)` for each pair of the pattern, in order. Reports mistakes in the pattern.
 void for_each_pair(const model::Pattern& pattern, const Grid& source, const Grid& target,
                    const std::function<void(Place, Place)>& visit, Diagnostics& diagnostics);
 
-/// No pattern has more pairs than this; counted without making them.
+/// An upper bound of the number of pairs of a pattern, computed without listing them.
 double most_pairs(const model::Pattern& pattern, const Grid& source, const Grid& target);
 
-/// First and last whole coordinate of an extent of `size` around `centre`: from ceil(c - size/2) to
-/// floor(c + size/2). An even size around a whole centre covers size + 1 cells.
+/// The first and last whole coordinate of an extent of `size` around `centre`: ceil(centre - size/2) and
+/// floor(centre + size/2). An even size around a whole centre covers size + 1 cells.
 struct Span {
     int first, last;
 };

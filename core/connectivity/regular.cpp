@@ -22,8 +22,8 @@ bool random(const model::DistanceFunction& f) {
     return std::holds_alternative<model::RandomFunction>(f.form);
 }
 
-/// The offsets of a rectangular arborization round a cell, in the order in which Arbor visits them; empty for
-/// others.
+/// The offsets of a rectangular arborization around a cell, in the order in which Arbor visits them. Empty
+/// for other arborizations.
 std::vector<Offset> offsets(const model::Arborization& arborization) {
     model::RectWindowArbor window;  // a rectangle is a window without a hole
     bool hole = false;
@@ -43,7 +43,8 @@ std::vector<Offset> offsets(const model::Arborization& arborization) {
     return out;
 }
 
-/// A projective arborization, seen from the target: its sources come in order of their cells.
+/// Turns the offsets of a projective arborization into those of its sources as seen from a target, in order
+/// of cells.
 void turn_round(std::vector<Offset>& offsets) {
     for (auto& o : offsets) o = {-o.x, -o.y};
     std::sort(offsets.begin(), offsets.end(),
@@ -81,7 +82,7 @@ std::optional<Regular> regular(const model::Connection& c, const model::Topology
             source->height != target->height)
             return {};
         out.width = source->width, out.height = source->height;
-        constexpr double most_taps = 4096;  // beyond that a list is no worse
+        constexpr double most_taps = 4096;  // with more taps, a list is as fast
         const auto* rect = std::get_if<model::RectArbor>(&c.arborization.shape);
         const auto* window = std::get_if<model::RectWindowArbor>(&c.arborization.shape);
         const double extent = rect     ? (rect->width + 1.0) * (rect->height + 1.0)

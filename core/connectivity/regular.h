@@ -1,4 +1,5 @@
-// Connections that are the same everywhere, known without a list of their synapses.
+// Connections in which every target cell has the same neighbourhood of source cells. They need no list of
+// synapses.
 #pragma once
 
 #include <optional>
@@ -8,23 +9,23 @@
 
 namespace forage::connectivity {
 
-/// What each target cell receives from. The synapses are those that connect() would list, and in its order.
+/// The source cells of each target cell. The synapses and their order are those that connect() would list.
 struct Regular {
-    /// A synapse of every target cell at (x, y), from source cell (x + dx, y + dy), where there is one.
+    /// A synapse to every target cell (x, y) from source cell (x + dx, y + dy), if that exists.
     struct Tap {
         int dx, dy;
         double attenuation;
         int delay;
     };
-    bool all_to_all = false;    ///< every source cell, in order, as the only tap says
-    int width = 0, height = 0;  ///< of source and target, unless it is all to all
+    bool all_to_all = false;    ///< every source cell is connected, in order, with the values of the only tap
+    int width = 0, height = 0;  ///< of source and target, cells; not used if all_to_all is set
     std::vector<Tap> taps;      ///< in the order in which they are summed
     double reference = 1;       ///< a synapse passes psp * (reference - attenuation)
     std::size_t synapses = 0;
 };
 
-/// Finds rectangular windows between groups of one size, and all to all; nothing when the connection is
-/// something else, is random, wraps, or is none at all.
+/// Recognises rectangular windows between groups of the same size, and all-to-all connections. Empty for
+/// other connections, and for those that are random, wrap around, or have no synapses.
 std::optional<Regular> regular(const model::Connection& connection, const model::Topology& source,
                                const model::Topology& target);
 

@@ -20,12 +20,12 @@ struct EllipseArbor {
     int width = 1, height = 1;
     friend bool operator==(const EllipseArbor&, const EllipseArbor&) = default;
 };
-/// Outer minus inner rectangle.
+/// The cells of the outer rectangle that are not in the inner one.
 struct RectWindowArbor {
     int inner_width = 0, inner_height = 0, outer_width = 1, outer_height = 1;
     friend bool operator==(const RectWindowArbor&, const RectWindowArbor&) = default;
 };
-/// Outer minus inner ellipse.
+/// The cells of the outer ellipse that are not in the inner one.
 struct EllipseWindowArbor {
     int inner_width = 0, inner_height = 0, outer_width = 1, outer_height = 1;
     friend bool operator==(const EllipseWindowArbor&, const EllipseWindowArbor&) = default;
@@ -34,7 +34,7 @@ struct EllipseWindowArbor {
 struct AllArbor {
     friend bool operator==(const AllArbor&, const AllArbor&) = default;
 };
-/// `count` distinct cells.
+/// `count` distinct cells of the group, drawn at random for each pair.
 struct RandomArbor {
     int count = 1;
     friend bool operator==(const RandomArbor&, const RandomArbor&) = default;
@@ -43,7 +43,7 @@ struct RandomArbor {
 struct Arborization {
     std::variant<RectArbor, EllipseArbor, RectWindowArbor, EllipseWindowArbor, AllArbor, RandomArbor> shape;
     Direction direction = Direction::receptive;
-    double probability = 1;  ///< each point is kept with this probability
+    double probability = 1;  ///< probability with which each synapse is kept, 0..1
     Location at;
     friend bool operator==(const Arborization&, const Arborization&) = default;
 };
@@ -64,7 +64,7 @@ struct GaussianFunction {
 struct BlockFunction {
     double min = 0, max = 1;
     int width = 0;
-    int height = 0;  ///< read and written, without effect
+    int height = 0;  ///< is read and written, but has no effect
     friend bool operator==(const BlockFunction&, const BlockFunction&) = default;
 };
 struct RandomFunction {
@@ -72,7 +72,8 @@ struct RandomFunction {
     friend bool operator==(const RandomFunction&, const RandomFunction&) = default;
 };
 
-/// Longest delay in cycles; a longer one is more likely a mistake, and costs memory for every cell and cycle.
+/// The longest delay that is accepted, in cycles. A longer one is more likely a mistake, and costs memory for
+/// every cell and cycle.
 inline constexpr int most_delay = 100'000;
 
 struct DistanceFunction {

@@ -27,9 +27,9 @@ std::set<std::string, std::less<>> all_ids(const System& system) {
     return ids;
 }
 
-/// `id` if it is free, or a made-up one when it is empty.
-std::string claim(const System& system, std::string id, const std::string& wish) {
-    if (id.empty()) return fresh_id(system, wish);
+/// `id` if it is not in use, or a new id when it is empty.
+std::string claim(const System& system, std::string id, const std::string& preferred) {
+    if (id.empty()) return fresh_id(system, preferred);
     if (all_ids(system).contains(id)) throw std::invalid_argument(fmt::format("the id '{}' is taken", id));
     return id;
 }
@@ -45,7 +45,7 @@ void forget_groups(System& system, const std::set<std::string, std::less<>>& ids
     }
 }
 
-/// The content of a linked process lives in its own file: changes to it here would be lost.
+/// Throws for a linked process: its content is in its own file, so changes would be lost.
 void refuse_linked(const Process& p) {
     if (p.linked())
         throw std::invalid_argument(
@@ -58,10 +58,10 @@ void refuse_linked(const Process& p) {
 
 }  // namespace
 
-std::string fresh_id(const System& system, const std::string& wish) {
+std::string fresh_id(const System& system, const std::string& preferred) {
     const auto taken = all_ids(system);
-    std::string id = wish;
-    for (int n = 2; taken.contains(id); ++n) id = fmt::format("{}-{}", wish, n);
+    std::string id = preferred;
+    for (int n = 2; taken.contains(id); ++n) id = fmt::format("{}-{}", preferred, n);
     return id;
 }
 

@@ -11,12 +11,12 @@
 namespace forage::model {
 namespace {
 
-/// A thing of a system that has parameters, found by the name that a person writes before the dot.
+/// An item of a system that has parameters, found by the name before the dot.
 struct Owner {
     Assignment::Owner kind;
     std::string id;
-    const TypeUse* use = nullptr;                        ///< null: a process without a module
-    const std::vector<Parameter>* parameters = nullptr;  ///< null: of no known type
+    const TypeUse* use = nullptr;                        ///< null for a process without a module
+    const std::vector<Parameter>* parameters = nullptr;  ///< null when the type is unknown
 };
 
 template <class Type>
@@ -54,7 +54,7 @@ std::string suggest_owner(std::string_view where, const System& system) {
     return near_a_group ? by_name : suggest(where, all);
 }
 
-/// A hint for a name that several things have.
+/// A hint for a name that several items have.
 std::string which(const std::vector<Owner>& owners, std::string_view where) {
     std::vector<std::string> names;
     for (const auto& o : owners)
@@ -62,7 +62,7 @@ std::string which(const std::vector<Owner>& owners, std::string_view where) {
     return fmt::format("use one of '{}'", fmt::join(names, "', '"));
 }
 
-/// A path as seen from the working directory.
+/// A path relative to the working directory.
 std::string resolved(const std::string& path, const Location& at) {
     if (path.empty() || !at.file) return path;
     return (std::filesystem::path(at.file->path).parent_path() / path).string();

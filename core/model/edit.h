@@ -1,4 +1,4 @@
-// Changes to the parameters of a system, in the words of the person who wants them.
+// Changes to the parameters of a system, as users write them.
 #pragma once
 
 #include <optional>
@@ -10,30 +10,31 @@
 
 namespace forage::model {
 
-/// A parameter of one thing in a system, and a value that it can take.
+/// A parameter of a group, process or connection, and a valid value for it.
 struct Assignment {
     enum class Owner { group, process, connection };
 
-    Owner owner = Owner::group;            ///< whose neuron, module or synapse it is
-    std::string id;                        ///< the owner's
+    Owner owner = Owner::group;            ///< the kind of the item that has the neuron, module or synapse
+    std::string id;                        ///< the id of the group, process or connection
     const Parameter* parameter = nullptr;  ///< of the owner's type; null: the process's enableModule
-    ParameterValue value;                  ///< a path leads from the working directory
+    ParameterValue value;                  ///< a relative path starts at the working directory
     std::string text;                      ///< "WHERE.parameter=value", as written
-    Location at;                           ///< where it was written; no file: on the command line
+    Location at;                           ///< the location of the text; without a file: the command line
 };
 
 /// Reads "WHERE.parameter=value". WHERE is a group ("Process/Group": a parameter of its neuron), a process
 /// ("Process": a parameter of its module, or enableModule) or a connection (its name or id: a parameter of
-/// its synapse). Reports what cannot be, with the names there are; values are checked like those of a file.
-/// `what` says what the text is ("--set"). Empty when there was an error. It refers to `registry`.
+/// its synapse). Reports unknown names, with those that exist, and wrong values, which are checked like those
+/// of a file. `what` says where the text is from, such as "--set". Empty when there was an error. The result
+/// refers to `registry`.
 std::optional<Assignment> parse_assignment(const System& system, const Registry& registry,
                                            std::string_view text, std::string_view what,
                                            Diagnostics& diagnostics, Location at = {});
 
-/// Makes the system say what the assignment says. It must have been read for this system.
+/// Sets the parameter in the system, for which the assignment must have been read.
 void set(System& system, const Assignment& assignment);
 
-/// Reads and makes an assignment of the command line (--set) or of the file in which it stands.
+/// Reads an assignment from the command line (--set) or from a file, and makes it.
 void set(System& system, const Registry& registry, std::string_view assignment, Diagnostics& diagnostics,
          Location at = {});
 

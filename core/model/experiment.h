@@ -1,4 +1,4 @@
-// What an experiment file says: one system, run many times, and what is wanted of it.
+// The content of an experiment file: one system that is run many times, and what is measured.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace forage::model {
 
-/// What somebody asks for, in a language of its own, and where they wrote it.
+/// A condition, source or assignment as users write it, and where it is written.
 struct Expression {
     std::string text;
-    Location at{};  ///< no file: on the command line
+    Location at{};  ///< without a file: the command line
     bool empty() const { return text.empty(); }
 };
 
@@ -24,38 +24,38 @@ struct ScheduledChange {
     std::string text() const { return when.text + ": " + change.text; }
 };
 
-/// Patterns that are laid over the activity of a group while the system runs.
+/// Patterns that change the activity of a group while the system runs.
 struct ManipulationSpec {
     enum class Mode { clamp, add, multiply };
     Mode mode = Mode::clamp;
-    Expression group;                          ///< "Process/Group"
-    Expression cells;                          ///< one pattern, "(x,y)=value ...", or ...
-    Expression patterns;                       ///< ... a file of patterns, as seen from the working directory
-    std::uint64_t every = 1, step = 1;   ///< cycles between patterns; every so-manieth pattern
-    std::optional<std::uint64_t> times;  ///< how often the list is played; empty: for ever
+    Expression group;                    ///< "Process/Group"
+    Expression cells;                    ///< one pattern, "(x,y)=value ..."; alternative to `patterns`
+    Expression patterns;                 ///< a file of patterns, relative to the working directory
+    std::uint64_t every = 1, step = 1;   ///< a pattern every `every` cycles; only every `step`-th pattern
+    std::optional<std::uint64_t> times;  ///< how often the list is played; empty: without end
     bool backwards = false;
-    Expression from, until;  ///< conditions; empty: from the first cycle, to the last
-    std::string text;  ///< all of it, as written on the command line
+    Expression from, until;  ///< conditions; empty: from the first cycle, until the last
+    std::string text;        ///< the whole text, as written on the command line
 };
 
-/// A number that every run gives.
+/// A number that is measured in every run.
 struct Measure {
     enum class Kind {
-        success,   ///< share of the trials that reached the target, 0..1
+        success,   ///< fraction of the trials that reached the target, 0..1
         duration,  ///< mean length of the trials, s
-        first,     ///< cycles until a condition held
-        final,     ///< a quantity at the end
+        first,     ///< number of cycles until a condition first held
+        final,     ///< a quantity at the end of the run
     };
     std::string name;
     Kind kind = Kind::success;
-    Expression what;                          ///< the condition or quantity
-    std::optional<std::uint64_t> last;  ///< of the trials only so many last ones
+    Expression what;                    ///< the condition or quantity
+    std::optional<std::uint64_t> last;  ///< only this many trials at the end are counted; empty: all
     Location at;
 };
 
 struct RecordingSpec {
     Expression column;
-    std::uint64_t every = 1;  ///< cycles
+    std::uint64_t every = 1;  ///< cycles between two rows
 };
 
 /// A parameter that takes each of several values in turn.
@@ -66,17 +66,18 @@ struct Sweep {
 
 struct Experiment {
     std::string path;
-    std::string note;           ///< for people
-    std::string system, world;  ///< files, as seen from the working directory; no world when empty
+    std::string note;           ///< for readers
+    std::string system, world;  ///< files, relative to the working directory; no world when empty
     Location system_at, world_at;
-    std::optional<double> real_time_factor;  ///< s of the world per s of the clock, instead of the world's own
+    /// Seconds of the world per second of the clock; empty: the world's own.
+    std::optional<double> real_time_factor;
     bool noise = true;
 
-    std::optional<std::uint64_t> cycles, trials;  ///< the length: one of these, or `seconds`
+    std::optional<std::uint64_t> cycles, trials;  ///< the length of a run: one of these, or `seconds`
     std::optional<double> seconds;
     Location length_at;
     double trial_timeout = 300;  ///< s
-    Expression until;                  ///< a condition that ends a run before its time; none when empty
+    Expression until;            ///< a condition that ends a run early; none when empty
 
     std::vector<std::uint64_t> seeds = {1};
     std::vector<Expression> settings;  ///< "WHERE.parameter=value"
@@ -85,7 +86,7 @@ struct Experiment {
     std::vector<RecordingSpec> recordings;
     std::vector<Expression> plots;
     std::vector<Measure> measures;
-    std::vector<Sweep> sweeps;  ///< every combination is run with every seed
+    std::vector<Sweep> sweeps;  ///< every combination of their values is run with every seed
 };
 
 }  // namespace forage::model

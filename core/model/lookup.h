@@ -1,4 +1,4 @@
-// Finding things in a system by what people call them.
+// Searches for items of a system by the names that users give them.
 #pragma once
 
 #include <string>
@@ -10,7 +10,8 @@
 
 namespace forage::model {
 
-/// Groups by id, with the process that holds them. Pointers into the system: rebuild after editing it.
+/// Groups by id, with the process that contains them. It holds pointers into the system and is invalid after
+/// an edit.
 class GroupIndex {
   public:
     struct Entry {
@@ -18,24 +19,25 @@ class GroupIndex {
         const Group* group;
     };
     explicit GroupIndex(const System& system);
-    /// Null entry when there is no group of that id.
+    /// The entry of the group with this id; null pointers when there is none.
     Entry find(std::string_view id) const;
 
   private:
     std::unordered_map<std::string_view, Entry> entries_;
 };
 
-/// "Process/Group", or "Process/Group#id" where several groups share that path. Blanks at the ends of names
-/// are left out.
+/// The path of a group: "Process/Group", or "Process/Group#id" when several groups share that path. Blanks at
+/// the ends of names are removed.
 std::string path(const System& system, const Process& process, const Group& group);
 
 /// The paths of all groups, in file order.
 std::vector<std::string> group_paths(const System& system);
 
-/// The groups that `path` names: "Process/Group", "Process/Group#id" or "#id"; several when it is ambiguous.
+/// The groups that `path` names, which is "Process/Group", "Process/Group#id" or "#id". There are several
+/// when it is ambiguous.
 std::vector<GroupIndex::Entry> find_groups(const System& system, std::string_view path);
 
-/// A hint for a path that names no group: the groups of which it is the name, or the nearest paths.
+/// A hint for a path that names no group: the groups that have this name, or the most similar paths.
 std::string suggest_group(std::string_view wanted, const std::vector<std::string>& paths);
 
 /// `text` without blanks at its ends.

@@ -8,7 +8,7 @@
 
 namespace forage::model {
 
-/// A cell by its place in the group: x to the right, y downwards, both from 1.
+/// The position of a cell in its group: x to the right, y downwards, both from 1.
 struct Point {
     int x = 1, y = 1;
     Location at;
@@ -36,21 +36,22 @@ struct List {
 
 using Population = std::variant<All, Region, List>;
 
-/// The smaller population is laid over the larger one; each cell is paired with the place where it comes to
-/// lie.
+/// Scales the smaller population to the size of the larger one. Each of its cells is paired with the position
+/// onto which it is projected.
 struct MappedPattern {
-    bool all = false;  ///< pair with every cell under the projected rectangle, not only with its centre
+    /// Whether to pair with every cell under the projected rectangle, not only with its centre.
+    bool all = false;
     Population source, target;
     friend bool operator==(const MappedPattern&, const MappedPattern&) = default;
 };
 
-/// Every source cell with every target cell.
+/// Pairs every source cell with every target cell.
 struct ForeachPattern {
     Population source, target;
     friend bool operator==(const ForeachPattern&, const ForeachPattern&) = default;
 };
 
-/// In each tuple, every source with every target; duplicates stay.
+/// Pairs every source with every target of the same tuple. Duplicate pairs are kept.
 struct TuplesPattern {
     struct Tuple {
         std::vector<Point> sources, targets;

@@ -12,7 +12,7 @@ GroupShape shape(const Topology& topology) {
         return {rect->width, rect->height, static_cast<int>(std::min(cells, most_cells))};
     }
     int min_x = std::numeric_limits<int>::max(), min_y = min_x, max_x = 0, max_y = 0;
-    std::vector<std::pair<int, int>> places;  // each once, however often it is listed
+    std::vector<std::pair<int, int>> places;  // each of them once, even when it is listed several times
     for (const auto& p : std::get<SparseTopology>(topology).points) {
         if (p.x < 1 || p.y < 1) continue;
         min_x = std::min(min_x, p.x), max_x = std::max(max_x, p.x);

@@ -1,5 +1,5 @@
-// What a system file says: plain values, no behaviour; everything that can be wrong knows its place in the
-// file.
+// The content of a system file: plain values without behaviour. Everything that can be wrong has its location
+// in the file.
 #pragma once
 
 #include <optional>
@@ -7,28 +7,28 @@
 #include <variant>
 #include <vector>
 
-#include "core/model/arborization.h"
-#include "core/base/diagnostic.h"
-#include "core/model/pattern.h"
 #include "core/base/column.h"
+#include "core/base/diagnostic.h"
+#include "core/model/arborization.h"
+#include "core/model/pattern.h"
 
 namespace forage::model {
 
-/// A parameter as written; what it means is the type's to say.
+/// A parameter as written in the file. The type decides what the value means.
 struct Setting {
     std::string name, value;
     Location name_at, value_at;
     friend bool operator==(const Setting&, const Setting&) = default;
 };
 
-/// A named place and what stands in it: a group's id, or a state's name; empty when unset.
+/// A cross reference and its target: the id of a group or the name of a state; empty when unset.
 struct CrossReference {
     std::string name, target;
     Location at;
     friend bool operator==(const CrossReference&, const CrossReference&) = default;
 };
 
-/// A neuron, synapse or module of a named type.
+/// The use of a neuron, synapse or module type, with the parameters that the file sets.
 struct TypeUse {
     std::string type;
     std::vector<Setting> settings;
@@ -47,7 +47,7 @@ struct ModuleUse : TypeUse {
     friend bool operator==(const ModuleUse&, const ModuleUse&) = default;
 };
 
-/// Place in the diagram, in its units.
+/// The position and size of an icon in the diagram, in the diagram's units.
 struct Icon {
     int x = 0, y = 0, width = 50, height = 50;
     friend bool operator==(const Icon&, const Icon&) = default;
@@ -60,7 +60,7 @@ struct RectTopology {
     friend bool operator==(const RectTopology&, const RectTopology&) = default;
 };
 
-/// Only the listed cells exist; a cell's index is its rank in row order.
+/// A group in which only the listed cells exist. The index of a cell is its rank in row order.
 struct SparseTopology {
     std::vector<Point> points;
     friend bool operator==(const SparseTopology&, const SparseTopology&) = default;
@@ -68,11 +68,12 @@ struct SparseTopology {
 
 using Topology = std::variant<RectTopology, SparseTopology>;
 
-/// Largest extent of a group, width times height: of a sparse one, of the rectangle around its points.
+/// The largest extent of a group that is accepted: width times height; of a sparse group, those of the
+/// rectangle around its points.
 inline constexpr long long most_cells = 10'000'000;
 
-/// Width, height and number of cells of a group with this topology. Only where the extent is at most
-/// `most_cells` does the number of cells hold; validate() refuses all others.
+/// The width, height and number of cells of a group with this topology. The number of cells is valid only
+/// when the extent is at most `most_cells`; validate() refuses larger groups.
 GroupShape shape(const Topology& topology);
 
 struct Group {
@@ -81,7 +82,7 @@ struct Group {
     TypeUse neuron;
     std::optional<std::string> note;
     std::optional<Icon> icon;
-    std::vector<std::string> comments;  ///< the XML comments before and in it
+    std::vector<std::string> comments;  ///< the XML comments before and inside the element
     Location at;
     friend bool operator==(const Group&, const Group&) = default;
 };
@@ -94,17 +95,18 @@ struct Process {
     std::optional<Icon> icon;
     std::vector<std::string> comments;
     std::vector<Group> groups;
-    /// Of a process that is linked to the file `path` (relative to the system's), whose content stands here:
-    /// what the system itself says of it, one element, and what is written. Empty for others.
+    /// Of a process that is linked to the file `path` (relative to the system's file), whose content is in
+    /// this struct: the process as the system's own file has it, one element, which is what the writer
+    /// writes. Empty for other processes.
     std::vector<Process> placeholder;
     bool linked() const { return !placeholder.empty(); }
     Location at, path_at;
     friend bool operator==(const Process&, const Process&) = default;
 };
 
-/// The line that draws a connection.
+/// The line of a connection in the diagram.
 struct Line {
-    int source_anchor = 0, target_anchor = 0;  ///< which of the 16 points round the icon
+    int source_anchor = 0, target_anchor = 0;  ///< number of one of the 16 points around the icon
     std::vector<Point> vertices;
     friend bool operator==(const Line&, const Line&) = default;
 };
@@ -120,7 +122,7 @@ struct Connection {
     std::optional<std::string> note;
     std::optional<Line> line;
     std::vector<std::string> comments;
-    bool linked = false;  ///< it comes from the file of a linked process
+    bool linked = false;  ///< whether it comes from the file of a linked process
     Location at, source_at, target_at;
     friend bool operator==(const Connection&, const Connection&) = default;
 };
@@ -128,7 +130,7 @@ struct Connection {
 struct System {
     std::vector<std::string> instructions;  ///< processing instructions before the root, such as xml-model
     std::string id, name, author, date, port;
-    double cycles_per_second = 25;  ///< pace of the original; 0: as fast as it goes
+    double cycles_per_second = 25;  ///< the rate of the original's clock, Hz; 0: as fast as possible
     bool sync_plots = false;
     std::optional<std::string> note;
     std::vector<Process> processes;
@@ -138,7 +140,7 @@ struct System {
     friend bool operator==(const System&, const System&) = default;
 };
 
-/// A process on its own, with the connections among its groups: what an .iqrProcess file says.
+/// The content of an .iqrProcess file: a process with the connections among its groups.
 struct ProcessFile {
     Process process;
     std::vector<Connection> connections;

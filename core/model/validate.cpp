@@ -60,13 +60,13 @@ class Validator {
         for (const auto& c : system_.connections) see(c.id, c.at, "connection");
     }
 
-    /// A sentence as a part of another one.
+    /// Turns a sentence into a part of another one.
     static std::string_view phrase(std::string_view sentence) {
         if (sentence.ends_with('.')) sentence.remove_suffix(1);
         return sentence;
     }
 
-    /// The parameter that somebody meant who wrote `name`: the label that people see will do.
+    /// The parameter that is probably meant by `name`, which may be a label.
     static const Parameter* probably(std::string_view name, const std::vector<Parameter>& parameters,
                                      const std::vector<std::string>& known) {
         for (const auto& p : parameters)
@@ -104,14 +104,15 @@ class Validator {
                                                  describe(p->kind), to_text(p->default_value)));
                 continue;
             }
-            if (s.value_at.file && outside(*value, p->range))  // others were told when they were set
+            if (s.value_at.file &&
+                outside(*value, p->range))  // values without a file were checked when they were set
                 out_.warning(s.value_at, fmt::format("{} = {} is outside its usual range", p->name, s.value),
                              fmt::format("{} ({}) is meant for {} to {}; the value is used as it is", p->name,
                                          p->label, to_text(p->range->low), to_text(p->range->high)));
         }
     }
 
-    /// The setting that a type's check() points at, or the use as a whole.
+    /// The location of the setting that a type's check() names, or that of the use as a whole.
     static Location place_of(const Diagnostic& d, const TypeUse& use) {
         Location at = use.at;
         for (const auto& s : use.settings)
@@ -134,7 +135,7 @@ class Validator {
         }
         for (Diagnostic d : found.all()) {
             d.where = place_of(d, use);
-            // What was set on the command line stands in no line that would show whose it is.
+            // A value from the command line has no location that would show the item.
             if (!d.where.file) d.message = fmt::format("'{}': {}", whose, d.message);
             out_.add(std::move(d));
         }
@@ -186,7 +187,7 @@ class Validator {
         ports.environment = environment_;
         check_ports(use, *type, use.inputs, false, process.module_enabled, ports.inputs);
         check_ports(use, *type, use.outputs, true, process.module_enabled, ports.outputs);
-        // What modules find is told of all of them; they look only where nothing else is wrong.
+        // All modules report their errors, but each of them checks only what has no other error.
         if (process.module_enabled && out_.errors() == found_by_modules_) check_with_type(use, *type, ports);
     }
 
@@ -199,7 +200,8 @@ class Validator {
         for (const auto& port : type.ports)
             if (port.is_output == outputs) ports.push_back(port), known.push_back(port.name);
         std::map<std::string_view, int> first_line;
-        std::vector<std::string_view> meant;  // by references that are misspelt: they are not missing as well
+        std::vector<std::string_view>
+            meant;  // ports that misspelt references mean; they are not reported as missing
         for (const auto& r : references) {
             if (const auto [it, fresh] = first_line.emplace(r.name, r.at.line); !fresh) {
                 out_.error(
@@ -304,8 +306,7 @@ class Validator {
         check_delay(c.delay);
     }
 
-    /// What the original takes for something else than what is written (spec of the functions:
-    /// distance_functions.h).
+    /// Warns about functions that the original interprets in an unexpected way (see distance_functions.h).
     void check_attenuation(const DistanceFunction& f) {
         if (const auto* uniform = std::get_if<UniformFunction>(&f.form); uniform && uniform->value < 0)
             out_.warning(f.at,
@@ -410,7 +411,7 @@ class Validator {
     GroupIndex groups_;
 };
 
-/// A path as seen from the working directory.
+/// A path relative to the working directory.
 std::string resolved(const Setting& s) {
     if (s.value.empty() || !s.value_at.file) return s.value;
     return (std::filesystem::path(s.value_at.file->path).parent_path() / s.value).string();

@@ -1,4 +1,4 @@
-// Checks a system against the types: everything that can be said before any connection is built.
+// Checks a system against the types, before any connection is built.
 #pragma once
 
 #include "core/model/system.h"
@@ -6,16 +6,16 @@
 
 namespace forage::model {
 
-/// Reports into `diagnostics`: ids used twice, unknown types, parameters and states (with what was probably
-/// meant), values that are none or outside their range, cross references that are unset or lead nowhere,
-/// groups of the wrong size, connections between groups that do not exist or of a kind that the target does
-/// not read. Modules check themselves against `environment`, which may be null.
+/// Reports duplicate ids; unknown types, parameters and states (with a guess of what is meant); values that
+/// are invalid or outside their range; cross references that are unset or refer to nothing; groups of the
+/// wrong size; connections between groups that do not exist, or of a kind that the target does not read.
+/// Modules check themselves against `environment`, which may be null.
 void validate(const System& system, const Registry& registry, Diagnostics& diagnostics,
               Environment* environment = nullptr);
 
-/// Sets the parameters of `object`, an instance of a type with `parameters`, from `settings`; what is not in
-/// them is left at its default. Values that validate() reports are left out. A relative path leads from the
-/// file that says it.
+/// Sets the parameters of `object`, an instance of a type with `parameters`, from `settings`. Parameters
+/// without a setting keep their defaults, and values that validate() reports are ignored. A relative path
+/// starts at the folder of the file that contains it.
 void apply(const std::vector<Setting>& settings, const std::vector<Parameter>& parameters, void* object);
 
 }  // namespace forage::model

@@ -19,7 +19,7 @@ bool read_at(std::ifstream& in, std::uint64_t offset, void* to, std::size_t size
     return static_cast<bool>(in);
 }
 
-/// That of this program.
+/// The header of this program's own file.
 Header own_header() {
     Header out{};
     std::ifstream in("/proc/self/exe", std::ios::binary);

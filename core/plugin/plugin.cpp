@@ -7,14 +7,14 @@
 
 #include <fmt/format.h>
 
+#include "core/base/exception_message.h"
 #include "core/plugin/rehearsal.h"
 #include "core/plugin/shared_object.h"
-#include "core/base/exception_message.h"
 
 namespace forage::plugin {
 namespace {
 
-/// What is wrong with a header whose first members only can be trusted; empty when nothing.
+/// The mistake in a header; empty when there is none. Only its first members can be trusted.
 std::string mismatch(const PluginHeader& header) {
     if (header.sdk_version != sdk_version)
         return fmt::format("was built with version {} of the SDK, this program has version {}",
@@ -94,7 +94,7 @@ class Loader {
         types.push_back(std::move(type));
     }
 
-    /// What is wrong with a type when it is made and tried out; empty when nothing.
+    /// The mistake that shows when a type is created and updated; empty when there is none.
     template <class Type>
     static std::string fault(const Type& type) {
         try {

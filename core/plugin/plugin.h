@@ -12,17 +12,18 @@ namespace forage::plugin {
 
 /// The types of a shared object.
 struct Plugin {
-    std::string path;  ///< as found
+    std::string path;  ///< as given or found
     PluginTypes types;
 };
 
-/// Loads the shared objects at `paths` and checks what they declare: the SDK's version, the ABI, names that
-/// `shipped` or another plugin has, types that throw when they are described or made, states that do not fit.
-/// All mistakes are reported; what is returned can be added to `shipped`.
+/// Loads the shared objects at `paths`. Reports a wrong version of the SDK or of the ABI, names that
+/// `shipped` or another plugin has already, types that throw when they are described or created, and updates
+/// that break their declaration. The result holds the plugins without mistakes, which can be added to
+/// `shipped`.
 std::vector<Plugin> load(const std::vector<std::string>& paths, const Registry& shipped,
                          Diagnostics& diagnostics);
 
-/// Adds the types of all plugins.
+/// Adds the types of all plugins to the registry.
 void add(const std::vector<Plugin>& plugins, Registry& registry);
 
 }  // namespace forage::plugin

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 class Found {
   public:
-    /// A file, or all shared objects of a folder; false when it has none.
+    /// Adds a file, or all shared objects of a folder. Returns false when there are none.
     bool add(const fs::path& path) {
         std::error_code ignored;
         if (!fs::is_directory(path, ignored)) return add_file(path), true;
@@ -25,7 +25,7 @@ class Found {
         for (const auto& file : files) add_file(file);
         return !files.empty();
     }
-    /// The shared objects of a folder, but for those that were added from elsewhere under the same name.
+    /// Adds the shared objects of a folder, except those whose name was added from elsewhere.
     void add_others(const fs::path& folder) {
         std::set<fs::path> names;
         for (const auto& file : files_) names.insert(fs::path(file).filename());
@@ -52,7 +52,7 @@ std::vector<std::string> find(const std::vector<std::string>& named, const std::
     Found found;
     std::error_code ignored;
     for (const auto& name : named)
-        if (!found.add(name))  // loading reports those that do not exist
+        if (!found.add(name))  // load() reports files that do not exist
             diagnostics.warning({}, fmt::format("--plugin: there is no plugin in the folder '{}'", name),
                                 "plugins end in .so; 'forage build-plugin FILE.cpp' makes one");
     std::istringstream parts(path);

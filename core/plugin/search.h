@@ -1,4 +1,4 @@
-// Where plugins are.
+// Searches for plugins.
 #pragma once
 
 #include <string>
@@ -8,15 +8,14 @@
 
 namespace forage::plugin {
 
-/// The shared objects that are to be loaded, each once, in this order:
+/// The shared objects to load, each of them once, in this order:
 ///
-///   named    files and folders that somebody named; one that does not exist is reported
-///   path     FORAGE_PLUGIN_PATH: files and folders between colons; one that does not exist gives a warning
-///   beside   the folder "plugins" beside this file, if it is there, without those whose name one of the
-///   others
-///            has; no file when empty
+///   named    files and folders that the user named; a missing one is an error
+///   path     FORAGE_PLUGIN_PATH: files and folders separated by colons; a missing one is a warning
+///   beside   the folder "plugins" beside this file, if it exists, without files whose name was found
+///            before; no folder when empty
 ///
-/// Of a folder all files *.so, in byte order of their names.
+/// A folder stands for all its files *.so, in byte order of their names.
 std::vector<std::string> find(const std::vector<std::string>& named, const std::string& path,
                               const std::string& beside, Diagnostics& diagnostics);
 

@@ -21,7 +21,7 @@ bool is_source(const std::string& path) {
     return extension == ".cpp" || extension == ".cc" || extension == ".cxx";
 }
 
-/// What the loader says after `what` in `text`; empty when it does not say it.
+/// The word that follows `what` in a message of the loader; empty when `what` is not in `text`.
 std::string behind(const std::string& text, std::string_view what) {
     const auto at = text.find(what);
     return at == std::string::npos ? "" : text.substr(at + what.size());
@@ -66,8 +66,8 @@ const void* load_symbol(const std::string& path, const char* symbol, Diagnostics
                                           : "'forage build-plugin FILE.cpp' makes one from a source file");
         return nullptr;
     }
-    // All symbols now: one that is missing is found here and not in the middle of a run. A path without a
-    // slash would be looked for among the system's libraries.
+    // All symbols are resolved now, so that a missing one is found here and not in the middle of a run. The
+    // loader would search a path without a slash among the system's libraries.
     void* handle = dlopen(fs::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
     if (!handle) {
         const char* text = dlerror();

@@ -1,4 +1,4 @@
-// Shared objects, and what the loader says of those that are none.
+// Loads shared objects.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 
 namespace forage::plugin {
 
-/// Loads the shared object at `path` and returns the address of its `symbol`. Null when there is none, or it
-/// cannot be loaded, which is reported. It stays loaded until the program ends: whatever is made of its
-/// types refers to its code.
+/// Loads the shared object at `path` and returns the address of its `symbol`. Reports an error and returns
+/// null when the object cannot be loaded or has no such symbol. It stays loaded until the program ends,
+/// because objects of its types refer to its code.
 const void* load_symbol(const std::string& path, const char* symbol, Diagnostics& diagnostics);
 
-/// A C++ name as in source code; what is none stays as it is.
+/// A C++ name as in source code. A text that is not a mangled name is returned unchanged.
 std::string demangled(const std::string& name);
 
 }  // namespace forage::plugin

@@ -15,7 +15,7 @@ namespace forage {
 namespace {
 
 constexpr std::string_view magic = "forage checkpoint\n";
-constexpr std::uint32_t format_version = 7;  ///< of everything that is in one
+constexpr std::uint32_t format_version = 7;  ///< of everything that a checkpoint contains
 
 }  // namespace
 

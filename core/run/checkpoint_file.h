@@ -1,4 +1,4 @@
-// Checkpoints on disk: whole, or refused.
+// Checkpoints on disk, which are complete or refused.
 #pragma once
 
 #include <stdexcept>
@@ -7,24 +7,24 @@
 
 namespace forage {
 
-/// There is no checkpoint that can be used; the message says what is wrong with it.
+/// There is no usable checkpoint; the message gives the reason.
 class CheckpointError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Of a run's directory: the newest checkpoint, and the one before.
+/// The paths of the newest and of the previous checkpoint in a run's directory.
 std::string checkpoint_path(const std::string& directory);
 std::string previous_checkpoint_path(const std::string& directory);
 
-/// Writes `content` with a version, its length and a checksum (64-bit FNV-1a), by way of another name, so
-/// that it survives a power cut; the checkpoint that was there becomes the previous one. Throws
-/// std::runtime_error.
+/// Writes `content` with a version, its length and a checksum (64-bit FNV-1a) under a temporary name, and
+/// renames the file, so that a power cut leaves a complete checkpoint. The old checkpoint becomes the
+/// previous one. Throws std::runtime_error.
 void write_checkpoint(const std::string& directory, std::string_view content);
-/// What write_checkpoint() wrote. Throws CheckpointError.
+/// The content that write_checkpoint() wrote. Throws CheckpointError.
 std::string read_checkpoint(const std::string& path);
-/// Whether there is one.
+/// Whether the directory has a checkpoint.
 bool has_checkpoint(const std::string& directory);
-/// Removes both.
+/// Removes the newest and the previous checkpoint.
 void remove_checkpoints(const std::string& directory);
 
 }  // namespace forage

@@ -17,7 +17,7 @@ CheckpointWriter::CheckpointWriter(std::string directory, std::uint64_t every, C
 bool CheckpointWriter::module_file_changed() {
     bool out = false;
     for (auto& f : module_files_) {
-        std::error_code none;  // one that is not there has the earliest time
+        std::error_code none;  // a missing file has the earliest time
         const auto time = std::filesystem::last_write_time(f.path, none);
         out |= time != f.time;
         f.time = time;
@@ -42,7 +42,8 @@ void check_checkpoints(const engine::Layout& layout, const std::string& option, 
         if (!m.type.checkpoints)
             diagnostics.error(
                 {},
-                fmt::format("{}: the module type '{}' of process '{}' does not say what it keeps beside its parameters",
+                fmt::format("{}: the module type '{}' of process '{}' does not say what it keeps beside its "
+                            "parameters",
                             option, m.type.name, m.process),
                 "give the type a member 'void checkpoint(forage::Archive& archive)' that lists its members");
 }

@@ -1,4 +1,4 @@
-// Checkpoints: all that a run needs to go on as if it had never stopped.
+// Checkpoints: everything that a run needs to continue as if it had never stopped.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +10,13 @@
 
 namespace forage {
 
-/// What a run was started with; the first part of a checkpoint.
+/// How a run was started; the first part of a checkpoint.
 struct CheckpointOrigin {
     std::string version;                 ///< of Forage
     std::vector<std::string> arguments;  ///< of `forage run`
-    std::string working_directory;       ///< relative file names start here
-    InputFiles files;                    ///< when the run began
-    InputFiles module_files;             ///< in this cycle: modules may write theirs
+    std::string working_directory;       ///< relative paths start here
+    InputFiles files;                    ///< digests when the run began
+    InputFiles module_files;             ///< digests in this cycle, as modules may write their files
     std::uint64_t cycle = 0;
 
     void checkpoint(Archive& archive) {
@@ -27,8 +27,8 @@ struct CheckpointOrigin {
 /// Writes checkpoints of a run into its directory. Must be the last observer of the run.
 class CheckpointWriter final : public Observer {
   public:
-    /// Writes every `every` cycles, and when one of `module_files` has changed: before that cycle the run could not go on with
-    /// the file as it is now. `directory`: of the results.
+    /// Writes a checkpoint every `every` cycles, and when one of `module_files` has changed, because a run
+    /// cannot be resumed from an older checkpoint with the changed file. `directory` is that of the results.
     CheckpointWriter(std::string directory, std::uint64_t every, CheckpointOrigin origin,
                      const std::vector<std::string>& module_files);
 
@@ -50,8 +50,8 @@ class CheckpointWriter final : public Observer {
     std::vector<ModuleFile> module_files_;
 };
 
-/// Reports modules that do not declare what they keep, so that their state can neither be written nor digested. `option`: what
-/// needs it, such as "--hash".
+/// Reports modules that do not declare what they keep: their state can be neither written nor digested.
+/// `option` needs this state, such as "--hash".
 void check_checkpoints(const engine::Layout& layout, const std::string& option, Diagnostics& diagnostics);
 
 }  // namespace forage

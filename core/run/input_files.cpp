@@ -18,7 +18,7 @@ void add(InputFiles& all, const Location& where) {
 }  // namespace
 
 std::string file_digest(const std::string& path) {
-    std::error_code none;  // what came through a pipe is not there any more
+    std::error_code none;  // the content of a pipe cannot be read again
     if (!std::filesystem::is_regular_file(path, none)) return digest({});
     std::ifstream in(path, std::ios::binary);
     return digest({std::string(std::istreambuf_iterator<char>(in), {})});

@@ -1,4 +1,4 @@
-// Which files decide a run, and whether they have changed.
+// The files that decide a run, and their digests.
 #pragma once
 
 #include <map>
@@ -17,12 +17,12 @@ using InputFiles = std::map<std::string, std::string>;
 /// The files of a system: its own, and those of linked processes.
 InputFiles system_files(const model::System& system);
 
-/// The files that parameters of modules name: in the system, in --set, or in a change to come. Modules read them, or write
-/// them when they are asked to.
+/// The files that parameters of modules name: in the system, in --set, or in a scheduled change. Modules read
+/// or write these files.
 std::vector<std::string> module_files(const model::System& system, const Registry& registry,
                                       const std::vector<model::Assignment>& changes);
 
-/// The digest of a file's content; of a path that is no file, the digest of nothing.
+/// The digest of a file's content; the digest of an empty text when there is no such file.
 std::string file_digest(const std::string& path);
 
 }  // namespace forage

@@ -1,4 +1,4 @@
-// What the learning layers of a running system know: figures from the outputs of their modules.
+// Measures of the learning layers of a running system, from the outputs of their modules.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,10 @@ namespace forage {
 
 /// How full the long-term memory of a contextual layer is.
 struct MemoryFill {
-    std::size_t sequences = 0, segments = 0;          ///< in use
-    std::size_t all_sequences = 0, all_segments = 0;  ///< that there is room for
+    std::size_t sequences = 0, segments = 0;          ///< numbers in use
+    std::size_t all_sequences = 0, all_segments = 0;  ///< capacity
 
-    double mean_length() const {  ///< segments of a sequence in use
+    double mean_length() const {  ///< mean number of segments of the sequences in use
         return sequences ? static_cast<double>(segments) / static_cast<double>(sequences) : 0;
     }
     void checkpoint(Archive& archive) { archive(sequences, segments, all_sequences, all_segments); }
@@ -30,7 +30,8 @@ class Layers {
         const engine::Simulation&) const;  ///< activity of the strongest cell of the prototype
 
     bool contextual() const { return contextual_ >= 0; }
-    /// Counted on its display of empty segments, without which nothing is known (all 0): a row is a sequence.
+    /// How full the memory is, counted on the display of empty segments, in which a row is a sequence. All 0
+    /// when the system has no such display.
     MemoryFill memory(const engine::Simulation&) const;
 
     /// Demands the outputs of modules that it reads.

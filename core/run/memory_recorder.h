@@ -1,4 +1,4 @@
-// Records into memory.
+// Recordings in memory.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace forage {
 
-/// Keeps the numbers of a source, a row per recorded cycle.
+/// Records a source in memory, one row per recorded cycle.
 class MemoryRecorder final : public Observer {
   public:
     using Rows = Eigen::Map<const Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
@@ -22,9 +22,10 @@ class MemoryRecorder final : public Observer {
     const observe::Recorded& what() const { return source_.what(); }
     /// The recorded cycles.
     const std::vector<std::uint64_t>& cycles() const { return cycles_; }
-    /// The numbers: a row per recorded cycle, a column per cell. Valid until the next cycle.
+    /// The recorded numbers: one row per recorded cycle, one column per cell. Valid until the next cycle.
     Rows rows() const {
-        return {numbers_.data(), static_cast<Index>(cycles_.size()), static_cast<Index>(source_.what().size())};
+        return {numbers_.data(), static_cast<Index>(cycles_.size()),
+                static_cast<Index>(source_.what().size())};
     }
 
     void declare(engine::Demand& demand) const override { source_.declare(demand); }

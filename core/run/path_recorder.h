@@ -10,8 +10,8 @@
 
 namespace forage {
 
-/// Collects a robot's path, trial by trial, in points 1 cm apart, and twice as far each time there are more than a million of
-/// them. Writes trajectory.csv.
+/// Collects a robot's path, trial by trial, in points that are 1 cm apart. When there are more than a million
+/// points, the distance is doubled. Writes trajectory.csv.
 class PathRecorder final : public Observer {
   public:
     /// `file`: the name of the table.

@@ -14,12 +14,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Notices, once a second, that the directory for results has gone: what is written into open files would be lost.
+/// Checks, once a second, that the directory for results still exists: otherwise everything written into open
+/// files would be lost.
 class DirectoryWatch {
   public:
     explicit DirectoryWatch(std::string directory) : directory_(std::move(directory)) {}
     bool gone() const { return !directory_.empty() && access(directory_.c_str(), F_OK) != 0; }
-    std::string message() const { return fmt::format("the directory '{}' is not there any more", directory_); }
+    std::string message() const {
+        return fmt::format("the directory '{}' is not there any more", directory_);
+    }
     void look() {
         const auto now = Clock::now();
         if (now < next_) return;
@@ -32,10 +35,11 @@ class DirectoryWatch {
     Clock::time_point next_;
 };
 
-/// Runs until the end, or until something stops it. Returns why it ended early. Throws what a cycle or an observer throws.
+/// Runs until the end, or until something stops it. Returns why it ended early. Throws what a cycle or an
+/// observer throws.
 std::string loop(PreparedRun& p, const RunCallbacks& callbacks, DirectoryWatch& watch) {
     Run& run = p.run;
-    bool told = !run.divergence().empty();  // before the run went on
+    bool told = !run.divergence().empty();  // reported before the stop
     while (!p.stop.reached(run)) {
         run.step();
         watch.look();
@@ -56,7 +60,7 @@ std::string loop(PreparedRun& p, const RunCallbacks& callbacks, DirectoryWatch& 
 
 void write_results(PreparedRun& p, RunOutcome& outcome) {
     auto& files = outcome.files;
-    if (p.spec.directory.empty()) return p.run.finish(files);  // a film has a place of its own
+    if (p.spec.directory.empty()) return p.run.finish(files);  // a film has its own path
     const auto earlier = files_of_last_run(p.spec.directory);
     p.run.finish(files);
     files.write("run.json", [&] { return run_json(p, outcome); });

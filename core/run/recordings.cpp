@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "core/observe/npz.h"
 #include "core/base/output_files.h"
+#include "core/observe/npz.h"
 
 namespace forage {
 namespace {
@@ -28,7 +28,7 @@ constexpr std::array<FormatName, 5> formats = {{{"csv", RecordingFormat::csv, fa
                                                 {"h5", RecordingFormat::hdf5, false},
                                                 {"dat", RecordingFormat::sampler, false}}};
 
-/// The format that the end of a file's name asks for; null when there is none.
+/// The format that belongs to the ending of a file's name; null when there is none.
 const FormatName* format_of(std::string_view file) {
     for (const auto& f : formats)
         if (file.size() > f.name.size() + 1 && file.ends_with(f.name) &&
@@ -37,7 +37,7 @@ const FormatName* format_of(std::string_view file) {
     return nullptr;
 }
 
-/// "Process/Group=file.h5" taken apart; no file when none is named.
+/// Splits "Process/Group=file.h5" into the source and the file, which is empty when none is named.
 std::pair<std::string, std::string> take_apart(const std::string& text) {
     const auto equals = text.rfind('=');
     if (equals == std::string::npos || !format_of(text.substr(equals + 1))) return {text, {}};
@@ -67,7 +67,7 @@ std::vector<RecordingFile> recorded_files(const std::vector<model::RecordingSpec
         auto source = observe::find_source(layout, text, option, diagnostics, asked.column.at);
         if (!source) continue;
         const observe::Recorded& what = source->what();
-        if (!seen.insert(file + "\n" + what.name + "\n" + what.group_id).second) continue;  // named twice
+        if (!seen.insert(file + "\n" + what.name + "\n" + what.group_id).second) continue;  // duplicate
         const FormatName& format = *format_of(file.empty() ? "x." + options.format : file);
         const bool several = observe::holds_several(format.format);
         std::string stem = file_name(what.name), archive;
@@ -76,7 +76,7 @@ std::vector<RecordingFile> recorded_files(const std::vector<model::RecordingSpec
             fmt::format("{}.{}", several ? "recording" : stem, format.archive ? "npy" : format.name);
         if (!file.empty() && !format.archive) name = file;
         auto at = find(name);
-        if (at != out.end() && !several && file.empty()) {  // two groups of one name
+        if (at != out.end() && !several && file.empty()) {  // two groups have the same name
             name =
                 fmt::format("{}_{}.{}", stem, file_name(what.group_id), format.archive ? "npy" : format.name);
             at = find(name);
@@ -134,13 +134,15 @@ void Recordings::begin_files(ResultFiles&) {
     }
 }
 
-/// A file that was finished, when the run was stopped in order, grows under its other name again.
+/// Renames a file that was finished, because the run was stopped by a signal, to the name of a growing file
+/// again.
 void Recordings::reopen(const File& f) const {
     namespace fs = std::filesystem;
     if (fs::exists(partial(f.path))) return;
     const std::string archive = directory_ + "/" + f.file.archive;
     if (!f.file.archive.empty() && fs::exists(archive)) {
-        const std::string unpacked = partial(f.path + ".unpacked");  // killed now, it would be there in part
+        const std::string unpacked =
+            partial(f.path + ".unpacked");  // a kill during the unpacking would leave an incomplete file
         observe::extract_npz(archive, f.header.sources.front().name, unpacked);
         fs::rename(unpacked, partial(f.path));
     } else if (f.file.archive.empty() && fs::exists(f.path)) {
@@ -161,7 +163,7 @@ void Recordings::checkpoint(Archive& archive) {
         if (!archive.loading()) flush_to_disk(partial(f.path));
     }
     if (archive.loading()) {
-        for (const auto& f : all_) reopen(f);  // all are there before any is changed
+        for (const auto& f : all_) reopen(f);  // checks that all exist before one is changed
         for (std::size_t i = 0; i < all_.size(); ++i) open(all_[i], positions[i]);
     }
     for (auto& f : all_) archive(*f.recorder);
@@ -174,7 +176,7 @@ void Recordings::finish(RunView&, ResultFiles& files) {
     std::map<std::string, std::vector<std::pair<std::string, std::string>>> archives;
     for (auto& f : all_) {
         attempt([&] { f.recorder->close(); });
-        // What it holds is whole in any case.
+        // Its rows are complete in any case.
         if (f.file.archive.empty())
             attempt([&] { forage::finish(f.path); });
         else

@@ -1,4 +1,4 @@
-// The recordings of a run: files that grow under another name and get their own when the run ends.
+// The recordings of a run: files that grow as NAME.part and are renamed to NAME when the run ends.
 #pragma once
 
 #include <optional>
@@ -12,16 +12,17 @@
 
 namespace forage {
 
-/// A file that a run records, and what it holds.
+/// A file that a run records, and its sources.
 struct RecordingFile {
-    std::string name;  ///< within the directory
+    std::string name;  ///< relative to the directory of results
     observe::RecordingFormat format;
     std::vector<observe::Source> sources;
-    std::uint64_t every = 1;  ///< cycles from row to row
-    std::string archive;      ///< the .npz file that it becomes a part of; empty for others
+    std::uint64_t every = 1;  ///< cycles between two rows
+    std::string archive;      ///< the .npz file of which it becomes a part; empty for other formats
 };
 
-/// The files for what a user wants recorded. Reports what is not there or cannot be put together.
+/// The files for the recordings that a user asks for. Reports unknown sources, and sources that cannot share
+/// a file.
 std::vector<RecordingFile> recorded_files(const std::vector<model::RecordingSpec>& recordings,
                                           const RecordOptions& options, const engine::Layout& layout,
                                           Diagnostics& diagnostics);
@@ -29,7 +30,7 @@ std::vector<RecordingFile> recorded_files(const std::vector<model::RecordingSpec
 /// Records sources into files while the run lasts.
 class Recordings final : public Observer {
   public:
-    /// `attributes` is what a file may say of the run.
+    /// `attributes` are facts about the run, for formats that can store them.
     Recordings(std::vector<RecordingFile> files, const RecordOptions& options, const std::string& directory,
                const std::vector<std::pair<std::string, std::string>>& attributes);
 
@@ -37,27 +38,27 @@ class Recordings final : public Observer {
         for (const auto& f : all_)
             for (const auto& s : f.file.sources) s.declare(demand);
     }
-    /// Begins the files. Throws std::runtime_error when one cannot be opened; none is left then.
+    /// Opens the files. When one cannot be opened, removes the others and throws std::runtime_error.
     void begin_files(ResultFiles&) override;
-    /// Writing: brings all rows to the disk and notes where the files are. Reading: goes on where they were,
-    /// instead of begin(), also in files that had got their names. Throws std::runtime_error.
+    /// Writing: flushes all rows to the disk and stores the positions in the files. Reading: continues at
+    /// these positions, instead of begin_files(), also in files that were renamed already. Throws
+    /// std::runtime_error.
     void checkpoint(Archive& archive) override;
 
     void after_cycle(RunView& run) override {
         for (auto& f : all_) f.recorder->record(run.simulation);
     }
-    /// Closes every file and gives it its name, also when one of them fails.
+    /// Closes and renames every file, also when one of them fails.
     void finish(RunView&, ResultFiles& files) override;
 
     std::vector<std::string> file_names() const override;
-
 
   private:
     struct File {
         RecordingFile file;
         std::string path;
         observe::RowFileHeader header;
-        std::optional<observe::Recorder> recorder;  ///< once it is open
+        std::optional<observe::Recorder> recorder;  ///< empty until the file is open
     };
     void open(File& file, const std::optional<observe::RowFilePosition>& go_on);
     void reopen(const File& file) const;

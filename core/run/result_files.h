@@ -8,22 +8,23 @@
 
 namespace forage {
 
-/// Collects the files that observers write at the end of a run. A file that cannot be written does not keep the others from
-/// being written.
+/// Collects the files that observers write at the end of a run. When one file cannot be written, the others
+/// still are.
 class ResultFiles {
   public:
-    /// `directory`: where the files go; it must exist. Without one (empty), nothing is written.
+    /// `directory` must exist. When it is empty, nothing is written.
     explicit ResultFiles(std::string directory) : directory_(std::move(directory)) {}
 
     const std::string& directory() const { return directory_; }
     std::string path(const std::string& name) const { return directory_ + "/" + name; }
 
-    /// Writes content() to the file `name`; a failure becomes a problem.
+    /// Writes content() to the file `name`. A failure is added to problems().
     void write(const std::string& name, const std::function<std::string()>& content);
-    /// Calls action(), which makes the files `names` itself; a failure becomes a problem, and the files are not listed.
+    /// Calls action(), which writes the files `names`. A failure is added to problems(), and the files are
+    /// not added to names().
     void attempt(const std::function<void()>& action, const std::vector<std::string>& names = {});
 
-    /// What a recording file holds, for run.json.
+    /// A recording file and its content, for run.json.
     struct Recording {
         std::string file, source, label;
     };

@@ -13,19 +13,20 @@
 namespace forage {
 namespace {
 
-/// Cycles per second of a system; one that runs as fast as possible is taken to run 25.
+/// Cycles per second of a system; 25 for a system that runs as fast as possible.
 double cycles_per_second(const model::System& system) {
     return system.cycles_per_second > 0 ? system.cycles_per_second : 25;
 }
 
 std::string describe(const engine::NotFinite& what, const engine::Layout& layout) {
     const auto& group = layout.groups[static_cast<std::size_t>(what.group)];
-    const auto cell = group.shape.cells == group.shape.width * group.shape.height
-                          ? fmt::format("({}, {})", what.cell % group.shape.width + 1,
-                                        what.cell / group.shape.width + 1)
-                          : fmt::format("{}", what.cell + 1);
+    const auto cell =
+        group.shape.cells == group.shape.width * group.shape.height
+            ? fmt::format("({}, {})", what.cell % group.shape.width + 1, what.cell / group.shape.width + 1)
+            : fmt::format("{}", what.cell + 1);
     return fmt::format("in cycle {} '{}' of '{}' becomes {} in cell {}", what.cycle,
-                       group.type.states[static_cast<std::size_t>(what.state)].name, group.path, what.value, cell);
+                       group.type.states[static_cast<std::size_t>(what.state)].name, group.path, what.value,
+                       cell);
 }
 
 void throw_errors(const Diagnostics& diagnostics) {
@@ -34,15 +35,16 @@ void throw_errors(const Diagnostics& diagnostics) {
 
 }  // namespace
 
-std::optional<Run> Run::make(model::System system, Registry registry, std::unique_ptr<Environment> environment,
-                             const Options& options, Diagnostics& diagnostics) {
+std::optional<Run> Run::make(model::System system, Registry registry,
+                             std::unique_ptr<Environment> environment, const Options& options,
+                             Diagnostics& diagnostics) {
     auto layout = engine::make_layout(system, registry, diagnostics, environment.get());
     if (!layout) return std::nullopt;
     return Run(std::move(system), std::move(registry), std::move(environment), std::move(*layout), options);
 }
 
-Run::Run(model::System system, Registry registry, std::unique_ptr<Environment> environment, engine::Layout layout,
-         const Options& options)
+Run::Run(model::System system, Registry registry, std::unique_ptr<Environment> environment,
+         engine::Layout layout, const Options& options)
     : system_(std::move(system)),
       registry_(std::move(registry)),
       environment_(std::move(environment)),
@@ -61,7 +63,8 @@ void Run::add_observer(std::unique_ptr<Observer> observer) {
         observer->declare(wanted);
         if (!demand_.covers(wanted))
             throw InputError(
-                "this run does not compute what the observer reads or overwrites: add it before the first cycle, or compute "
+                "this run does not compute what the observer reads or overwrites: add it before the first "
+                "cycle, or compute "
                 "everything");
     }
     observers_.push_back(std::move(observer));
@@ -74,11 +77,9 @@ void Run::remove(const Observer& observer) {
 bool Run::start(Diagnostics& diagnostics) {
     if (simulation_) return true;
     for (const auto& o : observers_) o->declare(demand_);
-    simulation_ = engine::Simulation::build(system_, layout_, demand_,
-                                            {.seed = options_.seed,
-                                             .threads = options_.threads,
-                                             .environment = environment_.get()},
-                                            diagnostics);
+    simulation_ = engine::Simulation::build(
+        system_, layout_, demand_,
+        {.seed = options_.seed, .threads = options_.threads, .environment = environment_.get()}, diagnostics);
     if (!simulation_) return false;
     for (const auto& o : observers_) o->check(*simulation_, diagnostics);
     if (diagnostics.failed()) return simulation_.reset(), false;
@@ -144,7 +145,8 @@ void Run::write(std::string_view text, std::span<const double> values) {
     Diagnostics diagnostics;
     const auto column = observe::find_column(layout(), text, "write", diagnostics);
     throw_errors(diagnostics);
-    if (column->state < 0) throw InputError(fmt::format("'{}' is an input, which cannot be overwritten", text));
+    if (column->state < 0)
+        throw InputError(fmt::format("'{}' is an input, which cannot be overwritten", text));
     start();
     Column state = simulation_->writable_state(column->group, column->state);
     if (values.size() != static_cast<std::size_t>(state.size()))

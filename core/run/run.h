@@ -21,27 +21,29 @@
 
 namespace forage {
 
-/// What is wrong with files, systems, plugins or expressions; what() is all of it, as `forage check` prints it.
+/// Mistakes in files, systems, plugins or expressions. what() lists all of them, as `forage check` prints
+/// them.
 class InputError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Runs a system cycle by cycle in its environment and calls the observers at fixed points (observer.h). The system is compiled
-/// at the first cycle, or by start(): until then observers may be added freely; later, when what they read and overwrite is
-/// computed.
+/// Runs a system cycle by cycle in its environment and calls the observers at fixed points (observer.h). The
+/// system is compiled at the first cycle, or by start(). Until then any observer may be added; afterwards
+/// only observers whose demand is computed.
 class Run {
   public:
     struct Options {
         std::uint64_t seed = 1;
         int threads = 1;  ///< at most; the numbers do not depend on it
-        /// Compute all groups, so that everything may be read and overwritten at any time. Otherwise only what observers and
-        /// modules demand is computed, with the same numbers.
+        /// Whether all groups are computed, so that everything may be read and overwritten at any time.
+        /// Otherwise only what observers and modules demand is computed, with the same numbers.
         bool compute_everything = true;
-        bool check_finite = true;  ///< search for NaN and infinities: divergence()
+        bool check_finite = true;  ///< whether to search for NaN and infinities, see divergence()
     };
     /// Checks the system. Empty when `diagnostics` got an error. `environment` may be null.
-    static std::optional<Run> make(model::System system, Registry registry, std::unique_ptr<Environment> environment,
-                                   const Options& options, Diagnostics& diagnostics);
+    static std::optional<Run> make(model::System system, Registry registry,
+                                   std::unique_ptr<Environment> environment, const Options& options,
+                                   Diagnostics& diagnostics);
     Run(Run&&) noexcept;
     Run& operator=(Run&&) noexcept;
     ~Run();
@@ -53,73 +55,75 @@ class Run {
     bool has_trials() const { return environment_ && environment_->has_trials(0); }
     std::uint64_t seed() const { return options_.seed; }
 
-    /// Adds an observer, which is called after those added before. Throws InputError when the run is compiled without what the
-    /// observer demands.
+    /// Adds an observer, which is called after those that were added before. Throws InputError when the run
+    /// was compiled without something that the observer demands.
     template <class T>
     T& add(std::unique_ptr<T> observer) {
         T& out = *observer;
         add_observer(std::move(observer));
         return out;
     }
-    /// Removes an observer of this run; what it has to write at the end is not written.
+    /// Removes an observer of this run. Its finish() is not called.
     void remove(const Observer& observer);
     std::span<const std::unique_ptr<Observer>> observers() const { return observers_; }
-    /// What is computed beside the demands of observers; to be added to before the run starts.
+    /// The demand in addition to those of observers. Callers may add to it before the run starts.
     engine::Demand& demand() { return demand_; }
 
-    /// Compiles the system for what the observers demand, lets them check it, and starts the modules. Does not start, and returns
-    /// false, when `diagnostics` has an error, be it from before.
+    /// Compiles the system for what the observers demand, lets the observers check it, and starts the
+    /// modules. Does not start, and returns false, when `diagnostics` has an error, also from before.
     bool start(Diagnostics& diagnostics);
-    /// The same; throws InputError, and engine::RunError from the start of a module. Nothing happens when the run has started.
+    /// Does the same, and throws InputError for errors, and engine::RunError when a module cannot start. Does
+    /// nothing when the run has started.
     void start();
     bool started() const { return simulation_.has_value(); }
 
-    /// One cycle of the system, its environment and the observers. Starts the run if need be. Throws engine::RunError, and what
-    /// an observer throws.
+    /// Runs one cycle of the system, its environment and the observers. Starts the run if necessary. Throws
+    /// engine::RunError, and whatever an observer throws.
     void step();
-    /// Runs until `length` is reached, counted from now. Returns why it ended early: the condition held, or a trial took too
-    /// long; empty when it did not.
+    /// Runs until `length` is reached, counted from now. Returns the reason for an early end: the condition
+    /// held, or a trial took too long. Empty when the end was not early.
     std::string until(const RunLength& length);
 
-    /// The compiled system. Starts the run if need be.
+    /// The compiled system. Starts the run if necessary.
     engine::Simulation& simulation() { return start(), *simulation_; }
-    const engine::Simulation& simulation() const { return *simulation_; }  ///< started() only
+    const engine::Simulation& simulation() const { return *simulation_; }  ///< requires started()
     std::uint64_t cycle() const { return simulation_ ? simulation_->cycle() : 0; }
     double seconds_per_cycle() const { return seconds_per_cycle_; }
     double seconds() const { return static_cast<double>(cycle()) * seconds_per_cycle_; }
     SimTime time() const;
-    /// Where numbers began to be NaN or infinite, in words; empty while all are finite.
+    /// The first number that was NaN or infinite, in words; empty while all numbers are finite.
     const std::string& divergence() const { return divergence_; }
 
-    /// The numbers that an expression names, such as "Bug/Light" or "Bug/Motor:vm(5,1)": of the last cycle, row by row. Throws
-    /// InputError.
+    /// The numbers of a source such as "Bug/Light" or "Bug/Motor:vm(5,1)" in the last cycle, row by row.
+    /// Throws InputError.
     std::vector<double> read(std::string_view source);
-    /// Overwrites a state of all cells of a group: what the next cycle reads as the state of the last one. Throws InputError,
-    /// also when `values` has not one number per cell.
+    /// Overwrites a state of all cells of a group. The next cycle reads it as the state of the last one.
+    /// Throws InputError, also when `values` does not have one number per cell.
     void write(std::string_view column, std::span<const double> values);
-    /// Changes a parameter between two cycles: "Process/Group.parameter=value", "Process.parameter=value" of a module,
-    /// "Connection.parameter=value" of a synapse. Throws InputError.
+    /// Changes a parameter between two cycles: "Process/Group.parameter=value", "Process.parameter=value" of
+    /// a module, "Connection.parameter=value" of a synapse. Throws InputError.
     void set(std::string_view assignment);
 
-    /// Records a source in memory, from the next cycle on. Throws InputError.
+    /// Records a source in memory, from the next cycle on, every `every`-th cycle. Throws InputError.
     MemoryRecorder& record(std::string_view source, std::uint64_t every = 1);
     /// The trials of a robot, with the measures of its TrialRecorder; empty in a run without trials.
     MeasuredTrials trials(std::size_t robot = 0) const;
 
-    /// The values of measures of this run, as it is now.
+    /// The current values of measures of this run.
     std::vector<std::optional<double>> measure(RunMeasures& measures);
 
-    /// Calls finish() of all observers, in order: what they leave behind goes to `files`.
+    /// Calls finish() of all observers, in order. They write their files to `files`.
     void finish(ResultFiles& files);
 
-    /// Reads or writes all that changes in the run; between cycles, after start().
+    /// Reads or writes everything that changes in the run. May be called between cycles, after start().
     void checkpoint(Archive& archive);
-    /// A digest of all that decides the cycles to come in system and environment: equal runs have equal digests.
+    /// A digest of everything in system and environment that decides the following cycles. Equal runs have
+    /// equal digests.
     std::string digest();
 
   private:
-    Run(model::System system, Registry registry, std::unique_ptr<Environment> environment, engine::Layout layout,
-        const Options& options);
+    Run(model::System system, Registry registry, std::unique_ptr<Environment> environment,
+        engine::Layout layout, const Options& options);
     void add_observer(std::unique_ptr<Observer> observer);
     RunView view();
 

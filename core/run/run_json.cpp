@@ -13,15 +13,16 @@
 namespace forage {
 namespace {
 
-/// A file that a run has read, with a digest (64-bit FNV-1a) that tells whether it has changed since.
+/// A file that a run has read, with its digest (64-bit FNV-1a), which shows later changes.
 nlohmann::ordered_json input_file(const std::string& path) {
     return {{"file", path}, {"fnv1a64", file_digest(path)}};
 }
 
 std::string base_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
-/// Versions, files and settings: what is needed to repeat the run.
-nlohmann::ordered_json settings_json(const RunSpec& o, const Run& run, const std::vector<std::string>& plugins,
+/// The versions, files and settings that are needed to repeat the run.
+nlohmann::ordered_json settings_json(const RunSpec& o, const Run& run,
+                                     const std::vector<std::string>& plugins,
                                      const std::vector<std::pair<std::string, std::string>>& libraries) {
     nlohmann::ordered_json json;
     json["forage"] = FORAGE_VERSION;
@@ -31,7 +32,8 @@ nlohmann::ordered_json settings_json(const RunSpec& o, const Run& run, const std
     json["compiler"] = __VERSION__;
     json["system"] = input_file(o.input.system);
     json["system"]["name"] = run.system().name;
-    json["system"]["cycles_per_second"] = run.system().cycles_per_second > 0 ? run.system().cycles_per_second : 25;
+    json["system"]["cycles_per_second"] =
+        run.system().cycles_per_second > 0 ? run.system().cycles_per_second : 25;
     for (const auto& path : o.input.more) json["more_systems"].push_back(input_file(path));
     if (const auto* environment = run.environment()) {
         json["world"] = input_file(o.input.world);
@@ -89,7 +91,8 @@ std::string run_json(const PreparedRun& p, const RunOutcome& outcome) {
     if (!outcome.state.empty()) result["state"] = outcome.state;
     for (const auto& e : p.schedule->entries())
         result["changes"].push_back(
-            {{"at", e.text}, {"cycle", e.cycle ? nlohmann::ordered_json(*e.cycle) : nlohmann::ordered_json()}});
+            {{"at", e.text},
+             {"cycle", e.cycle ? nlohmann::ordered_json(*e.cycle) : nlohmann::ordered_json()}});
     if (const auto* environment = run.environment()) {
         const auto names = environment->robot_names();
         for (std::size_t i = 0; i < names.size(); ++i) {
@@ -106,7 +109,8 @@ std::string run_json(const PreparedRun& p, const RunOutcome& outcome) {
                 {{"team", score.team}, {"points", score.points}, {"good", score.good}, {"bad", score.bad}});
     }
     for (std::size_t g = 0; g < run.layout().groups.size(); ++g)
-        if (run.simulation().pruned(static_cast<int>(g))) result["pruned"].push_back(run.layout().groups[g].path);
+        if (run.simulation().pruned(static_cast<int>(g)))
+            result["pruned"].push_back(run.layout().groups[g].path);
     result["files"] = outcome.files.names();
     for (const auto& r : outcome.files.recordings())
         result["recordings"].push_back({{"file", r.file}, {"source", r.source}, {"label", r.label}});

@@ -11,7 +11,7 @@ namespace {
 
 using Kind = model::Measure::Kind;
 
-/// Over the last `last` finished trials of the first robot; empty without any.
+/// A mean over the last `last` finished trials of the first robot; empty when there are none.
 std::optional<double> mean_of_trials(const model::Measure& m, const Environment& environment) {
     const std::span all(environment.trials(0));
     const auto trials = m.last && *m.last < all.size() ? all.last(*m.last) : all;
@@ -30,10 +30,12 @@ RunMeasures::RunMeasures(std::span<const model::Measure> measures, const engine:
     for (const auto& m : measures) {
         Entry e{m, std::nullopt, std::nullopt, std::nullopt};
         if (m.kind == Kind::first) {
-            e.condition = observe::parse_condition(layout, trials, m.what.text, "measure", diagnostics, m.what.at);
+            e.condition =
+                observe::parse_condition(layout, trials, m.what.text, "measure", diagnostics, m.what.at);
             ++waiting_;
         } else if (m.kind == Kind::final) {
-            e.quantity = observe::parse_quantity(layout, trials, m.what.text, "measure", diagnostics, m.what.at);
+            e.quantity =
+                observe::parse_quantity(layout, trials, m.what.text, "measure", diagnostics, m.what.at);
         } else if (!trials) {
             diagnostics.error(m.at, fmt::format("measure '{}': this experiment has no trials", m.name),
                               "trials are those of a robot that its world puts back to the start");

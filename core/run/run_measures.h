@@ -1,4 +1,4 @@
-// The numbers that a run of an experiment gives.
+// The measures of a run of an experiment.
 #pragma once
 
 #include <optional>
@@ -11,16 +11,17 @@
 
 namespace forage {
 
-/// Measures a run as an experiment file asks: the moments at which conditions first hold, quantities at the end, means over
-/// trials.
+/// Takes the measures of an experiment file: the cycles in which conditions first hold, quantities at the
+/// end, and means over trials.
 class RunMeasures final : public Observer {
   public:
-    /// Reports what cannot be measured. `trials`: whether the run has any.
+    /// Reports measures that are impossible. `trials`: whether the run has trials.
     RunMeasures(std::span<const model::Measure> measures, const engine::Layout& layout, bool trials,
                 Diagnostics& diagnostics);
 
     void declare(engine::Demand& demand) const override;
-    /// Warns of conditions on cells that hold before the first cycle, when all cells are 0: they are probably mistakes.
+    /// Warns of conditions on cells that hold before the first cycle, when all cells are 0: they are probably
+    /// mistakes.
     void check(const engine::Simulation& simulation, Diagnostics& diagnostics) const override;
     void before_cycle(RunView& run) override;
     void checkpoint(Archive& archive) override {
@@ -28,7 +29,8 @@ class RunMeasures final : public Observer {
         archive(waiting_);
     }
 
-    /// The measures at the end, in the experiment's order; empty where there is nothing to measure, or no number.
+    /// The measures at the end of the run, in the experiment's order. A value is empty when there is nothing
+    /// to measure.
     std::vector<std::optional<double>> values(RunView& run);
 
   private:

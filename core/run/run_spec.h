@@ -1,4 +1,4 @@
-// Everything that decides a run, as plain values.
+// The description of a run, as plain values.
 #pragma once
 
 #include <cstdint>
@@ -10,47 +10,51 @@
 
 namespace forage {
 
-/// What is read before a run: files, and the settings that tie them together.
+/// The input of a run: files and settings.
 struct RunInput {
     std::string system, world;                ///< paths; no world when empty
-    std::vector<std::string> more;            ///< further systems, which run together with the first
+    std::vector<std::string> more;            ///< further systems that run together with the first
     std::vector<model::Expression> settings;  ///< "Process/Group.parameter=value"
     std::string replay;                       ///< table for moduleReplay; none when empty
-    std::vector<std::string> plugins;         ///< shared objects and folders of them, besides those that are found
-    bool lenient = false;                     ///< unknown parameters and attributes are warnings, not errors
-    std::uint64_t seed = 1;                   ///< decides everything random
-    std::optional<double> real_time_factor;   ///< seconds of the world per second of the clock; empty: the world's own
-    bool noise = true;                        ///< of motors and sensors
-    bool sensor_rates = false;                ///< scans and pictures at the rates of the world's files
-    int latency = 0;                          ///< cycles by which sensed values arrive later
-    bool game = false;                        ///< play the challenge's game
+    /// Shared objects and folders of them, in addition to those that are found.
+    std::vector<std::string> plugins;
+    bool lenient = false;    ///< unknown parameters and attributes are warnings, not errors
+    std::uint64_t seed = 1;  ///< decides everything random
+    /// Seconds of the world per second of the clock; empty: the world's own.
+    std::optional<double> real_time_factor;
+    bool noise = true;          ///< of motors and sensors
+    bool sensor_rates = false;  ///< scans and pictures at the rates of the world's files
+    int latency = 0;            ///< cycles by which sensed values arrive later
+    bool game = false;          ///< play the challenge's game
 };
 
-/// How a run records what it is asked to record.
+/// The options of all recordings of a run.
 struct RecordOptions {
-    std::string format = "csv";          ///< csv, npy, npz, h5 or dat, where no file is named
+    std::string format = "csv";          ///< csv, npy, npz, h5 or dat, for recordings without a file name
     std::uint64_t from = 0;              ///< the first cycle
     std::optional<std::uint64_t> until;  ///< the last cycle
-    bool mean = false;                   ///< record the mean over the cycles from row to row
+    bool mean = false;                   ///< whether a row is the mean of the cycles up to the next row
 };
 
-/// How long a run lasts: cycles, seconds or trials; 60 seconds when none of them is given. A condition may end it earlier.
+/// The length of a run in cycles, seconds or trials; 60 seconds when none of them is given. A condition may
+/// end it earlier.
 struct RunLength {
     std::optional<std::uint64_t> cycles = {};
     std::optional<double> seconds = {};        ///< of the world
     std::optional<std::uint64_t> trials = {};  ///< of the first robot
-    double trial_timeout = 300;                ///< the run gives up when a trial takes longer, s of the world
+    double trial_timeout = 300;                ///< the run stops when a trial takes longer, s of the world
     model::Expression until = {};              ///< a condition; none when empty
-    Location at = {};                          ///< where the length is given; no file: on the command line
+    Location at = {};  ///< where the length is given; without a file: the command line
 };
 
-/// How often a run writes checkpoints.
+/// The interval between checkpoints.
 struct CheckpointInterval {
     double amount = 0;        ///< above 0
     bool in_seconds = false;  ///< of the world, instead of cycles
 };
 
-/// What a run does when a number becomes NaN or infinite. The search covers every group that the run computes.
+/// What a run does when a number becomes NaN or infinite. The search covers every group that the run
+/// computes.
 enum class OnNan { warn, stop, ignore };
 
 /// A run as the command line or an experiment describes it. docs/reference/expressions.md explains the texts.
@@ -61,19 +65,20 @@ struct RunSpec {
     std::vector<model::RecordingSpec> recordings;
     std::vector<model::Expression> plots;
     std::string plot_format = "png";              ///< png, svg or pdf
-    std::vector<model::ScheduledChange> changes;  ///< of parameters while the run lasts
+    std::vector<model::ScheduledChange> changes;  ///< of parameters during the run
     std::vector<std::string> clamp_tables;        ///< files
     std::vector<model::ManipulationSpec> manipulations;
     std::vector<model::Measure> measures;
-    bool paths = true;  ///< follow the robots
-    std::string video;  ///< .gif or .png file to film the world to; none when empty
+    bool paths = true;  ///< whether the robots' paths are recorded
+    std::string video;  ///< .gif or .png file of a film; none when empty
     int threads = 1;    ///< at most; the numbers do not depend on it
     OnNan on_nan = OnNan::warn;
-    bool digest = false;                  ///< compute everything, and give a digest of the state at the end
-    std::string directory;                ///< for results; none when empty
-    bool discard_checkpoint = false;      ///< start even if the directory holds the checkpoint of an unfinished run
+    bool digest = false;    ///< whether everything is computed, for a digest of the final state
+    std::string directory;  ///< of the results; none when empty
+    /// Whether to start even if the directory holds the checkpoint of an unfinished run.
+    bool discard_checkpoint = false;
     std::optional<CheckpointInterval> checkpoint_every;
-    std::vector<std::string> arguments;   ///< of the command line, kept in checkpoints
+    std::vector<std::string> arguments;  ///< of the command line, kept in checkpoints
 };
 
 }  // namespace forage

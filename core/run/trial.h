@@ -8,7 +8,8 @@
 
 namespace forage {
 
-/// A robot's place on the floor (world frame, m) and heading (rad, counter-clockwise from the x axis).
+/// The position of a robot on the floor (world frame, m) and its heading (rad, counter-clockwise from the x
+/// axis).
 struct Pose2 {
     double x = 0, y = 0, yaw = 0;
     void checkpoint(Archive& archive) { archive(x, y, yaw); }
@@ -21,8 +22,8 @@ struct Trial {
     Pose2 end;                      ///< where the robot is now, while the trial runs
     std::uint64_t first_cycle = 0;  ///< the first cycle in which the robot is driven
     std::uint64_t cycles = 0;       ///< up to and including the cycle in which the trial ends
-    /// From the robot's centre to the centre of the nearest target over the whole trial, m; infinite in a world
-    /// without targets.
+    /// From the robot's centre to the centre of the nearest target over the whole trial, m; infinite in a
+    /// world without targets.
     double smallest_distance = std::numeric_limits<double>::infinity();
     bool reached_target = false;
 

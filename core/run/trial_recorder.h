@@ -1,4 +1,4 @@
-// What is measured of the trials of a robot.
+// The measures of a robot's trials.
 #pragma once
 
 #include <cstdint>
@@ -14,59 +14,61 @@ namespace forage {
 
 /// A patch that came into view in a trial, and how strongly the adaptive layer responded until the next one.
 struct Sighting {
-    std::size_t patch = 0;      ///< Environment::patch_colours()
-    double prototype_peak = 0;  ///< of the strongest cell of the prototype
+    std::size_t patch = 0;      ///< index of Environment::patch_colours()
+    double prototype_peak = 0;  ///< highest activity of a cell of the prototype
 
     void checkpoint(Archive& archive) { archive(patch, prototype_peak); }
 };
 
-/// What is measured of a trial beyond the robot's path.
+/// The measures of a trial apart from the robot's path.
 struct TrialMeasures {
-    int start = 0;  ///< the start pose, counted from 1 in the order of the world's Reset_0, Reset_1, ...; 0: unknown
-    std::vector<Sighting> patches;      ///< in the order in which the camera was on them
+    /// The start pose, counted from 1 in the order of the world's Reset_0, Reset_1, ...; 0: unknown.
+    int start = 0;
+    std::vector<Sighting> patches;      ///< in the order in which they came into view
     std::optional<double> discrepancy;  ///< of the adaptive layer, at the end
     std::optional<MemoryFill> memory;   ///< of the contextual layer, at the end
 
-    /// Peaks of the prototype at the last patch (the cue: what to do there leads to the target), and at the strongest of the
-    /// patches before (distractors).
+    /// The peaks of the prototype at the last patch (the cue, where the right action leads to the target),
+    /// and at the strongest of the earlier patches (distractors).
     struct Peaks {
         double cue, distractor;
     };
-    /// Empty with less than two patches or without an adaptive layer.
+    /// Empty with fewer than two patches or without an adaptive layer.
     std::optional<Peaks> peaks() const;
 
     void checkpoint(Archive& archive) { archive(start, patches, discrepancy, memory); }
 };
 
-/// A trial and what was measured in it.
+/// A trial and its measures.
 struct MeasuredTrial : Trial {
     TrialMeasures measures;
     std::string route;  ///< the patches that came into view, by colour: "cyan > red"
 };
 
-/// The trials of a robot: the finished ones and, if it had begun, the one that ran at the end.
+/// The trials of a robot: the finished ones and the unfinished one, if it has begun.
 struct MeasuredTrials {
     std::vector<MeasuredTrial> finished;
     std::optional<MeasuredTrial> running;
 
-    static constexpr std::size_t window = 50;  ///< trials over which the success ratio is taken
+    static constexpr std::size_t window = 50;  ///< number of trials over which the success ratio is computed
 
     std::size_t reached() const;
-    /// The share of the last `window` of the first `count` finished trials (fewer at the start) that reached the target, 0..1.
-    /// `count` is above 0.
+    /// The share of the last `window` of the first `count` finished trials (fewer at the start) that reached
+    /// the target, 0..1. `count` is above 0.
     double recent_success(std::size_t count) const;
 };
 
-/// The table trials.csv, a row per trial, in m and rad; what does not apply is left empty. docs/reference/results.md explains
-/// the columns.
+/// The table trials.csv, one row per trial, in m and rad. Values that do not apply are empty.
+/// docs/reference/results.md explains the columns.
 std::string trials_csv(const MeasuredTrials& trials);
 
 /// Follows one robot and the learning layers of its system through a run, and writes trials.csv.
 class TrialRecorder final : public Observer {
   public:
-    /// The layers are those of the only robot; with several robots nothing is measured of them. `file`: the name of the table.
-    /// Throws std::runtime_error when a picture of the world's floors cannot be read.
-    TrialRecorder(const Environment& environment, std::size_t robot, const engine::Layout& layout, std::string file);
+    /// Layers are measured only when there is one robot. `file` is the name of the table. Throws
+    /// std::runtime_error when a picture of the world's floors cannot be read.
+    TrialRecorder(const Environment& environment, std::size_t robot, const engine::Layout& layout,
+                  std::string file);
 
     std::size_t robot() const { return robot_; }
     MeasuredTrials trials(const Environment& environment, const engine::Simulation& simulation) const;

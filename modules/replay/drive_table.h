@@ -1,4 +1,4 @@
-// Tables of values over time: what drives, or overwrites, groups of a running system.
+// Tables of values over time that drive or overwrite groups of a running system.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,9 @@
 namespace forage::replay {
 
 /// Rows `cycle,process,target,v0,v1,...`, one value per cell. `process` is a name, or `*` for any; `target`
-/// is a cross reference's name or a group's. A row of cycle -1 counts from the start. Blanks around fields do
-/// not matter; empty lines, lines that begin with '#' and a header that begins with `cycle` are skipped.
+/// is the name of a cross reference or of a group. A row of cycle -1 is valid from the start. Blanks around
+/// fields are ignored; empty lines, lines that begin with '#' and a header that begins with `cycle` are
+/// skipped.
 class DriveTable {
   public:
     struct Row {
@@ -25,11 +26,12 @@ class DriveTable {
     };
 
     DriveTable() = default;
-    /// Rows in order of cycle; rows of one cycle stay in file order. Throws FileError with all that is wrong.
+    /// Parses a table. Rows are sorted by cycle; rows of one cycle keep the order of the file. Throws
+    /// FileError with all mistakes.
     static DriveTable parse(std::string_view text, const std::string& name);
     static DriveTable read(const std::string& path);
 
-    /// What to say of a row that has not as many values as its group has cells.
+    /// The error for a row whose number of values differs from the number of cells of its group.
     static Diagnostic misfit(const Row& row, std::string_view group, const GroupShape& shape);
 
     const std::shared_ptr<const SourceFile>& file() const { return file_; }  ///< with its first mebibyte

@@ -22,13 +22,13 @@ namespace {
 
 constexpr double default_seconds = 60;  ///< of the world
 
-/// "_name" in the names of files about this robot, where there are several.
+/// The suffix "_name" of files about a robot; empty when there is only one robot.
 std::string robot_suffix(const Environment& environment, std::size_t robot) {
     const auto names = environment.robot_names();
     return names.size() > 1 ? "_" + file_name(names[robot]) : "";
 }
 
-/// Makes the directory for results and holds it.
+/// Creates and locks the directory for results.
 bool open_directory(const std::string& directory, DirectoryHold& hold, Diagnostics& diagnostics) {
     const char* hint = "choose another directory for the results with -o";
     try {
@@ -51,10 +51,11 @@ void check_video(const RunSpec& spec, Diagnostics& diagnostics) {
                           "it ends with .gif or .png");
 }
 
-void add_world_observers(Run& run, bug::World& world, const RunSpec& spec, bool trajectory, plot::Format format,
-                         const std::string& title) {
+void add_world_observers(Run& run, bug::World& world, const RunSpec& spec, bool trajectory,
+                         plot::Format format, const std::string& title) {
     for (std::size_t i = 0; i < world.robot_names().size(); ++i)
-        run.add(std::make_unique<TrialRecorder>(world, i, run.layout(), "trials" + robot_suffix(world, i) + ".csv"));
+        run.add(std::make_unique<TrialRecorder>(world, i, run.layout(),
+                                                "trials" + robot_suffix(world, i) + ".csv"));
     if (!world.scores().empty()) run.add(std::make_unique<ScoreRecorder>());
     if (spec.paths && !spec.directory.empty())
         for (std::size_t i = 0; i < world.robot_names().size(); ++i) {
@@ -72,11 +73,15 @@ CheckpointWriter& add_checkpoints(Run& run, const RunSpec& spec, const Sources& 
     const double cycles = wanted.in_seconds ? wanted.amount / run.seconds_per_cycle() : wanted.amount;
     std::vector<model::Assignment> changes;
     for (const auto& e : schedule.entries()) changes.push_back(e.change);
-    CheckpointOrigin origin{FORAGE_VERSION, spec.arguments, std::filesystem::current_path().string(),
-                            input_files(spec, sources), {}, 0};
+    CheckpointOrigin origin{FORAGE_VERSION,
+                            spec.arguments,
+                            std::filesystem::current_path().string(),
+                            input_files(spec, sources),
+                            {},
+                            0};
     return run.add(std::make_unique<CheckpointWriter>(
-        spec.directory, static_cast<std::uint64_t>(std::max(1.0, std::round(std::min(cycles, 1e15)))), std::move(origin),
-        module_files(run.system(), run.registry(), changes)));
+        spec.directory, static_cast<std::uint64_t>(std::max(1.0, std::round(std::min(cycles, 1e15)))),
+        std::move(origin), module_files(run.system(), run.registry(), changes)));
 }
 
 }  // namespace
@@ -99,10 +104,9 @@ std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given,
     if (!made) return std::nullopt;
     Run& run = *made;
     StopCondition stop = StopCondition::make(length, run, diagnostics);
-    auto schedule =
-        observe::make_schedule(spec.changes, run.system(), run.registry(), run.layout(), run.has_trials(), diagnostics);
-    auto measures =
-        std::make_unique<RunMeasures>(spec.measures, run.layout(), run.has_trials(), diagnostics);
+    auto schedule = observe::make_schedule(spec.changes, run.system(), run.registry(), run.layout(),
+                                           run.has_trials(), diagnostics);
+    auto measures = std::make_unique<RunMeasures>(spec.measures, run.layout(), run.has_trials(), diagnostics);
     auto clamp = make_clamp(spec.clamp_tables, run.layout(), diagnostics);
     auto manipulations =
         observe::make_manipulations(spec.manipulations, run.layout(), run.has_trials(), diagnostics);
@@ -117,28 +121,32 @@ std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given,
     const std::string title = run_title(spec.input);
     const bool trajectory = plot::add_plots(spec.plots, run, format, title, diagnostics);
     if (spec.checkpoint_every && spec.directory.empty())
-        diagnostics.error({}, "--checkpoint-every needs a directory to write to", "leave out -o '' or name one");
+        diagnostics.error({}, "--checkpoint-every needs a directory to write to",
+                          "leave out -o '' or name one");
     if (spec.checkpoint_every || spec.digest)
         check_checkpoints(run.layout(), spec.checkpoint_every ? "--checkpoint-every" : "--hash", diagnostics);
     if (spec.digest) run.demand().read_everything();
     if (diagnostics.failed()) {
-        run.start(diagnostics);  // reports what else is wrong
+        run.start(diagnostics);  // reports further mistakes
         return std::nullopt;
     }
     try {
         const std::vector<std::pair<std::string, std::string>> libraries = bug::library_versions();
         DirectoryHold hold;
         if (world) add_world_observers(run, *world, spec, trajectory, format, title);
-        // Recordings are checkpointed last: nothing on the disk is changed when something else does not fit.
+        // Recordings are read from a checkpoint last, so that no file is changed when something else does not
+        // fit.
         if (!spec.directory.empty())
             run.add(std::make_unique<Recordings>(std::move(recorded), spec.record, spec.directory,
                                                  run_attributes(spec, run, loaded->plugins, libraries)));
         if (!run.start(diagnostics)) return std::nullopt;
-        if (!spec.directory.empty() && !open_directory(spec.directory, hold, diagnostics)) return std::nullopt;
+        if (!spec.directory.empty() && !open_directory(spec.directory, hold, diagnostics))
+            return std::nullopt;
         CheckpointWriter* checkpoints = nullptr;
         if (spec.checkpoint_every) checkpoints = &add_checkpoints(run, spec, sources, *schedule_added);
-        return PreparedRun{std::move(spec), std::move(hold), std::move(run), std::move(stop), schedule_added, measures_added,
-                           checkpoints, std::move(loaded->plugins), libraries};
+        return PreparedRun{std::move(spec), std::move(hold), std::move(run), std::move(stop),
+                           schedule_added,  measures_added,  checkpoints,    std::move(loaded->plugins),
+                           libraries};
     } catch (const std::exception& e) {
         diagnostics.error({}, e.what());
         return std::nullopt;
@@ -150,14 +158,16 @@ void clear_directory(const RunSpec& spec, Diagnostics& diagnostics) {
     if (has_checkpoint(directory) && !spec.discard_checkpoint)
         return diagnostics.error(
             {}, fmt::format("'{}' holds the checkpoint of a run that has not finished", directory),
-            fmt::format("'forage resume {}' continues that run; --discard-checkpoint gives it up, and -o names another "
+            fmt::format("'forage resume {}' continues that run; --discard-checkpoint gives it up, and -o "
+                        "names another "
                         "directory",
                         directory));
     remove_checkpoints(directory);
     const auto removed = remove_unfinished(directory);
     if (!removed.empty())
-        diagnostics.warning({}, fmt::format("removed from '{}', as a run was killed before it finished them: {}",
-                                            directory, fmt::join(removed, ", ")));
+        diagnostics.warning(
+            {}, fmt::format("removed from '{}', as a run was killed before it finished them: {}", directory,
+                            fmt::join(removed, ", ")));
 }
 
 void begin(PreparedRun& p) {

@@ -1,4 +1,4 @@
-// Makes a run of its description.
+// Creates a run from its description.
 #pragma once
 
 #include <optional>
@@ -8,17 +8,17 @@
 
 namespace forage {
 
-/// Builds and starts the run with its world and every observer that the spec asks for. Only recordings do not begin yet: the
-/// caller calls begin(), or reads a checkpoint. Whatever is wrong with the spec is reported here, before the first cycle and
-/// before anything is written; empty when `diagnostics` got an error.
+/// Creates and starts a run with its world and all observers that the spec names. Recordings have not begun:
+/// the caller then calls begin() or reads a checkpoint. All mistakes in the spec are reported here, before
+/// the first cycle and before any file is written. Empty when `diagnostics` got an error.
 std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& spec, Diagnostics& diagnostics);
 
-/// Removes what a run that was killed left unfinished in spec.directory, with a warning. Reports an error instead when the directory
-/// holds the checkpoint of an unfinished run, unless spec.discard_checkpoint gives it up.
+/// Removes the unfinished files of a killed run from spec.directory, with a warning. Reports an error instead
+/// when the directory holds the checkpoint of an unfinished run, unless spec.discard_checkpoint is set.
 void clear_directory(const RunSpec& spec, Diagnostics& diagnostics);
 
-/// Begins the files of a run that is not resumed. Throws std::runtime_error, also when something that is no file has the name of
-/// a file to be written.
+/// Opens the files of a run that is not resumed. Throws std::runtime_error when a file cannot be opened, and
+/// when a folder or a device has the name of a file that the run will write.
 void begin(PreparedRun& prepared);
 
 }  // namespace forage

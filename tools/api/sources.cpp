@@ -54,7 +54,7 @@ InputFiles files_of_system(const Sources& sources) {
     return out;
 }
 
-/// The files that a world is made of, except its own.
+/// The files that a world includes.
 InputFiles files_of_world(const Sources& sources) {
     InputFiles out;
     for (const auto& m : sources.world->models) add(out, m);
@@ -67,7 +67,7 @@ std::string without_paths(const InputFiles& files) {
     return digest(out);
 }
 
-/// Makes every enabled moduleReplay that names no table of its own play this one.
+/// Gives this table to every enabled moduleReplay without a table of its own.
 void play(const replay::DriveTable& table, model::System& system) {
     for (auto& p : system.processes) {
         if (!p.module || p.module->type != "moduleReplay") continue;
@@ -81,7 +81,7 @@ void play(const replay::DriveTable& table, model::System& system) {
     }
 }
 
-/// A system, or a process file as a system of one process.
+/// Reads a system, or a process file as a system of one process.
 std::optional<model::System> read_any(const std::string& path, Diagnostics& diagnostics) {
     if (std::filesystem::path(path).extension() != ".iqrProcess") return xml::read_system(path, diagnostics);
     auto file = xml::read_process(path, diagnostics);
@@ -118,7 +118,6 @@ Registry known_types(const std::vector<plugin::Plugin>& plugins) {
     plugin::add(plugins, registry);
     return registry;
 }
-
 
 Sources read_sources(const RunInput& input, Diagnostics& diagnostics) {
     diagnostics.lenient = input.lenient;
@@ -165,7 +164,8 @@ std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Di
         for (const auto& wish : input.settings)
             model::set(out.system, out.registry, wish.text, diagnostics, wish.at);
         if (diagnostics.failed())
-            model::validate(out.system, out.registry, diagnostics, out.world.get());  // say all of it at once
+            model::validate(out.system, out.registry, diagnostics,
+                            out.world.get());  // reports all mistakes at once
     }
     if (diagnostics.failed()) return std::nullopt;
     return out;

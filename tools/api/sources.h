@@ -1,4 +1,4 @@
-// From the files that a run names to what runs.
+// Reads the files of a run, and assembles what runs.
 #pragma once
 
 #include <memory>
@@ -17,41 +17,44 @@
 
 namespace forage {
 
-/// What the files of a run say. It can be made to run any number of times.
+/// The content of the files of a run. It can be assembled any number of times.
 struct Sources {
-    std::optional<model::System> system;         ///< none when it could not be read
-    std::optional<bug::WorldDescription> world;  ///< none without one, and when it could not be read
-    std::optional<replay::DriveTable> replay;    ///< none without one
+    std::optional<model::System> system;         ///< empty when it could not be read
+    std::optional<bug::WorldDescription> world;  ///< empty without a world, and when it could not be read
+    std::optional<replay::DriveTable> replay;    ///< empty without a table
     std::vector<plugin::Plugin> plugins;
-    bool plugins_failed = false;  ///< types may be missing
+    bool plugins_failed = false;  ///< whether a plugin could not be loaded, so that types may be missing
 };
 
-/// Everything read, tied together and checked.
+/// Everything that a run needs, read, assembled and checked.
 struct Loaded {
     Registry registry;
     std::unique_ptr<bug::World> world;  ///< null without one
     model::System system;
-    std::vector<std::string> plugins;  ///< their files
+    std::vector<std::string> plugins;  ///< paths of the loaded files
 };
 
-/// The types that ship.
+/// The types that ship with Forage.
 Registry shipped_types();
-/// The plugins that `named`, FORAGE_PLUGIN_PATH and the folder plugins beside `system` hold; no system when empty.
+/// Loads the plugins in `named`, in FORAGE_PLUGIN_PATH and in the folder "plugins" beside the file `system`,
+/// which may be empty.
 std::vector<plugin::Plugin> load_plugins(const std::vector<std::string>& named, const std::string& system,
                                          Diagnostics& diagnostics);
-/// The types that ship and those of the plugins.
+/// The types that ship with Forage and those of the plugins.
 Registry known_types(const std::vector<plugin::Plugin>& plugins);
 
-/// Reads the files, and reports what keeps them from being read.
+/// Reads the files. Reports those that cannot be read.
 Sources read_sources(const RunInput& input, Diagnostics& diagnostics);
-/// Ties them together, with the input's settings. Empty when `diagnostics` got an error, be it before.
+/// Assembles types, world and system, with the settings of the input. Empty when `diagnostics` has an error,
+/// also from before.
 std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Diagnostics& diagnostics);
-/// Both.
+/// Does both: read_sources() and assemble().
 std::optional<Loaded> load(const RunInput& input, Diagnostics& diagnostics);
 
-/// Digests of all files that a run reads before it starts: system, world, tables, patterns.
+/// The digests of all files that a run reads before it starts: system, world, tables, patterns.
 InputFiles input_files(const RunSpec& spec, const Sources& sources);
-/// Digests of the files of system and world, without their paths: results hold in whatever directory the files are.
+/// The digests of the files of system and world, without their paths, so that results stay valid when the
+/// files are moved.
 std::string source_digests(const RunInput& input, const Sources& sources);
 
 }  // namespace forage

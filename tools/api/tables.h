@@ -1,4 +1,4 @@
-// Tables and cells that a person gives on the command line, tied to a system.
+// The tables that users give on the command line, resolved for a system.
 #pragma once
 
 #include <memory>
@@ -6,18 +6,18 @@
 #include <vector>
 
 #include "core/engine/simulation.h"
+#include "core/model/system.h"
 #include "core/observe/clamp.h"
 #include "modules/replay/drive_table.h"
-#include "core/model/system.h"
 
 namespace forage {
 
-/// The tables of --clamp: files of rows, each of which holds until the next one of its group. Reports what
-/// cannot be.
-std::unique_ptr<observe::Clamp> make_clamp(const std::vector<std::string>& tables, const engine::Layout& layout,
-                     Diagnostics& diagnostics);
+/// The tables of --clamp: files with rows, each of which is valid until the next row of its group. Reports
+/// unknown groups and rows of a wrong length.
+std::unique_ptr<observe::Clamp> make_clamp(const std::vector<std::string>& tables,
+                                           const engine::Layout& layout, Diagnostics& diagnostics);
 
-/// Reports the rows of --replay that no moduleReplay of the system plays.
+/// Reports the rows of a --replay table that no moduleReplay of the system plays.
 void check_replay(const replay::DriveTable& table, const model::System& system, Diagnostics& diagnostics);
 
 }  // namespace forage

@@ -6,8 +6,8 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
-#include "tools/forage/commands.h"
 #include "core/base/output_files.h"
+#include "tools/forage/commands.h"
 
 extern char** environ;
 
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where headers and libraries are, as seen from the program that runs.
+/// The folders of headers and libraries, found from the path of the running program.
 struct Sdk {
     fs::path headers, library;
     std::vector<std::string> includes;
@@ -38,7 +38,7 @@ std::optional<Sdk> find_sdk() {
     return std::nullopt;
 }
 
-/// Runs a command and waits for it; its exit status, or -1 when it cannot be run.
+/// Runs a command and waits for it. Returns its exit status, or -1 when it cannot be run.
 int run_command(std::vector<std::string> words) {
     std::vector<char*> arguments;
     for (auto& w : words) arguments.push_back(w.data());
@@ -108,7 +108,7 @@ int build_plugin(const BuildPluginOptions& o) {
         return bad_input;
     }
     Diagnostics diagnostics;
-    plugin::load({partial(output)}, shipped_types(), diagnostics);  // whatever else there is
+    plugin::load({partial(output)}, shipped_types(), diagnostics);  // reports all further mistakes
     if (diagnostics.failed()) {
         std::string said = format(diagnostics);
         for (auto at = said.find(partial(output)); at != said.npos; at = said.find(partial(output), at))

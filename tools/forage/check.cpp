@@ -16,8 +16,8 @@ std::string counted(std::size_t n, std::string_view one, std::string_view many =
     return fmt::format("{} {}{}", n, n == 1 || many.empty() ? one : many, n == 1 || !many.empty() ? "" : "s");
 }
 
-/// What is legal, and yet perhaps not meant: modules that are off, groups that nothing reaches or that lead
-/// nowhere.
+/// Notes on what is valid, but perhaps not meant: disabled modules, and groups without input or without
+/// outgoing connections.
 std::vector<std::string> notes(const model::System& system) {
     std::vector<std::string> out;
     std::set<std::string> written, read;
@@ -45,12 +45,15 @@ int check(const RunInput& input) {
     const auto loaded = load(input, diagnostics);
     std::optional<engine::Simulation> simulation;
     if (loaded)
-        if (auto layout = engine::make_layout(loaded->system, loaded->registry, diagnostics, loaded->world.get()))
-            simulation = engine::Simulation::build(loaded->system, std::move(*layout), engine::Demand::everything(),
-                                                   {.seed = input.seed}, diagnostics);
+        if (auto layout =
+                engine::make_layout(loaded->system, loaded->registry, diagnostics, loaded->world.get()))
+            simulation =
+                engine::Simulation::build(loaded->system, std::move(*layout), engine::Demand::everything(),
+                                          {.seed = input.seed}, diagnostics);
     fmt::print(stderr, "{}", format(diagnostics));
     if (!simulation) {
-        std::string name = input.system;  // it may hold anything, and the terminal must not obey it
+        std::string name =
+            input.system;  // it may contain control characters, which must not reach the terminal
         std::replace_if(
             name.begin(), name.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
         fmt::print(stderr, "{}: {}, {}\n", name,

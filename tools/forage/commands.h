@@ -1,5 +1,5 @@
-// The commands of the program. Each takes its options and returns the exit status: 0 fine, 1 the run failed,
-// 2 bad usage or bad input.
+// The commands of the program. Each of them takes its options and returns the exit status: 0 for success, 1
+// when the run failed, 2 for wrong usage or wrong input.
 #pragma once
 
 #include <cstdint>
@@ -17,30 +17,31 @@ enum ExitStatus { fine = 0, run_failed = 1, bad_input = 2 };
 struct RunOptions {
     RunOptions() { spec.directory = "forage-out"; }
     RunSpec spec;
-    bool real_time = false;  ///< no faster than the clock
+    bool real_time = false;  ///< whether the run is not faster than the clock
     bool quiet = false;
 };
 
 struct ResumeOptions {
     std::string path;  ///< a directory of results, or a checkpoint in it
-    int threads = 0;   ///< 0: as many as before
+    int threads = 0;   ///< 0: as many as before the stop
     bool quiet = false;
 };
-/// Makes options of the arguments of `forage run`.
+/// Parses the arguments of `forage run`.
 using RunParser = std::function<RunOptions(const std::vector<std::string>& arguments)>;
 
 struct ConvertOptions {
-    std::string input, output;         ///< .iqr or .iqrProcess, both
+    std::string input, output;         ///< .iqr or .iqrProcess files
     std::vector<std::string> imports;  ///< process files to add
-    std::string extract;               ///< name or id of a process to write on its own
+    /// Name or id of the process to write as a file of its own; empty: the whole system.
+    std::string extract;
     std::vector<std::string> plugins;
     bool embed = false, lenient = false;
 };
 
 struct PlotOptions {
-    std::string source;               ///< a directory of results, a recording, or a system
-    std::vector<std::string> plots;  ///< what to draw
-    std::string directory;            ///< empty: beside the source, or here for a system
+    std::string source;              ///< a directory of results, a recording, or a system
+    std::vector<std::string> plots;  ///< the pictures to draw
+    std::string directory;           ///< empty: beside the source; for a system, the working directory
     std::string plot_format = "png";
 };
 
@@ -48,19 +49,19 @@ struct ExperimentOptions {
     std::string file;
     std::string directory;  ///< empty: forage-out/ and the file's name
     std::vector<std::string> plugins = {};
-    int jobs = 0;        ///< runs at a time; 0: one per core
-    bool fresh = false;  ///< repeat finished runs
+    int jobs = 0;        ///< number of simultaneous runs; 0: one per core
+    bool fresh = false;  ///< whether finished runs are repeated
     bool quiet = false;
 };
 
 struct WorldCommand {
     std::string file;     ///< .world
-    std::string picture;  ///< .png, .svg or .pdf; empty: the world's name with .png, here
+    std::string picture;  ///< .png, .svg or .pdf; empty: the world's name with .png, in the working directory
     bool game = false;
 };
 
 struct TutorialOptions {
-    std::string exercise;   ///< its number; empty: list them
+    std::string exercise;   ///< number of the exercise; empty: list all exercises
     std::string directory;  ///< empty: forage-out/tutorial/ and the number
 };
 
@@ -70,33 +71,34 @@ struct BuildPluginOptions {
 };
 
 int run(const RunOptions& options);
-/// Brings a run to its end with progress and a summary. Returns the exit status.
+/// Runs to the end, with a progress line and a summary. Returns the exit status.
 int run_to_end(const RunOptions& options, PreparedRun& prepared);
-/// Goes on with a run that was stopped, from its last checkpoint: what it leaves behind is then what it would
-/// have left without a stop.
+/// Continues a stopped run from its last checkpoint. It writes the same files as an uninterrupted run.
 int resume(const ResumeOptions& options, const RunParser& parse);
 int plot(const PlotOptions& options);
-/// Runs every combination of an experiment file with every seed; what was finished before is not repeated.
+/// Runs every combination of an experiment file with every seed. Runs that were finished before are not
+/// repeated.
 int experiment(const ExperimentOptions& options);
 /// Lists the exercises of the tutorial, or runs one.
 int tutorial(const TutorialOptions& options);
 int convert(const ConvertOptions& options);
 int check(const RunInput& input);
-/// Checks a world, lists what is in it and draws it from above.
+/// Checks a world, lists its contents and draws it from above.
 int world(const WorldCommand& options);
-/// Prints the tree of processes, groups and connections, with sizes and how each connection is computed.
+/// Prints the tree of processes, groups and connections, with sizes and the kernel form of each connection.
 int describe(const RunInput& input);
-/// Writes a page that shows the pictures and tables of a directory of results: plain HTML, nothing from the
-/// net.
+/// Writes a page with the pictures and tables of a directory of results: plain HTML that loads nothing from
+/// the network.
 int view(const std::string& directory);
-/// Lists the types, or one with its parameters.
+/// Lists the types, or describes one with its parameters.
 int types(const std::string& name, const std::vector<std::string>& plugins);
-/// Prints a RELAX NG schema of system files with these types.
+/// Prints a RELAX NG schema of system files that use these types.
 int schema(const std::vector<std::string>& plugins);
 
-/// Writes a project with a plugin into the folder `name`; `kind` is neuron, synapse or module.
+/// Writes the project of a plugin into the folder `name`. `kind` is neuron, synapse or module.
 int new_project(const std::string& kind, const std::string& name);
-/// Compiles a source file to a plugin, with the compiler that CXX names or c++, and tries whether it loads.
+/// Compiles a source file to a plugin, with the compiler in CXX or else c++, and checks that it can be
+/// loaded.
 int build_plugin(const BuildPluginOptions& options);
 
 }  // namespace forage::tool

@@ -5,12 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "core/base/output_files.h"
 #include "core/model/build.h"
 #include "core/model/lookup.h"
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
 #include "tools/forage/commands.h"
-#include "core/base/output_files.h"
 
 namespace forage::tool {
 namespace {
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 bool is_process_file(const std::string& path) { return fs::path(path).extension() == ".iqrProcess"; }
 
-/// Says what of a process is not extracted: its connections to groups outside.
+/// Notes the connections of a process to groups outside, which are not extracted.
 void warn_of_loss(const model::System& system, const model::ProcessFile& file, Diagnostics& diagnostics) {
     std::set<std::string> groups;
     for (const auto& g : file.process.groups) groups.insert(g.id);
@@ -31,8 +31,8 @@ void warn_of_loss(const model::System& system, const model::ProcessFile& file, D
             {}, fmt::format("--extract: connections from or to other processes are left out: {}", lost));
 }
 
-/// Links and file names are relative to the system file: makes them lead from `to` where they led from
-/// `from`.
+/// Links and file names are relative to the system file. Changes them so that they are valid from `to`
+/// instead of `from`.
 void move_files(model::System& system, const std::string& from, const std::string& to,
                 const Registry& registry) {
     const fs::path old_place = fs::absolute(from).parent_path(), new_place = fs::absolute(to).parent_path();
@@ -62,7 +62,7 @@ std::string process_id(const model::System& system, const std::string& wanted, D
     return {};
 }
 
-/// The text of the file to write; whatever it is when there are errors.
+/// The text of the file to write. It has no meaning when there are errors.
 std::string converted(const ConvertOptions& o, Diagnostics& diagnostics) {
     const bool to_process = is_process_file(o.output);
     if (is_process_file(o.input)) {

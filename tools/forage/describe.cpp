@@ -33,7 +33,7 @@ std::string_view name_of(InputKind kind) {
     return names[static_cast<std::size_t>(kind)];
 }
 
-/// What the compiled system knows of a connection.
+/// Facts about a compiled connection.
 struct Compiled {
     std::size_t synapses;
     std::string_view form;
@@ -41,8 +41,8 @@ struct Compiled {
 
 void print_connection(const model::Connection& c, const std::string& target, const Compiled& compiled) {
     fmt::print("      -> {}: {}, {} ({}), {}{}, '{}'\n", target, name_of(c.kind),
-               number_of(compiled.synapses, "synapse"), compiled.form, c.synapse->type, settings_of(*c.synapse),
-               model::trim(c.name));
+               number_of(compiled.synapses, "synapse"), compiled.form, c.synapse->type,
+               settings_of(*c.synapse), model::trim(c.name));
 }
 
 void print_module(const model::ModuleUse& module, bool enabled, const model::System& system,
@@ -64,9 +64,11 @@ int describe(const RunInput& input) {
     const auto loaded = load(input, diagnostics);
     std::optional<engine::Simulation> simulation;
     if (loaded)
-        if (auto layout = engine::make_layout(loaded->system, loaded->registry, diagnostics, loaded->world.get()))
-            simulation = engine::Simulation::build(loaded->system, std::move(*layout), engine::Demand::everything(),
-                                                   {.seed = input.seed}, diagnostics);
+        if (auto layout =
+                engine::make_layout(loaded->system, loaded->registry, diagnostics, loaded->world.get()))
+            simulation =
+                engine::Simulation::build(loaded->system, std::move(*layout), engine::Demand::everything(),
+                                          {.seed = input.seed}, diagnostics);
     fmt::print(stderr, "{}", format(diagnostics));
     if (!simulation) return bad_input;
 
@@ -84,8 +86,8 @@ int describe(const RunInput& input) {
     fmt::print(
         "{}: {}, {} ({}), {} ({})\n", model::trim(system.name),
         system.processes.size() == 1 ? "1 process" : fmt::format("{} processes", system.processes.size()),
-        number_of(groups, "group"), number_of(cells, "cell"), number_of(system.connections.size(), "connection"),
-        number_of(synapses, "synapse"));
+        number_of(groups, "group"), number_of(cells, "cell"),
+        number_of(system.connections.size(), "connection"), number_of(synapses, "synapse"));
 
     const model::GroupIndex index(system);
     for (const auto& p : system.processes) {

@@ -22,7 +22,8 @@ std::string default_directory(const std::string& file) {
     return "forage-out/" + std::filesystem::path(file).stem().string();
 }
 
-/// Whether the files that an experiment names can be read; reports where it names those that cannot.
+/// Whether the files of an experiment can be read. Reports those that cannot, with the place where they are
+/// named.
 bool files_are_there(const model::Experiment& e, Diagnostics& diagnostics) {
     bool all = find_file(e.system, e.system_at, diagnostics);
     if (e.world_at.file) all &= find_file(e.world, e.world_at, diagnostics);
@@ -49,7 +50,9 @@ int experiment(const ExperimentOptions& o) {
     const std::string directory = o.directory.empty() ? default_directory(o.file) : o.directory;
     std::vector<PlannedRun> runs;
     Sources sources;
-    const PrepareRun prepare_run = [&](const RunSpec& spec, Diagnostics& d) { return prepare(sources, spec, d); };
+    const PrepareRun prepare_run = [&](const RunSpec& spec, Diagnostics& d) {
+        return prepare(sources, spec, d);
+    };
     if (wanted && files_are_there(*wanted, diagnostics)) {
         runs = planned_runs(*wanted, directory, o.plugins);
         sources = read_sources(runs.front().spec.input, diagnostics);
@@ -75,7 +78,7 @@ int experiment(const ExperimentOptions& o) {
     }
     note_signals();
     Progress progress(!o.quiet);
-    for (const auto& table : {results_file, summary_file})  // one that is there is whole
+    for (const auto& table : {results_file, summary_file})  // an existing table is complete
         std::remove(table.c_str());
     ExperimentCallbacks callbacks;
     callbacks.interrupted = [] { return noted_signal() != 0; };

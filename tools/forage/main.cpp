@@ -19,7 +19,8 @@ namespace {
 
 using namespace forage::tool;
 
-/// What was probably meant by the first word of the command line that does not exist; empty when all do.
+/// The word that is probably meant by the first unknown word of the command line; empty when all words are
+/// known.
 std::string suggestion(const CLI::App& app, int argc, char** argv) {
     std::vector<std::string> commands, options;
     for (const auto* c : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -40,7 +41,7 @@ std::string suggestion(const CLI::App& app, int argc, char** argv) {
     return {};
 }
 
-/// Where the command that was meant is explained.
+/// A hint that names the help of the command.
 std::string help_of(const CLI::App& app) {
     const auto parsed = app.get_subcommands();
     return fmt::format("'forage {}--help' lists what there is",
@@ -170,7 +171,7 @@ int main(int argc, char** argv) {
     int status = run_failed;
     try {
         status = program(argc, argv);
-    } catch (const std::exception& e) {  // of the last words themselves
+    } catch (const std::exception& e) {  // an exception while printing
         std::fprintf(stderr, "error: %s\n", e.what());
     }
     if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return status;

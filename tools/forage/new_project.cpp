@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "tools/forage/commands.h"
 #include "core/base/output_files.h"
+#include "tools/forage/commands.h"
 #include "tools/forage/templates.h"
 
 namespace forage::tool {
@@ -26,7 +26,7 @@ std::string class_name(const std::string& name) {
     return out;
 }
 
-/// Names become those of C++ types, CMake targets and files.
+/// Checks a name, which becomes the name of a C++ type, a CMake target and files.
 bool usable(const std::string& name) {
     for (const char c : name)
         if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') return false;

@@ -12,7 +12,7 @@
 namespace forage::tool {
 namespace {
 
-/// A number that `fits`, in words that a person reads.
+/// A validator for a number that `fits`; the error says what is expected.
 CLI::Validator number_that(bool (*fits)(double), const char* description) {
     return CLI::Validator(
         [=](std::string& text) {
@@ -60,8 +60,12 @@ CLI::Validator one_of(std::vector<std::string> names) {
 
 std::vector<std::string> current_names(std::vector<std::string> words) {
     static constexpr std::pair<std::string_view, std::string_view> renamed[] = {
-        {"--as", "--plot-format"},   {"--at", "--schedule"}, {"--drive", "--replay"},
-        {"--every", "--record-every"}, {"--longest-trial", "--trial-timeout"}, {"--world-pace", "--real-time-factor"}};
+        {"--as", "--plot-format"},
+        {"--at", "--schedule"},
+        {"--drive", "--replay"},
+        {"--every", "--record-every"},
+        {"--longest-trial", "--trial-timeout"},
+        {"--world-pace", "--real-time-factor"}};
     for (auto& word : words)
         for (const auto& [old, current] : renamed)
             if (word == old || word.starts_with(std::string(old) + "="))

@@ -39,7 +39,7 @@ void Progress::draw(double part, const std::string& what) {
     winsize size{};
     const int columns =
         ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1 : 79;
-    // What is left beside the text is the bar's, if it is enough to see something.
+    // The bar takes the width that the text leaves, if that is enough for a bar.
     const int width = std::min(columns - static_cast<int>(text.size()) - 3, 40);
     const int filled = static_cast<int>(done * width);
     std::string line = width < 5 ? text.substr(0, static_cast<std::size_t>(columns))

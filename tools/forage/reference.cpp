@@ -7,7 +7,7 @@
 namespace forage::tool {
 namespace {
 
-/// An option, or a positional argument, as the texts need it.
+/// An option or a positional argument.
 struct Argument {
     std::vector<std::string> shorts, longs;  ///< without dashes; both empty: positional
     std::string value;                       ///< "FILE"; empty for a flag
@@ -63,7 +63,7 @@ void add_options(std::string& out, const CLI::App& app) {
     }
 }
 
-/// In single quotes of every shell.
+/// Quotes a text with single quotes, in a way that every shell understands.
 std::string quoted(const std::string& text) { return "'" + replaced(text, "'", "'\\''") + "'"; }
 
 std::string bash(const CLI::App& app) {
@@ -103,7 +103,7 @@ complete -o filenames -F _forage forage
 }
 
 std::string zsh(const CLI::App& app) {
-    // In a description of _arguments brackets end it, and colons separate.
+    // In a description of _arguments, brackets end the text and colons are separators.
     const auto plain = [](const std::string& text) {
         return replaced(replaced(replaced(text, "[", "("), "]", ")"), ":", "\\:");
     };
@@ -156,7 +156,8 @@ std::string fish(const CLI::App& app) {
                 line += fmt::format(" -x -a '{}'", fmt::join(a.choices, " "));
             else if (!a.value.empty() && !(a.longs.empty() && a.shorts.empty()))
                 line += a.files() ? " -r" : " -x";
-            if (a.longs.empty() && a.shorts.empty() && a.choices.empty()) continue;  // fish offers files
+            if (a.longs.empty() && a.shorts.empty() && a.choices.empty())
+                continue;  // fish completes file names itself
             out += line + " -d " + quote(a.text) + "\n";
         }
     return out;

@@ -1,11 +1,11 @@
-// Goes on with a run from its checkpoint.
+// Resumes a run from its checkpoint.
 #include <cstdio>
 #include <filesystem>
 
 #include <fmt/format.h>
 
-#include "core/run/checkpoint_file.h"
 #include "core/observe/row_file.h"
+#include "core/run/checkpoint_file.h"
 #include "tools/forage/commands.h"
 
 namespace forage::tool {
@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a run left off, tied to nothing yet.
+/// The content of a checkpoint, before the run is created.
 struct Found {
     std::string path, content;
     CheckpointOrigin origin;
@@ -33,7 +33,7 @@ std::unique_ptr<Found> open_checkpoint(const std::string& path) {
     return out;
 }
 
-/// Reports files that are not what the run was started with.
+/// Reports files that have changed since the run was started.
 void check_files(const CheckpointOrigin& origin, const InputFiles& now, Diagnostics& diagnostics) {
     for (const auto& [path, digest] : origin.files) {
         const auto same = now.find(path);
@@ -52,10 +52,10 @@ void check_files(const CheckpointOrigin& origin, const InputFiles& now, Diagnost
                 "restore it, or start anew with 'forage run'");
 }
 
-/// The run as it was when the checkpoint was written. Throws what is wrong with the checkpoint; empty when
+/// The run in the state of the checkpoint. Throws CheckpointError when the checkpoint is unusable; empty when
 /// `diagnostics` got an error.
 std::optional<PreparedRun> restore(const Found& found, const RunSpec& spec, const Sources& sources,
-                               Diagnostics& diagnostics) {
+                                   Diagnostics& diagnostics) {
     if (diagnostics.failed()) return std::nullopt;
     auto prepared = prepare(sources, spec, diagnostics);
     if (!prepared) return std::nullopt;
@@ -87,7 +87,8 @@ int resume(const ResumeOptions& o, const RunParser& parse) {
             if (whole_directory && !fs::exists(path)) continue;  // killed between two renames
             const auto found = open_checkpoint(path);
             std::error_code moved;
-            fs::current_path(found->origin.working_directory, moved);  // or stay, when it is gone
+            fs::current_path(found->origin.working_directory,
+                             moved);  // unchanged when it does not exist any more
             RunOptions options = parse(found->origin.arguments);
             options.spec.arguments = found->origin.arguments;
             options.spec.directory = directory;
@@ -101,7 +102,7 @@ int resume(const ResumeOptions& o, const RunParser& parse) {
             if (!refused.empty()) fmt::print(stderr, "warning: {}\n", refused);
             if (!refused.empty() || !options.quiet)
                 fmt::print(stderr, "going on from cycle {}\n", prepared->run.cycle());
-            // One that is newer, and damaged or not wanted, must not be kept instead of this one.
+            // A newer checkpoint that is damaged or not wanted must not be kept instead of this one.
             if (path != checkpoint_path(directory)) fs::remove(checkpoint_path(directory));
             return run_to_end(options, *prepared);
         } catch (const CheckpointError& e) {

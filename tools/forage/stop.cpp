@@ -17,7 +17,7 @@ extern "C" void note(int signal) {
 void note_signals() {
     std::signal(SIGINT, note);
     std::signal(SIGTERM, note);
-    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
+    std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is then an error like a full disk
 }
 
 int noted_signal() { return noted; }

@@ -1,16 +1,16 @@
-// Ctrl-C and kill: finish the cycle, then stop in order.
+// Signals that stop a run after the current cycle.
 #pragma once
 
 #include <string>
 
 namespace forage::tool {
 
-/// From now on SIGINT and SIGTERM are noted instead of ending the program at once; a second one ends it.
+/// From now on the first SIGINT or SIGTERM is only noted; the second one ends the program.
 void note_signals();
-/// The signal that was noted, 0 for none.
+/// The signal that was noted; 0 for none.
 int noted_signal();
 
-/// "by Ctrl-C", "by SIGTERM"
+/// The end of a sentence about a signal: "by Ctrl-C" or "by SIGTERM".
 std::string stopped_by(int signal);
 
 }  // namespace forage::tool

@@ -1,4 +1,4 @@
-// What the program says of a run at its end.
+// The summary of a run.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace forage::tool {
 
-/// A few lines for people. `resumable`: there is a checkpoint from which the run can go on.
+/// The summary of a run, a few lines. `resumable`: whether there is a checkpoint from which the run can be
+/// resumed.
 std::string summary(const PreparedRun& prepared, const RunOutcome& outcome, bool resumable);
 
 }  // namespace forage::tool

@@ -1,11 +1,11 @@
-// The files of `forage new`, as tools/forage/templates has them.
+// The files that `forage new` writes, from tools/forage/templates.
 #pragma once
 
 #include <string>
 
 namespace forage::tool {
 
-/// The text of templates/`name`.in, with @NAME@, @CLASS@ and @TYPE@ to be filled in.
+/// The text of the template `name`.in, in which @NAME@, @CLASS@ and @TYPE@ are not replaced yet.
 std::string template_text(const std::string& name);
 
 }  // namespace forage::tool

@@ -12,14 +12,14 @@ namespace {
 
 using Lines = std::vector<std::pair<std::string, std::string>>;
 
-/// How many reached the target, of how many.
+/// A number of trials, and how many of them reached the target.
 struct Count {
     std::size_t reached = 0, all = 0;
     void add(const MeasuredTrial& t) { ++all, reached += t.reached_target; }
     double percent() const { return 100.0 * static_cast<double>(reached) / static_cast<double>(all); }
 };
 
-/// "8 of 8 from (-1.5, -2), ..." by start position, for worlds that reset the robot to several.
+/// "8 of 8 from (-1.5, -2), ...": successes by start position, for worlds with several start positions.
 std::string by_start(const Environment& world, const MeasuredTrials& trials) {
     const auto starts = world.start_poses();
     if (starts.size() < 2) return {};
@@ -33,7 +33,7 @@ std::string by_start(const Environment& world, const MeasuredTrials& trials) {
     return fmt::format("{}", fmt::join(out, ", "));
 }
 
-/// "88 96 100 %": the success ratio of one block of trials after the other; up to 20 of them.
+/// "88 96 100 %": the success ratio of successive blocks of trials, at most 20.
 std::string over_time(const MeasuredTrials& trials) {
     constexpr std::size_t most = 20 * MeasuredTrials::window;
     const auto& all = trials.finished;
@@ -68,12 +68,12 @@ void adaptive_lines(const std::vector<MeasuredTrial>& trials, Lines& lines) {
     constexpr double low = 0.1;
     const auto below = std::find_if(trials.begin(), trials.end(),
                                     [](const auto& t) { return *t.measures.discrepancy < low; });
-    lines.emplace_back("discrepancy",
-                       fmt::format("{:.3f} after the first trial, {:.3f} after the last; {}",
-                                   *trials.front().measures.discrepancy, *trials.back().measures.discrepancy,
-                                   below == trials.end()
-                                       ? fmt::format("never below {}", low)
-                                       : fmt::format("below {} after trial {}", low, below->number)));
+    lines.emplace_back(
+        "discrepancy",
+        fmt::format("{:.3f} after the first trial, {:.3f} after the last; {}",
+                    *trials.front().measures.discrepancy, *trials.back().measures.discrepancy,
+                    below == trials.end() ? fmt::format("never below {}", low)
+                                          : fmt::format("below {} after trial {}", low, below->number)));
     double cue = 0, distractor = 0;
     for (auto t = trials.end() - static_cast<std::ptrdiff_t>(std::min(trials.size(), MeasuredTrials::window));
          t != trials.end(); ++t)
@@ -99,7 +99,7 @@ void memory_line(const std::vector<MeasuredTrial>& trials, Lines& lines) {
 }
 
 Lines running_lines(const Environment& world, const Trial& t) {
-    const auto place = [](const Pose2& p) {  // + 0.0: no minus before a zero
+    const auto place = [](const Pose2& p) {  // + 0.0 turns -0 into 0
         return fmt::format("({:.2f}, {:.2f})", std::round(p.x * 100) / 100 + 0.0,
                            std::round(p.y * 100) / 100 + 0.0);
     };

@@ -1,4 +1,4 @@
-// What the program says of a robot's trials.
+// The part of the summary about a robot's trials.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace forage::tool {
 
-/// Lines for people: what each one is about, and its text.
+/// The lines of the summary: a title and a text for each.
 std::vector<std::pair<std::string, std::string>> trial_summary(const Environment& environment,
                                                                const MeasuredTrials& trials);
 

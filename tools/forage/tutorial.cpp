@@ -1,4 +1,4 @@
-// The exercises of the tutorial: experiment files whose note says what they are about.
+// The exercises of the tutorial: experiment files whose note explains them.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -16,10 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Exercise {
-    std::string number;  ///< "3.1", what the file's name begins with, up to '-'
+    std::string number;  ///< such as "3.1": the beginning of the file's name, up to '-'
     fs::path file;
     std::string title;    ///< the first line of the note
-    std::string look_at;  ///< the others, without the blanks before them
+    std::string look_at;  ///< the other lines, without leading blanks
 };
 
 /// The folder of exercises: beside the installed program, or else in the sources it was built from.

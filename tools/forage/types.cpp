@@ -9,7 +9,7 @@
 namespace forage::tool {
 namespace {
 
-/// Rows of a name and what it is, in two columns.
+/// Rows of a name and its description, in two columns.
 class Rows {
   public:
     explicit Rows(std::string title) : title_(std::move(title)) {}
@@ -87,7 +87,8 @@ void list(std::string_view kind, const Map& types) {
     for (const auto& [name, type] : types) fmt::print("  {:<28} {}\n", name, type.doc);
 }
 
-/// The types that ship and those of plugins; empty when one cannot be loaded, which is said.
+/// The types that ship with Forage and those of plugins. Prints an error and returns nothing when a plugin
+/// cannot be loaded.
 std::optional<Registry> registry_with(const std::vector<std::string>& plugins) {
     Diagnostics diagnostics;
     const auto loaded = load_plugins(plugins, "", diagnostics);

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "tools/forage/commands.h"
 #include "core/base/output_files.h"
+#include "tools/forage/commands.h"
 #include "tools/plot/canvas.h"
 
 namespace forage::tool {
@@ -33,7 +33,7 @@ std::string escaped(std::string_view text) {
     return out;
 }
 
-/// A name as a relative address.
+/// A file name as a relative URL.
 std::string address(std::string_view name) {
     std::string out = "./";
     for (const char c : name) {
@@ -55,7 +55,8 @@ std::string picture(const std::string& name) {
         at, text);
 }
 
-/// A small table whole; of a large one its first rows; of recordings and paths, which are long, a link.
+/// A small table as a whole, the first rows of a larger one, and a link to recordings and paths, which are
+/// long.
 std::string table(const fs::path& path) {
     const std::string name = path.filename().string();
     std::ifstream in(path);

@@ -14,7 +14,7 @@
 namespace forage::plot {
 namespace {
 
-constexpr std::size_t most_frames = 120;  ///< of a moving picture whose cycles nobody chose
+constexpr std::size_t most_frames = 120;  ///< of an animation without given cycles
 constexpr std::size_t most_panels = 400;
 constexpr std::size_t most_marks = 60;
 constexpr double seconds_per_frame = 0.12;
@@ -27,7 +27,7 @@ RowPlot::RowPlot(PlotSpec spec, const observe::Recorded& what) : spec_(std::move
     const bool as_lines = what_.size() <= most_lines;
     cells_per_row_ = (what_.size() + most_rows - 1) / most_rows;
     for (std::size_t i = 0; i < what_.size(); i += cells_per_row_) {
-        if (!as_lines) {  // rows have no names
+        if (!as_lines) {  // rows have no labels
             curves_.emplace_back("", row_bins);
             continue;
         }
@@ -115,7 +115,9 @@ void RowPlotter::after_cycle(RunView& run) {
 void RowPlotter::finish(RunView& run, ResultFiles& files) {
     PlotContext context{title_, run.run.seconds_per_cycle(), {}};
     if (run.environment && !run.environment->robot_names().empty()) {
-        const auto add = [&](const Trial& t) { context.trials.push_back(static_cast<double>(t.first_cycle)); };
+        const auto add = [&](const Trial& t) {
+            context.trials.push_back(static_cast<double>(t.first_cycle));
+        };
         for (const auto& t : run.environment->trials(0)) add(t);
         if (const auto running = run.environment->current_trial(0); running.cycles > 0) add(running);
     }
@@ -134,8 +136,8 @@ StructurePlotter::StructurePlotter(PlotSpec spec, const engine::Layout& layout, 
 
 void StructurePlotter::finish(RunView& run, ResultFiles& files) {
     files.write(spec_.file(format_), [&] {
-        return render(structure_plot(spec_, run.run.system(), run.run.registry(), &run.simulation, run.run.seed(),
-                                     title_),
+        return render(structure_plot(spec_, run.run.system(), run.run.registry(), &run.simulation,
+                                     run.run.seed(), title_),
                       format_);
     });
 }
@@ -153,7 +155,8 @@ void TrajectoryPlotter::finish(RunView&, ResultFiles& files) {
                 [&] { return render(trajectory_plot(world_, std::move(paths), title_), format_); });
 }
 
-FilmRecorder::FilmRecorder(bug::World& world, std::string name, double seconds_per_cycle, const std::string& title)
+FilmRecorder::FilmRecorder(bug::World& world, std::string name, double seconds_per_cycle,
+                           const std::string& title)
     : name_(std::move(name)),
       every_(std::max<std::uint64_t>(1, static_cast<std::uint64_t>(film_frame / seconds_per_cycle + 0.5))),
       film_(world, name_, static_cast<double>(every_) * seconds_per_cycle, title) {}
@@ -191,7 +194,8 @@ bool add_plots(const std::vector<model::Expression>& plots, Run& run, Format for
             const int errors = diagnostics.errors();
             check_structure(*spec, run.system(), option, diagnostics, at);
             if (diagnostics.errors() == errors)
-                run.add(std::make_unique<StructurePlotter>(std::move(*spec), run.layout(), run.system(), format, title));
+                run.add(std::make_unique<StructurePlotter>(std::move(*spec), run.layout(), run.system(),
+                                                           format, title));
         }
     }
     return trajectory;

@@ -1,4 +1,4 @@
-// Pictures of a run, drawn while it runs or from what it recorded.
+// Pictures of a run, drawn during the run or from its recordings.
 #pragma once
 
 #include <optional>
@@ -19,26 +19,26 @@
 
 namespace forage::plot {
 
-/// What pictures say of the run that they show.
+/// Facts about a run that its pictures show.
 struct PlotContext {
-    std::string run;               ///< "dac.iqr in arena.world, seed 1"; empty when it is not known
-    double seconds_per_cycle = 0;  ///< 0: not known
-    std::vector<double> trials;    ///< first cycle of each
+    std::string run;               ///< such as "dac.iqr in arena.world, seed 1"; empty if unknown
+    double seconds_per_cycle = 0;  ///< 0 if unknown
+    std::vector<double> trials;    ///< the first cycle of each trial
 };
 
-/// Takes up the rows of a source and draws them, in bounded memory: a time plot joins neighbours in time, and among cells where
-/// they are more than a picture has rows, a moving picture without cycles leaves frames out, and of a space plot only the wanted
-/// cycles are kept.
+/// Collects the rows of a source and draws them, in bounded memory. A time plot joins neighbours in time, and
+/// neighbouring cells when there are more cells than a picture has rows. An animation without given cycles
+/// skips frames. A space plot keeps only the given cycles.
 class RowPlot {
   public:
     RowPlot(PlotSpec spec, const observe::Recorded& what);
     void add(std::uint64_t cycle, std::span<const double> numbers);
-    /// The picture as the content of a file. Throws std::runtime_error, also when none of the wanted cycles
-    /// was there.
+    /// The picture as the content of a file. Throws std::runtime_error when it cannot be drawn, and when
+    /// there was no row of the given cycles.
     std::string draw(Format format, const PlotContext& context) const;
     const PlotSpec& spec() const { return spec_; }
 
-    /// What it has taken up.
+    /// Reads or writes the rows collected so far.
     void checkpoint(Archive& archive) {
         for (auto& c : curves_) archive(c);
         archive(frames_, rows_, keep_every_, first_, last_);
@@ -49,7 +49,7 @@ class RowPlot {
 
     PlotSpec spec_;
     observe::Recorded what_;
-    std::vector<Curve> curves_;  ///< of a cell each, or of cells_per_row_ neighbours
+    std::vector<Curve> curves_;  ///< one per cell, or per cells_per_row_ neighbours
     std::size_t cells_per_row_ = 1;
     std::vector<SpaceFrame> frames_;
     std::uint64_t rows_ = 0, keep_every_ = 1, first_ = 0, last_ = 0;
@@ -58,9 +58,12 @@ class RowPlot {
 /// Draws a RowPlot of a run.
 class RowPlotter final : public Observer {
   public:
-    /// `title`: of the run.
+    /// `title` is that of the run.
     RowPlotter(PlotSpec spec, observe::Source source, Format format, std::string title)
-        : plot_(std::move(spec), source.what()), source_(std::move(source)), format_(format), title_(std::move(title)) {}
+        : plot_(std::move(spec), source.what()),
+          source_(std::move(source)),
+          format_(format),
+          title_(std::move(title)) {}
 
     void declare(engine::Demand& demand) const override { source_.declare(demand); }
     void after_cycle(RunView& run) override;
@@ -76,7 +79,7 @@ class RowPlotter final : public Observer {
     std::vector<double> row_;
 };
 
-/// Draws a diagram or a connection, as it is at the end of a run.
+/// Draws a diagram or a connection in its state at the end of a run.
 class StructurePlotter final : public Observer {
   public:
     StructurePlotter(PlotSpec spec, const engine::Layout& layout, const model::System& system, Format format,
@@ -92,17 +95,21 @@ class StructurePlotter final : public Observer {
     PlotSpec spec_;
     Format format_;
     std::string title_;
-    std::vector<int> connections_;  ///< those that it shows
+    std::vector<int> connections_;  ///< the connections that the picture shows
 };
 
 /// Draws the path of a robot.
 class TrajectoryPlotter final : public Observer {
   public:
-    /// `recorder`: an observer of the same run. `always`: draw also a robot that stayed where it was. `name`: of the file, without
-    /// ending.
+    /// `recorder` is an observer of the same run. `always`: draw the path of a robot that did not move, too.
+    /// `name` is the file's name without its ending.
     TrajectoryPlotter(const bug::World& world, const PathRecorder& recorder, bool always, std::string name,
                       Format format, std::string title)
-        : world_(world), recorder_(recorder), always_(always), name_(std::move(name)), format_(format),
+        : world_(world),
+          recorder_(recorder),
+          always_(always),
+          name_(std::move(name)),
+          format_(format),
           title_(std::move(title)) {}
 
     std::vector<std::string> file_names() const override { return {name_ + std::string(ending(format_))}; }
@@ -117,10 +124,10 @@ class TrajectoryPlotter final : public Observer {
     std::string title_;
 };
 
-/// Films a run: film.h.
+/// Films a run, as described in film.h.
 class FilmRecorder final : public Observer {
   public:
-    /// `world`: the run's environment; `seconds_per_cycle`: of the run.
+    /// `world` is the run's environment, `seconds_per_cycle` is that of the run.
     FilmRecorder(bug::World& world, std::string name, double seconds_per_cycle, const std::string& title);
 
     void after_cycle(RunView& run) override;
@@ -128,12 +135,12 @@ class FilmRecorder final : public Observer {
 
   private:
     std::string name_;
-    std::uint64_t every_;  ///< cycles
+    std::uint64_t every_;  ///< cycles between two frames
     Film film_;
 };
 
-/// Adds the observers that draw what `plots` ask for. Reports what is not there. Returns whether a trajectory is asked for, which
-/// needs a PathRecorder. `title`: of the run.
+/// Adds the observers that draw `plots`. Reports unknown names. Returns whether `plots` contains a
+/// trajectory, which needs a PathRecorder. `title` is that of the run.
 bool add_plots(const std::vector<model::Expression>& plots, Run& run, Format format, const std::string& title,
                Diagnostics& diagnostics);
 

@@ -25,7 +25,7 @@ std::string_view name_of(InputKind kind) {
     return names[static_cast<std::size_t>(kind)];
 }
 
-/// What each synapse makes of activity 1.
+/// The input that each synapse delivers for an activity of 1.
 std::vector<double> strengths(const model::Connection& c, const connectivity::Synapses& synapses,
                               const SynapseType& type, const engine::Simulation* simulation) {
     std::vector<double> out(synapses.size());
@@ -50,7 +50,7 @@ std::vector<double> strengths(const model::Connection& c, const connectivity::Sy
 }
 
 Picture picture_of(const model::Connection& c, const model::System& system, const Registry& registry,
-                         const engine::Simulation* simulation, std::uint64_t seed) {
+                   const engine::Simulation* simulation, std::uint64_t seed) {
     const model::GroupIndex groups(system);
     const auto source = groups.find(c.source), target = groups.find(c.target);
     const SynapseType* type = c.synapse ? registry.synapse(c.synapse->type) : nullptr;
@@ -96,26 +96,25 @@ const model::Connection* find_connection(const model::System& system, std::strin
     return nullptr;
 }
 
-void check_structure(const PlotSpec& wish, const model::System& system, std::string_view option,
+void check_structure(const PlotSpec& spec, const model::System& system, std::string_view option,
                      Diagnostics& diagnostics, Location at) {
-    if (wish.kind == PlotSpec::Kind::connection) find_connection(system, wish.what, option, diagnostics, at);
-    if (wish.kind != PlotSpec::Kind::diagram || wish.what.empty() || find_process(system, wish.what)) return;
+    if (spec.kind == PlotSpec::Kind::connection) find_connection(system, spec.what, option, diagnostics, at);
+    if (spec.kind != PlotSpec::Kind::diagram || spec.what.empty() || find_process(system, spec.what)) return;
     std::vector<std::string> names;
     for (const auto& p : system.processes) names.emplace_back(model::trim(p.name));
-    diagnostics.error(at, fmt::format("{} '{}': there is no process '{}'", option, wish.text, wish.what),
-                      suggest(wish.what, names));
+    diagnostics.error(at, fmt::format("{} '{}': there is no process '{}'", option, spec.text, spec.what),
+                      suggest(spec.what, names));
 }
 
-Picture structure_plot(const PlotSpec& wish, const model::System& system, const Registry& registry,
-                             const engine::Simulation* simulation, std::uint64_t seed,
-                             const std::string& run) {
-    if (wish.kind == PlotSpec::Kind::connection) {
+Picture structure_plot(const PlotSpec& spec, const model::System& system, const Registry& registry,
+                       const engine::Simulation* simulation, std::uint64_t seed, const std::string& run) {
+    if (spec.kind == PlotSpec::Kind::connection) {
         Diagnostics diagnostics;
-        const auto* connection = find_connection(system, wish.what, "connection", diagnostics);
+        const auto* connection = find_connection(system, spec.what, "connection", diagnostics);
         if (!connection) throw std::runtime_error(format(diagnostics));
         return picture_of(*connection, system, registry, simulation, seed);
     }
-    const auto* process = find_process(system, wish.what);
+    const auto* process = find_process(system, spec.what);
     return process ? process_diagram(system, *process) : diagram(system, run);
 }
 

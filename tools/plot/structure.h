@@ -1,4 +1,4 @@
-// Pictures of what a system is, rather than of what it does.
+// Pictures of the structure of a system.
 #pragma once
 
 #include <string>
@@ -6,24 +6,24 @@
 
 #include "core/engine/simulation.h"
 #include "core/model/system.h"
-#include "tools/plot/plot_spec.h"
 #include "tools/plot/canvas.h"
+#include "tools/plot/plot_spec.h"
 
 namespace forage::plot {
 
-/// Reports a diagram's process or a connection that is not there.
-void check_structure(const PlotSpec& wish, const model::System& system, std::string_view option,
+/// Reports an unknown process or connection of a picture.
+void check_structure(const PlotSpec& spec, const model::System& system, std::string_view option,
                      Diagnostics& diagnostics, Location at = {});
 
-/// The connection of this name or id; null when there is none, or several of that name, which is reported.
+/// The connection with this name or id. Reports an error and returns null when there is none, or several with
+/// this name.
 const model::Connection* find_connection(const model::System& system, std::string_view name,
                                          std::string_view option, Diagnostics& diagnostics, Location at = {});
 
-/// The picture of a diagram or a connection that check_structure() has passed. A connection shows the
-/// strengths that the file gives; where synapses learn, those of `simulation`, or 0 without one. `run` says
-/// what it belongs to. Throws std::runtime_error.
-Picture structure_plot(const PlotSpec& wish, const model::System& system, const Registry& registry,
-                             const engine::Simulation* simulation, std::uint64_t seed,
-                             const std::string& run);
+/// The picture of a diagram or a connection that check_structure() has accepted. A connection plot shows the
+/// strengths in the file; for plastic synapses those of `simulation`, or 0 when it is null. `run` is the
+/// subtitle. Throws std::runtime_error.
+Picture structure_plot(const PlotSpec& spec, const model::System& system, const Registry& registry,
+                       const engine::Simulation* simulation, std::uint64_t seed, const std::string& run);
 
 }  // namespace forage::plot

@@ -12,8 +12,8 @@
 
 namespace forage::plot {
 
-/// A curve in bounded memory: beyond `most_bins` points, neighbours are joined, and of each such bin the
-/// first, last, smallest and largest value are kept, so that no peak is lost.
+/// A curve in bounded memory. When there are more than `most_bins` points, neighbours are joined to bins,
+/// which keep the first, last, smallest and largest value, so that no peak is lost.
 class Curve {
   public:
     explicit Curve(std::string name, std::size_t most_bins = 4000)
@@ -39,11 +39,11 @@ class Curve {
     double per_bin_ = 1;
 };
 
-/// Up to so many curves are drawn as lines, and more as rows of colours.
+/// The largest number of curves that are drawn as lines; more curves are drawn as rows of colours.
 inline constexpr std::size_t most_lines = 10;
-/// A picture has at most so many rows; where there are more cells, neighbours share one.
+/// The largest number of rows of a picture. When there are more cells, neighbours share a row.
 inline constexpr std::size_t most_rows = 1000;
-/// The most bins of a row, with which each of its pixels has one.
+/// The largest number of bins of a row: one per pixel.
 inline constexpr std::size_t row_bins = 1520;
 
 struct TimePlot {

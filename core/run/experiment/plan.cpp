@@ -5,13 +5,13 @@
 
 #include <fmt/format.h>
 
-#include "core/model/lookup.h"
 #include "core/base/output_files.h"
+#include "core/model/lookup.h"
 
 namespace forage {
 namespace {
 
-/// What all runs have in common.
+/// The part of the spec that all runs share.
 RunSpec common(const model::Experiment& e) {
     RunSpec o;
     o.input.system = e.system, o.input.world = e.world, o.input.settings = e.settings;

@@ -10,13 +10,13 @@
 namespace forage {
 
 struct PlannedRun {
-    std::string name;                 ///< "eta-0.1_seed-3": its directory
-    std::vector<std::string> values;  ///< of the swept parameters
+    std::string name;                 ///< such as "eta-0.1_seed-3"; the name of its directory
+    std::vector<std::string> values;  ///< the values of the swept parameters
     RunSpec spec;
 };
 
-/// Every combination of the swept values, the last parameter changing fastest, with every seed. `directory` is the experiment's,
-/// `plugins` are those of all runs.
+/// The runs of every combination of the swept values with every seed; the last parameter changes fastest.
+/// `directory` is that of the experiment, `plugins` are those of all runs.
 std::vector<PlannedRun> planned_runs(const model::Experiment& experiment, const std::string& directory,
                                      const std::vector<std::string>& plugins = {});
 

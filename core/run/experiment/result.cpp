@@ -41,7 +41,8 @@ std::string key_of(const PlannedRun& run, const model::Experiment& experiment, c
     key["seed"] = run.spec.input.seed;
     key["noise"] = o.input.noise;
     key["pace"] = or_null(o.input.real_time_factor);
-    key["cycles"] = or_null(o.length.cycles), key["seconds"] = or_null(o.length.seconds), key["trials"] = or_null(o.length.trials);
+    key["cycles"] = or_null(o.length.cycles), key["seconds"] = or_null(o.length.seconds),
+    key["trials"] = or_null(o.length.trials);
     key["longest_trial"] = o.length.trial_timeout;
     key["until"] = o.length.until.text;
     for (const auto& wish : o.input.settings) key["set"].push_back(wish.text);
@@ -71,7 +72,7 @@ std::optional<RunResult> read_result(const PlannedRun& run, const std::string& k
         for (const auto& m : result.at("measures")) out.measures.push_back(or_empty<double>(m));
         return out;
     } catch (const nlohmann::json::exception&) {
-        return std::nullopt;  // absent, of another run, or not one of ours: the run is made again
+        return std::nullopt;  // absent, or of another run: the run is repeated
     }
 }
 

@@ -1,4 +1,4 @@
-// What is left of a run of an experiment: a file that is there when the run is finished, and not before.
+// The result of a run of an experiment: a file that exists only when the run is finished.
 #pragma once
 
 #include <optional>
@@ -11,24 +11,24 @@
 namespace forage {
 
 struct RunResult {
-    std::string failure;   ///< why there are no numbers; empty when there are
-    std::string stopped;   ///< why it ended before its time; empty when it did not
-    std::string diverged;  ///< where numbers began to be not finite; empty: they are
+    std::string failure;   ///< the reason why there are no numbers; empty when there are some
+    std::string stopped;   ///< the reason for an early end; empty when there was none
+    std::string diverged;  ///< where the first number that is not finite occurred; empty when all are finite
     std::uint64_t cycles = 0;
     double seconds = 0;                            ///< of the world
     std::optional<std::uint64_t> trials, reached;  ///< of the first robot: finished ones, and at the target
     std::vector<std::optional<double>> measures;   ///< in the experiment's order
 };
 
-/// Everything that decides the numbers of a run: a result belongs to a run when it has the same key. `digests`: of the files of
-/// system and world.
+/// A text of everything that decides the numbers of a run. A result belongs to a run when it has the same
+/// key. `digests` are those of the files of system and world.
 std::string key_of(const PlannedRun& run, const model::Experiment& experiment, const std::string& digests);
 
-/// The result in a run's directory, if it has one of this key.
+/// The result in a run's directory; empty when there is none with this key.
 std::optional<RunResult> read_result(const PlannedRun& run, const std::string& key);
 /// Removes the files that an earlier run left in the directory, its result first.
 void forget_result(const PlannedRun& run);
-/// Writes it so that it survives whatever happens next: `files`, written before, reach the disk first. Throws
+/// Writes the result as a whole. `files`, which were written before, are flushed to the disk first. Throws
 /// std::runtime_error.
 void write_result(const PlannedRun& run, const std::string& key, const RunResult& result,
                   const std::vector<std::string>& files);

@@ -14,12 +14,12 @@
 namespace forage {
 namespace {
 
-/// Checks one value of a sweep in place of the first one.
+/// Checks one value of a sweep instead of the first one.
 void check_value(const model::Sweep& sweep, const model::Expression& value, const Run& run,
                  Diagnostics& diagnostics) {
     const auto assignment =
-        model::parse_assignment(run.system(), run.registry(), sweep.parameter.text + "=" + value.text, "sweep",
-                                diagnostics, value.at);
+        model::parse_assignment(run.system(), run.registry(), sweep.parameter.text + "=" + value.text,
+                                "sweep", diagnostics, value.at);
     if (!assignment) return;
     model::System system = run.system();
     model::set(system, *assignment);
@@ -43,7 +43,7 @@ RunResult failed(std::string why) {
     return out;
 }
 
-/// What all threads work on.
+/// The work that all threads share.
 class Work {
   public:
     Work(const model::Experiment& experiment, const PrepareRun& prepare, std::span<const PlannedRun> runs,
@@ -63,7 +63,8 @@ class Work {
 
     std::size_t open() const { return open_.size(); }
 
-    /// Makes runs until there are none left, or the experiment is interrupted. `part`: how far the current one is.
+    /// Executes runs until none is left, or the experiment is interrupted. `part`: the completed fraction of
+    /// the current run.
     void take_part(std::atomic<double>& part) {
         for (std::size_t i; (i = next_++) < open_.size() && !interrupted();) {
             auto result = make(open_[i], part);
@@ -75,7 +76,7 @@ class Work {
         }
     }
 
-    /// `parts`: of the runs under way; `elapsed` s since the start.
+    /// `parts`: the completed fractions of the current runs; `elapsed`: time since the start, s.
     ExperimentCallbacks::Progress progress(double parts, double elapsed) const {
         ExperimentCallbacks::Progress out;
         const double made = static_cast<double>(done_ + failed_) + parts;
@@ -99,7 +100,7 @@ class Work {
     std::string key(std::size_t run) const { return key_of(runs_[run], experiment_, digests_); }
     bool interrupted() const { return callbacks_.interrupted && callbacks_.interrupted(); }
 
-    /// Empty when it was interrupted.
+    /// The results; empty when the experiment was interrupted.
     std::optional<RunResult> make(std::size_t index, std::atomic<double>& part) {
         const PlannedRun& run = runs_[index];
         try {
@@ -159,7 +160,8 @@ class Work {
     std::vector<std::size_t> open_;  ///< runs that have no result yet
     std::size_t earlier_ = 0;        ///< runs that had one
     std::atomic<std::size_t> next_ = 0, done_ = 0, failed_ = 0;
-    std::mutex libraries_;  ///< libraries that read files and draw may not be used by two threads at a time
+    /// Libraries that read files or draw must not be used by two threads at the same time.
+    std::mutex libraries_;
     std::mutex results_mutex_;
 };
 
@@ -170,7 +172,7 @@ void check_experiment(const model::Experiment& e, const PrepareRun& prepare, std
     RunSpec spec = runs.front().spec;
     spec.directory.clear();  // nothing is written
     auto prepared = prepare(spec, diagnostics);
-    if (!prepared) {  // the swept values are checked all the same
+    if (!prepared) {  // the swept values are checked nevertheless
         RunSpec bare;
         bare.input = spec.input;
         Diagnostics told;
@@ -182,9 +184,11 @@ void check_experiment(const model::Experiment& e, const PrepareRun& prepare, std
                 if (&value != &sweep.values.front()) check_value(sweep, value, prepared->run, diagnostics);
 }
 
-std::optional<std::vector<RunResult>> run_experiment(const model::Experiment& experiment, const PrepareRun& prepare,
-                                                     std::span<const PlannedRun> runs, const std::string& digests,
-                                                     int jobs, bool fresh, const ExperimentCallbacks& callbacks) {
+std::optional<std::vector<RunResult>> run_experiment(const model::Experiment& experiment,
+                                                     const PrepareRun& prepare,
+                                                     std::span<const PlannedRun> runs,
+                                                     const std::string& digests, int jobs, bool fresh,
+                                                     const ExperimentCallbacks& callbacks) {
     using Clock = std::chrono::steady_clock;
     Work work(experiment, prepare, runs, digests, fresh, callbacks);
     std::vector<std::atomic<double>> parts(std::min(static_cast<std::size_t>(jobs), work.open()));

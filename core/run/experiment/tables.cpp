@@ -43,7 +43,7 @@ Statistics statistics(const std::vector<double>& values) {
     return s;
 }
 
-/// The runs of one combination of swept values: of all seeds, one after the other.
+/// The runs of one combination of swept values, in order of the seeds.
 struct Combination {
     std::span<const PlannedRun> runs;
     std::span<const RunResult> results;

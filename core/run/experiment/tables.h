@@ -10,17 +10,16 @@
 namespace forage {
 
 /// One row per run: run, the swept parameters, seed, status (finished, stopped, failed), cycles, seconds,
-/// with trials also trials and reached, the measures, remark. Empty where there is no number.
+/// trials and reached (in a world with trials), the measures, remark. A field without a number is empty.
 std::string results_csv(const model::Experiment& experiment, std::span<const PlannedRun> runs,
                         std::span<const RunResult> results);
 
-/// One row per combination of swept values: the number of runs that gave numbers, and over the seeds of these
-/// the mean, standard deviation (n - 1), minimum and maximum of each measure, with the number of runs that
-/// have it.
+/// One row per combination of swept values: the number of runs with results, and for each measure the mean,
+/// standard deviation (n - 1), minimum and maximum over the seeds, with the number of runs that have it.
 std::string summary_csv(const model::Experiment& experiment, std::span<const PlannedRun> runs,
                         std::span<const RunResult> results);
 
-/// The same for people: mean +- standard deviation.
+/// The summary as text, with mean +- standard deviation.
 std::string summary_text(const model::Experiment& experiment, std::span<const PlannedRun> runs,
                          std::span<const RunResult> results);
 
