@@ -1,11 +1,11 @@
-// What changes while a system runs, as bytes and back: how types take part in checkpoints.
+// Archives: the bytes of a checkpoint.
 //
-// A module type that has members beside its parameters declares
+// A module type with members in addition to its parameters declares
 //
 //     void checkpoint(Archive& archive) { archive(weights_, step_, open_); }
 //
-// and this one list is used to write and to read them. What start() makes anew from the ports and the
-// parameters need not be in it. modules/adaptive_layer/module.h is the example to copy.
+// and this list serves both to write and to read them. Members that start() computes from the ports and the
+// parameters need not be in it. modules/adaptive_layer/module.h is an example.
 #pragma once
 
 #include <array>
@@ -28,39 +28,39 @@
 
 namespace forage {
 
-/// A checkpoint does not fit what it is read into.
+/// A checkpoint does not fit the object into which it is read.
 class __attribute__((visibility("default"))) ArchiveError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
 /// Writes values, or reads them back in the same order: numbers, booleans, enumerations, strings, vectors,
-/// deques, arrays, maps, pairs, optional values, Eigen's matrices and arrays, and whatever has a member
+/// deques, arrays, maps, pairs, optional values, Eigen's matrices and arrays, and objects with a member
 /// `checkpoint(Archive&)`. The bytes are those of little-endian memory; equal values give equal bytes.
 class Archive {
   public:
-    /// What is written of numbers that are NaN. Which sign and payload they have may depend on the processor.
+    /// How NaN is written. Its sign and payload may depend on the processor.
     enum class Nan { as_it_is, all_the_same };
 
-    /// Writes.
+    /// An archive that writes.
     explicit Archive(Nan nan = Nan::as_it_is) : same_nan_(nan == Nan::all_the_same) {}
-    /// Reads `bytes`, which must outlive it.
+    /// An archive that reads `bytes`, which must outlive it.
     explicit Archive(std::string_view bytes) : left_(bytes), loading_(true) {}
 
     bool loading() const { return loading_; }
-    const std::string& bytes() const { return bytes_; }  ///< that were written
-    std::string_view left() const { return left_; }      ///< that are not read yet
+    const std::string& bytes() const { return bytes_; }  ///< written so far
+    std::string_view left() const { return left_; }      ///< not read yet
 
-    /// Writes the values, or reads them. Throws ArchiveError when there is nothing left to read.
+    /// Writes or reads the values, in order. Throws ArchiveError when there is nothing left to read.
     template <class... T>
     void operator()(T&... values) {
         (value(values), ...);
     }
 
-    /// Rows of numbers whose number is known.
+    /// Writes or reads `count` numbers.
     template <class T>
     void numbers(T* first, std::size_t count) {
         static_assert(std::is_trivially_copyable_v<T>);
-        if (count == 0) return;  // there may be no memory to point to
+        if (count == 0) return;  // `first` may be null
         if (loading_) {
             std::memcpy(static_cast<void*>(first), take(count, sizeof(T)), count * sizeof(T));
             return;
@@ -70,7 +70,8 @@ class Archive {
             if (same_nan_) write_same_nan(first, count);
     }
 
-    /// Something that cannot change: throws ArchiveError, naming it, when what is read is something else.
+    /// Writes a value that cannot change, or checks it: throws ArchiveError with the name `what` when the
+    /// value in the archive differs.
     template <class T>
     void same(const T& here, std::string_view what) {
         T there = here;
@@ -82,7 +83,7 @@ class Archive {
   private:
     static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
 
-    /// Over the numbers that were written last.
+    /// Replaces every NaN among the `count` numbers that were written last.
     template <class T>
     void write_same_nan(const T* first, std::size_t count) {
         constexpr T nan = std::numeric_limits<T>::quiet_NaN();
@@ -100,7 +101,7 @@ class Archive {
     std::size_t count(std::size_t here) {
         auto n = static_cast<std::uint64_t>(here);
         value(n);
-        // Each element takes a byte at least; so a wrong number cannot ask for all memory.
+        // Each element takes at least one byte, so a wrong count cannot allocate too much memory.
         if (loading_ && n > left_.size()) throw ArchiveError("the checkpoint ends too early");
         return static_cast<std::size_t>(n);
     }

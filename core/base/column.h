@@ -1,4 +1,4 @@
-// Columns: how a type sees numbers. One entry per cell of a group, in cell order (row by row).
+// Columns: one number per cell of a group, in the order of cells (row by row).
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ using ConstColumn = Eigen::Map<const Eigen::ArrayXd>;
 enum class InputKind { excitatory, inhibitory, modulatory };
 inline constexpr int input_kinds = 3;
 
-/// Extent of a group: `width` cells to the right, `height` cells downwards; cell = row * width + column.
+/// The size of a group: `width` cells to the right, `height` cells downwards; cell = row * width + column.
 /// A sparse group has fewer `cells` than width * height.
 struct GroupShape {
     int width = 0;

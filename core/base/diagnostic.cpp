@@ -26,15 +26,14 @@ std::string_view line_of(const SourceFile& file, int line) {
 
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xc0u) == 0x80u; }
 
-/// The end of the longest part of `text` that is at most `most` bytes and cuts no character in two.
+/// The end of the longest part of `text` that has at most `most` bytes and does not split a character.
 std::size_t cut(std::string_view text, std::size_t most) {
     if (most >= text.size()) return text.size();
     while (most > 0 && continues_character(text[most])) --most;
     return most;
 }
 
-/// `text` on one line and of a length that people read: a file may hold anything, the terminal must not obey
-/// it.
+/// `text` as one line of limited length, without control characters, which must not reach the terminal.
 std::string plain(std::string_view text, std::size_t most) {
     const std::size_t end = cut(text, most);
     std::string out;
@@ -121,7 +120,7 @@ std::string format(const Diagnostics& diagnostics) {
     std::vector<const Diagnostic*> order;
     for (const auto& d : diagnostics.all()) order.push_back(&d);
     std::stable_sort(order.begin(), order.end(), [](const Diagnostic* a, const Diagnostic* b) {
-        if (a->where.file != b->where.file) return false;  // files stay in the order in which they were read
+        if (a->where.file != b->where.file) return false;  // files keep the order in which they were read
         return std::pair(a->where.line, a->where.column) < std::pair(b->where.line, b->where.column);
     });
     constexpr std::size_t shown = 50;
@@ -137,7 +136,7 @@ std::string_view nearest(std::string_view name, std::span<const std::string> can
     std::string_view best;
     std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
     for (const auto& candidate : candidates) {
-        // The distance is at least the difference in length: a name of a megabyte is not worth comparing.
+        // The distance is at least the difference in length, so very long names are not compared.
         if (std::max(name.size(), candidate.size()) - std::min(name.size(), candidate.size()) >=
             best_distance)
             continue;

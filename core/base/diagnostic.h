@@ -1,5 +1,5 @@
-// Diagnostics: every problem of a file in one run, each written for the author of the file. Plugins report
-// with the classes, which are complete in this header; the functions need the library.
+// Diagnostics: all mistakes in a file, reported in one run and written for the author of the file. Plugins
+// use the classes, which are complete in this header; the functions need the library.
 #pragma once
 
 #include <cstddef>
@@ -12,27 +12,27 @@
 
 namespace forage {
 
-/// A file that users edit, as it was read.
+/// A file that was read for a user.
 struct SourceFile {
-    std::string path;  ///< as the user gave it
-    std::string text;  ///< may end early: excerpts are all that it serves
+    std::string path;  ///< as the user wrote it
+    std::string text;  ///< may end early, as it is used for excerpts only
 };
 
-/// A place in a file. `line` and `column` count from 1 (bytes); 0: the file as a whole. No file: a command
-/// line.
+/// A place in a file. `line` and `column` (in bytes) count from 1; 0 means the file as a whole. Without a
+/// file it is the command line.
 struct Location {
     std::shared_ptr<const SourceFile> file;
     int line = 0;
     int column = 0;
 
-    /// Where something stands is not part of what it says: models that say the same are equal.
+    /// Always true: models with the same content are equal, wherever the content is.
     friend bool operator==(const Location&, const Location&) { return true; }
 };
 
 enum class Severity { error, warning };
 
-/// What the check() of a type points at. Types know names and not places in a file: validation finds the
-/// place.
+/// The parameter or port that the check() of a type reports. Types know names but not places in a file, which
+/// validation finds.
 struct Subject {
     Subject(std::string parameter_name, std::string port_name)
         : parameter(std::move(parameter_name)), port(std::move(port_name)) {}
@@ -42,13 +42,13 @@ struct Subject {
 inline Subject at_parameter(std::string name) { return {std::move(name), {}}; }
 inline Subject at_port(std::string name) { return {{}, std::move(name)}; }
 
-/// One problem of a file or of a command line.
+/// One mistake in a file or on a command line.
 struct Diagnostic {
     Severity severity = Severity::error;
     Location where;
     std::string message;
-    std::string hint;             ///< what to do about it; may be empty
-    std::string parameter, port;  ///< as in Subject, until the place is known
+    std::string hint;             ///< how to correct it; may be empty
+    std::string parameter, port;  ///< as in Subject, until validation has found the place
 };
 
 /// An error in a file that the caller names later. `line` and `column` as in Location.
@@ -56,7 +56,7 @@ inline Diagnostic error_at(int line, int column, std::string message, std::strin
     return {Severity::error, {nullptr, line, column}, std::move(message), std::move(hint), {}, {}};
 }
 
-/// Collects diagnostics; nothing is thrown. Of very many it keeps the first thousand and counts the rest.
+/// Collects diagnostics. It keeps the first thousand and counts the others.
 class Diagnostics {
   public:
     void error(Location where, std::string message, std::string hint = {}) {
@@ -65,7 +65,7 @@ class Diagnostics {
     void warning(Location where, std::string message, std::string hint = {}) {
         add({Severity::warning, std::move(where), std::move(message), std::move(hint), {}, {}});
     }
-    /// The same for the check() of a type.
+    /// Does the same for the check() of a type.
     void error(Subject about, std::string message, std::string hint = {}) {
         add({Severity::error,
              {},
@@ -82,7 +82,7 @@ class Diagnostics {
              std::move(about.parameter),
              std::move(about.port)});
     }
-    /// Something unknown that the original would ignore: an error, or under `lenient` a warning.
+    /// Reports something unknown that the original ignores: an error, or a warning if `lenient` is set.
     void unknown(Location where, std::string message, std::string hint = {}) {
         add({lenient ? Severity::warning : Severity::error,
              std::move(where),
@@ -92,10 +92,10 @@ class Diagnostics {
              {}});
     }
     void add(Diagnostic diagnostic) {
-        constexpr std::size_t most = 1000;  // a file of a million mistakes must not cost a gigabyte
+        constexpr std::size_t most = 1000;  // a file with a million mistakes must not take a gigabyte
         const bool is_error = diagnostic.severity == Severity::error;
         ++(is_error ? errors_ : warnings_);
-        // An error is never lost behind warnings.
+        // The first error is kept even after many warnings.
         if (all_.size() < most || (is_error && errors_ == 1)) all_.push_back(std::move(diagnostic));
     }
 
@@ -111,18 +111,19 @@ class Diagnostics {
     int errors_ = 0, warnings_ = 0;
 };
 
-/// Where the byte `offset` of a file stands.
+/// The location of the byte `offset` of a file.
 Location location_of(std::shared_ptr<const SourceFile> file, std::size_t offset);
 
-/// `file:line:column: error: message`, the line with a caret under the column, `hint: ...`.
+/// A diagnostic as text: `file:line:column: error: message`, the line with a caret under the column, `hint:
+/// ...`.
 std::string format(const Diagnostic& diagnostic);
-/// All of them, in order of file position; of very many only the first fifty.
+/// All diagnostics as text, in order of their places; at most the first fifty.
 std::string format(const Diagnostics& diagnostics);
 
-/// The candidate nearest to `name` (edit distance, case ignored), or one that begins with it; empty when none
-/// does.
+/// The candidate that is most similar to `name` (edit distance, case ignored), or one that begins with it.
+/// Empty when there is none.
 std::string_view nearest(std::string_view name, std::span<const std::string> candidates);
-/// "did you mean 'x'?", or the list of what there is when nothing is near; empty without candidates.
+/// A hint: "did you mean 'x'?", or the list of candidates when none is similar. Empty without candidates.
 std::string suggest(std::string_view name, std::span<const std::string> candidates);
 
 }  // namespace forage

@@ -1,11 +1,11 @@
-// Random events at a probability, many cells at a time.
+// Random events with a given probability, for many cells at a time.
 //
 // A cell gets 16 random bits, which are compared with the upper 16 of the probability's 53; where these are
-// equal, once in 65536 times, the lower 37 decide. So 8 cells share a block of Philox, where uniform numbers
-// take 4.
+// equal, once in 65536 times, the lower 37 decide. So 8 cells share a block of Philox, while 8 uniform
+// numbers take 4 blocks.
 //
 // 64 cells are a batch: its 8 blocks are lanes l = 0..7, and half m of word j of block l belongs to cell
-// 8 (2 j + m) + l. Then vectors of 8 lanes give 8 cells that are neighbours.
+// 8 (2 j + m) + l. So vectors of 8 lanes give 8 neighbouring cells.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +20,7 @@ using philox::Draw;
 
 constexpr std::size_t lanes = philox::lanes, batch = 8 * lanes;
 constexpr std::uint32_t events_stream = 0x80000000u,
-                        ties_stream = 0xc0000000u;  // apart from those of uniform()
+                        ties_stream = 0xc0000000u;  // different from those of uniform()
 
 /// A cell is silent when its bits are below `top`, or equal to it and the next 37 bits are below `rest`.
 struct Threshold {
@@ -54,16 +54,16 @@ void batch_by_cell(const Draw& d, std::size_t number, const Threshold& t, double
 
 #ifdef FORAGE_AVX2
 
-/// `count` batches: the same numbers as batch_by_cell().
+/// Computes `count` batches, with the same numbers as batch_by_cell().
 FORAGE_AVX2 void batches_by_lanes(const Draw& d, std::size_t number, std::size_t count, const Threshold& t,
                                   double value, double* out) {
     const philox::Rounds rounds(d, events_stream);
-    // 16 cells are compared at a time, as numbers with a sign. No cell is above a `top` of 65536, or equal.
+    // 16 cells are compared at a time, as signed numbers. No cell is equal to or above a `top` of 65536.
     const __m256i sign = _mm256_set1_epi16(-0x8000);
     const __m256i top = _mm256_set1_epi16(static_cast<short>(std::min(t.top, 0xffffu) - 0x8000u));
     const __m256d active = _mm256_set1_pd(t.top <= 0xffffu ? value : 0.0);
-    // What makes masks of 16 bits ones of 64: of the low and the high halves of blocks 0 to 3, then of 4
-    // to 7.
+    // Shuffles that widen masks from 16 to 64 bits, for the low and the high halves of blocks 0 to 3, then of
+    // 4 to 7.
     const __m256i lane = _mm256_setr_epi64x(0, 0x0808080808080808, 0, 0x0808080808080808);
     __m256i picks[4];
     for (int i = 0; i < 4; ++i)
@@ -89,7 +89,7 @@ FORAGE_AVX2 void batches_by_lanes(const Draw& d, std::size_t number, std::size_t
     }
 }
 
-/// The same for `many` batches.
+/// Does the same for `many` batches.
 template <int many>
 FORAGE_AVX512 void batches_by_wide_lanes(const Draw& d, const philox::Rounds& rounds, std::size_t number,
                                          const Threshold& t, double value, double* out) {
@@ -113,7 +113,7 @@ FORAGE_AVX512 void batches_by_wide_lanes(const Draw& d, const philox::Rounds& ro
 
 #endif
 
-/// `count` batches from the `number`-th on.
+/// Computes `count` batches, beginning with the `number`-th.
 void batches(philox::Way way, const Draw& d, std::size_t number, std::size_t count, const Threshold& t,
              double value, double* out) {
 #ifdef FORAGE_AVX2

@@ -1,4 +1,4 @@
-// What somebody else's code says when it fails.
+// The message of any exception.
 #pragma once
 
 #include <exception>
@@ -6,7 +6,8 @@
 
 namespace forage {
 
-/// What the exception that is being handled says, whatever was thrown. To be called in a `catch (...)`.
+/// The message of the exception that is being handled, whatever its type is. Call it in a `catch (...)`
+/// block.
 inline std::string current_exception_message() {
     try {
         throw;

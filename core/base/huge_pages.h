@@ -10,8 +10,8 @@
 
 namespace forage {
 
-/// An allocator that asks the system for large pages for large blocks: fewer of them have to be made, and
-/// looked up. Where there are none it is an ordinary one. Blocks begin with a line of the cache.
+/// An allocator that requests large pages for large blocks, which cause fewer page faults and address
+/// look-ups. On systems without large pages it is an ordinary allocator. Blocks are aligned to cache lines.
 template <class T>
 class HugePages {
   public:

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "did you mean 'x'?" for a file that is not there; empty when nothing of that ending is near.
+/// "did you mean 'x'?" for a missing file. Empty when no file with the same ending has a similar name.
 std::string near_file(const fs::path& path) {
     std::error_code error;
     if (path.empty() || fs::exists(fs::symlink_status(path, error))) return {};

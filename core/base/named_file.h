@@ -1,4 +1,4 @@
-// Files that users name: what to say when they cannot be read.
+// Reports about files that users name and that cannot be read.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,14 @@
 
 namespace forage {
 
-/// Reports all that is wrong with a file; for one that is not there, which file may have been meant.
+/// Reports all errors of a file. For a missing file, the hint is a file with a similar name.
 void report(const FileError& error, Diagnostics& diagnostics);
 
-/// The text of the file at `path`, as read_file(); reports why there is none.
+/// The text of the file at `path`, as read_file() returns it. Reports an error and returns nothing when it
+/// cannot be read.
 std::optional<std::string> read_file(const std::string& path, std::size_t most, Diagnostics& diagnostics);
 
-/// Whether there is a file to read at `path`, which is named at `where`; reports why not.
+/// Whether the file at `path`, which is named at `where`, can be read. Reports an error when it cannot.
 bool find_file(const std::string& path, const Location& where, Diagnostics& diagnostics);
 
 }  // namespace forage

@@ -1,5 +1,4 @@
-// Blocks of Philox4x32-10 for the random streams, one or several at a time, and what is made of many. Not for
-// types.
+// Blocks of Philox4x32-10 for the random streams, one or several at a time. Types do not use this header.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +17,7 @@ namespace forage::philox {
 
 inline constexpr std::size_t lanes = 8;
 
-/// What the blocks of one draw have in common.
+/// The values that all blocks of one draw share.
 struct Draw {
     std::uint32_t key[2], cycle[2], draw;
 };
@@ -29,18 +28,18 @@ inline Draw draw_of(std::uint64_t key, std::uint64_t cycle, std::uint32_t draw) 
             draw};
 }
 
-/// Ways to compute. All give the same numbers.
+/// Implementations for different processors. All give the same numbers.
 enum class Way { one_by_one, avx2, avx512 };
-/// The fastest that this processor can go.
+/// The fastest implementation that this processor supports.
 Way fastest_way();
 
-/// RandomStream::bits() for any draw, from number `first` on, which is even.
+/// RandomStream::bits() for any draw, from number `first` on, which must be even.
 void bits(Way way, const Draw& draw, std::span<std::uint64_t> out, std::size_t first = 0);
 /// RandomStream::events().
 void events(Way way, const Draw& draw, double probability, std::span<double> out, double value,
             std::size_t first);
 
-/// `stream` tells apart uses of one draw.
+/// One block. `stream` separates different uses of one draw.
 inline r123::Philox4x32::ctr_type block(const Draw& d, std::uint32_t index, std::uint32_t stream) {
     return r123::Philox4x32{}({{index, d.cycle[0], d.cycle[1], d.draw | stream}}, {{d.key[0], d.key[1]}});
 }
@@ -49,11 +48,12 @@ inline r123::Philox4x32::ctr_type block(const Draw& d, std::uint32_t index, std:
 
 inline constexpr std::uint32_t multipliers[] = {0xd2511f53u, 0xcd9e8d57u};
 
-/// What the rounds of many blocks have in common. Their counters differ in the first word, so that half of
-/// the first round and the other half of the second one are the same for all: these are done here, once.
+/// The values that the rounds of many blocks share. Their counters differ only in the first word, so half of
+/// the first round and the other half of the second round are the same for all blocks and are computed once,
+/// here.
 struct Rounds {
-    static constexpr int left = 8;               ///< after the first two
-    alignas(32) std::uint64_t keys[left][2][4];  ///< each of them four times, as wide as they are read
+    static constexpr int left = 8;               ///< number of rounds after the first two
+    alignas(32) std::uint64_t keys[left][2][4];  ///< each key four times, as vectors read them
     std::uint64_t second, third[2], fourth;
 
     Rounds(const Draw& d, std::uint32_t stream) {
@@ -75,9 +75,9 @@ struct Rounds {
 
 FORAGE_AVX2 inline __m256i all(std::uint64_t v) { return _mm256_set1_epi64x(static_cast<long long>(v)); }
 
-/// The low half of lane l of words[i][j] is word j of block `first` + 4 i + l; the high half is anything: a
-/// product of low halves then needs no blending. Rounds wait for each other, so several are computed side by
-/// side.
+/// The low half of lane l of words[i][j] is word j of block `first` + 4 i + l. The high half is undefined, so
+/// that a product of low halves needs no blending. Each round depends on the one before, so several blocks
+/// are computed side by side.
 template <int many>
 FORAGE_AVX2 inline void blocks(const Rounds& rounds, std::uint32_t first, __m256i (&words)[many][4]) {
     const __m256i m0 = all(multipliers[0]), m1 = all(multipliers[1]);
@@ -105,8 +105,8 @@ FORAGE_AVX2 inline void blocks(const Rounds& rounds, std::uint32_t first, __m256
     }
 }
 
-// The forms with a mask, of all lanes: GCC 12 warns of what the plain ones leave undefined. No mask is left
-// in the code.
+// The intrinsics with a mask of all lanes, because GCC 12 warns about undefined values in those without. The
+// generated code has no mask.
 inline constexpr unsigned char all_lanes = 0xff;
 FORAGE_AVX512 inline __m512i wide(std::uint64_t v) { return _mm512_set1_epi64(static_cast<long long>(v)); }
 FORAGE_AVX512 inline __m512i upper(__m512i v) { return _mm512_maskz_srli_epi64(all_lanes, v, 32); }
@@ -114,10 +114,10 @@ FORAGE_AVX512 inline __m512i product(__m512i a, std::uint32_t factor) {
     return _mm512_maskz_mul_epu32(all_lanes, a, wide(factor));
 }
 
-/// The same, eight lanes wide.
+/// The same with eight lanes.
 template <int many>
 FORAGE_AVX512 inline void blocks(const Rounds& rounds, std::uint32_t first, __m512i (&words)[many][4]) {
-    constexpr int exclusive_or = 0x96;  // of all three
+    constexpr int exclusive_or = 0x96;  // of three operands
     for (int i = 0; i < many; ++i) {
         const __m512i index = _mm512_add_epi64(wide(first + 8u * static_cast<std::uint32_t>(i)),
                                                _mm512_setr_epi64(0, 1, 2, 3, 4, 5, 6, 7));

@@ -24,14 +24,14 @@ std::uint64_t fnv1a(std::string_view text) {
 
 using philox::Draw;
 
-/// Two 64-bit words: numbers 2*pair and 2*pair+1.
+/// Two 64-bit words, with the numbers 2*pair and 2*pair+1.
 std::pair<std::uint64_t, std::uint64_t> words(const Draw& d, std::uint32_t pair) {
     const auto r = philox::block(d, pair, 0);
     return {std::uint64_t{r[0]} << 32 | r[1], std::uint64_t{r[2]} << 32 | r[3]};
 }
 
 #ifdef FORAGE_AVX2
-/// As many words from pair `first` on as come in sixteens; returns how many.
+/// Computes words from pair `first` on, in multiples of sixteen. Returns their number.
 FORAGE_AVX2 std::size_t words_by_lanes(const Draw& d, std::uint32_t first, std::uint64_t* out,
                                        std::size_t count) {
     const philox::Rounds rounds(d, 0);
@@ -53,7 +53,7 @@ FORAGE_AVX2 std::size_t words_by_lanes(const Draw& d, std::uint32_t first, std::
     return i;
 }
 
-/// The same.
+/// Does the same with AVX-512.
 FORAGE_AVX512 std::size_t words_by_wide_lanes(const Draw& d, std::uint32_t first, std::uint64_t* out,
                                               std::size_t count) {
     const __m512i low = _mm512_set1_epi64(0xffffffff);

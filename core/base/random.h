@@ -1,4 +1,4 @@
-// Random numbers that depend on nothing but what they are for.
+// Random numbers that depend only on their use.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +10,9 @@ namespace forage {
 
 /// A counter-based random stream (Philox4x32-10; Salmon et al., "Parallel random numbers: as easy as 1, 2,
 /// 3", SC 2011). A number is a function of (seed, item, stream, cycle, index, draw): it does not depend on
-/// what was drawn before, on the number of threads, or on other items of the system. `draw` tells apart
-/// several numbers for one index in one cycle; it is below 2^30. normal() and bits() are made of
-/// uniform()'s draw 0: a stream is asked for only one of these in a cycle.
+/// what was drawn before, on the number of threads, or on other items of the system. `draw` separates
+/// several numbers for one index in one cycle; it is below 2^30. normal() and bits() use the same blocks as
+/// draw 0 of uniform(), so a stream must provide only one of these three in a cycle.
 class RandomStream {
   public:
     RandomStream() = default;
@@ -24,15 +24,16 @@ class RandomStream {
     /// out[i] = uniform(cycle, first + i, draw), faster. `first` is a multiple of `grain`.
     void uniform(std::uint64_t cycle, std::span<double> out, std::uint32_t draw = 0,
                  std::size_t first = 0) const;
-    /// out[i] = `value` with this probability (exact to 53 bits; NaN: never), else 0: many times faster than
-    /// comparing uniform numbers. They are independent of uniform()'s. Of the events of a whole column those
-    /// from `first` on, a multiple of `grain`.
+    /// out[i] = `value` with this probability (exact to 53 bits; NaN: never), else 0. This is many times
+    /// faster than a comparison of uniform numbers, and independent of them. `out` is the part of a column
+    /// that begins at `first`, a multiple of `grain`.
     void events(std::uint64_t cycle, double probability, std::span<double> out, double value = 1,
                 std::uint32_t draw = 0, std::size_t first = 0) const;
-    static constexpr std::size_t grain = 64;  ///< a column of numbers may be made in parts of so many
+    /// A column may be computed in parts whose sizes are multiples of this.
+    static constexpr std::size_t grain = 64;
     /// Standard normal numbers (Box-Muller on uniforms), mean 0, variance 1.
     void normal(std::uint64_t cycle, std::span<double> out) const;
-    /// Raw 64-bit words, uniform.
+    /// Uniform 64-bit words.
     void bits(std::uint64_t cycle, std::span<std::uint64_t> out) const;
 
   private:

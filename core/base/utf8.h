@@ -1,4 +1,4 @@
-// UTF-8, as far as reading and showing files needs it.
+// UTF-8 characters.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace forage {
 
-/// Length of the UTF-8 character at the front of `text`, 0 when there is none (RFC 3629).
+/// The length of the UTF-8 character at the beginning of `text`, in bytes; 0 when there is none (RFC 3629).
 inline std::size_t utf8_length(std::string_view text) {
     const auto byte = [&](std::size_t i) {
         return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;

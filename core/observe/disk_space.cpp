@@ -16,7 +16,7 @@ DiskSpace::DiskSpace(const std::string& path) : file_(open(path.c_str(), O_WRONL
 DiskSpace::~DiskSpace() {
     if (file_ < 0) return;
     struct stat now {};
-    // What lies behind the end is given back, also when that stays where it is.
+    // Releases the space after the end of the file, also when the end does not change.
     if (fstat(file_, &now) != 0 || ftruncate(file_, now.st_size) != 0) errno = 0;
     close(file_);
 }

@@ -1,4 +1,4 @@
-// Space on the disk for what a library is about to write, which cannot be stopped in the middle.
+// Disk space that is reserved before a library writes.
 #pragma once
 
 #include <cstdint>
@@ -6,18 +6,18 @@
 
 namespace forage::observe {
 
-/// Space that is set aside behind the end of a file: its size and content stay as they are. A format that
-/// changes a file in several places, such as HDF5, is damaged when the disk runs full between two of them; so
-/// space is asked for before. File systems that set nothing aside are trusted.
+/// Reserves space after the end of a file, whose size and content do not change. A format that changes a file
+/// in several places, such as HDF5, would be damaged if the disk ran full between two of them, so space is
+/// reserved before. On file systems that cannot reserve space it has no effect.
 class DiskSpace {
   public:
     explicit DiskSpace(const std::string& path);
     DiskSpace(const DiskSpace&) = delete;
     DiskSpace& operator=(const DiskSpace&) = delete;
-    ~DiskSpace();  ///< gives back what was not used
+    ~DiskSpace();  ///< releases the unused space
 
-    /// Sets aside `bytes` behind the end of the file, as it is now. Throws std::runtime_error with the reason
-    /// when there is no space for them.
+    /// Reserves `bytes` after the current end of the file. Throws std::runtime_error with the reason when
+    /// there is not enough space.
     void ahead(std::uint64_t bytes);
 
   private:

@@ -17,9 +17,9 @@
 namespace forage::observe {
 namespace {
 
-constexpr std::size_t block = 1 << 16;  ///< bytes of rows that are written at once
+constexpr std::size_t block = 1 << 16;  ///< bytes of rows that are written together
 constexpr std::uint64_t index_space =
-    1 << 18;  ///< bytes: what HDF5 writes beside the rows, at most, until it is closed
+    1 << 18;  ///< bytes that HDF5 writes at most in addition to the rows, until the file is closed
 
 void check(herr_t status, const std::string& what) {
     if (status < 0) throw std::runtime_error(fmt::format("HDF5: cannot {}", what));
@@ -51,7 +51,7 @@ std::string place_of(const Recorded& what) {
     return "/" + out;
 }
 
-/// The groups on the way to `place`, without times: the same run gives the same bytes.
+/// Creates the groups above `place`, without times, so that the same run gives the same bytes.
 void add_groups(hid_t file, const std::string& place) {
     const Hdf5Handle options(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, "make a list");
     H5Pset_obj_track_times(options, false);
@@ -144,7 +144,7 @@ class Hdf5File final : public RowFile {
                           numbers.begin() + static_cast<std::ptrdiff_t>(s.size));
             numbers = numbers.subspan(s.size);
         }
-        // With the end of a chunk: then chunks lie in the same order in the file whenever else it is flushed.
+        // At the end of a chunk, so that the order of chunks in the file does not depend on other flushes.
         if (++rows_ % chunk_ == 0) flush();
     }
 
@@ -153,7 +153,7 @@ class Hdf5File final : public RowFile {
         try {
             reserve(cycles_.size());
             for (auto& s : sets_) s.set.append(s.rows.data(), cycles_.size()), s.rows.clear();
-            cycle_->append(cycles_.data(), cycles_.size());  // last: the rows it counts are there
+            cycle_->append(cycles_.data(), cycles_.size());  // last, when the rows that it counts are written
             cycles_.clear();
         } catch (const std::exception& e) {
             end();
@@ -193,7 +193,7 @@ class Hdf5File final : public RowFile {
         for (unsigned d = 0; d <= row.size(); ++d) H5DSset_label(set, d, dimensions[d]);
     }
 
-    /// Rows are written chunk by chunk. What comes with them, and with closing the file, has its space, too.
+    /// The space for the rows of a chunk, the data that HDF5 adds, and closing the file.
     void reserve(std::size_t rows) {
         std::uint64_t row = 1;
         for (const auto& s : sets_) row += s.size;
@@ -214,11 +214,11 @@ class Hdf5File final : public RowFile {
     std::optional<Growing> cycle_;
     std::vector<Set> sets_;
     std::vector<std::uint64_t> cycles_;
-    std::size_t chunk_ = 1;  ///< rows of a chunk, in all data sets
+    std::size_t chunk_ = 1;  ///< number of rows of a chunk, in all data sets
     std::uint64_t rows_ = 0;
 };
 
-/// The first `count` rows of the file at `from`, which holds what `header` says.
+/// Copies the first `count` rows of the file at `from`, which has the sources of `header`.
 void copy_rows(const std::string& from, const RowFileHeader& header, std::uint64_t count, RowFile& to) {
     const auto recordings = open_hdf5_recording(from);
     std::vector<Recording*> sources;
@@ -250,7 +250,7 @@ std::unique_ptr<RowFile> open_hdf5_file(const std::string& path, const RowFileHe
     const std::string again = path + ".again";
     auto file = std::make_unique<Hdf5File>(again, header);
     copy_rows(path, header, go_on->rows, *file);
-    file->flush();  // a checkpoint counts on these rows
+    file->flush();  // a checkpoint refers to these rows
     const int written = open(again.c_str(), O_RDONLY | O_CLOEXEC);
     if (written < 0 || fsync(written) != 0 || close(written) != 0)
         throw std::runtime_error(fmt::format("cannot write '{}': {}", again, std::strerror(errno)));

@@ -1,4 +1,4 @@
-// HDF5's identifiers, closed when they go.
+// Owning handles of HDF5's identifiers.
 #pragma once
 
 #include <stdexcept>
@@ -14,7 +14,7 @@ class Hdf5Handle {
   public:
     using Close = herr_t (*)(hid_t);
     Hdf5Handle() = default;
-    /// Throws std::runtime_error when `id` is none; `what` was asked for.
+    /// Throws std::runtime_error when `id` is invalid; `what` names the action that failed.
     Hdf5Handle(hid_t id, Close closer, const std::string& what) : id_(id), close_(closer) {
         if (id < 0) throw std::runtime_error(fmt::format("HDF5: cannot {}", what));
     }
@@ -36,8 +36,8 @@ class Hdf5Handle {
     Close close_ = nullptr;
 };
 
-/// Errors are told by us, not printed by the library; and at the program's end it leaves a file alone that
-/// could not be written, instead of trying again and falling over.
+/// Stops HDF5 from printing errors, which Forage reports itself, and from writing failed files again at the
+/// end of the program, which would crash.
 inline void quiet_hdf5() {
     H5dont_atexit();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

@@ -36,7 +36,7 @@ std::vector<hsize_t> shape_of(hid_t set) {
     return out;
 }
 
-/// Rows [first, first + count) of a data set.
+/// Reads the rows [first, first + count) of a data set.
 void read_rows(hid_t set, hid_t type, const std::vector<hsize_t>& shape, hsize_t first, hsize_t count,
                void* out) {
     std::vector<hsize_t> start(shape.size(), 0), extent = shape;
@@ -106,7 +106,7 @@ class Hdf5Recording final : public Recording {
     std::vector<double> numbers_;
 };
 
-/// Notes the data sets of a file, except those of cycles. The links of a file are visited instead of its
+/// Collects the data sets of a file, except those of cycles. The links of a file are visited instead of its
 /// objects because this function has the same form in HDF5 1.10 and in later versions.
 herr_t note_set(hid_t file, const char* name, const H5L_info_t* link, void* out) {
     if (link->type != H5L_TYPE_HARD || std::string_view(name) == "cycle") return 0;
@@ -122,7 +122,8 @@ herr_t note_set(hid_t file, const char* name, const H5L_info_t* link, void* out)
 std::vector<std::unique_ptr<Recording>> open_hdf5_recording(const std::string& path) try {
     quiet_hdf5();
     hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    if (id < 0) id = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT);  // left behind
+    if (id < 0)
+        id = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT);  // of a killed run
     const auto file = std::make_shared<Hdf5Handle>(id, H5Fclose, "read it as HDF5");
     std::vector<std::string> places;
     H5Lvisit(*file, H5_INDEX_NAME, H5_ITER_NATIVE, note_set, &places);

@@ -1,4 +1,4 @@
-// Reads what hdf5_file.h wrote.
+// Reads the files that hdf5_file.h writes.
 #pragma once
 
 #include "core/observe/recording.h"

@@ -18,7 +18,7 @@ NpyFile::NpyFile(const std::string& path, const Recorded& what, const std::optio
 }
 
 std::string NpyFile::head(std::uint64_t rows) const {
-    // The same length for any number of rows: it is written over and over.
+    // The header has the same length for any number of rows, as it is overwritten.
     const std::string count = fmt::format("({},)", rows);
     std::string text = fmt::format("{{'descr': {}, 'fortran_order': False, 'shape': {}{:{}}, }}", type_,
                                    count, "", std::max<int>(0, 24 - static_cast<int>(count.size())));

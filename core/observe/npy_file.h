@@ -5,9 +5,9 @@
 
 namespace forage::observe {
 
-/// A .npy file (NumPy's NEP 1, version 1.0) with one record per row: `cycle` (uint64) and, named after the
-/// state, the numbers (float64, of the shape rows x columns of the group; one number for a mean). The header
-/// counts the rows that are on disk, so that the file can be loaded at any time, also after a kill.
+/// A .npy file (NumPy's NEP 1, version 1.0) with one record per row: `cycle` (uint64), and the numbers in a
+/// field with the name of the state (float64, of the shape rows x columns of the group; one number for a
+/// mean). The header counts the rows on disk, so the file can be loaded at any time, also after a kill.
 class NpyFile final : public RowFile {
   public:
     NpyFile(const std::string& path, const Recorded& what, const std::optional<RowFilePosition>& go_on);

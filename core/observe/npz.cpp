@@ -13,8 +13,8 @@ namespace forage::observe {
 
 void join_npz(const std::string& path, const std::vector<std::pair<std::string, std::string>>& arrays) {
     namespace fs = std::filesystem;
-    // libzip writes under a name of its own choice beside the archive until the archive is whole. A folder
-    // for both leaves nothing else to look for when a program was killed meanwhile.
+    // libzip writes a temporary file beside the archive until the archive is complete. A folder for both can
+    // be removed as a whole when the program was killed.
     const std::string folder = path + ".part", growing = folder + "/archive.npz";
     std::error_code ignored;
     fs::remove_all(folder, ignored);

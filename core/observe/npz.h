@@ -7,11 +7,11 @@
 
 namespace forage::observe {
 
-/// Puts .npy files, each with the name it gets, into one .npz file, as they are. Throws std::runtime_error
-/// when one cannot be read or the archive cannot be written.
+/// Copies .npy files into one .npz file. `arrays` are pairs of a name in the archive and a file. Throws
+/// std::runtime_error when a file cannot be read or the archive cannot be written.
 void join_npz(const std::string& path, const std::vector<std::pair<std::string, std::string>>& arrays);
 
-/// Takes the array `name` out of such a file again, as a .npy file. Throws std::runtime_error.
+/// Extracts the array `name` from an .npz file as a .npy file. Throws std::runtime_error.
 void extract_npz(const std::string& path, const std::string& name, const std::string& npy);
 
 }  // namespace forage::observe

@@ -1,4 +1,4 @@
-// Writes what was selected to a file while the system runs.
+// Records sources into a file while the system runs.
 #pragma once
 
 #include <chrono>
@@ -11,27 +11,28 @@
 
 namespace forage::observe {
 
-/// Which cycles give a row.
+/// The cycles that are recorded.
 struct Sampling {
-    std::uint64_t every = 1;             ///< each so many cycles
+    std::uint64_t every = 1;             ///< cycles between two rows
     std::uint64_t from = 0;              ///< the first cycle
-    std::optional<std::uint64_t> until;  ///< the last cycle; empty: the run's last
-    bool mean = false;  ///< a row is the mean of `every` cycles, from its own on, instead of one cycle
+    std::optional<std::uint64_t> until;  ///< the last cycle; empty: the last one of the run
+    bool mean = false;  ///< whether a row is the mean of `every` cycles, beginning with its own
 };
 
-/// Takes samples and hands them to a file. Rows reach the disk in blocks, at least once a second.
+/// Samples sources and adds the rows to a file. Rows are written to the disk in blocks, at least once a
+/// second.
 class Recorder {
   public:
     Recorder(std::unique_ptr<RowFile> file, std::vector<Source> sources, Sampling sampling);
 
-    /// Adds the row of the cycle that was just completed, if it gives one. Throws std::runtime_error when it
-    /// cannot be written; what was written before stays.
+    /// Adds the row of the last completed cycle, if that cycle is recorded. Throws std::runtime_error when
+    /// the row cannot be written; earlier rows stay.
     void record(const engine::Simulation& simulation);
-    /// Puts all rows on disk. Throws std::runtime_error.
+    /// Writes all rows to the disk. Throws std::runtime_error.
     RowFilePosition flush();
-    /// The beginning of a mean that is not complete.
+    /// Reads or writes the incomplete mean.
     void checkpoint(Archive& archive) { archive(sums_, summed_); }
-    /// Writes what is still held back. Throws std::runtime_error when that fails.
+    /// Writes the remaining rows and closes the file. Throws std::runtime_error.
     void close() { file_->close(); }
 
   private:
@@ -42,7 +43,7 @@ class Recorder {
     std::vector<Source> sources_;
     Sampling sampling_;
     std::vector<double> numbers_, sums_;
-    std::uint64_t summed_ = 0;  ///< cycles in sums_
+    std::uint64_t summed_ = 0;  ///< number of cycles in sums_
     std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
 };
 

@@ -49,7 +49,7 @@ BlockFile::BlockFile(std::string path, std::optional<std::uint64_t> go_on) : pat
 void BlockFile::flush(std::string_view head) {
     if (!open()) return;
     out_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
-    out_.flush();  // the rows are there before the head counts them
+    out_.flush();  // the rows are written before the head counts them
     if (!out_) fail();
     if (!head.empty()) {
         out_.seekp(0);
@@ -72,7 +72,7 @@ void BlockFile::fail() {
     const std::string reason = std::strerror(errno);
     out_.close();
     std::error_code ignored;
-    std::filesystem::resize_file(path_, written_, ignored);  // half a row may have gone out
+    std::filesystem::resize_file(path_, written_, ignored);  // a part of a row may have been written
     throw std::runtime_error(fmt::format("cannot write '{}': {}", path_, reason));
 }
 

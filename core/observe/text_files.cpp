@@ -43,7 +43,7 @@ SamplerFile::SamplerFile(const std::string& path, const RowFileHeader& header,
             const bool range = s.name.ends_with(')');
             out += fmt::format("{}_{}_{};", s.group_id, s.state, range ? "RangeAverage" : "GroupAverage");
         }
-        // Cells are numbered by their place in the group, from 0, row by row.
+        // Cells are numbered by their position in the group, from 0, row by row.
         for (std::size_t i = 0; !s.mean && i < s.size(); ++i) {
             const int n = static_cast<int>(i), width = s.group_width;
             const int x = s.cells.x - 1 + n % s.cells.width, y = s.cells.y - 1 + n / s.cells.width;

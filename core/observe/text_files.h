@@ -1,12 +1,13 @@
-// Recordings that people and spreadsheets read.
+// Recordings as text.
 #pragma once
 
 #include "core/observe/row_file.h"
 
 namespace forage::observe {
 
-/// `cycle,x1_y1,x2_y1,...`: column and row of a cell in its group, from 1 (of a sparse group
-/// `cell1,cell2,...`, in order). Numbers are the shortest text that reads back as the same double.
+/// A CSV file with the header `cycle,x1_y1,x2_y1,...`: column and row of each cell in its group, from 1 (for
+/// a sparse group `cell1,cell2,...`, in order). Each number is the shortest text that is read back as the
+/// same double.
 class CsvFile final : public RowFile {
   public:
     CsvFile(const std::string& path, const Recorded& what, const std::optional<RowFilePosition>& go_on);
@@ -19,9 +20,9 @@ class CsvFile final : public RowFile {
     BlockFile file_;
 };
 
-/// What the original's data sampler writes: a line `# "Group"=<id>` per source, the header
-/// `cycle;<id>_<state>_0;...`, then rows `0;8.1;7.9;` with six significant digits (format.md, section 5). As
-/// there, the first column is the number of the sample times the interval.
+/// A file in the format of the original's data sampler: a line `# "Group"=<id>` per source, the header
+/// `cycle;<id>_<state>_0;...`, then rows `0;8.1;7.9;` with six significant digits. As in the original, the
+/// first column is the number of the sample times the interval.
 class SamplerFile final : public RowFile {
   public:
     SamplerFile(const std::string& path, const RowFileHeader& header,
