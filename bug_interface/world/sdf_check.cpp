@@ -1,13 +1,13 @@
 #include "bug_interface/world/sdf_check.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "bug_interface/world/sdf_schema.h"
 #include "bug_interface/world/sdf_values.h"
+#include "core/base/number.h"
 #include "core/base/text_file.h"
 
 namespace forage::bug {
@@ -136,15 +136,12 @@ class Check {
     }
 
     void wrong_word(const xml::Element& e, std::string_view word, Content content) {
-        double value = 0;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
         const Location where = place_of(word, e);
-        if (error == std::errc::result_out_of_range)
-            diagnostics_.error(where,
-                               fmt::format("'{}' is beyond all numbers that can be stored", escaped(word)));
-        else if (end != word.data())  // "1,5", "3m"
-            diagnostics_.error(where, fmt::format("'{}' is not a number", escaped(word)),
-                               "numbers have a point, not a comma, and no unit");
+        std::string_view rest = word;
+        if (out_of_range(word))
+            diagnostics_.error(where, no_number(word));
+        else if (take_number<double>(rest))  // "1,5", "3m"
+            diagnostics_.error(where, no_number(word), "numbers have a point, not a comma, and no unit");
         else
             diagnostics_.error(where, fmt::format("<{}> cannot be '{}'", e.name, escaped(e.text)),
                                expected(e, content));

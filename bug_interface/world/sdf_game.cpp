@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include <fmt/format.h>
 
 #include "bug_interface/world/sdf_elements.h"
+#include "bug_interface/world/sdf_values.h"
 
 namespace forage::bug {
 namespace {
@@ -19,13 +19,12 @@ GameRules read_game(SdfSource& in, const xml::Element& e) {
     const std::vector<std::string> known = {"duration", "stale_after", "dissolves_after", "points", "penalty",
                                             "most",     "site"};
     for (const auto& [name, text, place, text_place, attributes, children] : e.children) {
-        std::istringstream words(text);
-        std::vector<double> v;
-        for (double number; words >> number;) v.push_back(number);
+        const auto [v, wrong] = numbers(text);
+        const bool finite = std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
         const std::size_t wanted = name == "site" ? 3 : 1;
         if (std::find(known.begin(), known.end(), name) == known.end()) {
             in.diagnostics.error(place, fmt::format("<{}> is no rule of a game", name), suggest(name, known));
-        } else if (v.size() != wanted || !words.eof()) {
+        } else if (v.size() != wanted || !wrong.empty() || !finite) {
             in.diagnostics.error(
                 place, fmt::format("<{}> cannot be '{}'", name, text),
                 wanted == 3 ? "a site is x y chance: m, m, and how likely a resource appears in a second"

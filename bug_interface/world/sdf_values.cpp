@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <string>
+
+#include "core/base/number.h"
 
 namespace forage::bug {
 namespace {
@@ -37,14 +38,13 @@ NumberList numbers(std::string_view text) {
          from = text.find_first_not_of(blanks)) {
         text.remove_prefix(from);
         const std::string_view word = text.substr(0, text.find_first_of(blanks));
-        const char* const begin = word.data() + (word.size() > 1 && word[0] == '+' && word[1] != '-');
-        double value = 0;
-        const auto [end, error] = std::from_chars(begin, word.data() + word.size(), value);
-        if (error != std::errc{} || end != word.data() + word.size()) {
+        std::string_view rest = word;
+        const auto value = take_number<double>(rest);  // may be infinite
+        if (!value || !rest.empty()) {
             out.wrong = word;
             break;
         }
-        out.values.push_back(value);
+        out.values.push_back(*value);
         text.remove_prefix(word.size());
     }
     return out;
@@ -59,11 +59,9 @@ std::optional<bool> truth(std::string_view text) {
 }
 
 std::optional<int> sdf_version(std::string_view text) {
-    int minor = 0;
     if (!text.starts_with("1.")) return {};
-    const auto [end, error] = std::from_chars(text.data() + 2, text.data() + text.size(), minor);
-    if (error != std::errc{} || end != text.data() + text.size() || minor < 0) return {};
-    return minor;
+    const auto minor = parse_number<int>(text.substr(2));
+    return minor && *minor >= 0 ? minor : std::nullopt;
 }
 
 bool is_quaternion(const xml::Element& pose) {

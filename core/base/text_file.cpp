@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -130,6 +129,14 @@ std::optional<Diagnostic> why_unreadable(const std::string& path) {
     return std::nullopt;
 }
 
+std::ifstream open_file(const std::string& path) {
+    auto error = why_unreadable(path);
+    if (std::error_code ignored; !error && !std::filesystem::is_regular_file(path, ignored))
+        error = error_at(0, 0, "this is a pipe or a device, not a file");
+    if (error) throw FileError(path, {}, {std::move(*error)});
+    return std::ifstream(path, std::ios::binary);
+}
+
 std::optional<Diagnostic> not_lines(std::string_view text, std::string_view wanted) {
     using namespace std::string_view_literals;
     static constexpr std::array<std::pair<std::string_view, std::string_view>, 7> known = {
@@ -155,16 +162,6 @@ std::optional<Diagnostic> not_lines(std::string_view text, std::string_view want
         return error_in(text, cr, "a carriage return that ends no line",
                         "save the file with the line ends of Unix or Windows");
     return std::nullopt;
-}
-
-std::string no_number(std::string_view word) {
-    if (word.empty()) return "there is no number here";
-    double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    const bool all = end == word.data() + word.size();
-    if (all && error == std::errc::result_out_of_range)
-        return fmt::format("'{}' is beyond all numbers that can be stored", escaped(word));
-    return fmt::format("'{}' is not a {}number", escaped(word), all ? "finite " : "");
 }
 
 }  // namespace forage

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -41,11 +42,12 @@ std::string escaped(std::string_view piece);
 /// is not looked at.
 std::optional<Diagnostic> why_unreadable(const std::string& path);
 
+/// A stream of the bytes of a file of any size. Throws FileError when it cannot be read or is no regular
+/// file.
+std::ifstream open_file(const std::string& path);
+
 /// What shows that a file of lines is no such text: the beginning of a file of another kind, a NUL byte, line
 /// ends that no program writes any more. `wanted`: "this is no table".
 std::optional<Diagnostic> not_lines(std::string_view text, std::string_view wanted);
-
-/// What is wrong with a word that stands where a finite number is wanted.
-std::string no_number(std::string_view word);
 
 }  // namespace forage

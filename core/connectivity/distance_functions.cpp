@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/base/number.h"
+
 namespace forage::connectivity {
 namespace {
 
@@ -45,9 +47,7 @@ void evaluate(const model::DistanceFunction& function, std::span<const double> d
 double six_digits(double value) {
     char buffer[32];
     const auto written = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 6);
-    double out = value;
-    std::from_chars(buffer, written.ptr, out);
-    return out;
+    return parse_number<double>({buffer, written.ptr}).value_or(value);
 }
 
 Attenuation attenuation(const model::DistanceFunction& function, std::span<const double> distances,

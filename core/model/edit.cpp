@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/model/build.h"
+#include "core/model/expression.h"
 #include "core/model/lookup.h"
 
 namespace forage::model {
@@ -73,53 +74,52 @@ std::string resolved(const std::string& path, const Location& at) {
 std::optional<Assignment> parse_assignment(const System& system, const Registry& registry,
                                            std::string_view text, std::string_view what,
                                            Diagnostics& diagnostics, Location at) {
-    const auto problem = [&](std::string message, std::string hint) {
-        diagnostics.error(at, fmt::format("{} '{}': {}", what, text, message), std::move(hint));
+    const expression::Context context{text, what, diagnostics, at};
+    const auto said = context.parsed(&expression::parse_assignment);
+    if (!said) return std::nullopt;
+    const auto& [where, parameter, value] = *said;
+    const auto problem = [&](const expression::Piece& piece, std::string message, std::string hint) {
+        context.error(piece.at, std::move(message), std::move(hint));
         return std::nullopt;
     };
-    const auto equals = text.find('=');
-    const auto dot = text.rfind('.', equals);
-    if (equals == std::string_view::npos || dot == std::string_view::npos || dot == 0)
-        return problem(
-            "not an assignment",
-            "write Process/Group.parameter=value, for example 'Reactive Layer/Approach.threshold=0.3'");
-    const std::string_view where = trim(text.substr(0, dot));
-    const std::string name(trim(text.substr(dot + 1, equals - dot - 1)));
-    const std::string value(trim(text.substr(equals + 1)));
-
-    const auto owners = find_owners(system, registry, where);
-    if (owners.empty()) return problem(fmt::format("there is no '{}'", where), suggest_owner(where, system));
+    const auto owners = find_owners(system, registry, where.text);
+    if (owners.empty())
+        return problem(where, fmt::format("there is no '{}'", where.text), suggest_owner(where.text, system));
     if (owners.size() > 1)
-        return problem(fmt::format("'{}' names {} things", where, owners.size()), which(owners, where));
+        return problem(where, fmt::format("'{}' names {} things", where.text, owners.size()),
+                       which(owners, where.text));
     const Owner& owner = owners.front();
 
     Assignment out{owner.kind, owner.id, nullptr, {}, std::string(text), at};
     const bool is_process = owner.kind == Assignment::Owner::process;
-    if (is_process && name == "enableModule") {
-        const auto flag = parse_parameter(ParameterKind::boolean, value);
-        if (!flag) return problem(fmt::format("'{}' is not true or false", value), "");
+    if (is_process && parameter.text == "enableModule") {
+        const auto flag = parse_parameter(ParameterKind::boolean, value.text);
+        if (!flag) return problem(value, fmt::format("'{}' is not true or false", value.text), "");
         out.value = *flag;
         return out;
     }
     if (!owner.parameters)
-        return problem(owner.use ? fmt::format("the type '{}' is not known", owner.use->type)
+        return problem(where,
+                       owner.use ? fmt::format("the type '{}' is not known", owner.use->type)
                                  : "this process has no module",
                        "");
     const auto it = std::find_if(owner.parameters->begin(), owner.parameters->end(),
-                                 [&](const auto& p) { return p.name == name; });
+                                 [&](const auto& p) { return p.name == parameter.text; });
     if (it == owner.parameters->end()) {
         std::vector<std::string> known;
         for (const auto& p : *owner.parameters) known.push_back(p.name);
         if (is_process) known.emplace_back("enableModule");
-        return problem(fmt::format("{} has no parameter '{}'", owner.use->type, name), suggest(name, known));
+        return problem(parameter, fmt::format("{} has no parameter '{}'", owner.use->type, parameter.text),
+                       suggest(parameter.text, known));
     }
-    const auto parsed = parse_parameter(it->kind, value);
-    if (!parsed) return problem(fmt::format("'{}' is not {}", value, describe(it->kind)), it->doc);
+    const auto parsed = parse_parameter(it->kind, value.text);
+    if (!parsed)
+        return problem(value, fmt::format("'{}' is not {}", value.text, describe(it->kind)), it->doc);
     if (outside(*parsed, it->range))
         diagnostics.warning(at, fmt::format("{} '{}': outside the usual range {} to {}", what, text,
                                             to_text(it->range->low), to_text(it->range->high)));
     out.parameter = &*it;
-    out.value = it->is_path ? ParameterValue(resolved(value, at)) : *parsed;
+    out.value = it->is_path ? ParameterValue(resolved(value.text, at)) : *parsed;
     return out;
 }
 

@@ -6,37 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/base/diagnostic.h"
+#include "core/model/expression.h"
 
 namespace forage::model {
-
-/// A condition, source or assignment as users write it, and where it is written.
-struct Expression {
-    std::string text;
-    Location at{};  ///< without a file: the command line
-    bool empty() const { return text.empty(); }
-};
-
-/// A change of a parameter while the system runs.
-struct ScheduledChange {
-    Expression when;    ///< a condition
-    Expression change;  ///< "WHERE.parameter=value"
-    std::string text() const { return when.text + ": " + change.text; }
-};
-
-/// Patterns that change the activity of a group while the system runs.
-struct ManipulationSpec {
-    enum class Mode { clamp, add, multiply };
-    Mode mode = Mode::clamp;
-    Expression group;                    ///< "Process/Group"
-    Expression cells;                    ///< one pattern, "(x,y)=value ..."; alternative to `patterns`
-    Expression patterns;                 ///< a file of patterns, relative to the working directory
-    std::uint64_t every = 1, step = 1;   ///< a pattern every `every` cycles; only every `step`-th pattern
-    std::optional<std::uint64_t> times;  ///< how often the list is played; empty: without end
-    bool backwards = false;
-    Expression from, until;  ///< conditions; empty: from the first cycle, until the last
-    std::string text;        ///< the whole text, as written on the command line
-};
 
 /// A number that is measured in every run.
 struct Measure {

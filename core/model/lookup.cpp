@@ -16,7 +16,7 @@ GroupIndex::Entry GroupIndex::find(std::string_view id) const {
 
 std::string_view trim(std::string_view text) {
     const auto first = text.find_first_not_of(" \t\r\n");
-    if (first == std::string_view::npos) return {};
+    if (first == std::string_view::npos) return text.substr(text.size());
     return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 

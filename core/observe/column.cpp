@@ -32,25 +32,44 @@ std::vector<int> groups_named(const engine::Layout& s, std::string_view path) {
 
 std::optional<ColumnRef> find_column(const engine::Layout& s, std::string_view text, std::string_view what,
                                      Diagnostics& diagnostics, Location at) {
+    return find_column(s, {std::string(text), 0}, {text, what, diagnostics, std::move(at)});
+}
+
+std::optional<ColumnRef> find_column(const engine::Layout& s, const expression::Piece& piece,
+                                     const expression::Context& context) {
+    const std::string_view text = piece.text;
     std::string_view path = text, state;
     auto found = groups_named(s, path);  // a name may contain ':'
     if (const auto colon = text.rfind(':'); found.empty() && colon != std::string_view::npos) {
         path = text.substr(0, colon);
-        state = text.substr(colon + 1);
+        state = model::trim(text.substr(colon + 1));
         found = groups_named(s, path);
     }
     if (found.size() != 1) {
+        if (const auto open = text.rfind('('); found.empty() && text.ends_with(')') && open != text.npos) {
+            // A name may hold parentheses. Here it is the rest that names a group.
+            const auto names_group = [&](std::string_view part) { return !groups_named(s, part).empty(); };
+            const auto before = text.substr(0, open), inside = text.substr(open + 1, text.size() - open - 2);
+            if (names_group(before) || names_group(before.substr(0, before.rfind(':')))) {
+                context.error(piece.at + open, fmt::format("'{}' names no cells", text.substr(open)),
+                              "cells are written (x,y) or (x1..x2,y1..y2)");
+                return std::nullopt;
+            }
+            if (names_group(inside) || names_group(inside.substr(0, inside.rfind(':')))) {
+                context.error(piece.at, fmt::format("'{}' is no function of cells here", before),
+                              "sources have mean(...), conditions also sum, min and max");
+                return std::nullopt;
+            }
+        }
         std::vector<std::string> names;
         if (found.empty())
             for (const auto& g : s.groups) names.push_back(g.path);
         for (const int g : found) names.push_back(s.groups[g].path);
-        diagnostics.error(
-            at,
-            fmt::format("{} '{}': {}", what, text,
-                        found.empty() ? fmt::format("there is no group '{}'", path)
-                                      : fmt::format("'{}' names {} groups", path, found.size())),
-            found.empty() ? model::suggest_group(path, names)
-                          : fmt::format("use one of '{}'", fmt::join(names, "', '")));
+        context.error(piece.at,
+                      found.empty() ? fmt::format("there is no group '{}'", path)
+                                    : fmt::format("'{}' names {} groups", path, found.size()),
+                      found.empty() ? model::suggest_group(path, names)
+                                    : fmt::format("use one of '{}'", fmt::join(names, "', '")));
         return std::nullopt;
     }
     const int group = found.front();
@@ -66,8 +85,8 @@ std::optional<ColumnRef> find_column(const engine::Layout& s, std::string_view t
         known.emplace_back(inputs[k]);
         if (inputs[k] == state) return ColumnRef{group, -1, static_cast<InputKind>(k), prefix + known.back()};
     }
-    diagnostics.error(at, fmt::format("{} '{}': {} has no state '{}'", what, text, type.name, state),
-                      suggest(state, known));
+    context.error(piece.at + static_cast<std::size_t>(state.data() - text.data()),
+                  fmt::format("{} has no state '{}'", type.name, state), suggest(state, known));
     return std::nullopt;
 }
 

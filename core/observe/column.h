@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/engine/simulation.h"
+#include "core/model/expression.h"
 
 namespace forage::observe {
 
@@ -22,6 +23,9 @@ struct ColumnRef {
 /// says where the text stands ("--record").
 std::optional<ColumnRef> find_column(const engine::Layout& layout, std::string_view text,
                                      std::string_view what, Diagnostics& diagnostics, Location at = {});
+/// The column that a piece of an expression names.
+std::optional<ColumnRef> find_column(const engine::Layout& layout, const expression::Piece& piece,
+                                     const expression::Context& context);
 
 /// Demands the column.
 inline void declare(const ColumnRef& c, engine::Demand& out) {

@@ -2,51 +2,78 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace forage::observe {
+namespace {
+
+std::optional<Quantity> resolve(const expression::Quantity& q, const engine::Layout& layout, bool trials,
+                                const expression::Context& context) {
+    Quantity out{q.kind, q.value, {}};
+    if (q.kind == Quantity::Kind::trial && !trials) {
+        context.error(q.at, "this run has no 'trial'",
+                      "trials are those of a robot that its world puts back to the start");
+        return std::nullopt;
+    }
+    if (!out.sees_cells()) return out;
+    expression::Source cells = q.source;
+    cells.mean = false;
+    auto source = find_source(layout, cells, context);
+    if (!source) return std::nullopt;
+    out.source = std::move(*source);
+    if (const std::size_t n = out.source.part.numbers.size(); q.kind == Quantity::Kind::cell && n != 1) {
+        const std::string& name = q.source.column.text;
+        context.error(q.at, fmt::format("'{}' has {} cells", cells.text(), n),
+                      fmt::format("name one, '{0}(1,1)', or write mean({0}) or max({0})", name));
+        return std::nullopt;
+    }
+    return out;
+}
+
+}  // namespace
 
 double Quantity::in(const engine::Simulation& simulation, const SimTime& now) const {
     switch (kind) {
-        case number:
+        case Kind::number:
             return value;
-        case cycle:
+        case Kind::cycle:
             return static_cast<double>(now.cycle);
-        case trial:
+        case Kind::trial:
             return now.trial;
-        case seconds:
+        case Kind::seconds:
             return now.seconds;
-        case cell:
-            return values(simulation, column)[index];
-        case mean:
-            return values(simulation, column).mean();
-        case sum:
-            return values(simulation, column).sum();
-        case min:
-            return values(simulation, column).minCoeff();
-        case max:
-            return values(simulation, column).maxCoeff();
+        default:
+            break;
     }
-    return 0;
-}
-
-void Quantity::declare(engine::Demand& out) const {
-    if (kind >= cell) observe::declare(column, out);
-}
-
-void Condition::declare(engine::Demand& out) const {
-    for (const Node& n : nodes_) n.left.declare(out), n.right.declare(out);
+    const ConstColumn all = values(simulation, source.column);
+    const auto& cells = source.part.numbers;
+    const bool whole = static_cast<Index>(cells.size()) == all.size();
+    double out = all[static_cast<Index>(cells.front())];
+    if (kind == Kind::mean || kind == Kind::sum) {
+        if (whole) return kind == Kind::mean ? all.mean() : all.sum();
+        for (std::size_t i = 1; i < cells.size(); ++i) out += all[static_cast<Index>(cells[i])];
+        return kind == Kind::mean ? out / static_cast<double>(cells.size()) : out;
+    }
+    if (whole && kind != Kind::cell) return kind == Kind::min ? all.minCoeff() : all.maxCoeff();
+    for (std::size_t i = 1; i < cells.size(); ++i) {
+        const double v = all[static_cast<Index>(cells[i])];
+        out = kind == Kind::min ? std::min(out, v) : std::max(out, v);
+    }
+    return out;
 }
 
 bool Condition::sees_cells() const {
-    return std::any_of(nodes_.begin(), nodes_.end(), [](const Node& n) {
-        return n.left.kind >= Quantity::cell || n.right.kind >= Quantity::cell;
-    });
+    return std::any_of(quantities_.begin(), quantities_.end(),
+                       [](const Quantity& q) { return q.sees_cells(); });
 }
 
-bool Condition::holds(std::size_t node, const engine::Simulation& simulation, const SimTime& now) const {
-    const Node& n = nodes_[node];
-    if (n.op == Operator::both) return holds(n.first, simulation, now) && holds(n.second, simulation, now);
-    if (n.op == Operator::either) return holds(n.first, simulation, now) || holds(n.second, simulation, now);
-    const double left = n.left.in(simulation, now), right = n.right.in(simulation, now);
+bool Condition::holds(const Node& n, const engine::Simulation& simulation, const SimTime& now) const {
+    using Operator = expression::Condition::Operator;
+    const auto part = [&](std::size_t i) { return holds(nodes_[i], simulation, now); };
+    if (n.op == Operator::both) return part(n.first) && part(n.second);
+    if (n.op == Operator::either) return part(n.first) || part(n.second);
+    const double left = quantities_[n.first].in(simulation, now),
+                 right = quantities_[n.second].in(simulation, now);
     switch (n.op) {
         case Operator::less:
             return left < right;
@@ -61,6 +88,26 @@ bool Condition::holds(std::size_t node, const engine::Simulation& simulation, co
         default:
             return left != right;
     }
+}
+
+std::optional<Condition> parse_condition(const engine::Layout& layout, bool trials, std::string_view text,
+                                         std::string_view what, Diagnostics& diagnostics, Location at) {
+    const expression::Context context{text, what, diagnostics, std::move(at)};
+    const auto parsed = context.parsed(&expression::parse_condition);
+    if (!parsed) return std::nullopt;
+    Condition out;
+    out.nodes_ = parsed->nodes;
+    for (const auto& q : parsed->quantities)
+        if (auto quantity = resolve(q, layout, trials, context))
+            out.quantities_.push_back(std::move(*quantity));
+    return out.quantities_.size() == parsed->quantities.size() ? std::optional(std::move(out)) : std::nullopt;
+}
+
+std::optional<Quantity> parse_quantity(const engine::Layout& layout, bool trials, std::string_view text,
+                                       std::string_view what, Diagnostics& diagnostics, Location at) {
+    const expression::Context context{text, what, diagnostics, std::move(at)};
+    const auto parsed = context.parsed(&expression::parse_quantity);
+    return parsed ? resolve(*parsed, layout, trials, context) : std::nullopt;
 }
 
 }  // namespace forage::observe

@@ -10,11 +10,25 @@ void Manipulation::before_cycle(RunView& run) {
 }
 
 void Manipulation::after_groups(RunView& run) {
-    if (!begun_ || over_ || ++waited_ < s_.every) return;
+    if (!begun_ || over_) return;
+    if (!s_.starts.empty()) {
+        const auto now = static_cast<std::int64_t>(run.time.cycle);
+        while (next_ < s_.starts.size() && s_.starts[next_] <= now) ++next_;
+        if (next_ > 0) apply(run.simulation, s_.patterns[next_ - 1]);
+        return;
+    }
+    if (++waited_ < s_.every) return;
     waited_ = 0;
-    const auto& pattern = s_.patterns[s_.backwards ? s_.patterns.size() - 1 - next_ : next_];
+    apply(run.simulation, s_.patterns[s_.backwards ? s_.patterns.size() - 1 - next_ : next_]);
+    next_ += s_.step;
+    if (next_ < s_.patterns.size()) return;
+    next_ = 0;
+    over_ = s_.times && ++played_ == *s_.times;
+}
+
+void Manipulation::apply(engine::Simulation& simulation, const std::vector<double>& pattern) const {
     const ConstColumn values(pattern.data(), static_cast<Index>(pattern.size()));
-    Column activity = run.simulation.output(s_.group);
+    Column activity = simulation.output(s_.group);
     switch (s_.mode) {
         case Mode::clamp:
             activity = values;
@@ -26,10 +40,6 @@ void Manipulation::after_groups(RunView& run) {
             activity *= values;
             break;
     }
-    next_ += s_.step;
-    if (next_ < s_.patterns.size()) return;
-    next_ = 0;
-    over_ = s_.times && ++played_ == *s_.times;
 }
 
 void Manipulation::declare(engine::Demand& out) const {

@@ -10,8 +10,8 @@
 
 namespace forage::observe {
 
-/// Applies a list of patterns to the activity of one group, right after the group's update: one pattern in
-/// every `every`-th cycle, and nothing in between.
+/// Applies a list of patterns to the activity of one group, right after the group's update: either one
+/// pattern in every `every`-th cycle and none in between, or each pattern from a cycle of its own on.
 class Manipulation final : public Observer {
   public:
     enum class Mode {
@@ -22,12 +22,16 @@ class Manipulation final : public Observer {
     struct Settings {
         int group = 0;
         Mode mode = Mode::clamp;
-        std::vector<std::vector<double>> patterns{};  ///< one value per cell each; at least one pattern
+        std::vector<std::vector<double>> patterns{};  ///< at least one; each has one value per cell
+        /// For each pattern the cycle from which it is applied, until the next one is; in ascending order,
+        /// and the last of several equal cycles counts. Empty: the patterns are played one after the other,
+        /// as the following members say.
+        std::vector<std::int64_t> starts{};
         std::uint64_t every = 1;                      ///< cycles from one pattern to the next
         std::uint64_t step = 1;                       ///< every `step`-th pattern of the list is used
-        std::optional<std::uint64_t> times{};         ///< how often the list is played; empty: for ever
+        std::optional<std::uint64_t> times{};         ///< how often the list is played; empty: without end
         bool backwards = false;                       ///< from the last pattern to the first
-        std::optional<Condition> from{}, until{};     ///< from the first cycle, and to the last one
+        std::optional<Condition> from{}, until{};     ///< empty: from the first cycle, until the last
     };
     explicit Manipulation(Settings settings);
 
@@ -38,10 +42,12 @@ class Manipulation final : public Observer {
     void checkpoint(Archive& archive) override { archive(begun_, over_, waited_, next_, played_); }
 
   private:
+    void apply(engine::Simulation& simulation, const std::vector<double>& pattern) const;
+
     Settings s_;
     bool begun_ = false, over_ = false;
     std::uint64_t waited_ = 0;  ///< cycles since the last pattern
-    std::size_t next_ = 0;      ///< place in the order of playback
+    std::size_t next_ = 0;      ///< place in the order of playback; how many patterns have begun to hold
     std::uint64_t played_ = 0;  ///< times that the list was played to its end
 };
 

@@ -1,182 +1,180 @@
 #include "core/observe/manipulation_spec.h"
 
 #include <algorithm>
-#include <stdexcept>
+#include <filesystem>
+#include <tuple>
 
 #include <fmt/format.h>
 
-#include "core/base/text_file.h"
-#include "core/model/lookup.h"
-#include "core/observe/cell.h"
+#include "core/base/drive_table.h"
+#include "core/base/named_file.h"
 #include "core/observe/pattern_file.h"
 
 namespace forage::observe {
 namespace {
 
 using Spec = model::ManipulationSpec;
-using model::trim;
+using Settings = Manipulation::Settings;
 
-/// A name may hold parentheses, too.
-bool looks_like_a_cell(std::string_view text) {
-    return !text.empty() && text.find_first_not_of("0123456789., \t+-") == text.npos;
-}
+class ManipulationReader {
+  public:
+    ManipulationReader(const engine::Layout& layout, bool trials, Diagnostics& diagnostics)
+        : layout_(layout), trials_(trials), diagnostics_(diagnostics) {}
 
-/// Where "(x,y)=value ..." begins.
-std::size_t first_cell(std::string_view text) {
-    for (auto open = text.find('('); open != text.npos; open = text.find('(', open + 1))
-        if (const auto close = text.find(")=", open);
-            close != text.npos && looks_like_a_cell(text.substr(open + 1, close - open - 1)))
-            return open;
-    return text.npos;
-}
+    void add(const Spec& spec) {
+        static constexpr const char* names[] = {"clamp", "add", "multiply"};
+        mode_ = names[static_cast<int>(spec.mode)];
+        Settings settings;
+        settings.mode = static_cast<Manipulation::Mode>(spec.mode);
+        settings.every = spec.every, settings.step = spec.step, settings.times = spec.times;
+        settings.backwards = spec.backwards;
+        settings.from = condition(spec.from), settings.until = condition(spec.until);
+        if (!spec.table.empty()) return add_table(spec, settings);
+        const auto column = manipulated(spec.group);
+        if (!column) return;
+        settings.group = column->group;
+        if (spec.cells.empty())
+            add_patterns(spec, std::move(settings));
+        else
+            add_cells(spec, std::move(settings), *column);
+    }
 
-std::uint64_t amount(std::string_view option, std::string_view text) {
-    const auto value = parse_parameter(ParameterKind::integer, trim(text));
-    if (!value || std::get<int>(*value) < 1)
-        throw std::invalid_argument(fmt::format("'{}' needs a whole number, at least 1", option));
-    return static_cast<std::uint64_t>(std::get<int>(*value));
-}
-
-void parse_option(std::string_view option, Spec& out) {
-    const auto blank = std::min(option.find(' '), option.size());
-    const std::string_view name = option.substr(0, blank), rest = trim(option.substr(blank));
-    if (name == "every")
-        out.every = amount(name, rest);
-    else if (name == "step")
-        out.step = amount(name, rest);
-    else if (name == "times")
-        out.times = amount(name, rest);
-    else if (name == "backwards" && rest.empty())
-        out.backwards = true;
-    else if (name == "from" && !rest.empty())
-        out.from = {std::string(rest)};
-    else if (name == "until" && !rest.empty())
-        out.until = {std::string(rest)};
-    else
-        throw std::invalid_argument(fmt::format(
-            "'{}' is none of every N, step N, times N, backwards, from WHEN, until WHEN", option));
-}
-
-/// Takes one "(x,y)=value" off the beginning of a list; returns what is wrong with it.
-std::string take_cell(std::string_view& list, std::pair<int, int>& place, double& value) {
-    const auto close = list.find(")=");
-    const auto end = std::min(list.find_first_of(" \t\r\n", close == list.npos ? 0 : close), list.size());
-    if (!list.starts_with("(") || close == list.npos)
-        return fmt::format("'{}' is no cell with a value", escaped(list.substr(0, end)));
-    const auto cell = parse_cell(list.substr(1, close - 1));
-    if (!cell) return fmt::format("'{}' is no cell", escaped(list.substr(0, close + 1)));
-    const auto word = list.substr(close + 2, end - close - 2);
-    const auto number = parse_parameter(ParameterKind::real, word);
-    if (!number) return no_number(word);
-    place = *cell, value = std::get<double>(*number);
-    list = trim(list.substr(end));
-    return {};
-}
-
-void add_cells(const Spec& w, std::string_view what, const engine::Layout& s, int group,
-               std::vector<double>& pattern, Diagnostics& diagnostics) {
-    std::string_view rest = trim(w.cells.text);
-    do {
-        std::pair<int, int> place;
-        double value = 0;
-        Location at = w.cells.at;
-        if (at.file) at.column += static_cast<int>(rest.data() - w.cells.text.data());
-        if (const auto wrong = take_cell(rest, place, value); !wrong.empty()) {
-            diagnostics.error(at, fmt::format("{}: {}", what, wrong),
-                              "a list of cells with values is written '(1,1)=0.5 (2,1)=1'");
-            return;
+    std::vector<std::unique_ptr<Manipulation>> made() {
+        std::stable_sort(made_.begin(), made_.end(), [](const Made& a, const Made& b) {
+            return std::pair(a.spec->mode, a.rows.empty()) < std::pair(b.spec->mode, b.rows.empty());
+        });
+        std::vector<std::unique_ptr<Manipulation>> out;
+        for (auto& m : made_) {
+            std::stable_sort(m.rows.begin(), m.rows.end(),
+                             [](const Row& a, const Row& b) { return a.first < b.first; });
+            for (auto& [start, values] : m.rows) {
+                m.settings.starts.push_back(start);
+                m.settings.patterns.push_back(std::move(values));
+            }
+            out.push_back(std::make_unique<Manipulation>(std::move(m.settings)));
         }
-        if (const auto index = find_cell(s, group, place.first, place.second, what, diagnostics, at))
-            pattern[static_cast<std::size_t>(*index)] = value;
-    } while (!rest.empty());
-}
+        return out;
+    }
 
-bool same_settings(const Spec& a, const Spec& b) {
-    return a.mode == b.mode && a.every == b.every && a.step == b.step && a.times == b.times &&
-           a.backwards == b.backwards && a.from.text == b.from.text && a.until.text == b.until.text;
-}
+  private:
+    using Row = std::pair<std::int64_t, std::vector<double>>;
+    struct Made {
+        const Spec* spec;
+        Settings settings;
+        std::vector<Row> rows;  ///< of tables
+    };
+
+    std::string what(const Location& at) const { return (at.file ? "" : "--") + mode_; }
+    std::optional<Condition> condition(const model::Expression& when) {
+        if (when.empty()) return std::nullopt;
+        return parse_condition(layout_, trials_, when.text, what(when.at), diagnostics_, when.at);
+    }
+
+    /// The column of a group's activity.
+    std::optional<ColumnRef> manipulated(const model::Expression& group) {
+        auto column = find_column(layout_, group.text, what(group.at), diagnostics_, group.at);
+        if (!column || column->state == layout_.groups[column->group].type.output()) return column;
+        diagnostics_.error(
+            group.at,
+            fmt::format("{} '{}': only the activity of a group can be changed", what(group.at), group.text),
+            "leave out the state");
+        return std::nullopt;
+    }
+
+    /// What was made of the same group with the same settings, or a new one.
+    Made& find_same(const Spec& spec, Settings settings) {
+        const auto key = [](const Spec& s) {
+            return std::tuple(s.mode, s.cells.empty(), s.patterns.empty(), s.every, s.step, s.times,
+                              s.backwards, std::string_view(s.from.text), std::string_view(s.until.text));
+        };
+        for (auto& other : made_)
+            if (other.settings.group == settings.group && key(*other.spec) == key(spec)) return other;
+        return made_.emplace_back(Made{&spec, std::move(settings), {}});
+    }
+
+    void add_patterns(const Spec& spec, Settings settings) {
+        settings.patterns =
+            read_patterns(spec.patterns.text, layout_.groups[settings.group].shape, diagnostics_);
+        if (!settings.patterns.empty()) made_.push_back({&spec, std::move(settings), {}});
+    }
+
+    void add_cells(const Spec& spec, Settings settings, const ColumnRef& column) {
+        const std::string option = what(spec.cells.at);
+        const expression::Context context{spec.cells.text, option, diagnostics_, spec.cells.at};
+        const auto cells = context.parsed(&expression::parse_cell_values);
+        if (!cells) return;
+        auto& patterns = find_same(spec, std::move(settings)).settings.patterns;
+        if (patterns.empty())
+            patterns.emplace_back(static_cast<std::size_t>(layout_.groups[column.group].shape.cells),
+                                  spec.mode == Spec::Mode::multiply ? 1 : 0);
+        for (const auto& [source, value] : *cells)
+            if (const auto part = find_part(layout_, column, source, context))
+                patterns.front()[part->numbers.front()] = value;
+    }
+
+    void add_table(const Spec& spec, const Settings& settings) {
+        try {
+            const auto table = DriveTable::read(spec.table.text);
+            for (const auto& row : table.rows())
+                for (const int group : groups_of(row, {table.file(), row.line, row.column})) {
+                    const auto& [path, id, shape, type] = layout_.groups[group];
+                    if (row.values.size() != static_cast<std::size_t>(shape.cells)) {
+                        auto error = DriveTable::misfit(row, path, shape);
+                        error.where.file = table.file();
+                        diagnostics_.add(std::move(error));
+                        continue;
+                    }
+                    Settings own = settings;
+                    own.group = group;
+                    find_same(spec, std::move(own)).rows.emplace_back(row.cycle, row.values);
+                }
+        } catch (const FileError& e) {
+            std::error_code none;
+            if (std::filesystem::exists(std::filesystem::symlink_status(spec.table.text, none)))
+                return report(e, diagnostics_);
+            diagnostics_.error(
+                {}, fmt::format("{} '{}': {}", what({}), spec.table.text, e.errors().front().message),
+                "write 'Process/Group(x,y)=value' or 'Process/Group=FILE', or name a table of "
+                "rows cycle,process,group,v0,v1,...");
+        }
+    }
+
+    /// The groups that a row of a table names.
+    std::vector<int> groups_of(const DriveTable::Row& row, const Location& at) {
+        if (row.process != "*") {
+            const auto column = manipulated({row.process + "/" + row.target, at});
+            return column ? std::vector{column->group} : std::vector<int>();
+        }
+        const auto name_of = [](const engine::Layout::Group& g) {
+            return std::string_view(g.path).substr(g.path.find('/') + 1);
+        };
+        std::vector<int> out;
+        for (int g = 0; g < std::ssize(layout_.groups); ++g)
+            if (name_of(layout_.groups[g]) == row.target) out.push_back(g);
+        std::vector<std::string> names;
+        if (out.empty())
+            for (const auto& g : layout_.groups) names.emplace_back(name_of(g));
+        if (out.empty())
+            diagnostics_.error(at, fmt::format("no process has a group '{}'", row.target),
+                               suggest(row.target, names));
+        return out;
+    }
+
+    const engine::Layout& layout_;
+    bool trials_;
+    Diagnostics& diagnostics_;
+    std::string mode_;
+    std::vector<Made> made_;
+};
 
 }  // namespace
 
-Spec parse_manipulation(Spec::Mode mode, std::string_view text) {
-    Spec out;
-    out.mode = mode, out.text = text;
-    std::string_view head = text.substr(0, text.find(';'));
-    for (auto at = text.find(';'); at != text.npos;) {
-        const auto end = std::min(text.find(';', at + 1), text.size());
-        parse_option(trim(text.substr(at + 1, end - at - 1)), out);
-        at = end == text.size() ? text.npos : end;
-    }
-    head = trim(head);
-    if (const auto cell = first_cell(head); cell != head.npos) {
-        out.group = {std::string(trim(head.substr(0, cell)))}, out.cells = {std::string(head.substr(cell))};
-    } else if (const auto equals = head.rfind('='); equals != head.npos && equals > 0) {
-        out.group = {std::string(trim(head.substr(0, equals)))};
-        out.patterns = {std::string(trim(head.substr(equals + 1)))};
-    } else {
-        throw std::invalid_argument(fmt::format(
-            "'{}' is neither 'Process/Group(x,y)=value' nor 'Process/Group=FILE' with a list of patterns",
-            head));
-    }
-    return out;
-}
-
-int manipulated_group(const model::Expression& group, std::string_view what, const engine::Layout& s,
-                      Diagnostics& diagnostics) {
-    const auto column = find_column(s, group.text, what, diagnostics, group.at);
-    if (!column) return -1;
-    if (column->state == s.groups[column->group].type.output()) return column->group;
-    diagnostics.error(group.at,
-                      fmt::format("{} '{}': only the activity of a group can be changed", what, group.text),
-                      "leave out the state");
-    return -1;
-}
-
-std::vector<std::unique_ptr<Manipulation>> make_manipulations(const std::vector<Spec>& wishes,
-                                                              const engine::Layout& s, bool trials,
+std::vector<std::unique_ptr<Manipulation>> make_manipulations(const std::vector<Spec>& specs,
+                                                              const engine::Layout& layout, bool trials,
                                                               Diagnostics& diagnostics) {
-    struct Made {
-        const Spec* wish;
-        Manipulation::Settings settings;
-    };
-    std::vector<Made> all;
-    for (const auto& w : wishes) {
-        static constexpr const char* names[] = {"clamp", "add", "multiply"};
-        const std::string what = (w.group.at.file ? "" : "--") + std::string(names[static_cast<int>(w.mode)]);
-        const int group = manipulated_group(w.group, what, s, diagnostics);
-        const auto condition = [&](const model::Expression& when) {
-            return when.empty() ? std::nullopt
-                                : parse_condition(s, trials, when.text, what,
-                                                           diagnostics, when.at);
-        };
-        Manipulation::Settings settings;
-        settings.group = group;
-        settings.mode = static_cast<Manipulation::Mode>(w.mode);
-        settings.every = w.every, settings.step = w.step, settings.times = w.times;
-        settings.backwards = w.backwards;
-        settings.from = condition(w.from), settings.until = condition(w.until);
-        if (group < 0) continue;
-        if (!w.patterns.empty()) {
-            settings.patterns = read_patterns(w.patterns.text, s.groups[group].shape, diagnostics);
-            if (!settings.patterns.empty()) all.push_back({&w, std::move(settings)});
-            continue;
-        }
-        Made* same = nullptr;
-        for (auto& other : all)
-            if (!other.wish->cells.empty() && other.settings.group == group && same_settings(*other.wish, w))
-                same = &other;
-        if (!same) {
-            const double untouched = settings.mode == Manipulation::Mode::multiply ? 1 : 0;
-            settings.patterns.emplace_back(static_cast<std::size_t>(s.groups[group].shape.cells), untouched);
-            same = &all.emplace_back(Made{&w, std::move(settings)});
-        }
-        add_cells(w, what, s, group, same->settings.patterns.front(), diagnostics);
-    }
-    std::stable_sort(all.begin(), all.end(),
-                     [](const Made& a, const Made& b) { return a.wish->mode < b.wish->mode; });
-    std::vector<std::unique_ptr<Manipulation>> out;
-    for (auto& m : all) out.push_back(std::make_unique<Manipulation>(std::move(m.settings)));
-    return out;
+    ManipulationReader reader(layout, trials, diagnostics);
+    for (const auto& spec : specs) reader.add(spec);
+    return reader.made();
 }
 
 }  // namespace forage::observe

@@ -1,7 +1,5 @@
 #include "core/observe/schedule.h"
 
-#include "core/model/lookup.h"
-
 namespace forage::observe {
 
 void Schedule::check(const engine::Simulation& simulation, Diagnostics& diagnostics) const {
@@ -18,17 +16,6 @@ void Schedule::before_cycle(RunView& run) {
             e.cycle = run.time.cycle;
             --waiting_;
         }
-}
-
-std::optional<model::ScheduledChange> parse_scheduled_change(std::string_view text) {
-    bool quoted = false;
-    for (std::size_t i = 0; i + 1 < text.size(); ++i) {
-        quoted ^= text[i] == '"';
-        if (!quoted && text[i] == ':' && text[i + 1] == ' ')
-            return model::ScheduledChange{{std::string(model::trim(text.substr(0, i)))},
-                                          {std::string(model::trim(text.substr(i + 1)))}};
-    }
-    return std::nullopt;
 }
 
 std::unique_ptr<Schedule> make_schedule(const std::vector<model::ScheduledChange>& changes,

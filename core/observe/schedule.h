@@ -4,11 +4,10 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/model/edit.h"
-#include "core/model/experiment.h"
+#include "core/model/expression.h"
 #include "core/observe/condition.h"
 #include "core/observe/observer.h"
 
@@ -47,10 +46,6 @@ class Schedule final : public Observer {
     std::vector<Entry> entries_;
     std::size_t waiting_ = 0;
 };
-
-/// Splits "WHEN: WHERE.parameter=value"; empty when `text` is not of this form. WHEN ends at the first colon that a blank
-/// follows, outside of double quotes.
-std::optional<model::ScheduledChange> parse_scheduled_change(std::string_view text);
 
 /// Ties changes to a system. Reports what cannot be. `trials`: whether the run has any.
 std::unique_ptr<Schedule> make_schedule(const std::vector<model::ScheduledChange>& changes,

@@ -60,7 +60,6 @@ nlohmann::ordered_json settings_json(const RunSpec& o, const Run& run,
     if (!o.input.replay.empty()) json["replay"] = input_file(o.input.replay);
     for (const auto& change : o.changes) json["schedule"].push_back(change.text());
     if (!o.length.until.empty()) json["until"] = o.length.until.text;
-    if (!o.clamp_tables.empty()) json["clamp"] = o.clamp_tables;
     for (const auto& m : o.manipulations)
         json[std::array{"clamp", "add", "multiply"}[static_cast<std::size_t>(m.mode)]].push_back(m.text);
     json["lenient"] = o.input.lenient;

@@ -66,7 +66,6 @@ struct RunSpec {
     std::vector<model::Expression> plots;
     std::string plot_format = "png";              ///< png, svg or pdf
     std::vector<model::ScheduledChange> changes;  ///< of parameters during the run
-    std::vector<std::string> clamp_tables;        ///< files
     std::vector<model::ManipulationSpec> manipulations;
     std::vector<model::Measure> measures;
     bool paths = true;  ///< whether the robots' paths are recorded

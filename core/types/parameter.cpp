@@ -2,24 +2,10 @@
 
 #include <cctype>
 #include <charconv>
-#include <cmath>
+
+#include "core/base/number.h"
 
 namespace forage {
-namespace {
-
-template <class N>
-std::optional<ParameterValue> parse_number(std::string_view text) {
-    N value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    if constexpr (std::is_floating_point_v<N>) {
-        if (!std::isfinite(value)) return std::nullopt;
-    }
-    return value;
-}
-
-}  // namespace
-
 std::optional<ParameterValue> parse_parameter(ParameterKind kind, std::string_view text) {
     switch (kind) {
         case ParameterKind::boolean:
@@ -27,9 +13,11 @@ std::optional<ParameterValue> parse_parameter(ParameterKind kind, std::string_vi
             if (text == "false") return false;
             return std::nullopt;
         case ParameterKind::real:
-            return parse_number<double>(text);
+            if (const auto value = parse_number<double>(text)) return *value;
+            return std::nullopt;
         case ParameterKind::integer:
-            return parse_number<int>(text);
+            if (const auto value = parse_number<int>(text)) return *value;
+            return std::nullopt;
         case ParameterKind::text:
             return std::string(text);
     }

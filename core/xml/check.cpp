@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
+#include "core/base/number.h"
 #include "core/types/parameter.h"
 #include "core/xml/format.h"
 
@@ -173,8 +174,8 @@ class Checker {
 
     template <class Wrong>
     static void number(std::string_view text, const AttributeRule& rule, const Wrong& wrong) {
-        const auto parsed = parse_parameter(ParameterKind::real, text);
-        const double v = parsed ? std::get<double>(*parsed) : 0;
+        const auto parsed = parse_number<double>(text);
+        const double v = parsed.value_or(0);
         const bool whole = rule.kind == ValueKind::whole;
         const std::string range = fmt::format("{}: {}{}", rule.name, rule.doc, limits(rule));
         if (!parsed || (whole && v != std::trunc(v))) {
@@ -182,7 +183,7 @@ class Checker {
                   hint(whole ? ParameterKind::integer : ParameterKind::real, text, range));
         } else if (v < rule.low || v > rule.high) {
             wrong(fmt::format("{} = {} is not possible", rule.name, text), range);
-        } else if (whole && !parse_parameter(ParameterKind::integer, text)) {  // 1e2, 3.0
+        } else if (whole && !parse_number<int>(text)) {  // 1e2, 3.0
             wrong(fmt::format("{} = '{}' is not written as a whole number", rule.name, text),
                   fmt::format("write {}", to_text(v)));
         }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
+#include "core/base/number.h"
 #include "core/model/lookup.h"
 #include "core/types/parameter.h"
 #include "core/xml/check.h"
@@ -63,8 +64,7 @@ class ExperimentReader {
         return value ? value : "";
     }
     static std::optional<double> number(const XMLElement& e, const char* name) {
-        const auto parsed = parse_parameter(ParameterKind::real, text(e, name));
-        return parsed ? std::optional(std::get<double>(*parsed)) : std::nullopt;
+        return parse_number<double>(text(e, name));
     }
     /// Empty also where the check has refused the value.
     static std::optional<std::uint64_t> whole(const XMLElement& e, const char* name) {
@@ -138,12 +138,12 @@ class ExperimentReader {
         if (listed && list.empty())
             out_.error(at(e, "list"), "there are no seeds in the list", "for example list=\"1 2 3\"");
         for (const auto& word : list) {
-            const auto seed = parse_parameter(ParameterKind::integer, word.text);
-            if (!seed || std::get<int>(*seed) < 0)
+            const auto seed = parse_number<int>(word.text);
+            if (!seed || *seed < 0)
                 out_.error(word.at, fmt::format("'{}' is not a seed", word.text),
                            "a seed is a whole number, at least 0");
             else
-                experiment_.seeds.push_back(static_cast<std::uint64_t>(std::get<int>(*seed)));
+                experiment_.seeds.push_back(static_cast<std::uint64_t>(*seed));
         }
     }
 
@@ -183,11 +183,10 @@ class ExperimentReader {
                            "names are columns of the table of results");
         if (m.kind == model::Measure::Kind::success || m.kind == model::Measure::Kind::duration) {
             const auto said = words(m.what);
-            const auto n = said.size() == 2 && said[0].text == "last"
-                               ? parse_parameter(ParameterKind::integer, said[1].text)
-                               : std::nullopt;
-            if (n && std::get<int>(*n) > 0)
-                m.last = static_cast<std::uint64_t>(std::get<int>(*n));
+            const auto n =
+                said.size() == 2 && said[0].text == "last" ? parse_number<int>(said[1].text) : std::nullopt;
+            if (n && *n > 0)
+                m.last = static_cast<std::uint64_t>(*n);
             else if (m.what.text != "all")
                 out_.error(m.what.at, fmt::format("{} = '{}' names no trials", kind, m.what.text),
                            "'all', or for example 'last 100'");

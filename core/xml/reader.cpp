@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
+#include "core/base/number.h"
 #include "core/model/lookup.h"
 #include "core/types/parameter.h"
 #include "core/xml/check.h"
@@ -55,13 +56,11 @@ class Reader {
     }
     static double number(const XMLElement& e, const char* name, double otherwise) {
         const char* value = e.Attribute(name);
-        const auto parsed = value ? parse_parameter(ParameterKind::real, value) : std::nullopt;
-        return parsed ? std::get<double>(*parsed) : otherwise;
+        return parse_number<double>(value ? value : "").value_or(otherwise);
     }
     static int whole(const XMLElement& e, const char* name, int otherwise) {
         const char* value = e.Attribute(name);
-        const auto parsed = value ? parse_parameter(ParameterKind::integer, value) : std::nullopt;
-        return parsed ? std::get<int>(*parsed) : otherwise;
+        return parse_number<int>(value ? value : "").value_or(otherwise);
     }
     static bool flag(const XMLElement& e, const char* name, bool otherwise) {
         const char* value = e.Attribute(name);

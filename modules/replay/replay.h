@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "core/base/drive_table.h"
 #include "core/types/module.h"
-#include "modules/replay/drive_table.h"
 
 namespace forage::replay {
 

@@ -36,8 +36,8 @@ using Path = std::filesystem::path;
 
 /// Plays a recording from the beginning again when it is over.
 struct Loop {
-    std::shared_ptr<const replay::DriveTable> table;
-    std::vector<std::vector<std::pair<std::size_t, const replay::DriveTable::Row*>>> by_cycle;
+    std::shared_ptr<const DriveTable> table;
+    std::vector<std::vector<std::pair<std::size_t, const DriveTable::Row*>>> by_cycle;
 
     static void describe(ModuleSpec<Loop>& s) { s.name("moduleGazeboBug", "Loop").any_ports(); }
     void start(const ModulePorts& ports) {
@@ -83,7 +83,7 @@ int measure(const Original& original) {
     add_modules(registry);
     int cycles = 1;  // of a run: the whole recording, as some of its cycles cost less than others
     if (tutorial) {
-        const auto table = std::make_shared<replay::DriveTable>(replay::DriveTable::read(drive));
+        const auto table = std::make_shared<DriveTable>(DriveTable::read(drive));
         cycles = static_cast<int>(table->rows().back().cycle) + 1;
         registry.add(module_type(Loop{table, {}}));
     }

@@ -131,7 +131,7 @@ class Results(Experiment):
         (self.here / "p.txt").write_text("1 1\n\n3\n")
         self.assertRegex(self.forage("experiment", "small.xml", status=2).stderr, r"p.txt:3:1: error: 1 number in a row")
         self.edit("small.xml", 'cells="(2,1)=10"', 'cells="(3,1)=10"')
-        self.assertRegex(self.forage("experiment", "small.xml", status=2).stderr, r"small.xml:6:\d+: error: .* has no cell \(3, 1\)")
+        self.assertRegex(self.forage("experiment", "small.xml", status=2).stderr, r"small.xml:6:\d+: error: .* has no cell \(3,1\)")
 
     def test_the_same_tables_with_any_number_of_jobs(self):
         self.forage("experiment", "robot.xml", "-o", "one", "-j", 1)
@@ -282,9 +282,9 @@ class Mistakes(Experiment):
 </experiment>
 """)
         said = self.forage("experiment", "robot.xml", status=2).stderr
-        for place, message in (("5:13", "there is no group 'trail 3'"), ("5:33", "'x' is not a number"),
+        for place, message in (("5:20", "a comparison is missing behind 'trail 3'"), ("5:33", "'x' is not a number"),
                                ("6:19", "there is no group 'Bug/Ligth'"), ("6:43", "there is no group 'Bug/Mothor'"),
-                               ("6:74", "there is no plot 'drawing'"), ("7:28", "something is missing at its end"),
+                               ("6:74", "there is no plot 'drawing'"), ("7:47", "something is missing at its end"),
                                ("8:28", "'Bug/Light' has 32 cells"), ("9:52", "'high' is not a number")):
             self.assertRegex(said, rf"robot.xml:{place}: error: .*{message}")
         self.assertFalse((self.here / "forage-out").exists())

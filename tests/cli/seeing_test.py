@@ -189,7 +189,7 @@ class Formats(Cli):
 class Mistakes(Cli):
     def test_wrong_selections_and_plots(self):
         for arguments, message in (
-            (["-r", "Bug/Light(1..40,1)"], "has not all of these cells"),
+            (["-r", "Bug/Light(1..40,1)"], "has not all of the cells (1..40,1)"),
             (["-r", "Bug/Light=a.csv", "-r", "Bug/GPS=a.csv"], "a .csv file holds one source"),
             (["-r", "Bug/Light=../a.csv"], "is not a plain file name"),
             (["-r", "Bug/Light", "--format", "xls"], "--format"),

@@ -32,8 +32,7 @@ Registry registry_for(const Case& c) {
 class Clamp {
   public:
     explicit Clamp(const Case& c) {
-        if (std::filesystem::exists(c.path / "clamp.csv"))
-            table_ = replay::DriveTable::read(c.path / "clamp.csv");
+        if (std::filesystem::exists(c.path / "clamp.csv")) table_ = DriveTable::read(c.path / "clamp.csv");
     }
     void apply(engine::Simulation& s) {
         for (; next_ < table_.rows().size() &&
@@ -48,9 +47,9 @@ class Clamp {
     }
 
   private:
-    replay::DriveTable table_;
+    DriveTable table_;
     std::size_t next_ = 0;
-    std::map<int, const replay::DriveTable::Row*> held_;
+    std::map<int, const DriveTable::Row*> held_;
 };
 
 /// What differs from the recording, or is wrong with the case; empty when all is well.

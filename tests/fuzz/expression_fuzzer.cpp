@@ -5,14 +5,14 @@
 #include "core/engine/simulation.h"
 #include "core/model/edit.h"
 #include "core/observe/condition.h"
+#include "core/observe/manipulation_spec.h"
+#include "core/observe/schedule.h"
 #include "core/observe/source.h"
 #include "core/xml/reader.h"
 #include "modules/modules.h"
 #include "neurons/neurons.h"
 #include "synapses/synapses.h"
 #include "tests/fuzz/holds.h"
-#include "core/observe/manipulation_spec.h"
-#include "core/observe/schedule.h"
 #include "tools/plot/plot_spec.h"
 
 namespace {
@@ -26,13 +26,12 @@ struct Small {
 
     Small() {
         Diagnostics diagnostics;
-        system =
-            *xml::read_system(FORAGE_SOURCE_DIR "/tests/diagnostics/sound/system.iqr", diagnostics);
+        system = *xml::read_system(FORAGE_SOURCE_DIR "/tests/diagnostics/sound/system.iqr", diagnostics);
         add_neurons(registry);
         add_synapses(registry);
         add_modules(registry);
-        simulation = engine::Simulation::build(system, registry, engine::Demand::everything(),
-                                               {1}, diagnostics);
+        simulation =
+            engine::Simulation::build(system, registry, engine::Demand::everything(), {1}, diagnostics);
         test::holds(simulation.has_value(), "the small system is sound");
         simulation->start();
     }
@@ -42,11 +41,11 @@ using Mode = model::ManipulationSpec::Mode;
 
 void manipulate(const Small& small, Mode mode, const std::string& text, Diagnostics& diagnostics) {
     try {
-        const auto wish = observe::parse_manipulation(mode, text);
-        if (wish.patterns.empty())  // else it names a file
-            observe::make_manipulations({wish}, small.simulation->layout(), true, diagnostics);
-    } catch (const std::invalid_argument& e) {
-        diagnostics.error({}, e.what());
+        const auto spec = expression::parse_manipulation(mode, text);
+        if (!spec.cells.empty())  // else it names a file
+            observe::make_manipulations({spec}, small.simulation->layout(), true, diagnostics);
+    } catch (const expression::Mistake& m) {
+        diagnostics.error(Location{}, m.described(text));
     }
 }
 
@@ -73,9 +72,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 q->in(simulation, {3, 0.1, 1});
             break;
         case 3:
-            if (const auto timed = observe::parse_scheduled_change(text))
-                observe::make_schedule({*timed}, small.system, small.registry, simulation.layout(), true, diagnostics)
+            try {
+                observe::make_schedule({expression::parse_change(text)}, small.system, small.registry,
+                                       simulation.layout(), true, diagnostics)
                     ->check(simulation, diagnostics);
+            } catch (const expression::Mistake& m) {
+                diagnostics.error(Location{}, m.described(text));
+            }
             break;
         case 4:
             if (auto source = observe::find_source(simulation.layout(), text, "--record", diagnostics)) {

@@ -1,9 +1,9 @@
 // Tables that drive and clamp groups, and lists of patterns: the same text as both.
 #include <cstdint>
 
+#include "core/base/drive_table.h"
 #include "core/base/named_file.h"
 #include "core/observe/pattern_file.h"
-#include "modules/replay/drive_table.h"
 #include "tests/fuzz/holds.h"
 
 using forage::test::holds;
@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string text(reinterpret_cast<const char*>(data), size);
     forage::Diagnostics diagnostics;
     try {
-        const auto table = forage::replay::DriveTable::parse(text, "input.csv");
+        const auto table = forage::DriveTable::parse(text, "input.csv");
         holds(!table.rows().empty(), "a table has rows");
     } catch (const forage::FileError& e) {
         holds(!e.errors().empty(), "an error says what is wrong");

@@ -1,7 +1,6 @@
 // A fast reader of recorded tables, and the tolerance of their numbers.
 #pragma once
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +9,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/base/number.h"
 
 namespace forage::test {
 
@@ -60,11 +61,10 @@ class Rows {
 /// A whole field as a number, "nan" and "inf" included; anything else is a fault of the recording.
 template <class N = double>
 N number(std::string_view field) {
-    N value{};
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (error != std::errc{} || end != field.data() + field.size())
-        throw std::runtime_error("'" + std::string(field) + "' is not a number");
-    return value;
+    std::string_view rest = field;
+    const auto value = take_number<N>(rest);
+    if (!value || !rest.empty()) throw std::runtime_error("'" + std::string(field) + "' is not a number");
+    return *value;
 }
 
 /// The tolerance of the recordings; NaN equals NaN, an infinity only itself.

@@ -107,7 +107,6 @@ std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given,
     auto schedule = observe::make_schedule(spec.changes, run.system(), run.registry(), run.layout(),
                                            run.has_trials(), diagnostics);
     auto measures = std::make_unique<RunMeasures>(spec.measures, run.layout(), run.has_trials(), diagnostics);
-    auto clamp = make_clamp(spec.clamp_tables, run.layout(), diagnostics);
     auto manipulations =
         observe::make_manipulations(spec.manipulations, run.layout(), run.has_trials(), diagnostics);
     auto recorded = recorded_files(spec.recordings, spec.record, run.layout(), diagnostics);
@@ -115,7 +114,6 @@ std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given,
     const auto* schedule_added = &run.add(std::move(schedule));
     auto* measures_added = &run.add(std::move(measures));
     stop.declare(run.demand());
-    if (!clamp->idle()) run.add(std::move(clamp));
     for (auto& m : manipulations) run.add(std::move(m));
     const plot::Format format = *plot::format_of("x." + spec.plot_format);
     const std::string title = run_title(spec.input);

@@ -23,10 +23,10 @@
 namespace forage {
 namespace {
 
-std::optional<replay::DriveTable> read_table(const std::string& path, Diagnostics& diagnostics) {
+std::optional<DriveTable> read_table(const std::string& path, Diagnostics& diagnostics) {
     if (path.empty()) return std::nullopt;
     try {
-        return replay::DriveTable::read(path);
+        return DriveTable::read(path);
     } catch (const FileError& e) {
         report(e, diagnostics);
         return std::nullopt;
@@ -68,7 +68,7 @@ std::string without_paths(const InputFiles& files) {
 }
 
 /// Gives this table to every enabled moduleReplay without a table of its own.
-void play(const replay::DriveTable& table, model::System& system) {
+void play(const DriveTable& table, model::System& system) {
     for (auto& p : system.processes) {
         if (!p.module || p.module->type != "moduleReplay") continue;
         auto& settings = p.module->settings;
@@ -182,8 +182,7 @@ InputFiles input_files(const RunSpec& spec, const Sources& sources) {
     };
     if (sources.world) out.merge(files_of_world(sources)), read(spec.input.world);
     read(spec.input.replay);
-    for (const auto& table : spec.clamp_tables) read(table);
-    for (const auto& m : spec.manipulations) read(m.patterns.text);
+    for (const auto& m : spec.manipulations) read(m.patterns.text), read(m.table.text);
     return out;
 }
 

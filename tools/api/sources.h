@@ -8,12 +8,12 @@
 
 #include "bug_interface/simulation/world.h"
 #include "bug_interface/world/description.h"
+#include "core/base/drive_table.h"
 #include "core/model/system.h"
 #include "core/plugin/plugin.h"
 #include "core/run/input_files.h"
 #include "core/run/run_spec.h"
 #include "core/types/registry.h"
-#include "modules/replay/drive_table.h"
 
 namespace forage {
 
@@ -21,7 +21,7 @@ namespace forage {
 struct Sources {
     std::optional<model::System> system;         ///< empty when it could not be read
     std::optional<bug::WorldDescription> world;  ///< empty without a world, and when it could not be read
-    std::optional<replay::DriveTable> replay;    ///< empty without a table
+    std::optional<DriveTable> replay;            ///< empty without a table
     std::vector<plugin::Plugin> plugins;
     bool plugins_failed = false;  ///< whether a plugin could not be loaded, so that types may be missing
 };

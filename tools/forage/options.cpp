@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/types/parameter.h"
+#include "core/base/number.h"
 
 namespace forage::tool {
 namespace {
@@ -16,11 +16,10 @@ namespace {
 CLI::Validator number_that(bool (*fits)(double), const char* description) {
     return CLI::Validator(
         [=](std::string& text) {
-            const auto value = forage::parse_parameter(forage::ParameterKind::real, text);
-            if (!value || !fits(std::get<double>(*value)))
-                return fmt::format("'{}' is not {}", text, description);
+            const auto value = parse_number<double>(text);
+            if (!value || !fits(*value)) return fmt::format("'{}' is not {}", text, description);
             // 1e6 is a whole number as well.
-            if (const double v = std::get<double>(*value); v == std::floor(v) && v < 1e15)
+            if (const double v = *value; v == std::floor(v) && v < 1e15)
                 text = fmt::format("{:.0f}", v);
             else if (v >= 1e15 && text.find_first_not_of("0123456789") != text.npos)
                 return fmt::format("'{}' is too large to be written so: write all digits", text);
@@ -154,7 +153,7 @@ void add_plot(CLI::App& app, PlotOptions& o) {
     auto& plot = *app.add_subcommand("plot", "Draw pictures of results, of a recording or of a system");
     plot.footer(
         "Plots:\n"
-        "  time:SOURCE                     cells over time; 'time:mean:SOURCE' for their mean\n"
+        "  time:SOURCE                     cells over time; 'time:mean(SOURCE)' for their mean\n"
         "  space:SOURCE@100,200            the group as a picture at these cycles; at the last one without "
         "'@'\n"
         "  space:SOURCE@0..1000/100        at every 100th cycle; ';blocks=9x1' at the end divides the group\n"
@@ -162,7 +161,8 @@ void add_plot(CLI::App& app, PlotOptions& o) {
         "  connection:NAME                 which cells reach which, with strength and delay\n"
         "  diagram, diagram:PROCESS        the system as the file lays it out\n"
         "  trajectory                      the robot's paths\n"
-        "A source is 'Process/Group:state(x1..x2,y1..y2)'; state and cells may be left out.\n"
+        "A source is 'Process/Group:state(x1..x2,y1..y2)'; state and cells may be left out. See\n"
+        "docs/reference/expressions.md.\n"
         "Example:\n"
         "  forage plot systems/reactive_foraging.iqr diagram 'connection:US to Approach' --plot-format svg");
     plot.add_option("FROM", o.source, "Directory of results, recording (.csv, .npy, .h5) or system (.iqr)")

@@ -1,15 +1,15 @@
 // The options of `forage run` and `forage resume`.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "core/base/number.h"
+#include "core/model/expression.h"
 #include "core/model/lookup.h"
-#include "core/types/parameter.h"
-#include "core/observe/manipulation_spec.h"
-#include "core/observe/schedule.h"
 #include "tools/forage/options.h"
 
 namespace forage::tool {
@@ -21,13 +21,22 @@ CheckpointInterval parse_interval(const std::string& text) {
     CheckpointInterval out;
     out.in_seconds = number.ends_with("s");
     if (out.in_seconds) number = model::trim(number.substr(0, number.size() - 1));
-    const auto value = forage::parse_parameter(forage::ParameterKind::real, number);
-    if (value) out.amount = std::get<double>(*value);
+    out.amount = parse_number<double>(number).value_or(0);
     if (!(out.amount > 0) || (!out.in_seconds && out.amount != std::floor(out.amount)))
         throw CLI::ValidationError(
             "--checkpoint-every",
             fmt::format("'{}' is neither a number of cycles nor of seconds, such as '1000' or '60 s'", text));
     return out;
+}
+
+/// What `parse` makes of the text of an option.
+template <class Parse>
+auto parsed(const char* option, const std::string& text, Parse parse) {
+    try {
+        return parse();
+    } catch (const expression::Mistake& m) {
+        throw CLI::ValidationError(option, m.described(text));
+    }
 }
 
 void add_manipulations(CLI::App& run, RunSpec& o) {
@@ -37,17 +46,13 @@ void add_manipulations(CLI::App& run, RunSpec& o) {
                      option,
                      [&o, option, mode](const std::vector<std::string>& texts) {
                          for (const auto& each : texts) {
-                             const bool table =
-                                 each.find('=') == std::string::npos || std::filesystem::exists(each);
-                             if (mode == Mode::clamp && table) {
-                                 o.clamp_tables.push_back(each);
-                                 continue;
-                             }
-                             try {
-                                 o.manipulations.push_back(observe::parse_manipulation(mode, each));
-                             } catch (const std::invalid_argument& e) {
-                                 throw CLI::ValidationError(option, e.what());
-                             }
+                             model::ManipulationSpec spec;
+                             spec.mode = mode, spec.table = {each}, spec.text = each;
+                             std::error_code none;
+                             if (!exists(std::filesystem::symlink_status(each, none)))  // may hold '='
+                                 spec = parsed(option, each,
+                                               [&] { return expression::parse_manipulation(mode, each); });
+                             o.manipulations.push_back(std::move(spec));
                          }
                      },
                      description))
@@ -55,14 +60,14 @@ void add_manipulations(CLI::App& run, RunSpec& o) {
     };
     add("--clamp", Mode::clamp,
         "Overwrite the activity of a group: 'Process/Group(x,y)=value' for one of its cells, with all others "
-        "0; 'Process/Group=FILE' with a list of patterns, one in each cycle, over and over; behind either, "
-        "'; every N' cycles, '; step N' patterns, '; times N' through the list, '; backwards', '; from "
-        "WHEN', '; until WHEN' (as for --schedule). Or a table of rows cycle,process,group,v0,v1,... May be "
-        "repeated",
-        "PATTERN|FILE");
-    add("--add", Mode::add, "The same, added to the activity after any clamp; other cells stay", "PATTERN");
+        "0; 'Process/Group=FILE' with a list of patterns; FILE with a table of rows "
+        "cycle,process,group,v0,v1,...; options stand behind ';', such as '; every 10; until trial 5'. See "
+        "docs/reference/expressions.md; may be repeated",
+        "MANIPULATION");
+    add("--add", Mode::add, "The same, added to the activity after any clamp; other cells stay",
+        "MANIPULATION");
     add("--multiply", Mode::multiply, "The same, multiplied with the activity at last; other cells stay",
-        "PATTERN");
+        "MANIPULATION");
 }
 
 void add_recording(CLI::App& run, RunSpec& o) {
@@ -73,7 +78,7 @@ void add_recording(CLI::App& run, RunSpec& o) {
                          for (const auto& text : texts) o.recordings.push_back({{text}});
                      },
                      "Write 'Process/Group' (its activity) or 'Process/Group:state' to a file; "
-                     "'...(x1..x2,y1..y2)' for some of its cells, 'mean:...' for their mean, '...=NAME.h5' "
+                     "'...(x1..x2,y1..y2)' for some of its cells, 'mean(...)' for their mean, '...=NAME.h5' "
                      "to name the file; may be repeated"))
             ->option_text("SOURCE");
     run.add_option(
@@ -152,20 +157,13 @@ void add_run(CLI::App& app, RunOptions& options) {
         run.add_option_function<std::vector<std::string>>(
             "--schedule",
             [&o](const std::vector<std::string>& texts) {
-                for (const auto& text : texts) {
-                    if (const auto wish = observe::parse_scheduled_change(text)) {
-                        o.changes.push_back(*wish);
-                        continue;
-                    }
-                    throw CLI::ValidationError(
-                        "--schedule", fmt::format("'{}' is not a condition, a colon, a blank and a change, such as "
-                                            "'trial >= 200: Selection/Adaptive.excGain=0'",
-                                            text));
-                }
+                for (const auto& text : texts)
+                    o.changes.push_back(
+                        parsed("--schedule", text, [&] { return expression::parse_change(text); }));
             },
-            "Change a parameter while it runs, when a condition first holds: 'cycle N', 'trial N', 'N s', or "
-            "comparisons of cycle, trial, seconds, cells 'Process/Group(x,y)' and mean(Process/Group), also "
-            "sum, min and max, joined by && and ||; may be repeated"))
+            "Change a parameter when a condition first holds: 'cycle N', 'trial N', 'N s', or comparisons of "
+            "cycle, trial, seconds, cells 'Process/Group(x,y)' and mean(Process/Group), joined by 'and' and "
+            "'or'. See docs/reference/expressions.md; may be repeated"))
         ->option_text("'WHEN: WHERE=VALUE'");
     run.add_option("--replay", o.input.replay,
                    "Table that modules of type moduleReplay play: cycle,process,target,v0,v1,...")

@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +9,7 @@
 
 #include "core/base/named_file.h"
 #include "core/base/output_files.h"
+#include "core/base/table.h"
 #include "core/observe/recording.h"
 #include "tools/forage/commands.h"
 #include "tools/plot/plots.h"
@@ -42,60 +41,12 @@ nlohmann::json read_json(const fs::path& path) {
     return in ? nlohmann::json::parse(in, nullptr, false) : nlohmann::json();
 }
 
-/// A table that a run has left behind. What is damaged is refused with its place, as a FileError.
-class Table {
-  public:
-    explicit Table(const fs::path& path) : path_(path.string()), text_(read_file(path_)) {
-        std::string_view rest = text_;
-        while (!rest.empty()) {
-            const auto end = rest.find('\n');
-            if (end == rest.npos)
-                fail(static_cast<int>(lines_.size()) + 1, rest, "the file ends within this row");
-            lines_.push_back(fields(rest.substr(0, end)));
-            rest.remove_prefix(end + 1);
-            if (lines_.back().size() != lines_[0].size())
-                fail(static_cast<int>(lines_.size()), lines_.back()[0],
-                     fmt::format("{} fields in this row, not {}", lines_.back().size(), lines_[0].size()));
-        }
-        if (lines_.empty()) throw FileError(path_, {}, {error_at(0, 0, "it is empty")});
-    }
-
-    int rows() const { return static_cast<int>(lines_.size()) - 1; }
-    /// What stands in a row, counted from 1, under a name.
-    std::string_view word(int row, std::string_view name) const {
-        const auto column = std::find(lines_[0].begin(), lines_[0].end(), name);
-        if (column == lines_[0].end()) fail(1, lines_[0][0], fmt::format("there is no column '{}'", name));
-        return lines_[static_cast<std::size_t>(row)][static_cast<std::size_t>(column - lines_[0].begin())];
-    }
-    double number(int row, std::string_view name) const {
-        const std::string_view text = word(row, name);
-        double out = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-        if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(out))
-            fail(row + 1, text, no_number(text));
-        return out;
-    }
-    /// A piece of the text in this line is not what it should be.
-    [[noreturn]] void fail(int line, std::string_view piece, std::string message) const {
-        const auto place = static_cast<std::size_t>(piece.data() - text_.data());
-        const auto begin = place == 0 ? 0 : text_.rfind('\n', place - 1) + 1;  // 0 in the first line
-        throw FileError(path_, text_, {error_at(line, static_cast<int>(place - begin) + 1, std::move(message))});
-    }
-
-  private:
-    static std::vector<std::string_view> fields(std::string_view line) {
-        std::vector<std::string_view> out;
-        for (auto comma = line.find(','); comma != line.npos; comma = line.find(',')) {
-            out.push_back(line.substr(0, comma));
-            line.remove_prefix(comma + 1);
-        }
-        out.push_back(line);
-        return out;
-    }
-
-    std::string path_, text_;
-    std::vector<std::vector<std::string_view>> lines_;  ///< the first holds the names of the columns
-};
+/// A table that a run has left behind, after its header. Throws FileError.
+TableReader open_table(const fs::path& path) {
+    TableReader out(open_file(path.string()), path.string());
+    if (!out.read_header()) out.require_whole(), out.refuse("it is empty");
+    return out;
+}
 
 std::string base(const std::string& path) { return fs::path(path).filename().string(); }
 
@@ -129,9 +80,10 @@ std::map<std::string, Named> read_run(const fs::path& directory, Source& out) {
          json.value("result", nlohmann::json::object()).value("recordings", nlohmann::json::array()))
         names[text(r, "file")] = {text(r, "source"), text(r, "label"), names[text(r, "file")].count + 1};
     if (fs::exists(directory / "trials.csv")) {
-        const Table trials(directory / "trials.csv");
-        for (int row = 1; row <= trials.rows(); ++row)
-            out.context.trials.push_back(trials.number(row, "first_cycle"));
+        TableReader trials = open_table(directory / "trials.csv");
+        const auto first = trials.column("first_cycle");
+        while (trials.next()) out.context.trials.push_back(trials.number(trials.fields()[first]));
+        trials.require_whole();
     }
     return names;
 }
@@ -177,13 +129,14 @@ int find_recording(const Source& source, const PlotSpec& wish, std::optional<obs
         return wanted == name || wanted == name.substr(0, name.rfind(':')) || file_name(wanted) == name ||
                file_name(wanted) + "_act" == name;
     };
-    const auto selection = observe::parse_selection(wish.what);
+    const auto wanted = expression::parse_source(wish.what);
     for (std::size_t i = 0; i < source.recordings.size(); ++i) {
         const observe::Recorded& what = source.recordings[i].what;
-        if (wish.what.empty() ? source.recordings.size() == 1 : matches(wish.what, what.name))
+        if (wish.what.empty() ? source.recordings.size() == 1
+                              : matches(wish.what, what.name) || matches(wanted.text(), what.name))
             part = observe::part_of(what, {});  // exactly what was recorded
-        else if (matches(selection.column, what.name))
-            part = observe::part_of(what, selection);
+        else if (matches(wanted.column.text, what.name))
+            part = observe::part_of(what, wanted);
         if (part) return static_cast<int>(i);
     }
     return -1;
@@ -217,24 +170,28 @@ void draw_rows(const Source& source, const PlotSpec& wish, const std::string& di
 }
 
 /// The paths of all trials. Throws FileError for tables that are damaged or do not belong together.
-std::vector<plot::Path> read_paths(const std::string& directory) {
-    const Table trials(directory + "/trials.csv"), points(directory + "/trajectory.csv");
-    std::vector<plot::Path> out(static_cast<std::size_t>(trials.rows()));
-    for (int row = 1; row <= trials.rows(); ++row) {
-        const std::string_view outcome = trials.word(row, "outcome");
+std::vector<plot::Path> read_paths(const fs::path& directory) {
+    std::vector<plot::Path> out;
+    TableReader trials = open_table(directory / "trials.csv");
+    for (const auto column = trials.column("outcome"); trials.next();) {
+        const auto outcome = trials.fields()[column];
         if (outcome != "target" && outcome != "missed" && outcome != "unfinished")
-            trials.fail(row + 1, outcome, fmt::format("'{}' is no outcome of a trial", escaped(outcome)));
-        out[static_cast<std::size_t>(row) - 1].reached = outcome == "target";
-        out[static_cast<std::size_t>(row) - 1].finished = outcome != "unfinished";
+            trials.fault(outcome, fmt::format("'{}' is no outcome of a trial", escaped(outcome)));
+        out.push_back({{}, outcome == "target", outcome != "unfinished"});
     }
-    for (int row = 1; row <= points.rows(); ++row) {
-        const double trial = points.number(row, "trial");
-        if (trial < 1 || trial > trials.rows() || trial != std::floor(trial))
-            points.fail(row + 1, points.word(row, "trial"),
-                        fmt::format("trials.csv has no trial {}", points.word(row, "trial")));
-        out[static_cast<std::size_t>(trial) - 1].points.emplace_back(points.number(row, "x"),
-                                                                     points.number(row, "y"));
+    trials.require_whole();
+    TableReader points = open_table(directory / "trajectory.csv");
+    const auto trial = points.column("trial"), x = points.column("x"), y = points.column("y");
+    while (points.next()) {
+        const auto& row = points.fields();
+        const auto number = parse_number<std::size_t>(row[trial]).value_or(0);
+        const Eigen::Vector2d place(points.number(row[x]), points.number(row[y]));
+        if (number == 0 || number > out.size())
+            points.fault(row[trial], fmt::format("trials.csv has no trial {}", escaped(row[trial])));
+        else
+            out[number - 1].points.push_back(place);
     }
+    points.require_whole();
     return out;
 }
 
@@ -307,28 +264,22 @@ int plot(const PlotOptions& o) {
                                   : !source.directory.empty()                   ? source.directory
                                   : source.recordings.empty() || beside.empty() ? "."
                                                                                 : beside;
-    for (const auto& w : wishes) {
-        if (w.of_cells()) {
-            try {
+    for (const auto& w : wishes) try {
+            if (w.of_cells()) {
                 draw_rows(source, w, directory, format, written, diagnostics);
-            } catch (const FileError& e) {
-                report(e, diagnostics);
+                continue;
             }
-            continue;
-        }
-        try {
             const plot::Picture picture =
                 w.kind == Kind::trajectory
                     ? plot::trajectory_plot(*loaded->world, read_paths(source.directory), source.context.run)
                     : plot::structure_plot(w, loaded->system, loaded->registry, nullptr, source.input.seed,
-                                     source.context.run);
+                                           source.context.run);
             make_directory(directory);
             write_file(directory + "/" + w.file(format), plot::render(picture, format));
             written.push_back(w.file(format));
         } catch (const FileError& e) {
             report(e, diagnostics);
         }
-    }
     for (auto& w : written)
         if (directory != ".") w = directory + "/" + w;
     return say();

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/output_files.h"
+#include "core/base/table.h"
 #include "tools/forage/commands.h"
 #include "tools/plot/canvas.h"
 
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_rows = 200, most_columns = 40;
 
-std::string escaped(std::string_view text) {
+std::string to_html(std::string_view text) {
     std::string out;
     for (const char c : text) {
         if (c == '&')
@@ -47,7 +48,7 @@ std::string address(std::string_view name) {
 }
 
 std::string picture(const std::string& name) {
-    const std::string at = address(name), text = escaped(name);
+    const std::string at = address(name), text = to_html(name);
     if (plot::format_of(name) == plot::Format::pdf)
         return fmt::format("<p><a href=\"{}\">{}</a></p>\n", at, text);
     return fmt::format(
@@ -59,23 +60,17 @@ std::string picture(const std::string& name) {
 /// long.
 std::string table(const fs::path& path) {
     const std::string name = path.filename().string();
-    std::ifstream in(path);
-    std::string line, rows, first;
+    TableReader in(open_file(path.string()), path.string());
+    std::string rows, first;
     std::size_t count = 0;
-    while (std::getline(in, line) && count <= most_rows) {
-        if (count == 0) first = line;
-        const char* cell = count == 0 ? "th" : "td";
+    for (; count <= most_rows && in.next(); ++count) {
+        if (count == 0) first = in.row();
         rows += "<tr>";
-        std::size_t column = 0;
-        for (std::size_t at = 0; at <= line.size() && column < most_columns; ++column) {
-            const auto end = std::min(line.find(',', at), line.size());
-            rows += fmt::format("<{0}>{1}</{0}>", cell, escaped(line.substr(at, end - at)));
-            at = end + 1;
-        }
+        for (std::size_t i = 0; i < std::min(in.fields().size(), most_columns); ++i)
+            rows += fmt::format("<{0}>{1}</{0}>", count == 0 ? "th" : "td", to_html(in.fields()[i]));
         rows += "</tr>\n";
-        ++count;
     }
-    std::string out = fmt::format("<h3><a href=\"{}\">{}</a></h3>\n", address(name), escaped(name));
+    std::string out = fmt::format("<h3><a href=\"{}\">{}</a></h3>\n", address(name), to_html(name));
     if (first.starts_with("cycle,") || name.starts_with("trajectory")) return out;
     out += "<table>\n" + rows + "</table>\n";
     if (count > most_rows) out += fmt::format("<p>The first {} rows.</p>\n", most_rows);
@@ -89,8 +84,8 @@ std::string settings(const fs::path& directory) {
     std::string out = "<h2>What was run</h2>\n<table>\n";
     for (const auto& [key, value] : json.items()) {
         if (key == "libraries" || key == "compiler" || key == "result") continue;
-        out += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", escaped(key),
-                           escaped(value.is_string() ? value.get<std::string>() : value.dump()));
+        out += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", to_html(key),
+                           to_html(value.is_string() ? value.get<std::string>() : value.dump()));
     }
     return out + "</table>\n";
 }
@@ -111,7 +106,7 @@ std::string page(const fs::path& directory) {
             others.push_back(entry.path());
     }
     for (auto* files : {&pictures, &tables, &others, &folders}) std::sort(files->begin(), files->end());
-    const std::string title = escaped(fs::weakly_canonical(directory).filename().string());
+    const std::string title = to_html(fs::weakly_canonical(directory).filename().string());
     std::string out = fmt::format(R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>{0}</title>
 <style>
@@ -130,7 +125,7 @@ table {{ border-collapse: collapse; font-size: 13px; }} th, td {{ border: 1px so
     for (const auto* list : {&others, &folders})
         for (const auto& f : *list) {
             const std::string name = f.filename().string();
-            out += fmt::format("<li><a href=\"{}\">{}</a></li>\n", address(name), escaped(name));
+            out += fmt::format("<li><a href=\"{}\">{}</a></li>\n", address(name), to_html(name));
         }
     if (!others.empty() || !folders.empty()) out += "</ul>\n";
     return out + "</body></html>\n";

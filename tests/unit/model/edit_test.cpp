@@ -46,17 +46,18 @@ TEST_CASE("A parameter of a group, a connection or a module is set by the path o
 }
 
 TEST_CASE("An edit that cannot be done changes nothing and says what there is") {
-    CHECK(Edit("P/A.treshold=1").said() ==
-          "--set 'P/A.treshold=1': neuronLinearThreshold has no parameter 'treshold' | did you mean "
-          "'threshold'?");
+    CHECK(
+        Edit("P/A.treshold=1").said() ==
+        "--set 'P/A.treshold=1', column 5: neuronLinearThreshold has no parameter 'treshold' | did you mean "
+        "'threshold'?");
     CHECK(Edit("P/C.threshold=1").said() ==
           "--set 'P/C.threshold=1': there is no 'P/C' | did you mean 'P/A'?");
     CHECK(Edit("P/A.threshold=x").said() ==
-          "--set 'P/A.threshold=x': 'x' is not a number | Potential below which act is 0.");
+          "--set 'P/A.threshold=x', column 15: 'x' is not a number | Potential below which act is 0.");
     CHECK(Edit("P.enableModule=maybe").said() ==
-          "--set 'P.enableModule=maybe': 'maybe' is not true or false | ");
+          "--set 'P.enableModule=maybe', column 16: 'maybe' is not true or false | ");
     CHECK(Edit("P.enableModul=true").said() ==
-          "--set 'P.enableModul=true': moduleTest has no parameter 'enableModul' | did you mean "
+          "--set 'P.enableModul=true', column 3: moduleTest has no parameter 'enableModul' | did you mean "
           "'enableModule'?");
     for (const std::string nonsense : {"", "=", "threshold=1", ".threshold=1", "P/A.threshold", "P/A"}) {
         INFO(nonsense);
@@ -92,5 +93,5 @@ TEST_CASE("A name with dots and a value with equals signs are taken apart at the
     const std::string dotted = replaced(small_system, "name=\"A \"", "name=\"A.1\"");
     CHECK(value(Edit("P/A.1.threshold=0.25", dotted).a().neuron, "threshold") == "0.25");
     CHECK(Edit("P/A.threshold=a=b").said() ==
-          "--set 'P/A.threshold=a=b': 'a=b' is not a number | Potential below which act is 0.");
+          "--set 'P/A.threshold=a=b', column 15: 'a=b' is not a number | Potential below which act is 0.");
 }

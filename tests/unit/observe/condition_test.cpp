@@ -84,12 +84,28 @@ TEST_CASE("Conditions see the cells of the last completed cycle") {
     Counting s;
     CHECK(s.holds("P/A(1,1) == 0"));
     for (int t = 0; t < 5; ++t) s.simulation.step();
-    for (const char* text :
-         {"P/A(1,1) == 5", "P/A(3,2) > 4", "P/A:act(2,1) <= 5", "P/A ( 2 , 1 ) == 5", "sum(P/A) == 30",
-          "mean(P/A) == 5", "max(P/A:act) == 5", "min( P/A ) == 5", "P/A(1,1) == P/A(2,2)",
-          "\"P/odd <name>\" == 1", "\"P/odd <name>\"(1,1) == 1", "P/B(2,1) == 1", "P/B:excIn(1,1) == 1",
-          "max(\"P/odd <name>\") == 1", "5 == P/A(1,1) and 1 == \"P/odd <name>\" and trial == 0 or cycle 5",
-          "mean(P/A) > 4 and 6 > mean(P/A)"})
+    for (const char* text : {"P/A(1,1) == 5",
+                             "P/A(3,2) > 4",
+                             "P/A:act(2,1) <= 5",
+                             "P/A ( 2 , 1 ) == 5",
+                             "sum(P/A) == 30",
+                             "mean(P/A) == 5",
+                             "max(P/A:act) == 5",
+                             "min( P/A ) == 5",
+                             "P/A(1,1) == P/A(2,2)",
+                             "\"P/odd <name>\" == 1",
+                             "\"P/odd <name>\"(1,1) == 1",
+                             "P/B(2,1) == 1",
+                             "P/B:excIn(1,1) == 1",
+                             "max(\"P/odd <name>\") == 1",
+                             "5 == P/A(1,1) and 1 == \"P/odd <name>\" and trial == 0 or cycle 5",
+                             "mean(P/A) > 4 and 6 > mean(P/A)",
+                             "mean:P/A == 5",
+                             "mean(P/A(1..2,2)) == 5",
+                             "sum(P/A(1..2,1..2)) == 20",
+                             "min(P/A:act(2,1)) == 5",
+                             "max(P/A(3,1..2)) == 5",
+                             "P/A(2..2,1) == 5"})
         CHECK(s.holds(text));
     CHECK_FALSE(s.holds("P/A(1,1) > 5"));
 }
@@ -99,16 +115,18 @@ TEST_CASE("Mistakes in conditions are told with what there is") {
     CHECK(contains(s.said("P/Aa(1,1) > 1"), "there is no group 'P/Aa'"));
     CHECK(contains(s.said("A(1,1) > 1"), "did you mean 'P/A'"));
     CHECK(contains(s.said("P/A:vm(1,1) > 1"), "counter has no state 'vm'"));
-    CHECK(contains(s.said("P/A > 1"), "has 6 cells"));
-    CHECK(contains(s.said("P/A(4,1) > 1"), "has no cell (4, 1)"));
+    CHECK(contains(s.said("P/A > 1"), "'P/A' has 6 cells"));
+    CHECK(contains(s.said("P/A(1..2,1) > 1"), "'P/A(1..2,1)' has 2 cells"));
+    CHECK(contains(s.said("max(P/A(1..4,1)) > 1"), ", column 8: 'P/A' has not all of the cells (1..4,1)"));
+    CHECK(contains(s.said("P/A(4,1) > 1"), "has no cell (4,1)"));
     CHECK(contains(s.said("P/A(0,1) > 1"), "it has 3 columns and 2 rows"));
-    CHECK(contains(s.said("P/A(x,1) > 1"), "a cell is '(x,y)'"));
+    CHECK(contains(s.said("P/A(x,1) > 1"), "'(x,1)' names no cells"));
     CHECK(contains(s.said("P/A(1,1)"), "a comparison is missing"));
     CHECK(contains(s.said("cycle = 5"), "write '=='"));
     CHECK(contains(s.said("cycle >= "), "something is missing"));
     CHECK(contains(s.said(""), "something is missing"));
     CHECK(contains(s.said("cycle 5 &&"), "something is missing"));
-    CHECK(contains(s.said("cycle 5 trial 6"), "there is no group 'cycle 5 trial 6'"));
+    CHECK(contains(s.said("cycle 5 trial 6"), "a comparison is missing behind 'cycle 5 trial 6'"));
     CHECK(contains(s.said("cycle 5 & trial 6"), "'& trial 6' is left over"));
     CHECK(contains(s.said("(cycle 5"), "a ')' is missing"));
     CHECK(contains(s.said("cycle 5)"), "left over"));

@@ -63,3 +63,15 @@ TEST_CASE("It begins and ends when conditions first hold") {
           V{11, 23, 45, 11, 11});
     CHECK(played({.patterns = list, .every = 2, .until = from_cycle(3)}, 5) == V{23, 11, 45, 11, 11});
 }
+
+TEST_CASE("Patterns of a table hold from their cycles on, each until the next one does") {
+    using V = std::vector<double>;
+    const Manipulation::Settings table{.patterns = {{2, 3}, {4, 5}, {6, 7}, {8, 9}}, .starts = {1, 1, 3, 4}};
+    CHECK(played(table, 6) == V{11, 45, 45, 67, 89, 89});
+    auto limited = table;
+    limited.starts[0] = -1;
+    limited.from = from_cycle(2), limited.until = from_cycle(4);
+    CHECK(played(limited, 6) == V{11, 11, 45, 67, 11, 11});
+    CHECK(played({.patterns = {{2, 3}}, .starts = {-1}}, 2) == V{23, 23});
+    CHECK(played({.mode = Manipulation::Mode::add, .patterns = {{2, 3}}, .starts = {1}}, 3) == V{11, 34, 34});
+}

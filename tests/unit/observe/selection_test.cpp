@@ -15,38 +15,20 @@ Recorded recorded(int width, int height) {
 
 }  // namespace
 
-TEST_CASE("A selection is a column, its mean, and some of its cells") {
-    auto s = parse_selection("Bug/Light");
-    CHECK((!s.mean && s.column == "Bug/Light" && !s.region));
-    s = parse_selection("mean:Bug/Light:vm(2..4, 1)");
-    CHECK((s.mean && s.column == "Bug/Light:vm" && s.region == model::Region{2, 1, 3, 1, {}}));
-    CHECK(parse_selection("Bug/Motor(5,2..9)").region == model::Region{5, 2, 1, 8, {}});
-    CHECK(parse_selection("Bug/Motor(5,5)").region == model::Region{5, 5, 1, 1, {}});
-}
-
-TEST_CASE("Names may hold parentheses") {
-    for (const char* name : {"Reactive/US (light)", "Reactive/US (a,b)", "P/G (", "P/G ()"}) {
-        const auto s = parse_selection(name);
-        CHECK(s.column == name);
-        CHECK(!s.region);
-    }
-    CHECK(parse_selection("Reactive/US (light)(1,1)").column == "Reactive/US (light)");
-}
-
 TEST_CASE("A part of a recording takes its cells row by row") {
-    const auto part = part_of(recorded(4, 3), parse_selection("P/G(2..3,2..3)"));
+    const auto part = part_of(recorded(4, 3), expression::parse_source("P/G(2..3,2..3)"));
     REQUIRE(part);
     CHECK(part->numbers == std::vector<std::size_t>{5, 6, 9, 10});
     CHECK(part->what.name == "P/G:act(2..3,2..3)");
     CHECK(part->what.cell_name(2) == "x2_y3");
     // Of a recording that is a part itself, the same cells have the same names.
-    CHECK(part_of(part->what, parse_selection("P/G(3,3)"))->numbers == std::vector<std::size_t>{3});
+    CHECK(part_of(part->what, expression::parse_source("P/G(3,3)"))->numbers == std::vector<std::size_t>{3});
     for (const char* outside : {"P/G(4..5,1)", "P/G(0,1)", "P/G(3..2,1)", "P/G(1,4)"})
-        CHECK_FALSE(part_of(recorded(4, 3), parse_selection(outside)));
+        CHECK_FALSE(part_of(recorded(4, 3), expression::parse_source(outside)));
 }
 
 TEST_CASE("The mean of cells is one number") {
-    const auto part = part_of(recorded(2, 2), parse_selection("mean:P/G"));
+    const auto part = part_of(recorded(2, 2), expression::parse_source("mean:P/G"));
     REQUIRE(part);
     CHECK(part->what.size() == 1);
     const double row[] = {1, 2, 3, 6};

@@ -10,7 +10,7 @@
 #include "core/base/column.h"
 #include "core/base/text_file.h"
 
-namespace forage::replay {
+namespace forage {
 
 /// Rows `cycle,process,target,v0,v1,...`, one value per cell. `process` is a name, or `*` for any; `target`
 /// is the name of a cross reference or of a group. A row of cycle -1 is valid from the start. Blanks around
@@ -42,4 +42,4 @@ class DriveTable {
     std::vector<Row> rows_;
 };
 
-}  // namespace forage::replay
+}  // namespace forage

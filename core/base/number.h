@@ -1,0 +1,42 @@
+// Numbers in texts: one notation for files, options and expressions.
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace forage {
+
+/// Removes the number at the front of `text` and returns it. Numbers are written in C notation, in any
+/// locale, with or without a sign, and include `nan` and `inf`. Empty, with `text` unchanged, when `text`
+/// does not begin with a number or when N cannot hold it.
+template <class N>
+std::optional<N> take_number(std::string_view& text) {
+    N value{};
+    const std::size_t sign = text.starts_with('+') && !text.starts_with("+-") ? 1 : 0;
+    const auto [end, error] = std::from_chars(text.data() + sign, text.data() + text.size(), value);
+    if (error != std::errc{}) return std::nullopt;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    return value;
+}
+
+/// The finite number that the whole `text` is. Empty when it is something else.
+template <class N>
+std::optional<N> parse_number(std::string_view text) {
+    const auto value = take_number<N>(text);
+    if (!value || !text.empty()) return std::nullopt;
+    if constexpr (std::is_floating_point_v<N>)
+        if (!std::isfinite(*value)) return std::nullopt;
+    return value;
+}
+
+/// Whether `word` is a number that is too large, or too close to 0, for a double.
+bool out_of_range(std::string_view word);
+
+/// The message for a word that is no finite number where one is expected.
+std::string no_number(std::string_view word);
+
+}  // namespace forage

@@ -1,0 +1,139 @@
+#include "core/base/table.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace forage {
+namespace {
+
+constexpr std::string_view blanks = " \t\r\n\v\f";
+constexpr std::size_t most_fields = std::size_t{1} << 24, longest_line = std::size_t{64} << 20,
+                      block_size = std::size_t{1} << 16;
+
+std::string_view trimmed(std::string_view text) {
+    const auto first = std::min(text.find_first_not_of(blanks), text.size());
+    return text.substr(first, text.find_last_not_of(blanks) + 1 - first);  // npos + 1 is 0
+}
+
+}  // namespace
+
+TableReader::TableReader(std::string_view text, std::string path, Layout layout, std::string_view refusal,
+                         std::string_view hint)
+    : source_(std::make_shared<SourceFile>(
+          SourceFile{std::move(path), std::string(text.substr(0, std::size_t{1} << 20))})),
+      layout_(layout),
+      text_(text) {
+    if (auto wrong = not_lines(text, refusal)) {
+        if (wrong->hint.empty()) wrong->hint = hint;
+        throw FileError(source_, {std::move(*wrong)});
+    }
+}
+
+TableReader::TableReader(std::ifstream file, std::string path)
+    : source_(std::make_shared<SourceFile>(SourceFile{std::move(path), {}})), file_(std::move(file)) {}
+
+bool TableReader::read_header() {
+    if (!next()) return false;
+    columns_.assign(fields_.begin(), fields_.end());
+    return true;
+}
+
+std::size_t TableReader::column(std::string_view name) {
+    const auto found = std::find(columns_.begin(), columns_.end(), name);
+    if (found != columns_.end()) return static_cast<std::size_t>(found - columns_.begin());
+    refuse(row_, fmt::format("there is no column '{}'", name), suggest(name, columns_));
+}
+
+bool TableReader::next() {
+    while (!full() && take_line()) {
+        row_ = line_;
+        if (number_ == 1 && row_.starts_with("\xEF\xBB\xBF")) row_.remove_prefix(3);
+        row_ = trimmed(row_);
+        if (layout_ != Layout::list && row_.starts_with('#')) continue;
+        split();
+        if (fields_.empty() && layout_ == Layout::csv) continue;
+        if (columns_.empty() || fields_.size() == columns_.size()) return true;
+        fault(row_, fmt::format("{} fields in this row, not {}", fields_.size(), columns_.size()),
+              "the first row names the columns");
+    }
+    return false;
+}
+
+bool TableReader::take_line() {
+    std::size_t end = layout_ == Layout::list ? text_.npos : text_.find('\n');
+    while (end == text_.npos && file_.is_open()) {
+        const std::size_t searched = text_.size();
+        if (searched > longest_line) {
+            line_ = row_ = text_, ++number_;
+            fault(row_, "the line is too long");
+            return false;
+        }
+        if (!read_more()) return false;
+        end = text_.find('\n', searched);
+    }
+    if (text_.empty() && (number_ > 0 || layout_ != Layout::list)) return false;
+    ++number_;
+    line_ = text_.substr(0, end);
+    text_.remove_prefix(std::min(line_.size() + 1, text_.size()));
+    return true;
+}
+
+/// Keeps what is left of the block, and puts the next one behind it.
+bool TableReader::read_more() {
+    block_.erase(0, block_.size() - text_.size());
+    const std::size_t kept = block_.size();
+    block_.resize(kept + block_size);
+    file_.read(block_.data() + kept, block_size);
+    block_.resize(kept + static_cast<std::size_t>(file_.gcount()));
+    text_ = block_;
+    return block_.size() > kept;
+}
+
+void TableReader::split() {
+    fields_.clear();
+    if (row_.empty()) return;
+    const bool any = layout_ == Layout::blocks;  // several separators count as one
+    constexpr std::string_view separators = " \t\r\v\f,;";
+    for (std::size_t at = 0; at <= row_.size() && fields_.size() <= most_fields;) {
+        if (any && (at = row_.find_first_not_of(separators, at)) == row_.npos) return;
+        const auto end = std::min(any ? row_.find_first_of(separators, at) : row_.find(',', at), row_.size());
+        fields_.push_back(trimmed(row_.substr(at, end - at)));
+        at = end + 1;
+    }
+    if (layout_ == Layout::list && fields_.back().empty()) fields_.pop_back();
+    if (fields_.size() > most_fields) {
+        fault(row_, fmt::format("more than {} fields in a row", most_fields));
+        fields_.clear();
+    }
+}
+
+std::pair<int, int> TableReader::place(std::string_view piece) const {
+    const auto before = line_.substr(0, static_cast<std::size_t>(piece.data() - line_.data()));
+    return {number_ + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+            static_cast<int>(before.size() - (before.rfind('\n') + 1)) + 1};  // npos + 1 is 0
+}
+
+void TableReader::fault(std::pair<int, int> place, std::string message, std::string_view hint) {
+    if (!full())
+        faults_.push_back(error_at(place.first, place.second, std::move(message), std::string(hint)));
+}
+
+void TableReader::require_sound() const {
+    if (failed()) throw FileError(source_, faults_);
+}
+
+void TableReader::require_whole() {
+    if (!text_.empty() && !full()) fault({number_ + 1, 1}, "the file ends within this row");
+    require_sound();
+}
+
+void TableReader::refuse(std::string message, std::string_view hint) const {
+    throw FileError(source_, {error_at(0, 0, std::move(message), std::string(hint))});
+}
+void TableReader::refuse(std::string_view piece, std::string message, std::string_view hint) {
+    fault(piece, std::move(message), hint);
+    throw FileError(source_, faults_);
+}
+
+}  // namespace forage

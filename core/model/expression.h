@@ -1,0 +1,160 @@
+// The language of expressions: sources, conditions, assignments, changes, manipulations and plots.
+// docs/reference/expressions.md describes the grammar. These functions read syntax only, which needs no
+// system; callers resolve the names.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/diagnostic.h"
+#include "core/model/pattern.h"
+
+namespace forage::model {
+
+/// A text in the language of expressions, and where it is written.
+struct Expression {
+    std::string text;
+    Location at{};  ///< without a file: the command line
+    bool empty() const { return text.empty(); }
+};
+
+/// A change of a parameter while the system runs.
+struct ScheduledChange {
+    Expression when;    ///< a condition
+    Expression change;  ///< "WHERE.parameter=value"
+    std::string text() const { return when.text + ": " + change.text; }
+};
+
+/// Patterns that change the activity of a group while the system runs.
+struct ManipulationSpec {
+    enum class Mode { clamp, add, multiply };
+    Mode mode = Mode::clamp;
+    Expression group;     ///< "Process/Group"; empty for a table
+    Expression cells;     ///< one pattern, "(x,y)=value ..."; alternative to `patterns` and `table`
+    Expression patterns;  ///< a file of patterns, relative to the working directory
+    Expression table;     ///< a file of rows cycle,process,group,v0,v1,... for any groups
+    std::uint64_t every = 1, step = 1;  ///< a pattern every `every` cycles; only every `step`-th pattern
+    std::optional<std::uint64_t> times = {};  ///< how often the list is played; empty: without end
+    bool backwards = false;
+    Expression from, until;  ///< conditions; empty: from the first cycle, until the last
+    std::string text;        ///< the whole text, as written on the command line
+};
+
+}  // namespace forage::model
+
+namespace forage::expression {
+
+/// The error of a text that is not a valid expression. what() is the reason.
+struct Mistake : std::invalid_argument {
+    Mistake(std::size_t offset, const std::string& message, std::string advice)
+        : std::invalid_argument(message), at(offset), hint(std::move(advice)) {}
+    /// "'text', column 7: the reason; the hint", for callers without diagnostics.
+    std::string described(std::string_view text) const;
+
+    std::size_t at;    ///< the first wrong byte of the text, from 0
+    std::string hint;  ///< may be empty
+};
+
+/// Where an expression is written, and where its mistakes are reported.
+struct Context {
+    std::string_view text;  ///< the whole expression
+    std::string_view what;  ///< its purpose, which begins the messages: "--record", "measure"
+    Diagnostics& diagnostics;
+    Location at{};  ///< of the first byte; without a file: the command line
+
+    /// Reports a mistake at the byte `offset` of the text.
+    void error(std::size_t offset, std::string message, std::string hint = {}) const;
+    /// Parses the text. Reports a mistake, and is empty then.
+    template <class T>
+    std::optional<T> parsed(T (*parse)(std::string_view)) const {
+        try {
+            return parse(text);
+        } catch (const Mistake& m) {
+            error(m.at, m.what(), m.hint);
+            return std::nullopt;
+        }
+    }
+};
+
+/// A piece of an expression.
+struct Piece {
+    std::string text;
+    std::size_t at = 0;  ///< its first byte in the expression, from 0
+};
+
+/// Cells of a column: "Process/Group:state(2..4,1)".
+struct Source {
+    Piece column;
+    bool mean = false;  ///< the mean of the cells instead of each of them
+    std::optional<model::Region> cells =
+        {};                       ///< empty: all cells; a width or height of 0: an impossible range
+    std::string cells_text = {};  ///< "(2..4,1)"
+    std::size_t cells_at = 0;     ///< the first byte of `cells_text` in the expression
+
+    /// The source in its canonical spelling: "mean:Process/Group:state(2..4,1)".
+    std::string text() const { return (mean ? "mean:" : "") + column.text + cells_text; }
+};
+
+/// A number, constant or changing over a run.
+struct Quantity {
+    enum Kind { number, cycle, trial, seconds, cell, mean, sum, min, max } kind = number;
+    double value = 0;    ///< if `kind` is number
+    Source source = {};  ///< if `kind` is cell or later
+    std::size_t at = 0;  ///< its first byte in the expression
+};
+
+/// Comparisons of quantities, joined by `and` and `or`.
+struct Condition {
+    enum class Operator { less, at_most, more, at_least, equal, unequal, both, either };
+    struct Node {
+        Operator op;
+        std::size_t first, second;  ///< indices into `quantities`, or into `nodes` if `op` is both or either
+    };
+    std::vector<Node> nodes;  ///< a tree: children before parents; the last node is the root
+    std::vector<Quantity> quantities;
+};
+
+/// "WHERE.parameter=value"
+struct Assignment {
+    Piece owner, parameter, value;
+};
+
+/// "(x,y)=value"
+struct CellValue {
+    Source cell;  ///< with an empty column
+    double value;
+};
+
+/// One picture.
+struct Plot {
+    enum class Kind { time, space, movie, connection, diagram, trajectory };
+    struct Cycles {
+        std::uint64_t first, last, step;
+        bool contains(std::uint64_t c) const { return c >= first && c <= last && (c - first) % step == 0; }
+    };
+    Kind kind = Kind::time;
+    std::string what;  ///< the source, connection or process; may be empty for diagram and trajectory
+    std::vector<Cycles> cycles;
+    std::string cycles_text;  ///< the text after '@'
+    int blocks_across = 1, blocks_down = 1;
+
+    bool of_cells() const { return kind == Kind::time || kind == Kind::space || kind == Kind::movie; }
+    static std::string_view name(Kind kind);
+};
+
+// Each function reads a whole text. All of them throw Mistake.
+Source parse_source(std::string_view text);
+Quantity parse_quantity(std::string_view text);
+Condition parse_condition(std::string_view text);
+Assignment parse_assignment(std::string_view text);
+model::ScheduledChange parse_change(std::string_view text);
+std::vector<CellValue> parse_cell_values(std::string_view text);
+model::ManipulationSpec parse_manipulation(model::ManipulationSpec::Mode mode, std::string_view text);
+Plot parse_plot(std::string_view text);
+
+}  // namespace forage::expression

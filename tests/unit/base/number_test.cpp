@@ -1,0 +1,40 @@
+#include "core/base/number.h"
+
+#include <cstdint>
+
+#include "tests/support/catch.h"
+
+using namespace forage;
+
+TEST_CASE("A number is read from the whole text, in C notation, with or without a sign") {
+    CHECK(parse_number<double>("0.5") == 0.5);
+    CHECK(parse_number<double>("+1e-3") == 1e-3);
+    CHECK(parse_number<double>("-.5") == -0.5);
+    CHECK(parse_number<int>("+7") == 7);
+    CHECK(parse_number<std::uint64_t>("18446744073709551615") == 18446744073709551615u);
+    for (const char* text :
+         {"", " 1", "1 ", "0,5", "1x", "0x10", "+-1", "++1", "+", "nan", "inf", "-inf", "1e999"})
+        CHECK_FALSE(parse_number<double>(text));
+    for (const char* text : {"1.0", "1e3", "2147483648"}) CHECK_FALSE(parse_number<int>(text));
+    CHECK_FALSE(parse_number<std::uint64_t>("-1"));
+}
+
+TEST_CASE("A number is taken off the front of a text, NaN and infinities too") {
+    std::string_view text = "3_y-4";
+    CHECK(take_number<int>(text) == 3);
+    CHECK(text == "_y-4");
+    CHECK_FALSE(take_number<int>(text));
+    CHECK(text == "_y-4");
+    text = "inf";
+    CHECK(take_number<double>(text) == INFINITY);
+    text = "nan(x)";
+    CHECK(std::isnan(*take_number<double>(text)));
+}
+
+TEST_CASE("What is no number is told with its reason") {
+    CHECK(no_number("") == "there is no number here");
+    CHECK(no_number("x") == "'x' is not a number");
+    CHECK(no_number("1x") == "'1x' is not a number");
+    CHECK(no_number("-inf") == "'-inf' is not a finite number");
+    CHECK(no_number("1e999") == "'1e999' is beyond all numbers that can be stored");
+}
