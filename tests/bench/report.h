@@ -1,4 +1,4 @@
-// What benchmarks say, for people and for programs.
+// The output of benchmarks, for readers and for programs.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ inline double median(std::vector<double> values) {
     return *middle;
 }
 
-/// Seconds that this thread has computed: what else the machine does counts less than on a clock on the wall.
+/// The processor time of this thread, s. Other load of the machine affects it less than wall-clock time.
 inline double thread_seconds() {
     timespec t{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
@@ -45,16 +45,15 @@ inline double wall_seconds() {
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Runs per second, block by block. Where figures of one run are compared it is the best of blocks that
-/// counts: what a neighbour on the same processor takes from one block it does not take from all. The median
-/// says what a user of this machine saw.
+/// Runs per second, block by block. Comparisons within one run use the best block, because other load on the
+/// same processor does not slow all blocks. The median is what a user of this machine would see.
 struct Rates {
     std::vector<double> blocks;
     double best() const { return *std::max_element(blocks.begin(), blocks.end()); }
     double median() const { return bench::median(blocks); }
 };
 
-/// Adds `count` blocks that last so many seconds or somewhat longer, by either clock.
+/// Adds `count` blocks that last this many seconds or somewhat longer, by either clock.
 template <class Run>
 void add_rates(Rates& rates, double (*clock)(), int count, Run run, double seconds_of_block = 0.025) {
     for (long runs = 1; count > 0;) {
@@ -75,7 +74,7 @@ Rates rates(double (*clock)(), Run run) {
     return out;
 }
 
-/// Of several kinds of runs in turns, so that what else the machine does meets all.
+/// Measures several kinds of runs in turns, so that other load of the machine affects all of them.
 template <class... Runs>
 std::array<Rates, sizeof...(Runs)> rates_in_turns(double (*clock)(), Runs... runs) {
     constexpr int turns = 10, blocks = 5;

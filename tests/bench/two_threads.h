@@ -1,8 +1,8 @@
 // How much faster is a simulation on two threads, and how much faster are two simulations side by side?
 //
 // Processors of a virtual machine are often halves of one core, or shared with neighbours: two threads that
-// have nothing to do with each other then gain less than twice, too. What they gain is measured in the same
-// turns, for comparison; as they need twice the cache, sharing may gain more.
+// share nothing then gain less than twice, too. Their gain is measured in the same turns for comparison. As
+// they need twice the cache, sharing may gain more.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +13,11 @@
 
 namespace forage::bench {
 
-/// What two threads gain.
+/// The gain of two threads.
 struct Gain {
-    double shared;  ///< times as fast, when they share each cycle: the best blocks
-    double usual;   ///< ... the medians of blocks, in which trials and waking up are
-    double apart;   ///< times as many cycles, of two simulations that share nothing: the best blocks
+    double shared;  ///< of a simulation that shares each cycle: ratio of the best blocks
+    double usual;   ///< the same, of the medians, which include trials and wake-ups
+    double apart;   ///< of two simulations that share nothing: ratio of the best blocks
 };
 
 /// `cycles` belong together. `one`, `other`: alike, on one thread each; `two`: on two.

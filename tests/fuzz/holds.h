@@ -1,4 +1,4 @@
-// What holds of every input, said by a crash when it does not.
+// Properties of every input, which crash the fuzzer when they do not hold.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ inline void holds(bool condition, const char* what) {
     std::abort();
 }
 
-/// Every diagnostic says something, of a place that the text has, in words that a terminal can show.
+/// Every diagnostic has a message that a terminal can show, and a place that exists in the text.
 inline void sensible(const Diagnostics& diagnostics, const std::string& text) {
     const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
     for (const auto& d : diagnostics.all()) {

@@ -15,8 +15,8 @@
 namespace forage::test {
 
 struct Way {
-    bool read = false;     ///< a system came out
-    bool checked = false;  ///< without errors
+    bool read = false;     ///< whether the text is a system
+    bool checked = false;  ///< whether the system has no errors
     std::size_t synapses = 0;
 };
 
@@ -24,7 +24,7 @@ inline void must(bool holds, const char* what) {
     if (!holds) throw std::logic_error(what);
 }
 
-/// Reads, checks and connects; throws when something comes out that cannot be.
+/// Reads, checks and connects. Throws when a result is impossible.
 inline Way whole_way(const std::string& text, const Registry& registry, bool lenient) {
     Way way;
     Diagnostics diagnostics;

@@ -49,8 +49,9 @@ class ClosedLoop {
             registry.add(bug::gazebo_bug_type());
             for (const auto& assignment : setup.set) model::set(*system, registry, assignment, diagnostics);
             parsed_ = *system;
-            simulation = engine::Simulation::build(*system, registry, engine::Demand::everything(),
-                                                   {.seed = setup.seed, .environment = world.get()}, diagnostics);
+            simulation =
+                engine::Simulation::build(*system, registry, engine::Demand::everything(),
+                                          {.seed = setup.seed, .environment = world.get()}, diagnostics);
         }
         if (!simulation || !world) throw std::runtime_error(format(diagnostics));
         simulation->start();
@@ -62,14 +63,14 @@ class ClosedLoop {
         simulation->step();
         world->step();
     }
-    /// Until so many trials are over; throws when that takes more than 1000 cycles each.
+    /// Runs until this many trials are over. Throws when a trial takes more than 1000 cycles on average.
     void run_trials(std::size_t count) {
         while (world->trials(0).size() < count) {
             if (simulation->cycle() > 1000 * count) throw std::runtime_error("the trials do not end");
             step();
         }
     }
-    /// Changes a parameter from now on; as --schedule.
+    /// Changes a parameter from now on, as --schedule does.
     void set(std::string_view assignment) {
         Diagnostics diagnostics;
         const auto change = model::parse_assignment(parsed_, registry, assignment, "test", diagnostics);
@@ -77,7 +78,7 @@ class ClosedLoop {
         simulation->set(*change);
     }
     Pose2 pose() const { return world->pose(0); }
-    /// Activity of "Process/Group".
+    /// The activity of "Process/Group".
     ConstColumn activity(std::string_view group) const {
         Diagnostics diagnostics;
         const auto column = observe::find_column(simulation->layout(), group, "test", diagnostics);
@@ -101,7 +102,7 @@ inline auto keep_connections(std::vector<std::string> ids) {
     };
 }
 
-/// Puts the robot to another first pose.
+/// Moves the robot to another first pose.
 inline auto start_at(double x, double y, double yaw) {
     return [=](bug::WorldDescription& world) {
         for (auto& model : world.models)

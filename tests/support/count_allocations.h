@@ -1,5 +1,5 @@
-// Counts what a program takes from the heap: operator new, Eigen, and the libraries that it uses. Replaces
-// the C library's functions, so it is included by one file of a test program.
+// Counts the allocations of a program: operator new, Eigen, and the libraries that it uses. It replaces
+// the C library's functions, so only one file of a test program includes it.
 #pragma once
 
 #include <atomic>
@@ -16,7 +16,7 @@ namespace forage::test {
 
 inline std::atomic<std::size_t> allocation_count{0};
 
-/// Allocations so far, by any thread and any library.
+/// The number of allocations so far, by all threads and libraries.
 inline std::size_t allocations() { return allocation_count; }
 
 }  // namespace forage::test
@@ -55,7 +55,7 @@ int posix_memalign(void** out, std::size_t alignment, std::size_t size) noexcept
 }
 
 TEST_CASE("Counting sees operator new, Eigen's temporaries and aligned memory") {
-    const volatile Eigen::Index size = 100;  // not known to the compiler, which could leave them out
+    const volatile Eigen::Index size = 100;  // unknown to the compiler, which could remove the allocations
     const auto counted = [](auto allocate) {
         const std::size_t before = forage::test::allocations();
         allocate();

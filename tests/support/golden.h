@@ -20,7 +20,7 @@ inline std::string read_text(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// A table of text, row by row. The fields are views into the table: it must outlive them.
+/// A table of text, row by row. The fields are views into the table, which must outlive them.
 class Rows {
   public:
     /// The first line, the header, is skipped; '#' does not begin a comment.

@@ -1,4 +1,4 @@
-// Makes the machine small.
+// Limits the memory of a test.
 #pragma once
 
 #include <fstream>
@@ -14,7 +14,7 @@ inline constexpr bool can_limit_memory = false;  // sanitizers map the whole add
 inline constexpr bool can_limit_memory = true;
 #endif
 
-/// While it lives, the program gets at most so many bytes more than it has.
+/// During its lifetime, the program can allocate at most this many additional bytes.
 class LimitedMemory {
   public:
     explicit LimitedMemory(std::size_t more) {

@@ -1,4 +1,4 @@
-// PNG files made chunk by chunk, also such as no program writes.
+// PNG files made chunk by chunk, also unusual ones.
 #pragma once
 
 #include <cstdint>

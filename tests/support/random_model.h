@@ -41,7 +41,7 @@ class RandomModel {
         return *(values.begin() + below(static_cast<int>(values.size())));
     }
 
-    /// Whatever people write: markup, quotes, other alphabets, several lines.
+    /// A text as users may write it: markup, quotes, other alphabets, several lines.
     std::string text() {
         std::string out;
         for (int n = below(4); n > 0; --n)
