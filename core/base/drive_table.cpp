@@ -10,7 +10,7 @@ namespace forage {
 namespace {
 
 constexpr const char* form = "a row is cycle,process,target,v0,v1,...";
-/// Reads the row at which the reader stands.
+/// Reads the current row of the reader.
 DriveTable::Row parse_row(TableReader& in) {
     const auto& fields = in.fields();
     const auto fault = [&](std::string_view piece, std::string message, std::string_view hint = form) {

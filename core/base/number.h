@@ -23,7 +23,7 @@ std::optional<N> take_number(std::string_view& text) {
     return value;
 }
 
-/// The finite number that the whole `text` is. Empty when it is something else.
+/// The whole `text` as a finite number. Empty when it is not one.
 template <class N>
 std::optional<N> parse_number(std::string_view text) {
     const auto value = take_number<N>(text);
@@ -36,7 +36,7 @@ std::optional<N> parse_number(std::string_view text) {
 /// Whether `word` is a number that is too large, or too close to 0, for a double.
 bool out_of_range(std::string_view word);
 
-/// The message for a word that is no finite number where one is expected.
+/// The message for a word that is not a finite number where one is expected.
 std::string no_number(std::string_view word);
 
 }  // namespace forage

@@ -79,7 +79,7 @@ bool TableReader::take_line() {
     return true;
 }
 
-/// Keeps what is left of the block, and puts the next one behind it.
+/// Keeps the rest of the block, and appends the next one.
 bool TableReader::read_more() {
     block_.erase(0, block_.size() - text_.size());
     const std::size_t kept = block_.size();

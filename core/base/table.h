@@ -25,15 +25,15 @@ class TableReader {
         blocks,  ///< A line is a row with blanks, commas or semicolons between its fields; an empty line is a
                  ///< row without fields.
         list,    ///< The whole text is one row with commas between its fields; a comma after the last is
-               ///< allowed; line ends are blanks.
+                 ///< allowed; line ends are blanks.
     };
 
-    /// Reads `text`, which must live as long as the reader. Throws FileError when it is no text of lines;
+    /// Reads `text`, which must live as long as the reader. Throws FileError when it is not a text of lines;
     /// `refusal` begins the message ("this is no table"), and `hint` belongs to it.
     TableReader(std::string_view text, std::string path, Layout layout, std::string_view refusal,
                 std::string_view hint = {});
-    /// Reads a CSV file of any size. An incomplete last line, as a killed program leaves it, is no row (see
-    /// require_whole()).
+    /// Reads a CSV file of any size. An incomplete last line, as a killed program leaves it, is not a row
+    /// (see require_whole()).
     TableReader(std::ifstream file, std::string path);
 
     /// Reads the next row as the names of columns. Each later row must have the same number of fields.
@@ -54,7 +54,7 @@ class TableReader {
         if (!full()) fault(place(piece), std::move(message), hint);
     }
     void fault(std::pair<int, int> place, std::string message, std::string_view hint = {});
-    /// The finite number that a field is. Anything else is a fault, and gives 0.
+    /// The field as a finite number. Anything else is a fault, and gives 0.
     double number(std::string_view field, std::string_view hint = {}) {
         const auto value = parse_number<double>(field);
         if (!value && !full()) fault(field, no_number(field), hint);
@@ -82,13 +82,13 @@ class TableReader {
 
     std::shared_ptr<const SourceFile> source_;  ///< with the beginning of the text, for excerpts
     Layout layout_ = Layout::csv;
-    std::string_view text_;  ///< what is left of it, or of the block
+    std::string_view text_;  ///< the rest of the text, or of the block
     std::ifstream file_;
     std::string block_;
     std::string_view line_, row_;
     std::vector<std::string_view> fields_;
     std::vector<std::string> columns_;
-    int number_ = 0;  ///< of the line
+    int number_ = 0;  ///< number of the line
     std::vector<Diagnostic> faults_;
 };
 

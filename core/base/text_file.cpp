@@ -49,7 +49,7 @@ Diagnostic refusal(const std::string& path, int error) {
     }
 }
 
-/// An error at the byte `at`.
+/// The error at the byte `at`.
 Diagnostic error_in(std::string_view text, std::size_t at, std::string message, std::string hint) {
     const std::string_view before = text.substr(0, at);
     return error_at(1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
@@ -93,7 +93,7 @@ std::string read_file(const std::string& path, std::size_t most) {
         const ssize_t count = read(in.number, block.data(), block.size());
         pollfd ready{in.number, POLLIN, 0};
         if (count < 0 && errno == EINTR) continue;
-        if (count < 0 && errno == EAGAIN) {  // a pipe or a terminal, and somebody is about to write
+        if (count < 0 && errno == EAGAIN) {  // a pipe or a terminal that a program will write into
             poll(&ready, 1, -1);
             continue;
         }
@@ -107,7 +107,7 @@ std::string read_file(const std::string& path, std::size_t most) {
         }
         if (count == 0) return text;
         const std::string_view got(block.data(), static_cast<std::size_t>(count));
-        // What follows a NUL in its own block tells UTF-16 and pictures from damaged texts.
+        // The rest of the block after a NUL distinguishes UTF-16 and pictures from damaged texts.
         text.append(got);
         if (text.size() > most) unreadable(path, fmt::format("the file is larger than {} MiB", most >> 20));
         if (got.find('\0') != got.npos) return text;

@@ -1,4 +1,4 @@
-// Text files that users name, and what is wrong with them.
+// Reads text files that users name.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@
 
 namespace forage {
 
-/// A file that cannot be read, or does not hold what it should: everything that is wrong with it.
+/// A file cannot be read, or its content is wrong. Holds all errors.
 class FileError : public std::runtime_error {
   public:
     /// `text` is the content of the file, of which the first mebibyte is kept. what() is
-    /// "path:line:column: message" of the first error, and how many more there are.
+    /// "path:line:column: message" of the first error, with the number of further errors.
     FileError(std::string path, std::string text, std::vector<Diagnostic> errors);
     FileError(std::shared_ptr<const SourceFile> file, std::vector<Diagnostic> errors);
 
@@ -30,24 +30,24 @@ class FileError : public std::runtime_error {
     std::vector<Diagnostic> errors_;
 };
 
-/// The bytes of the file at `path`. Reading ends behind the first NUL byte, which no text holds: whoever
-/// parses the text finds it there, and neither a device nor a disk image fills the memory. Throws FileError,
+/// The bytes of the file at `path`. Reading ends after the first NUL byte, which no text contains, so that a
+/// device or a disk image does not fill the memory; the parser then finds the NUL byte. Throws FileError,
 /// also when there are more than `most` bytes.
 std::string read_file(const std::string& path, std::size_t most = std::size_t{128} << 20);
 
-/// A piece of a file for a message: shortened, and harmless on a terminal.
+/// A piece of a file for a message: shortened, and without control characters.
 std::string escaped(std::string_view piece);
 
-/// Why no file can be read at `path`, as an error of the file as a whole; nothing when one can. The content
-/// is not looked at.
+/// The reason why the file at `path` cannot be read, as an error of the file as a whole; empty when it can.
+/// The content is not checked.
 std::optional<Diagnostic> why_unreadable(const std::string& path);
 
-/// A stream of the bytes of a file of any size. Throws FileError when it cannot be read or is no regular
+/// A stream of the bytes of a file of any size. Throws FileError when it cannot be read or is not a regular
 /// file.
 std::ifstream open_file(const std::string& path);
 
-/// What shows that a file of lines is no such text: the beginning of a file of another kind, a NUL byte, line
-/// ends that no program writes any more. `wanted`: "this is no table".
+/// The error of a text that is not made of lines: it begins like a file of another kind, or has a NUL byte or
+/// obsolete line ends. Empty when there is none. `wanted` begins the message, such as "this is no table".
 std::optional<Diagnostic> not_lines(std::string_view text, std::string_view wanted);
 
 }  // namespace forage

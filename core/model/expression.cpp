@@ -18,7 +18,7 @@ constexpr std::string_view blanks = " \t\r\n";
 constexpr const char* condition_hint =
     "for example 'trial >= 50 && Process/Group(1,1) > 0.5', 'cycle 100', '30 s'";
 
-/// All places of `wanted` outside of double quotes.
+/// All positions of `wanted` outside of double quotes.
 std::vector<std::size_t> find_unquoted(std::string_view text, std::string_view wanted) {
     std::vector<std::size_t> out;
     bool paired = true;
@@ -33,7 +33,8 @@ std::vector<std::size_t> find_unquoted(std::string_view text, std::string_view w
     return out;
 }
 
-/// Takes "3" or "3..5" off the front of a text: the first number and their count, 0 for what cannot be.
+/// Removes "3" or "3..5" from the front of a text. Returns the first number and the count of numbers, 0 for
+/// an impossible range.
 std::optional<std::pair<int, int>> take_range(std::string_view& rest) {
     rest = trim(rest);
     const auto first = take_number<int>(rest);
@@ -46,7 +47,7 @@ std::optional<std::pair<int, int>> take_range(std::string_view& rest) {
     return std::pair{*first, *first < 1 || *last < *first ? 0 : *last - *first + 1};
 }
 
-/// Takes "(x1..x2,y1..y2)" off the front of a text.
+/// Removes "(x1..x2,y1..y2)" from the front of a text.
 std::optional<model::Region> take_cells(std::string_view& rest) {
     const auto take = [&](char c) {
         if (!rest.starts_with(c)) return false;
@@ -124,7 +125,7 @@ class Parser {
     }
 
   private:
-    // Conditions are read and evaluated by recursion.
+    // Conditions are read and evaluated recursively, so their depth is limited.
     static constexpr std::size_t deepest = 100, most_parts = 1000, longest = 65536;
     using Operator = Condition::Operator;
     static constexpr std::array<std::pair<std::string_view, Quantity::Kind>, 3> words = {
@@ -147,7 +148,7 @@ class Parser {
         at_ = text_.size() - left.size();
         return *value;
     }
-    /// Whether what follows cannot belong to a name.
+    /// Whether the next bytes cannot belong to a name.
     static bool ends(std::string_view rest, const Stops& stops) {
         rest = trim(rest);
         return rest.empty() || stops.bytes.find(rest[0]) != rest.npos ||
@@ -156,7 +157,7 @@ class Parser {
     static bool cells_follow(std::string_view rest, const Stops& stops) {
         return take_cells(rest) && ends(rest, stops);
     }
-    /// Whether `word` and parentheses follow, and no name or column that begins so.
+    /// Whether `word` with parentheses follows, and not a name or column that begins with it.
     bool function_follows(std::string_view word, const Stops& stops) {
         skip();
         if (!rest().starts_with(word)) return false;
@@ -193,7 +194,7 @@ class Parser {
         if (close == text_.npos) return name(stops);
         const auto behind = trim(text_.substr(close + 1));
         if (!stops.words && !behind.starts_with(':') && !ends(behind, stops) && !cells_follow(behind, stops))
-            return name(stops);  // the quotes belong to it
+            return name(stops);  // the quotes are part of the name
         std::string out(trim(text_.substr(at_ + 1, close - at_ - 1)));
         at_ = close + 1;
         return behind.starts_with(':') ? out + name(stops) : out;
@@ -277,7 +278,7 @@ class Parser {
                                     escaped(trim(text_.substr(begin, at_ - begin)))),
              assigned ? "write '=='" : condition_hint, at_);
     }
-    /// The word of "cycle 100" or "trial 7", when a number is all that follows it.
+    /// The word of "cycle 100" or "trial 7", when only a number follows it.
     std::optional<Quantity> shorthand() {
         skip();
         for (const auto& [word, kind] : words) {
@@ -328,7 +329,7 @@ std::string quoted(std::string_view text, std::size_t offset) {
                        offset == 0 ? "" : fmt::format(", column {}", offset + 1));
 }
 
-/// The place of the byte `by` of an expression that begins at `at` in its file, where XML writes some
+/// The location of the byte `by` of an expression that begins at `at` in its file, in which XML may write
 /// characters as entities.
 Location shifted(const Location& at, std::string_view text, std::size_t by) {
     const std::string& file = at.file->text;
@@ -337,12 +338,12 @@ Location shifted(const Location& at, std::string_view text, std::size_t by) {
         byte = std::min(file.find('\n', byte), file.size() - 1) + 1;
     byte += static_cast<std::size_t>(std::max(at.column - 1, 0));
     if (byte <= file.size() && file.compare(byte, by, text, 0, by) == 0)
-        return location_of(at.file, byte + by);  // nearly always
+        return location_of(at.file, byte + by);  // the usual case
     for (std::size_t i = 0; i < by; ++i) {
         if (byte >= file.size()) return at;
         const bool entity = file[byte] == '&', blank = blanks.find(file[byte]) != blanks.npos;
         if (!entity && file[byte] != text[i] && !(blank && text[i] == ' '))
-            return at;  // not as it stands in the file
+            return at;  // the text differs from the file
         byte = entity ? std::min(file.find(';', byte), file.size() - 1) + 1 : byte + 1;
     }
     return location_of(at.file, byte);
@@ -421,7 +422,7 @@ std::vector<CellValue> parse_cell_values(std::string_view text) {
 
 namespace {
 
-/// Where "(x,y)=value ..." begins: a name may hold parentheses, too.
+/// The position where "(x,y)=value ..." begins. A name may contain parentheses, too.
 std::size_t first_cell(std::string_view text) {
     for (auto open = text.find('('); open != text.npos; open = text.find('(', open + 1))
         if (const auto close = text.find_first_not_of("0123456789., \t+-", open + 1);

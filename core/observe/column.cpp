@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::array<std::string_view, input_kinds> inputs = {"excIn", "inhIn", "modIn"};
 
-/// The groups that a user may mean by `path`: the one of exactly this path, or all of it without "#id", or
-/// the one of this id, written alone, as "#id" or as "Process/Group#id".
+/// The groups that `path` may mean: the group with exactly this path, all groups with this path without
+/// "#id", or the group with this id, written alone, as "#id" or as "Process/Group#id".
 std::vector<int> groups_named(const engine::Layout& s, std::string_view path) {
     path = model::trim(path);
     std::vector<int> out;
@@ -47,7 +47,7 @@ std::optional<ColumnRef> find_column(const engine::Layout& s, const expression::
     }
     if (found.size() != 1) {
         if (const auto open = text.rfind('('); found.empty() && text.ends_with(')') && open != text.npos) {
-            // A name may hold parentheses. Here it is the rest that names a group.
+            // A name may contain parentheses. Here only the rest of the text names a group.
             const auto names_group = [&](std::string_view part) { return !groups_named(s, part).empty(); };
             const auto before = text.substr(0, open), inside = text.substr(open + 1, text.size() - open - 2);
             if (names_group(before) || names_group(before.substr(0, before.rfind(':')))) {

@@ -19,8 +19,8 @@ struct ColumnRef {
 };
 
 /// The column that `text` names: "Process/Group:state", or "Process/Group" for the activity. States are those
-/// of the group's type, and excIn, inhIn, modIn. Reports what is not there, with the names there are; `what`
-/// says where the text stands ("--record").
+/// of the group's type, and excIn, inhIn, modIn. Reports unknown names, with the possible ones; `what`
+/// says where the text is from ("--record").
 std::optional<ColumnRef> find_column(const engine::Layout& layout, std::string_view text,
                                      std::string_view what, Diagnostics& diagnostics, Location at = {});
 /// The column that a piece of an expression names.

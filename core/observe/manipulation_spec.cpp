@@ -61,7 +61,7 @@ class ManipulationReader {
     struct Made {
         const Spec* spec;
         Settings settings;
-        std::vector<Row> rows;  ///< of tables
+        std::vector<Row> rows;  ///< rows of tables
     };
 
     std::string what(const Location& at) const { return (at.file ? "" : "--") + mode_; }
@@ -81,7 +81,7 @@ class ManipulationReader {
         return std::nullopt;
     }
 
-    /// What was made of the same group with the same settings, or a new one.
+    /// The manipulation of the same group with the same settings, or a new one.
     Made& find_same(const Spec& spec, Settings settings) {
         const auto key = [](const Spec& s) {
             return std::tuple(s.mode, s.cells.empty(), s.patterns.empty(), s.every, s.step, s.times,

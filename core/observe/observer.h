@@ -1,4 +1,4 @@
-// Observers: everything that looks at a run or changes it.
+// Observers: everything that reads or changes a run.
 #pragma once
 
 #include <cstdint>
@@ -24,9 +24,9 @@ struct RunView {
     Run& run;
 };
 
-/// Looks at a run, or changes it, at fixed points of each cycle:
+/// Reads or changes a run at fixed points of each cycle:
 ///
-///     before_cycle()   schedules, measures of moments
+///     before_cycle()   schedules, measures of conditions
 ///     groups are updated
 ///     after_groups()   clamped, added and multiplied activities
 ///     modules and connections are updated, the environment advances
@@ -42,7 +42,7 @@ class Observer {
     /// observer and no module demands.
     virtual void declare(engine::Demand& /*demand*/) const {}
 
-    /// Reports what cannot be done in the compiled system. Called once, before the first cycle.
+    /// Reports what is impossible in the compiled system. Called once, before the first cycle.
     virtual void check(const engine::Simulation&, Diagnostics&) const {}
 
     virtual void before_cycle(RunView&) {}
@@ -54,11 +54,11 @@ class Observer {
     virtual void begin_files(ResultFiles&) {}
     /// The names of the files that finish() will write, as far as they are known before the run.
     virtual std::vector<std::string> file_names() const { return {}; }
-    /// Writes what the observer leaves behind. Called once, after the last cycle, also of a run that failed
-    /// or was stopped.
+    /// Writes the observer's files. Called once, after the last cycle, also of a run that failed or was
+    /// stopped.
     virtual void finish(RunView&, ResultFiles&) {}
 
-    /// Reads or writes what the observer must remember to go on after a stop.
+    /// Reads or writes everything that the observer needs to continue after a stop.
     virtual void checkpoint(Archive&) {}
 };
 

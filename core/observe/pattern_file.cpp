@@ -22,8 +22,8 @@ std::vector<std::vector<double>> patterns_in(TableReader& rows, const GroupShape
                height = static_cast<std::size_t>(sparse ? 1 : shape.height);
     std::vector<std::vector<double>> patterns;
     std::vector<double> pattern;
-    std::size_t count = 0;  // of the pattern's rows
-    bool sound = true;      // the pattern's fields are numbers
+    std::size_t count = 0;  // rows of the pattern
+    bool sound = true;      // whether all fields of the pattern are numbers
     std::pair<int, int> last;
     const auto finish = [&] {
         if (count > 0 && sound && count != height)

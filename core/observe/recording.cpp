@@ -22,10 +22,10 @@ std::filesystem::path final_name(const std::string& path) {
     throw FileError(path, {}, {error_at(0, 0, "this is no recording: " + why)});
 }
 
-/// A group of more cells does not fit into memory anyway; a damaged file may say anything.
+/// The largest number of cells that is accepted; a damaged file may have any number.
 constexpr std::int64_t most_cells = 1 << 24;
 
-/// The column and row of a cell that is called "x3_y1".
+/// The column and row of a cell with the name "x3_y1".
 std::optional<std::pair<int, int>> parse_place(std::string_view name) {
     const auto part = [&](std::string_view before) -> std::optional<int> {
         if (!name.starts_with(before)) return std::nullopt;
@@ -75,7 +75,7 @@ class CsvRecording final : public Recording {
     }
 
     bool next(std::uint64_t& cycle, std::vector<double>& numbers) override {
-        while (rows_->next()) {  // after a fault, only for the sake of others
+        while (rows_->next()) {  // after a fault, only to find others
             const auto& fields = rows_->fields();
             const auto read = parse_number<std::uint64_t>(fields[0]);
             if (!read)
@@ -112,7 +112,7 @@ class NpyRecording final : public Recording {
                                                   static_cast<unsigned char>(start[9]) << 8),
                          ' ');
         in_.read(head.data(), static_cast<std::streamsize>(head.size()));
-        // Of what NumPy may say, only what npy_file.cpp writes: "('act', '<f8', (height, width))], ...
+        // Only headers as npy_file.cpp writes them are accepted: "('act', '<f8', (height, width))], ...
         // 'shape': (rows,)".
         std::string_view rest = head;
         const auto take = [&](std::string_view text) {

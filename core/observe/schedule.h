@@ -1,4 +1,4 @@
-// Changes of parameters that wait for their moment.
+// Changes of parameters during a run.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ class Schedule final : public Observer {
         Condition when;
         model::Assignment change;
         std::string text;                    ///< as the user wrote it
-        std::optional<std::uint64_t> cycle;  ///< the first in which it acted; empty: not yet
+        std::optional<std::uint64_t> cycle;  ///< the first cycle in which it acts; empty: not yet
     };
     void add(Condition when, model::Assignment change, std::string text) {
         entries_.push_back({std::move(when), std::move(change), std::move(text), std::nullopt});
@@ -32,10 +32,10 @@ class Schedule final : public Observer {
     void declare(engine::Demand& demand) const override {
         for (const auto& e : entries_) e.when.declare(demand);
     }
-    /// Reports what Simulation::check() finds wrong with the changes.
+    /// Reports changes that Simulation::check() refuses.
     void check(const engine::Simulation& simulation, Diagnostics& diagnostics) const override;
-    /// Makes, in the order in which they were added, the changes whose condition holds for the first time: they act in the
-    /// cycle to come. Throws what Simulation::set() throws.
+    /// Makes the changes whose condition holds for the first time, in the order in which they were added.
+    /// They act in the next cycle. Throws the exceptions of Simulation::set().
     void before_cycle(RunView& run) override;
     void checkpoint(Archive& archive) override {
         for (auto& e : entries_) archive.same(e.text, "a change"), archive(e.cycle);
@@ -47,7 +47,8 @@ class Schedule final : public Observer {
     std::size_t waiting_ = 0;
 };
 
-/// Ties changes to a system. Reports what cannot be. `trials`: whether the run has any.
+/// Resolves changes for a system. Reports unknown names and wrong values. `trials`: whether the run has
+/// trials.
 std::unique_ptr<Schedule> make_schedule(const std::vector<model::ScheduledChange>& changes,
                                         const model::System& system, const Registry& registry,
                                         const engine::Layout& layout, bool trials, Diagnostics& diagnostics);

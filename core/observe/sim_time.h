@@ -1,11 +1,11 @@
-// The time of a run.
+// The time within a run.
 #pragma once
 
 #include <cstdint>
 
 namespace forage {
 
-/// A moment between two cycles.
+/// A time between two cycles.
 struct SimTime {
     std::uint64_t cycle = 0;  ///< the number of the cycle to come, counted from 0
     double seconds = 0;       ///< since the start: of the world, or at the system's own rate without one

@@ -24,16 +24,16 @@ using plot::PlotSpec;
 using plot::RowPlot;
 using Kind = PlotSpec::Kind;
 
-/// What a person points at: results, a recording or a system.
+/// The source of pictures: results, a recording or a system.
 struct Source {
     struct Entry {
         std::unique_ptr<observe::Recording> rows;
-        observe::Recorded what;  ///< with the name and label that run.json knows
+        observe::Recorded what;  ///< with the name and label from run.json
     };
     std::vector<Entry> recordings;
-    RunInput input;  ///< the system and world that were run, as far as they are known
+    RunInput input;  ///< the system and world of the run, if they are known
     plot::PlotContext context;
-    std::string directory;  ///< of the results; empty when there are none
+    std::string directory;  ///< the directory of results; empty when there is none
 };
 
 nlohmann::json read_json(const fs::path& path) {
@@ -41,7 +41,7 @@ nlohmann::json read_json(const fs::path& path) {
     return in ? nlohmann::json::parse(in, nullptr, false) : nlohmann::json();
 }
 
-/// A table that a run has left behind, after its header. Throws FileError.
+/// A table of a run, after its header. Throws FileError.
 TableReader open_table(const fs::path& path) {
     TableReader out(open_file(path.string()), path.string());
     if (!out.read_header()) out.require_whole(), out.refuse("it is empty");
@@ -50,13 +50,13 @@ TableReader open_table(const fs::path& path) {
 
 std::string base(const std::string& path) { return fs::path(path).filename().string(); }
 
-/// What run.json says of a file that holds one source.
+/// The description of a file with one source, from run.json.
 struct Named {
     std::string source, label;
     int count = 0;
 };
 
-/// What run.json says of the files beside it.
+/// The content of run.json about the files beside it.
 std::map<std::string, Named> read_run(const fs::path& directory, Source& out) {
     std::map<std::string, Named> names;
     const auto json = read_json(directory / "run.json");
@@ -123,7 +123,7 @@ Source open(const std::string& path) {
     return out;
 }
 
-/// Which recording a wish means, and which part of it; -1 when none.
+/// The recording and its part that a picture shows; -1 when there is none.
 int find_recording(const Source& source, const PlotSpec& wish, std::optional<observe::Part>& part) {
     const auto matches = [&](std::string_view wanted, const std::string& name) {
         return wanted == name || wanted == name.substr(0, name.rfind(':')) || file_name(wanted) == name ||
