@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "core/run/checkpoint_file.h"
+#include "core/run/run_json.h"
 
 namespace forage {
 namespace {
@@ -61,10 +62,10 @@ std::string loop(PreparedRun& p, const RunCallbacks& callbacks, DirectoryWatch& 
 void write_results(PreparedRun& p, RunOutcome& outcome) {
     auto& files = outcome.files;
     if (p.spec.directory.empty()) return p.run.finish(files);  // a film has its own path
-    const auto earlier = files_of_last_run(p.spec.directory);
+    const auto earlier = read_run_json(p.spec.directory);
     p.run.finish(files);
     files.write("run.json", [&] { return run_json(p, outcome); });
-    for (const auto& name : earlier)
+    for (const auto& name : earlier ? earlier->files : std::vector<std::string>())
         if (std::find(files.names().begin(), files.names().end(), name) == files.names().end())
             std::remove(files.path(name).c_str());
 }

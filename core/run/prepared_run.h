@@ -54,15 +54,6 @@ struct RunCallbacks {
 /// run.json into spec.directory. When one file fails, the others are still written.
 RunOutcome run_to_end(PreparedRun& prepared, const RunCallbacks& callbacks = {});
 
-/// The content of run.json: versions, seed and settings that are needed to repeat the run, and its results.
-/// It has no times or dates, so the same run gives the same text.
-std::string run_json(const PreparedRun& prepared, const RunOutcome& outcome);
-/// Everything that decides a run, as pairs of name and text, for the attributes of recordings.
-std::vector<std::pair<std::string, std::string>> run_attributes(
-    const RunSpec& spec, const Run& run, const std::vector<std::string>& plugins,
-    const std::vector<std::pair<std::string, std::string>>& libraries);
-/// The files of the previous run in a directory, according to its run.json; empty when that cannot be read.
-std::vector<std::string> files_of_last_run(const std::string& directory);
 /// The title of a run's pictures, such as "dac.iqr in arena.world, seed 1".
 std::string run_title(const RunInput& input);
 

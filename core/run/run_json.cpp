@@ -1,4 +1,5 @@
-// The file run.json.
+#include "core/run/run_json.h"
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -8,23 +9,20 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/run/prepared_run.h"
-
 namespace forage {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 /// A file that a run has read, with its digest (64-bit FNV-1a), which shows later changes.
-nlohmann::ordered_json input_file(const std::string& path) {
-    return {{"file", path}, {"fnv1a64", file_digest(path)}};
-}
+Json input_file(const std::string& path) { return {{"file", path}, {"fnv1a64", file_digest(path)}}; }
 
 std::string base_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
 /// The versions, files and settings that are needed to repeat the run.
-nlohmann::ordered_json settings_json(const RunSpec& o, const Run& run,
-                                     const std::vector<std::string>& plugins,
-                                     const std::vector<std::pair<std::string, std::string>>& libraries) {
-    nlohmann::ordered_json json;
+Json settings_json(const RunSpec& o, const Run& run, const std::vector<std::string>& plugins,
+                   const std::vector<std::pair<std::string, std::string>>& libraries) {
+    Json json;
     json["forage"] = FORAGE_VERSION;
     json["libraries"]["Eigen"] =
         fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
@@ -46,9 +44,9 @@ nlohmann::ordered_json settings_json(const RunSpec& o, const Run& run,
     json["seed"] = o.input.seed;
     if (o.length.trials) json["trials"] = *o.length.trials, json["trial_timeout"] = o.length.trial_timeout;
     if (o.input.real_time_factor) json["real_time_factor"] = *o.input.real_time_factor;
-    json["set"] = nlohmann::ordered_json::array();
+    json["set"] = Json::array();
     for (const auto& setting : o.input.settings) json["set"].push_back(setting.text);
-    json["record"] = nlohmann::ordered_json::array();
+    json["record"] = Json::array();
     for (const auto& r : o.recordings) json["record"].push_back(r.column.text);
     json["every"] = o.recordings.empty() ? 1 : o.recordings.front().every;
     if (o.record.from) json["record_from"] = o.record.from;
@@ -89,9 +87,7 @@ std::string run_json(const PreparedRun& p, const RunOutcome& outcome) {
     if (!run.divergence().empty()) result["diverged"] = run.divergence();
     if (!outcome.state.empty()) result["state"] = outcome.state;
     for (const auto& e : p.schedule->entries())
-        result["changes"].push_back(
-            {{"at", e.text},
-             {"cycle", e.cycle ? nlohmann::ordered_json(*e.cycle) : nlohmann::ordered_json()}});
+        result["changes"].push_back({{"at", e.text}, {"cycle", e.cycle ? Json(*e.cycle) : Json()}});
     if (const auto* environment = run.environment()) {
         const auto names = environment->robot_names();
         for (std::size_t i = 0; i < names.size(); ++i) {
@@ -116,16 +112,36 @@ std::string run_json(const PreparedRun& p, const RunOutcome& outcome) {
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::vector<std::string> files_of_last_run(const std::string& directory) {
-    std::vector<std::string> out;
-    if (!std::filesystem::is_regular_file(directory + "/run.json")) return out;
+std::optional<FinishedRun> read_run_json(const std::string& directory) {
     std::ifstream in(directory + "/run.json");
-    const auto json = nlohmann::json::parse(in, nullptr, false);
-    if (!json.is_object() || !json.contains("forage") || !json.contains("result")) return out;
-    const auto files = json["result"].value("files", nlohmann::json::array());
-    for (const auto& f : files)
-        if (f.is_string() && f.get<std::string>() == file_name(f.get<std::string>())) out.push_back(f);
-    return out;
+    if (!in) return std::nullopt;
+    try {
+        const auto json = Json::parse(in);
+        FinishedRun out;
+        const auto none = Json::object();
+        const auto& system = json.at("system");
+        const auto world = json.value("world", none);
+        const auto& result = json.at("result");
+        out.input.system = system.at("file");
+        for (const auto& more : json.value("more_systems", Json::array()))
+            out.input.more.push_back(more.at("file"));
+        out.input.world = world.value("file", "");
+        out.input.seed = json.at("seed");
+        for (const auto& s : json.value("set", Json::array()))
+            out.input.settings.push_back({s.get<std::string>()});
+        out.input.lenient = json.value("lenient", false);
+        out.seconds_per_cycle = world.value("seconds_per_cycle", 0.0);
+        for (const auto& f : result.value("files", Json::array()))
+            if (f.get<std::string>() == file_name(f.get<std::string>())) out.files.push_back(f);
+        for (const auto& r : result.value("recordings", Json::array()))
+            out.recordings.push_back({r.at("file"), r.at("source"), r.at("label")});
+        for (const auto& [key, value] : json.items())
+            if (key != "libraries" && key != "compiler" && key != "result")
+                out.settings.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
+        return out;
+    } catch (const Json::exception&) {
+        return std::nullopt;
+    }
 }
 
 std::string run_title(const RunInput& input) {

@@ -13,6 +13,7 @@
 #include "core/run/checkpoint_file.h"
 #include "core/run/path_recorder.h"
 #include "core/run/recordings.h"
+#include "core/run/run_json.h"
 #include "core/run/score_recorder.h"
 #include "tools/api/tables.h"
 #include "tools/plot/plots.h"

@@ -1,0 +1,35 @@
+// run.json: what a run was made of and what came of it, as a file beside its results.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/run/prepared_run.h"
+
+namespace forage {
+
+/// The content of run.json: versions, seed and settings that are needed to repeat the run, and its results.
+/// It has no times or dates, so the same run gives the same text.
+std::string run_json(const PreparedRun& prepared, const RunOutcome& outcome);
+
+/// Everything that decides a run, as pairs of name and text, for the attributes of recordings.
+std::vector<std::pair<std::string, std::string>> run_attributes(
+    const RunSpec& spec, const Run& run, const std::vector<std::string>& plugins,
+    const std::vector<std::pair<std::string, std::string>>& libraries);
+
+/// What run.json says of a run that has ended.
+struct FinishedRun {
+    RunInput input;                                  ///< system, world, seed, settings and leniency
+    double seconds_per_cycle = 0;                    ///< of its world; 0 without one
+    std::vector<std::string> files;                  ///< names of the files beside run.json
+    std::vector<ResultFiles::Recording> recordings;  ///< the sources that files hold
+    std::vector<std::pair<std::string, std::string>>
+        settings;  ///< what was run, entry by entry, in the file's order
+};
+
+/// Reads run.json of a directory of results; empty when there is none, or none that a run has written.
+std::optional<FinishedRun> read_run_json(const std::string& directory);
+
+}  // namespace forage

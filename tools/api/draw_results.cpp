@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/named_file.h"
+#include "core/base/output_files.h"
+#include "tools/api/results.h"
+#include "tools/api/sources.h"
+#include "tools/plot/structure.h"
+
+namespace forage {
+namespace {
+
+namespace fs = std::filesystem;
+using plot::PlotSpec;
+using Kind = PlotSpec::Kind;
+
+constexpr const char* how_to_record =
+    "'forage run --record' makes recordings, 'forage run --plot' draws at once";
+
+std::vector<std::string> usual_plots(const Results& results) {
+    std::vector<std::string> out;
+    if (results.recordings.empty() && results.directory.empty()) return {"diagram"};
+    for (const auto& r : results.recordings) {
+        out.push_back("time:" + r.what.name);
+        if (!r.what.mean && r.what.cells.width > 1 && r.what.cells.height > 1)
+            out.push_back("space:" + r.what.name);
+    }
+    if (!results.directory.empty() && fs::exists(results.directory + "/trajectory.csv"))
+        out.push_back("trajectory");
+    return out;
+}
+
+/// The recording that a plot means, and which part of it; null when there is none.
+const Results::Entry* find_recording(const Results& results, const PlotSpec& spec,
+                                     std::optional<observe::Part>& part) {
+    const auto matches = [](std::string_view wanted, const std::string& name) {
+        return wanted == name || wanted == name.substr(0, name.rfind(':')) || file_name(wanted) == name ||
+               file_name(wanted) + "_act" == name;
+    };
+    const auto wanted = expression::parse_source(spec.what);
+    for (const auto& entry : results.recordings) {
+        const std::string& name = entry.what.name;
+        if (spec.what.empty() ? results.recordings.size() == 1
+                              : matches(spec.what, name) || matches(wanted.text(), name))
+            part = observe::part_of(entry.what, {});  // exactly what was recorded
+        else if (matches(wanted.column.text, name))
+            part = observe::part_of(entry.what, wanted);
+        if (part) return &entry;
+    }
+    return nullptr;
+}
+
+/// A picture of recorded rows; empty when there is no such recording, which is reported.
+std::string draw_rows(const Results& results, const PlotSpec& spec, plot::Format format,
+                      Diagnostics& diagnostics) {
+    std::optional<observe::Part> part;
+    const auto* entry = find_recording(results, spec, part);
+    if (!entry) {
+        std::vector<std::string> names;
+        for (const auto& r : results.recordings) names.push_back(r.what.name);
+        diagnostics.error(
+            {}, fmt::format("'{}': there is no such recording", spec.text),
+            names.empty() ? how_to_record : fmt::format("there are '{}'", fmt::join(names, "', '")));
+        return {};
+    }
+    plot::RowPlot drawn(spec, part->what);
+    std::vector<double> row, taken(part->what.size());
+    entry->rows->rewind();
+    for (std::uint64_t cycle = 0; entry->rows->next(cycle, row);) {
+        part->take(row, taken);
+        drawn.add(cycle, taken);
+    }
+    return drawn.draw(format, results.context);
+}
+
+/// What the pictures of a system and of its world need. Reports what is missing; empty then, and when no
+/// picture needs it.
+std::optional<Loaded> load_for(const std::vector<PlotSpec>& specs, const Results& results,
+                               Diagnostics& diagnostics) {
+    const auto any = [&](auto... kinds) {
+        return std::any_of(specs.begin(), specs.end(),
+                           [&](const PlotSpec& s) { return ((s.kind == kinds) || ...); });
+    };
+    const bool trajectory = any(Kind::trajectory);
+    if (!trajectory && !any(Kind::diagram, Kind::connection)) return std::nullopt;
+    if (results.input.system.empty()) {
+        diagnostics.error({}, "which system? there is no run.json that names it",
+                          "name the .iqr file instead");
+        return std::nullopt;
+    }
+    RunInput input = results.input;
+    if (!trajectory) input.world.clear();
+    auto loaded = load(input, diagnostics);
+    if (!loaded) return loaded;
+    for (const auto& s : specs) plot::check_structure(s, loaded->system, "forage plot", diagnostics);
+    if (trajectory && (!loaded->world || !fs::exists(results.directory + "/trajectory.csv")))
+        diagnostics.error({}, "a trajectory needs the results of a run in a world");
+    return loaded;
+}
+
+}  // namespace
+
+std::vector<std::string> draw(Results& results, std::vector<std::string> plots, std::string directory,
+                              plot::Format format, Diagnostics& diagnostics) {
+    std::vector<PlotSpec> specs;
+    for (const auto& text : plots.empty() ? usual_plots(results) : plots)
+        if (auto spec = plot::parse_plot(text, "forage plot", diagnostics)) specs.push_back(std::move(*spec));
+    if (specs.empty() && !diagnostics.failed())
+        diagnostics.error({}, fmt::format("there is nothing to draw in '{}'", results.path), how_to_record);
+    std::optional<Loaded> loaded;
+    if (!diagnostics.failed()) loaded = load_for(specs, results, diagnostics);
+    if (diagnostics.failed()) return {};
+
+    if (directory.empty()) directory = results.directory;
+    if (directory.empty() && !results.recordings.empty())
+        directory = fs::path(results.path).parent_path().string();
+    if (directory.empty()) directory = ".";
+    std::vector<std::string> written;
+    for (const auto& spec : specs) try {
+            const std::string picture =
+                spec.of_cells() ? draw_rows(results, spec, format, diagnostics)
+                : spec.kind == Kind::trajectory
+                    ? plot::render(plot::trajectory_plot(*loaded->world, read_paths(results.directory),
+                                                         results.context.run),
+                                   format)
+                    : plot::render(plot::structure_plot(spec, loaded->system, loaded->registry, nullptr,
+                                                        results.input.seed, results.context.run),
+                                   format);
+            if (picture.empty()) continue;
+            make_directory(directory);
+            write_file(directory + "/" + spec.file(format), picture);
+            written.push_back(directory == "." ? spec.file(format) : directory + "/" + spec.file(format));
+        } catch (const FileError& e) {
+            report(e, diagnostics);
+        }
+    return written;
+}
+
+}  // namespace forage

@@ -1,0 +1,110 @@
+#include "tools/api/results.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/base/named_file.h"
+#include "core/base/table.h"
+#include "core/run/run_json.h"
+
+namespace forage {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A table of a run, after its header. Throws FileError.
+TableReader open_table(const std::string& path) {
+    TableReader out(open_file(path), path);
+    if (!out.read_header()) out.require_whole(), out.refuse("it is empty");
+    return out;
+}
+
+/// What run.json and trials.csv in `directory` say of the run. Returns the recordings that they name.
+std::vector<ResultFiles::Recording> read_run(const std::string& directory, Results& out) {
+    auto run = read_run_json(directory);
+    if (!run) return {};
+    out.input = std::move(run->input);
+    out.context.run = run_title(out.input);
+    out.context.seconds_per_cycle = run->seconds_per_cycle;
+    if (const std::string path = directory + "/trials.csv"; fs::exists(path)) {
+        TableReader trials = open_table(path);
+        const auto first = trials.column("first_cycle");
+        while (trials.next()) out.context.trials.push_back(trials.number(trials.fields()[first]));
+        trials.require_whole();
+    }
+    return std::move(run->recordings);
+}
+
+/// Opens a recording. One that holds a single source gets the name and label that run.json gives, which its
+/// own format may not have room for.
+void add_recording(const fs::path& path, const std::vector<ResultFiles::Recording>& known, Results& out) {
+    std::vector<const ResultFiles::Recording*> named;
+    for (const auto& k : known)
+        if (k.file == path.filename()) named.push_back(&k);
+    auto all = observe::open_recording(path.string());
+    for (auto& rows : all) {
+        observe::Recorded what = rows->what();
+        if (named.size() == 1 && all.size() == 1) what.name = named[0]->source, what.label = named[0]->label;
+        out.recordings.push_back({std::move(rows), std::move(what)});
+    }
+}
+
+}  // namespace
+
+Results open_results(const std::string& path) {
+    Results out;
+    out.path = path;
+    std::error_code none;
+    if (!fs::is_directory(path, none))
+        if (const auto wrong = why_unreadable(path)) throw FileError(path, {}, {*wrong});
+    if (fs::is_directory(path)) {
+        out.directory = path;
+        const auto known = read_run(path, out);
+        std::vector<fs::path> files;
+        for (const auto& entry : fs::directory_iterator(path)) {
+            const std::string name = entry.path().filename().string();
+            const bool recording =
+                observe::is_recording(name) && !name.starts_with("trials") && !name.starts_with("trajectory");
+            if (recording && entry.is_regular_file()) files.push_back(entry.path());
+        }
+        std::sort(files.begin(), files.end());
+        for (const auto& f : files) add_recording(f, known, out);
+    } else if (const auto end = fs::path(path).extension(); end == ".iqr" || end == ".iqrProcess") {
+        out.input.system = path;
+        out.context.run = fs::path(path).filename().string();
+    } else {
+        const fs::path parent = fs::path(path).parent_path();
+        const auto known = read_run(parent.empty() ? "." : parent.string(), out);
+        add_recording(path, known, out);
+    }
+    return out;
+}
+
+std::vector<plot::Path> read_paths(const std::string& directory) {
+    std::vector<plot::Path> out;
+    TableReader trials = open_table(directory + "/trials.csv");
+    for (const auto column = trials.column("outcome"); trials.next();) {
+        const auto outcome = trials.fields()[column];
+        if (outcome != "target" && outcome != "missed" && outcome != "unfinished")
+            trials.fault(outcome, fmt::format("'{}' is no outcome of a trial", escaped(outcome)));
+        out.push_back({{}, outcome == "target", outcome != "unfinished"});
+    }
+    trials.require_whole();
+    TableReader points = open_table(directory + "/trajectory.csv");
+    const auto trial = points.column("trial"), x = points.column("x"), y = points.column("y");
+    while (points.next()) {
+        const auto& row = points.fields();
+        const auto number = parse_number<std::size_t>(row[trial]).value_or(0);
+        const Eigen::Vector2d place(points.number(row[x]), points.number(row[y]));
+        if (number == 0 || number > out.size())
+            points.fault(row[trial], fmt::format("trials.csv has no trial {}", escaped(row[trial])));
+        else
+            out[number - 1].points.push_back(place);
+    }
+    points.require_whole();
+    return out;
+}
+
+}  // namespace forage

@@ -1,0 +1,43 @@
+// Pictures and pages of results, recordings and systems that exist already.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/observe/recording.h"
+#include "core/run/run_spec.h"
+#include "tools/plot/plots.h"
+#include "tools/plot/trajectory.h"
+
+namespace forage {
+
+/// Everything that can be drawn without a run: the results of one, a recording, or a system.
+struct Results {
+    struct Entry {
+        std::unique_ptr<observe::Recording> rows;
+        observe::Recorded what;  ///< with the name and label from run.json
+    };
+    std::string path;       ///< the path that was opened
+    std::string directory;  ///< the directory of results; empty for a single recording or a system
+    RunInput input;         ///< the system and world of the run, if they are known
+    plot::PlotContext context;
+    std::vector<Entry> recordings;
+};
+
+/// Opens a directory of results, a recording (.csv, .npy, .h5) or a system file. Throws FileError.
+Results open_results(const std::string& path);
+
+/// The robot's path in each trial. Throws FileError for tables that are damaged or do not belong together.
+std::vector<plot::Path> read_paths(const std::string& directory);
+
+/// Draws `plots` ("time:Process/Group", "trajectory"), or what is usual for these results when there are
+/// none, into `directory` (empty: beside the results, or the working directory for a system). Reports what is
+/// wrong with them. Returns the paths of the files that it wrote.
+std::vector<std::string> draw(Results& results, std::vector<std::string> plots, std::string directory,
+                              plot::Format format, Diagnostics& diagnostics);
+
+/// An HTML page of the pictures and tables in a directory of results. It needs nothing from the net.
+std::string results_page(const std::string& directory);
+
+}  // namespace forage

@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/table.h"
+#include "core/run/run_json.h"
+#include "tools/api/results.h"
+#include "tools/plot/canvas.h"
+
+namespace forage {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_rows = 200, most_columns = 40;
+
+std::string to_html(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else if (c == '"')
+            out += "&quot;";
+        else
+            out += c;
+    }
+    return out;
+}
+
+/// A file name as a relative URL.
+std::string address(std::string_view name) {
+    std::string out = "./";
+    for (const char c : name) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (std::isalnum(byte) || std::string_view("-._~/").find(c) != std::string_view::npos)
+            out += c;
+        else
+            out += fmt::format("%{:02X}", byte);
+    }
+    return out;
+}
+
+std::string picture(const std::string& name) {
+    const std::string at = address(name), text = to_html(name);
+    if (plot::format_of(name) == plot::Format::pdf)
+        return fmt::format("<p><a href=\"{}\">{}</a></p>\n", at, text);
+    return fmt::format(
+        "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a><figcaption>{1}</figcaption></figure>\n",
+        at, text);
+}
+
+/// A small table as a whole, the first rows of a larger one, and a link to recordings and paths, which are
+/// long.
+std::string table(const fs::path& path) {
+    const std::string name = path.filename().string();
+    TableReader in(open_file(path.string()), path.string());
+    std::string rows, first;
+    std::size_t count = 0;
+    for (; count <= most_rows && in.next(); ++count) {
+        if (count == 0) first = in.row();
+        rows += "<tr>";
+        for (std::size_t i = 0; i < std::min(in.fields().size(), most_columns); ++i)
+            rows += fmt::format("<{0}>{1}</{0}>", count == 0 ? "th" : "td", to_html(in.fields()[i]));
+        rows += "</tr>\n";
+    }
+    std::string out = fmt::format("<h3><a href=\"{}\">{}</a></h3>\n", address(name), to_html(name));
+    if (first.starts_with("cycle,") || name.starts_with("trajectory")) return out;
+    out += "<table>\n" + rows + "</table>\n";
+    if (count > most_rows) out += fmt::format("<p>The first {} rows.</p>\n", most_rows);
+    return out;
+}
+
+std::string settings(const std::string& directory) {
+    const auto run = read_run_json(directory);
+    if (!run) return {};
+    std::string out = "<h2>What was run</h2>\n<table>\n";
+    for (const auto& [key, value] : run->settings)
+        out += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", to_html(key), to_html(value));
+    return out + "</table>\n";
+}
+
+}  // namespace
+
+std::string results_page(const std::string& directory) {
+    std::vector<fs::path> pictures, tables, others, folders;
+    for (const auto& entry : fs::directory_iterator(directory)) {
+        const std::string name = entry.path().filename().string();
+        if (entry.is_directory())
+            folders.push_back(entry.path());
+        else if (name == "index.html" || name == "run.json")
+            continue;
+        else if (plot::format_of(name))
+            pictures.push_back(entry.path());
+        else if (name.ends_with(".csv"))
+            tables.push_back(entry.path());
+        else
+            others.push_back(entry.path());
+    }
+    for (auto* files : {&pictures, &tables, &others, &folders}) std::sort(files->begin(), files->end());
+    const std::string title = to_html(fs::weakly_canonical(directory).filename().string());
+    std::string out = fmt::format(R"(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><title>{0}</title>
+<style>
+body {{ font: 15px/1.45 sans-serif; margin: 2em auto; max-width: 1200px; padding: 0 1em; color: #222; background: #fff; }}
+figure {{ margin: 0 0 2em; }} img {{ max-width: 100%; border: 1px solid #ddd; }} figcaption {{ color: #666; }}
+table {{ border-collapse: collapse; font-size: 13px; }} th, td {{ border: 1px solid #ddd; padding: 2px 8px; text-align: left; }}
+</style></head><body>
+<h1>{0}</h1>
+)",
+                                  title);
+    for (const auto& p : pictures) out += picture(p.filename().string());
+    out += settings(directory);
+    if (!tables.empty()) out += "<h2>Tables</h2>\n";
+    for (const auto& t : tables) out += table(t);
+    if (!others.empty() || !folders.empty()) out += "<h2>Other files</h2>\n<ul>\n";
+    for (const auto* list : {&others, &folders})
+        for (const auto& f : *list) {
+            const std::string name = f.filename().string();
+            out += fmt::format("<li><a href=\"{}\">{}</a></li>\n", address(name), to_html(name));
+        }
+    if (!others.empty() || !folders.empty()) out += "</ul>\n";
+    return out + "</body></html>\n";
+}
+
+}  // namespace forage
