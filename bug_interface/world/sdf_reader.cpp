@@ -208,7 +208,7 @@ class Reader {
         const auto read_light = [&](const xml::Element& light) {
             if (attribute_of(light, "type") != "directional") {
                 diagnostics_.warning(light.where,
-                                     "only directional lights are simulated; this one is left out");
+                                     "only directional lights are simulated; this one is ignored");
             } else if (world.sun) {
                 diagnostics_.warning(light.where,
                                      "there are several directional lights; the first one is used");

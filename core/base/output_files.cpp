@@ -19,7 +19,7 @@ namespace forage {
 void refuse_no_file(const std::string& path) {
     std::error_code none;
     if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
-        throw std::runtime_error(fmt::format("cannot write '{}': it is no file", path));
+        throw std::runtime_error(fmt::format("cannot write '{}': it is not a file", path));
 }
 
 void check_output(const std::string& path, const std::string& example, Diagnostics& diagnostics) {
@@ -28,12 +28,12 @@ void check_output(const std::string& path, const std::string& example, Diagnosti
     std::error_code none;
     if (!directory.empty() && !fs::is_directory(directory, none))
         diagnostics.error({}, fmt::format("there is no directory '{}' for '{}'", directory, path),
-                          "make it first, or name another");
+                          "create it first, or name another");
     else if (access(directory.empty() ? "." : directory.c_str(), W_OK | X_OK) != 0)
         diagnostics.error({}, fmt::format("cannot write '{}': {}", path, std::strerror(errno)),
                           "name a file in a directory that you may write to");
     else if (fs::exists(path, none) && !fs::is_regular_file(path, none))
-        diagnostics.error({}, fmt::format("cannot write '{}': it is no file", path),
+        diagnostics.error({}, fmt::format("cannot write '{}': it is not a file", path),
                           fmt::format("name a file, such as {}", example));
 }
 

@@ -53,7 +53,7 @@ bool usable(const Point& p, const Grid& grid, Diagnostics& diagnostics) {
     if (p.x < 1 || p.y < 1)
         diagnostics.unknown(p.at, message, "cells count from 1");
     else
-        diagnostics.warning(p.at, message + ": the point is left out",
+        diagnostics.warning(p.at, message + ": the point is ignored",
                             fmt::format("the group has {} x {} cells", grid.width(), grid.height()));
     return false;
 }

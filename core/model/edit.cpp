@@ -86,7 +86,7 @@ std::optional<Assignment> parse_assignment(const System& system, const Registry&
     if (owners.empty())
         return problem(where, fmt::format("there is no '{}'", where.text), suggest_owner(where.text, system));
     if (owners.size() > 1)
-        return problem(where, fmt::format("'{}' names {} things", where.text, owners.size()),
+        return problem(where, fmt::format("'{}' names {} items", where.text, owners.size()),
                        which(owners, where.text));
     const Owner& owner = owners.front();
 

@@ -454,7 +454,7 @@ void parse_option(std::string_view option, std::string_view text, model::Manipul
     else if (name == "until" && !rest.empty())
         out.until = {std::string(rest)};
     else
-        Parser::fail(fmt::format("'{}' is no option of a manipulation", option),
+        Parser::fail(fmt::format("'{}' is not an option of a manipulation", option),
                      "options are every N, step N, times N, backwards, from WHEN, until WHEN",
                      offset(option, text));
 }
@@ -497,7 +497,7 @@ constexpr int most_blocks = 1000;  // lines closer than a pixel
 Plot::Cycles parse_cycles(std::string_view word, std::string_view text) {
     const auto read = [&](std::string_view number) {
         if (const auto value = parse_number<std::uint64_t>(trim(number))) return *value;
-        Parser::fail(fmt::format("'{}' is no cycle", word), "cycles are N, A..B or A..B/STEP",
+        Parser::fail(fmt::format("'{}' is not a cycle", word), "cycles are N, A..B or A..B/STEP",
                      offset(word, text));
     };
     const auto dots = word.find("..");
@@ -533,7 +533,7 @@ Plot parse_plot(std::string_view text) {
                    down = parse_number<int>(trim(size.substr(std::min(x + 1, size.size()))));
         const auto sound = [](const std::optional<int>& n) { return n && *n >= 1 && *n <= most_blocks; };
         if (!option.starts_with("blocks=") || !sound(across) || !sound(down))
-            Parser::fail(fmt::format("'{}' is no option of a plot", option), "such as ';blocks=9x1'",
+            Parser::fail(fmt::format("'{}' is not an option of a plot", option), "such as ';blocks=9x1'",
                          offset(option, text));
         out.blocks_across = *across, out.blocks_down = *down;
         rest = rest.substr(0, semicolons.back());

@@ -294,10 +294,10 @@ class Run(Cli):
         (self.here / "small.iqr").write_text(small)
         self.assertNotIn("threads", self.forage("run", "small.iqr", "--cycles", 10).stdout)
         out = self.forage("run", "small.iqr", "--cycles", 10, "--threads", 2).stdout
-        self.assertRegex(out, r"threads +1 of 2: cycles are too short to share, or too few to try")
+        self.assertRegex(out, r"threads +1 of 2: the cycles are too short to share, or too few for a trial")
         (self.here / "large.iqr").write_text(small.replace('hcount="2" vcount="1"', 'hcount="100" vcount="80"'))
         self.assertRegex(self.forage("run", "large.iqr", "--cycles", 100, "--threads", 2).stdout,
-                         r"threads +2, which shared [1-9]\d*\.\d % of the cycles; in the others, by trials, one thread is as fast")
+                         r"threads +2, which shared [1-9]\d*\.\d % of the cycles; in the others, one thread was as fast in trials")
         self.assertRegex(self.forage("run", "large.iqr", "--cycles", 100, "--threads", 1000).stdout,
                          r"threads +\d+ of 1000, one per core, which shared")
 
@@ -365,7 +365,7 @@ class Mistakes(Cli):
             (["--add", "Bug/Motor(1,1)=x"], "--add '(1,1)=x', column 7: 'x' is not a number"),
             (["--add", "Bug/Motor(1,1)=1 2"], "column 9: '2' is no cell with a value"),
             (["--add", "Bug/Motor"], "write 'Process/Group(x,y)=value' or 'Process/Group=FILE', or name a table"),
-            (["--multiply", "Bug/Motor(1,1)=1; evry 2"], "'evry 2' is no option of a manipulation; options are every N, step N"),
+            (["--multiply", "Bug/Motor(1,1)=1; evry 2"], "'evry 2' is not an option of a manipulation; options are every N, step N"),
             (["--multiply", "Bug/Motor(1,1)=1; every 0"], "'every' needs a whole number, at least 1"),
             (["--add", "Bug/Motor(1,1)=1; from trail 2"], "column 8: a comparison is missing behind 'trail 2'"),
             (["--add", "Bug/Motor=absent.txt"], "absent.txt: error: there is no such file"),

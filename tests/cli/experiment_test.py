@@ -205,7 +205,7 @@ class Interrupted(Experiment):
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=30)
         self.assertEqual(process.returncode, 130)
-        self.assertIn("the same command goes on", said)
+        self.assertIn("the same command continues", said)
 
     def test_only_what_is_new_is_run(self):
         self.forage("experiment", "robot.xml", "-o", "out")

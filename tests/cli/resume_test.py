@@ -149,7 +149,7 @@ class Resume(Stopped):
             before = path.read_text()
             path.write_text(before + ("\n" if path == system else "5,P,out,1,1\n"))
             done = self.forage("resume", "out", status=2)
-            self.assertRegex(done.stderr, f"'{path.name}' is not what it was when the run began\n  hint: ")
+            self.assertRegex(done.stderr, f"'{path.name}' has changed since the run began\n  hint: ")
             path.write_text(before)
         recording = self.here / "out/P_A_act.csv.part"
         rows = recording.read_bytes()
@@ -206,7 +206,7 @@ class Resume(Stopped):
         self.assertEqual(weights.read_bytes(), whole)
         weights.write_bytes(whole + b"\n")
         done = self.forage("resume", "out", status=2)
-        self.assertRegex(done.stderr, r"learned.weights', a file of a module, is not what it was in cycle 30\d\n  hint: ")
+        self.assertRegex(done.stderr, r"learned.weights', a file of a module, has changed since cycle 30\d\n  hint: ")
         weights.write_bytes(whole)
         process = self.start("resume", "out")
         self.assertEqual(self.stop(process, 3, signal.SIGINT), 130)  # in real time: it does not end by itself

@@ -196,7 +196,7 @@ class Mistakes(Cli):
             (["-p", "spice:Bug/Light"], "did you mean 'space'"),
             (["-p", "space:Bug/Ligth"], "did you mean 'Bug/Light'"),
             (["-p", "space:Bug/Light@9..1"], "cycles are N, A..B or A..B/STEP"),
-            (["-p", "space:Bug/Light;block=3"], "is no option of a plot"),
+            (["-p", "space:Bug/Light;block=3"], "is not an option of a plot"),
             (["-p", "connection:Light to UR"], "did you mean 'Light to US'"),
             (["-p", "diagram:Bugg"], "did you mean 'Bug'"),
             (["-p", "time:Bug/Light", "--plot-format", "gif"], "--plot-format"),

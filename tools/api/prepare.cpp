@@ -48,7 +48,7 @@ void check_video(const RunSpec& spec, Diagnostics& diagnostics) {
     if (plot::Film::is_name(spec.video))
         check_output(spec.video, "film.gif", diagnostics);
     else
-        diagnostics.error({}, fmt::format("--video: '{}' is no name of a film", spec.video),
+        diagnostics.error({}, fmt::format("--video: '{}' is not the name of a film", spec.video),
                           "it ends with .gif or .png");
 }
 

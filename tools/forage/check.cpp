@@ -32,9 +32,8 @@ std::vector<std::string> notes(const model::System& system) {
     for (const auto& p : system.processes)
         for (const auto& g : p.groups)
             if (!read.contains(g.id) && !written.contains(g.id))
-                out.push_back(
-                    fmt::format("group '{}/{}' stands alone: nothing leads to it, and it leads nowhere",
-                                model::trim(p.name), model::trim(g.name)));
+                out.push_back(fmt::format("group '{}/{}' has neither incoming nor outgoing connections",
+                                          model::trim(p.name), model::trim(g.name)));
     return out;
 }
 

@@ -28,7 +28,7 @@ void warn_of_loss(const model::System& system, const model::ProcessFile& file, D
     });
     if (lost)
         diagnostics.warning(
-            {}, fmt::format("--extract: connections from or to other processes are left out: {}", lost));
+            {}, fmt::format("--extract: connections from or to other processes are not written: {}", lost));
 }
 
 /// Links and file names are relative to the system file. Changes them so that they are valid from `to`

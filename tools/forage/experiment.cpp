@@ -90,7 +90,7 @@ int experiment(const ExperimentOptions& o) {
                        o.jobs > 0 ? o.jobs : cores(), o.fresh, callbacks);
     progress.clear();
     if (!results) {
-        fmt::print(stderr, "stopped {}; the same command goes on with the runs that are not finished\n",
+        fmt::print(stderr, "stopped {}; the same command continues with the unfinished runs\n",
                    stopped_by(noted_signal()));
         return 128 + noted_signal();
     }

@@ -44,8 +44,8 @@ std::string suggestion(const CLI::App& app, int argc, char** argv) {
 /// A hint that names the help of the command.
 std::string help_of(const CLI::App& app) {
     const auto parsed = app.get_subcommands();
-    return fmt::format("'forage {}--help' lists what there is",
-                       parsed.empty() ? "" : parsed.front()->get_name() + " ");
+    return parsed.empty() ? "'forage --help' lists the commands"
+                          : fmt::format("'forage {} --help' lists the options", parsed.front()->get_name());
 }
 
 int program(int argc, char** argv) {
@@ -76,27 +76,28 @@ int program(int argc, char** argv) {
     add_new(app, new_kind, new_name);
     add_build_plugin(app, build_options);
     auto& check_command =
-        *app.add_subcommand("check", "Check a system (and world) and say everything that is wrong with it");
+        *app.add_subcommand("check", "Check a system (and a world) and report all mistakes");
     add_input(check_command, check_input);
-    auto& describe_command = *app.add_subcommand(
-        "describe", "Show what a system is made of: processes, groups, connections, sizes");
+    auto& describe_command =
+        *app.add_subcommand("describe", "Show the processes, groups and connections of a system, with sizes");
     describe_command.footer("Example:\n  forage describe systems/reactive_foraging.iqr");
     add_input(describe_command, describe_input);
     check_command.footer(
         "Example:\n  forage check systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world");
     WorldCommand world_options;
     auto& world_command =
-        *app.add_subcommand("world", "Check a world, list what is in it and draw it from above");
+        *app.add_subcommand("world", "Check a world, list its contents and draw it from above");
     world_command.footer(
         "Example:\n  forage world systems/worlds/basic_arena.world -o forage-out/basic_arena.png");
     world_command.add_option("FILE", world_options.file, "World file (.world)")->required()->option_text(" ");
     world_command
-        .add_option("-o,--output", world_options.picture, "Picture (.png, .svg or .pdf) [FILE's name .png]")
+        .add_option("-o,--output", world_options.picture,
+                    "Picture (.png, .svg or .pdf) [FILE's name with .png]")
         ->option_text("PICTURE");
     world_command.add_flag("--game", world_options.game, "With the robotics challenge's resources");
     std::string directory = "forage-out";
-    auto& view_command = *app.add_subcommand(
-        "view", "Write a page, index.html, that shows the pictures and tables of results");
+    auto& view_command =
+        *app.add_subcommand("view", "Write a page, index.html, with the pictures and tables of results");
     view_command.footer("Example:\n  forage view forage-out");
     view_command.add_option("DIR", directory, "Directory of results [forage-out]")->option_text(" ");
     auto& types_command =

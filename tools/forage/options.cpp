@@ -83,10 +83,11 @@ CLI::Option* add_plot_format(CLI::App& command, std::string& format) {
 }
 
 void add_plugins(CLI::App& command, std::vector<std::string>& plugins) {
-    repeated(command.add_option("--plugin", plugins,
-                                "Plugin with more types (.so), or a folder of plugins, besides those in "
-                                "FORAGE_PLUGIN_PATH and in the folder plugins beside the system; may be "
-                                "repeated"))
+    repeated(
+        command.add_option("--plugin", plugins,
+                           "Plugin with more types (.so), or a folder of plugins, in addition to those in "
+                           "FORAGE_PLUGIN_PATH and in the folder plugins beside the system; may be "
+                           "repeated"))
         ->option_text("PATH");
 }
 
@@ -98,7 +99,7 @@ void add_input(CLI::App& command, RunInput& input) {
                 input.system = files.front();
                 input.more.assign(files.begin() + 1, files.end());
             },
-            "System file (.iqr), or a process on its own (.iqrProcess); several run together, in lock-step")
+            "System file (.iqr) or process file (.iqrProcess); several systems run together, in lock-step")
         ->required()
         ->expected(1, 1000)
         ->option_text("FILE...");
@@ -125,27 +126,27 @@ void add_tutorial(CLI::App& app, TutorialOptions& o) {
         "docs/tutorial has the text, the questions and their solutions.\n"
         "Example:\n"
         "  forage tutorial 3.1");
-    tutorial.add_option("EXERCISE", o.exercise, "Its number")->option_text(" ");
+    tutorial.add_option("EXERCISE", o.exercise, "Number of the exercise")->option_text(" ");
     tutorial.add_option("-o,--output", o.directory, "Directory for results [forage-out/tutorial/EXERCISE]")
         ->option_text("DIR");
 }
 
 void add_experiment(CLI::App& app, ExperimentOptions& o) {
     auto& experiment = *app.add_subcommand(
-        "experiment", "Run a system many times, over seeds and parameters, on all cores, into one table");
+        "experiment", "Run a system many times, with different seeds and parameters, on all cores");
     experiment.footer(
-        "What was finished before an interruption is not repeated. docs/reference/experiment.md says what\n"
-        "stands in FILE.\n"
+        "Runs that were finished before an interruption are not repeated. docs/reference/experiment.md\n"
+        "describes FILE.\n"
         "Example:\n"
         "  forage experiment systems/light_threshold.xml");
     experiment.add_option("FILE", o.file, "Experiment file (.xml)")->required()->option_text(" ");
     experiment.add_option("-o,--output", o.directory, "Directory for results [forage-out/ and FILE's name]")
         ->option_text("DIR");
-    experiment.add_option("-j,--jobs", o.jobs, "Runs at a time [one per core]")
+    experiment.add_option("-j,--jobs", o.jobs, "Number of simultaneous runs [one per core]")
         ->transform(threads())
         ->option_text("N");
     add_plugins(experiment, o.plugins);
-    experiment.add_flag("--fresh", o.fresh, "Repeat runs that are finished");
+    experiment.add_flag("--fresh", o.fresh, "Repeat finished runs");
     experiment.add_flag("-q,--quiet", o.quiet, "Print errors only");
 }
 
@@ -154,23 +155,23 @@ void add_plot(CLI::App& app, PlotOptions& o) {
     plot.footer(
         "Plots:\n"
         "  time:SOURCE                     cells over time; 'time:mean(SOURCE)' for their mean\n"
-        "  space:SOURCE@100,200            the group as a picture at these cycles; at the last one without "
-        "'@'\n"
+        "  space:SOURCE@100,200            the group as a picture at these cycles; without '@' at the last "
+        "one\n"
         "  space:SOURCE@0..1000/100        at every 100th cycle; ';blocks=9x1' at the end divides the group\n"
         "  movie:SOURCE@0..500/5           the same as an animated PNG\n"
-        "  connection:NAME                 which cells reach which, with strength and delay\n"
-        "  diagram, diagram:PROCESS        the system as the file lays it out\n"
+        "  connection:NAME                 the synapses between two groups, with strength and delay\n"
+        "  diagram, diagram:PROCESS        the diagram of the system or of one process\n"
         "  trajectory                      the robot's paths\n"
-        "A source is 'Process/Group:state(x1..x2,y1..y2)'; state and cells may be left out. See\n"
+        "A source is 'Process/Group:state(x1..x2,y1..y2)'; state and cells are optional. See\n"
         "docs/reference/expressions.md.\n"
         "Example:\n"
         "  forage plot systems/reactive_foraging.iqr diagram 'connection:US to Approach' --plot-format svg");
     plot.add_option("FROM", o.source, "Directory of results, recording (.csv, .npy, .h5) or system (.iqr)")
         ->required()
         ->option_text("DIR|FILE");
-    plot.add_option("PLOT", o.plots, "What to draw; without any, what there is")->option_text("PLOT...");
-    plot.add_option("-o,--output", o.directory, "Directory for pictures [beside what they show]")
-        ->option_text("DIR");
+    plot.add_option("PLOT", o.plots, "Plots to draw; without any, all that are possible")
+        ->option_text("PLOT...");
+    plot.add_option("-o,--output", o.directory, "Directory for pictures [beside FROM]")->option_text("DIR");
     add_plot_format(plot, o.plot_format);
 }
 
@@ -191,8 +192,9 @@ void add_convert(CLI::App& app, ConvertOptions& o) {
         .add_option("--extract", o.extract, "Write this process alone, with the connections among its groups")
         ->option_text("PROCESS");
     add_plugins(convert, o.plugins);
-    convert.add_flag("--embed", o.embed, "Write the content of linked processes instead of the links");
-    convert.add_flag("--lenient", o.lenient, "Unknown elements and attributes are warnings, and left out");
+    convert.add_flag("--embed", o.embed, "Write the content of linked processes instead of links");
+    convert.add_flag("--lenient", o.lenient,
+                     "Unknown elements and attributes are warnings, and are not written");
 }
 
 void add_new(CLI::App& app, std::string& kind, std::string& name) {
@@ -202,15 +204,14 @@ void add_new(CLI::App& app, std::string& kind, std::string& name) {
         ->required()
         ->check(one_of({"neuron", "synapse", "module"}))
         ->option_text(" ");
-    command.add_option("NAME", name, "Name of the folder, and of the type after its kind")
+    command.add_option("NAME", name, "Name of the folder and, after the kind, of the type")
         ->required()
         ->option_text(" ");
 }
 
 void add_build_plugin(CLI::App& app, BuildPluginOptions& o) {
     auto& command = *app.add_subcommand("build-plugin", "Compile a source file with types of your own");
-    command.footer(
-        "The compiler is the one that CXX names, or c++.\nExample:\n  forage build-plugin adaptive.cpp");
+    command.footer("The compiler is the one in CXX, or c++.\nExample:\n  forage build-plugin adaptive.cpp");
     command.add_option("FILE", o.source, "Source file (.cpp)")->required()->option_text(" ");
     command.add_option("-o,--output", o.output, "Plugin to write [plugins/NAME.so beside FILE]")
         ->option_text("FILE");

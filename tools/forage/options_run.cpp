@@ -81,10 +81,10 @@ void add_recording(CLI::App& run, RunSpec& o) {
                      "'...(x1..x2,y1..y2)' for some of its cells, 'mean(...)' for their mean, '...=NAME.h5' "
                      "to name the file; may be repeated"))
             ->option_text("SOURCE");
-    run.add_option(
-           "--format", o.record.format,
-           "Of recordings without a named file: csv, npy, npz (NumPy), h5 (HDF5) or dat (the original's "
-           "data sampler) [csv]")
+    run.add_option("--format", o.record.format,
+                   "Format of recordings without a file name: csv, npy, npz (NumPy), h5 (HDF5) or dat (the "
+                   "original's "
+                   "data sampler) [csv]")
         ->check(one_of({"csv", "npy", "npz", "h5", "dat"}))
         ->option_text("FORMAT")
         ->needs(record);
@@ -130,20 +130,20 @@ void add_run(CLI::App& app, RunOptions& options) {
         "  ... --schedule 'trial 10: Motor In to Motor.weight=0.5' --schedule 'max(Bug/Light) > 0.9: "
         "Bug/Light.threshold=1'");
     add_input(run, o.input);
-    auto* cycles = run.add_option("-c,--cycles", o.length.cycles, "Stop after so many cycles")
+    auto* cycles = run.add_option("-c,--cycles", o.length.cycles, "Stop after N cycles")
                        ->transform(count())
                        ->option_text("N");
-    auto* seconds = run.add_option("--seconds", o.length.seconds, "Stop after so many seconds of the world")
+    auto* seconds = run.add_option("--seconds", o.length.seconds, "Stop after S seconds of the world")
                         ->check(positive())
                         ->option_text("S");
     auto* trials = run.add_option("-t,--trials", o.length.trials,
-                                  "Stop after so many trials; a trial ends when the robot is reset")
+                                  "Stop after N trials; a trial ends when the robot is reset")
                        ->transform(count())
                        ->option_text("N");
     cycles->excludes(seconds)->excludes(trials);
     seconds->excludes(trials);
     run.add_option("--trial-timeout", o.length.trial_timeout,
-                   "Give up when a trial takes longer, in seconds of the world [300]")
+                   "Stop when a trial takes longer than S seconds of the world [300]")
         ->check(positive())
         ->option_text("S")
         ->needs(trials);
@@ -151,7 +151,7 @@ void add_run(CLI::App& app, RunOptions& options) {
         ->transform(seed())
         ->option_text("N");
     add_recording(run, o);
-    run.add_option("--until", o.length.until.text, "Stop before its time when a condition holds, as for --schedule")
+    run.add_option("--until", o.length.until.text, "Stop early when a condition holds, as for --schedule")
         ->option_text("WHEN");
     repeated(
         run.add_option_function<std::vector<std::string>>(
@@ -178,11 +178,11 @@ void add_run(CLI::App& app, RunOptions& options) {
         ->needs("--world");
     run.add_flag_callback(
         "--no-noise", [&o] { o.input.noise = false; },
-        "Motors and sensors without noise; start positions still vary");
+        "Motors and sensors have no noise; start positions still vary");
     run.add_flag("--sensor-rates", o.input.sensor_rates,
-                 "Scans and pictures as often as the world's sensors say, instead of in every cycle")
+                 "Sensors have the rates of the world file, instead of once per cycle")
         ->needs("--world");
-    run.add_option("--latency", o.input.latency, "What robots sense comes so many cycles later [0]")
+    run.add_option("--latency", o.input.latency, "Number of cycles by which sensor values arrive later [0]")
         ->check(CLI::Range(0, 1000))
         ->option_text("CYCLES")
         ->needs("--world");
@@ -196,19 +196,19 @@ void add_run(CLI::App& app, RunOptions& options) {
         ->needs("--world");
     run.add_option(
            "--threads", o.threads,
-           "How many threads may share a cycle, where trials show that it pays: cycles of large systems, "
-           "while cores are idle. The numbers do not depend on it [1]")
+           "Largest number of threads that share a cycle. It pays for large systems, while cores are idle. "
+           "The numbers do not depend on it [1]")
         ->transform(threads())
         ->option_text("N");
     run.add_option_function<std::string>(
            "--checkpoint-every", [&o](const std::string& text) { o.checkpoint_every = parse_interval(text); },
-           "Write a checkpoint every N cycles, or every 'N s' of the world: after a stop, be it a power cut, "
-           "'forage resume' goes on from there")
+           "Write a checkpoint every N cycles, or every 'N s' of the world. After any stop, even a power "
+           "cut, "
+           "'forage resume' continues from there")
         ->option_text("N")
-        ->excludes("--video");  // a film cannot go on
-    run.add_flag(
-        "--discard-checkpoint", o.discard_checkpoint,
-        "Give up a run that has not finished: without it, a directory with its checkpoint is refused");
+        ->excludes("--video");  // a film cannot be resumed
+    run.add_flag("--discard-checkpoint", o.discard_checkpoint,
+                 "Discard an unfinished run: without it, a directory with a checkpoint is refused");
     run.add_option_function<std::string>(
            "--on-nan",
            [&o](const std::string& text) {
@@ -220,22 +220,23 @@ void add_run(CLI::App& app, RunOptions& options) {
         ->check(one_of({"warn", "stop", "ignore"}))
         ->option_text("HOW");
     run.add_flag("--hash", o.digest,
-                 "Give a digest of the state at the end: equal runs have the same one. All groups are "
+                 "Print a digest of the final state: equal runs have equal digests. All groups are "
                  "computed for it");
-    run.add_flag("--realtime", options.real_time, "No faster than the clock: one second of the world per second");
+    run.add_flag("--realtime", options.real_time,
+                 "Run at most as fast as the clock: one second of the world per second");
     run.add_flag("-q,--quiet", options.quiet, "Print errors only");
 }
 
 void add_resume(CLI::App& app, ResumeOptions& o) {
-    auto& resume = *app.add_subcommand("resume", "Go on with a run that was stopped, from its checkpoint");
+    auto& resume = *app.add_subcommand("resume", "Continue a stopped run from its checkpoint");
     resume.footer(
-        "What the run leaves behind is then the same, byte for byte, as if it had never been stopped.\n"
+        "The files are then the same, byte for byte, as those of a run that was never stopped.\n"
         "Example:\n"
         "  forage resume forage-out");
     resume.add_option("FROM", o.path, "Directory of results, or one of the checkpoints in it")
         ->required()
         ->option_text("DIR|FILE");
-    resume.add_option("--threads", o.threads, "How many threads may share a cycle [as before]")
+    resume.add_option("--threads", o.threads, "Largest number of threads that share a cycle [as before]")
         ->transform(threads())
         ->option_text("N");
     resume.add_flag("-q,--quiet", o.quiet, "Print errors only");

@@ -38,18 +38,17 @@ void check_files(const CheckpointOrigin& origin, const InputFiles& now, Diagnost
     for (const auto& [path, digest] : origin.files) {
         const auto same = now.find(path);
         if (same != now.end() && same->second == digest) continue;
-        diagnostics.error(
-            {},
-            fmt::format("'{}' is not what it was when the run began{}", path,
-                        same == now.end() ? ": it is not read any more" : ""),
-            "a run goes on with the same files only; restore it, or start anew with 'forage run'");
+        diagnostics.error({},
+                          fmt::format("'{}' has changed since the run began{}", path,
+                                      same == now.end() ? ": it is not read now" : ""),
+                          "a run can only be resumed with the same files; restore it, or start a new run "
+                          "with 'forage run'");
     }
     for (const auto& [path, digest] : origin.module_files)
         if (file_digest(path) != digest)
             diagnostics.error(
-                {},
-                fmt::format("'{}', a file of a module, is not what it was in cycle {}", path, origin.cycle),
-                "restore it, or start anew with 'forage run'");
+                {}, fmt::format("'{}', a file of a module, has changed since cycle {}", path, origin.cycle),
+                "restore it, or start a new run with 'forage run'");
 }
 
 /// The run in the state of the checkpoint. Throws CheckpointError when the checkpoint is unusable; empty when
@@ -63,7 +62,7 @@ std::optional<PreparedRun> restore(const Found& found, const RunSpec& spec, cons
     if (diagnostics.failed()) return std::nullopt;
     Archive archive(found.state);
     archive(prepared->run);
-    if (!archive.left().empty()) throw ArchiveError("there is more in the checkpoint than the run keeps");
+    if (!archive.left().empty()) throw ArchiveError("the checkpoint contains more than the run");
     return prepared;
 }
 
@@ -101,7 +100,7 @@ int resume(const ResumeOptions& o, const RunParser& parse) {
             if (!prepared) return bad_input;
             if (!refused.empty()) fmt::print(stderr, "warning: {}\n", refused);
             if (!refused.empty() || !options.quiet)
-                fmt::print(stderr, "going on from cycle {}\n", prepared->run.cycle());
+                fmt::print(stderr, "continuing from cycle {}\n", prepared->run.cycle());
             // A newer checkpoint that is damaged or not wanted must not be kept instead of this one.
             if (path != checkpoint_path(directory)) fs::remove(checkpoint_path(directory));
             return run_to_end(options, *prepared);

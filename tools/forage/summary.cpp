@@ -11,11 +11,12 @@ namespace {
 
 std::string threads_line(int wanted, std::uint64_t shared, double cycles) {
     if (cores() == 1) return fmt::format("1 of {}: there is one core", wanted);
-    if (shared == 0) return fmt::format("1 of {}: cycles are too short to share, or too few to try", wanted);
-    return fmt::format("{}, which shared {:.1f} % of the cycles; in the others, by trials, one thread is as fast",
-                       wanted > cores() ? fmt::format("{} of {}, one per core", cores(), wanted)
-                                        : fmt::format("{}", wanted),
-                       100 * static_cast<double>(shared) / cycles);
+    if (shared == 0)
+        return fmt::format("1 of {}: the cycles are too short to share, or too few for a trial", wanted);
+    return fmt::format(
+        "{}, which shared {:.1f} % of the cycles; in the others, one thread was as fast in trials",
+        wanted > cores() ? fmt::format("{} of {}, one per core", cores(), wanted) : fmt::format("{}", wanted),
+        100 * static_cast<double>(shared) / cycles);
 }
 
 std::string score_table(const Environment& environment) {
@@ -45,8 +46,9 @@ std::string summary(const PreparedRun& p, const RunOutcome& outcome, bool resuma
                               run.seconds_per_cycle() * done / outcome.clock_seconds, outcome.clock_seconds));
     if (p.spec.threads > 1) line("threads", threads_line(p.spec.threads, simulation.shared_cycles(), done));
     for (const auto& e : p.schedule->entries())
-        line(e.cycle ? "changed" : "not changed", e.cycle ? fmt::format("in cycle {}, at {}", *e.cycle, e.text)
-                                                          : fmt::format("at {}: it never was", e.text));
+        line(e.cycle ? "changed" : "not changed", e.cycle
+                                                      ? fmt::format("in cycle {}, at {}", *e.cycle, e.text)
+                                                      : fmt::format("at {}: it never was", e.text));
     if (environment) {
         const auto names = environment->robot_names();
         for (std::size_t i = 0; i < names.size(); ++i)
@@ -59,7 +61,8 @@ std::string summary(const PreparedRun& p, const RunOutcome& outcome, bool resuma
     const std::size_t groups = run.layout().groups.size();
     for (std::size_t g = 0; g < groups; ++g) pruned += simulation.pruned(static_cast<int>(g));
     if (pruned)
-        line("pruned", fmt::format("{} of {} groups, which nothing reads; --hash computes all", pruned, groups));
+        line("pruned",
+             fmt::format("{} of {} groups, which nothing reads; --hash computes all", pruned, groups));
     if (p.spec.digest) line("computed", fmt::format("all {} groups, as --hash demands", groups));
     if (!run.divergence().empty()) line("diverged", run.divergence());
     if (!outcome.state.empty()) line("state", outcome.state);

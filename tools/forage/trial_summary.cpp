@@ -118,7 +118,7 @@ Lines trial_summary(const Environment& world, const MeasuredTrials& trials) {
     if (n == 0) return trials.running ? running_lines(world, *trials.running) : Lines{};
     double cycles = 0;
     for (const auto& t : trials.finished) cycles += static_cast<double>(t.cycles);
-    Lines lines{{"trials", fmt::format("{}, {:.1f} s each on average, and 1 s to put the robot back", n,
+    Lines lines{{"trials", fmt::format("{}, {:.1f} s each on average, and 1 s to reset the robot", n,
                                        cycles / static_cast<double>(n) * world.seconds_per_cycle())}};
     if (!world.has_targets()) return lines;
     const std::string starts = by_start(world, trials);

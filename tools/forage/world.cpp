@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "bug_interface/world/sdf_reader.h"
-#include "tools/forage/commands.h"
 #include "core/base/output_files.h"
+#include "tools/forage/commands.h"
 #include "tools/plot/world_map.h"
 
 namespace forage::tool {
@@ -16,7 +16,7 @@ int world(const WorldCommand& o) {
         o.picture.empty() ? std::filesystem::path(o.file).stem().string() + ".png" : o.picture;
     const auto format_of_picture = plot::format_of(picture);
     if (!format_of_picture)
-        diagnostics.error({}, fmt::format("-o: '{}' is no name of a picture", picture),
+        diagnostics.error({}, fmt::format("-o: '{}' is not the name of a picture", picture),
                           "it ends with .png, .svg or .pdf");
     check_output(picture, "map.png", diagnostics);
     const auto description = bug::read_world(o.file, diagnostics);

@@ -155,7 +155,7 @@ TEST_CASE("A list is taken in the order of the grid, without its duplicates and 
                                       model::Region{1, 1, 1, 1, {}}};
     const auto built = w.build();
     CHECK(built.pairs() == Cells{{0, 0}, {5, 0}});
-    CHECK(built.said() == "there is no cell at x = 4, y = 1: the point is left out");
+    CHECK(built.said() == "there is no cell at x = 4, y = 1: the point is ignored");
 }
 
 TEST_CASE("A point below 1 is an error, or left out under leniency") {

@@ -71,7 +71,7 @@ TEST_CASE("An edit that cannot be done changes nothing and says what there is") 
 TEST_CASE("An owner that is not one is refused") {
     const std::string twins = replaced(small_system, "id=\"b\" name=\"B\"", "id=\"b\" name=\"A\"");
     CHECK(Edit("P/A.probability=1", twins).said() ==
-          "--set 'P/A.probability=1': 'P/A' names 2 things | use one of 'P/A#a', 'P/A#b'");
+          "--set 'P/A.probability=1': 'P/A' names 2 items | use one of 'P/A#a', 'P/A#b'");
     CHECK(value(Edit("P/A#b.probability=1", twins).system.processes[0].groups[1].neuron, "probability") ==
           "1");
     const std::string empty_process =

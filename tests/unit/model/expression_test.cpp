@@ -188,15 +188,15 @@ TEST_CASE("Mistakes are told with their column") {
     for (const char* nonsense : {"", "=", "threshold=1", ".threshold=1", "P/A.threshold", "P/A"})
         CHECK(assignment(nonsense) == "1: not an assignment");
     CHECK(manipulation("P/A(1,1)=1; every 0") == "13: 'every' needs a whole number, at least 1");
-    CHECK(manipulation("P/A(1,1)=1; from cycle 3;; ") == "26: '' is no option of a manipulation");
+    CHECK(manipulation("P/A(1,1)=1; from cycle 3;; ") == "26: '' is not an option of a manipulation");
     CHECK(manipulation("P/A(1,1)=1 (2,x)=1") == "9: '(2,x)' is no cell");
     CHECK(manipulation("P/A(1,1)=1 2") == "9: '2' is no cell with a value");
     CHECK(manipulation("P/A(1,1)=on") == "7: 'on' is not a number");
     CHECK(manipulation("t.csv; every 2") == "6: a table says itself in which cycles its rows hold");
     CHECK(manipulation("") == "1: no manipulation");
     CHECK(plot("pie:P/A") == "1: there is no plot 'pie'");
-    CHECK(plot("space:P/A@1,5..2") == "13: '5..2' is no cycle");
-    CHECK(plot("space:P/A;blocks=0x1") == "11: 'blocks=0x1' is no option of a plot");
+    CHECK(plot("space:P/A@1,5..2") == "13: '5..2' is not a cycle");
+    CHECK(plot("space:P/A;blocks=0x1") == "11: 'blocks=0x1' is not an option of a plot");
     CHECK(plot("connection:") == "1: which connection?");
 }
 

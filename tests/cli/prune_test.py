@@ -1,6 +1,6 @@
-"""Groups that nothing reads are pruned from a run, and nothing else changes by that.
+"""Groups that nothing reads are pruned from a run, and all other numbers stay the same.
 
-    unread_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
+    prune_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
 """
 
 import json
@@ -51,7 +51,7 @@ SMALL = f"""<?xml version="1.0" encoding="UTF-8"?>
 """
 
 
-class Unread(Stopped):
+class Pruning(Stopped):
     def pruned(self, done):
         found = re.search(r"pruned +(\d+) of (\d+) groups, which nothing reads; --hash computes all", done.stdout)
         return int(found[1]) if found else 0
@@ -162,4 +162,4 @@ class Unread(Stopped):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=["unread_test.py", *__import__("sys").argv[3:]], defaultTest="Unread")
+    unittest.main(argv=["prune_test.py", *__import__("sys").argv[3:]], defaultTest="Pruning")
