@@ -1,4 +1,4 @@
-// run.json: what a run was made of and what came of it, as a file beside its results.
+// run.json: the input and the results of a run, as a file beside its other results.
 #pragma once
 
 #include <optional>
@@ -19,17 +19,17 @@ std::vector<std::pair<std::string, std::string>> run_attributes(
     const RunSpec& spec, const Run& run, const std::vector<std::string>& plugins,
     const std::vector<std::pair<std::string, std::string>>& libraries);
 
-/// What run.json says of a run that has ended.
+/// The content of run.json about a run that has ended.
 struct FinishedRun {
     RunInput input;                                  ///< system, world, seed, settings and leniency
     double seconds_per_cycle = 0;                    ///< of its world; 0 without one
     std::vector<std::string> files;                  ///< names of the files beside run.json
     std::vector<ResultFiles::Recording> recordings;  ///< the sources that files hold
     std::vector<std::pair<std::string, std::string>>
-        settings;  ///< what was run, entry by entry, in the file's order
+        settings;  ///< the settings of the run, in the order of the file
 };
 
-/// Reads run.json of a directory of results; empty when there is none, or none that a run has written.
+/// Reads run.json in a directory of results. Empty when there is none, or when a run has not written it.
 std::optional<FinishedRun> read_run_json(const std::string& directory);
 
 }  // namespace forage

@@ -1,4 +1,4 @@
-// Pictures and pages of results, recordings and systems that exist already.
+// Pictures and pages of existing results, recordings and systems.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace forage {
 
-/// Everything that can be drawn without a run: the results of one, a recording, or a system.
+/// Everything that can be drawn without a run: results, a recording, or a system.
 struct Results {
     struct Entry {
         std::unique_ptr<observe::Recording> rows;
@@ -31,13 +31,13 @@ Results open_results(const std::string& path);
 /// The robot's path in each trial. Throws FileError for tables that are damaged or do not belong together.
 std::vector<plot::Path> read_paths(const std::string& directory);
 
-/// Draws `plots` ("time:Process/Group", "trajectory"), or what is usual for these results when there are
-/// none, into `directory` (empty: beside the results, or the working directory for a system). Reports what is
-/// wrong with them. Returns the paths of the files that it wrote.
+/// Draws `plots` ("time:Process/Group", "trajectory"), or the usual pictures of these results when there are
+/// none, into `directory` (empty: beside the results, or the working directory for a system). Reports
+/// mistakes in `plots`. Returns the paths of the written files.
 std::vector<std::string> draw(Results& results, std::vector<std::string> plots, std::string directory,
                               plot::Format format, Diagnostics& diagnostics);
 
-/// An HTML page of the pictures and tables in a directory of results. It needs nothing from the net.
+/// An HTML page of the pictures and tables in a directory of results. It needs nothing from the network.
 std::string results_page(const std::string& directory);
 
 }  // namespace forage
