@@ -1,20 +1,58 @@
 #pragma once
 
-#include "core/types/neuron.h"
+#include "core/types/membrane.h"
 
 namespace forage {
 
-/// vm as in the linear threshold type; a cell spikes (act = 1) where vm reaches the threshold, with the given
-/// probability, and a spike lowers vm by vmReset / spkAmpl. The amplitude does not scale the spike, as in the
-/// original.
+/// A cell spikes (act = 1) where vm reaches the threshold, with the given probability, and a spike lowers vm
+/// by vmReset / spkAmpl. The amplitude does not scale the spike, as in the original.
 struct IntegrateFire {
-    double exc_gain = 1, inh_gain = 1, persistence = 0;
-    bool clip = false;
-    double minimum = 0, maximum = 1, probability = 1, threshold = 0, amplitude = 1, reset = 0;
+    Membrane membrane;
+    double probability = 1, threshold = 0, amplitude = 1, reset = 0;
 
-    static void describe(NeuronSpec<IntegrateFire>& spec);
-    void check(Diagnostics&) const;
-    void update(NeuronColumns&) const;
+    struct Cell {
+        double vm = 0, act = 0;
+    };
+
+    static void describe(NeuronSpec<IntegrateFire>& s) {
+        using T = IntegrateFire;
+        s.name("neuronIntegrateFire", "Integrate & fire")
+            .doc("Sums its inputs, leaks, spikes and is reset at threshold.");
+        Membrane::describe(s, &T::membrane);
+        s.param("probability", &T::probability)
+            .label("Probability")
+            .range(0, 1)
+            .doc("Chance per cycle that a cell is active.");
+        s.param("threshold", &T::threshold)
+            .label("Threshold potential")
+            .range(0, 1)
+            .doc("Potential below which act is 0.");
+        s.param("spkAmpl", &T::amplitude)
+            .label("Spike amplitude")
+            .range(0, 1)
+            .doc("Divides the reset; a spike is always 1.");
+        s.param("vmReset", &T::reset)
+            .label("Membrane potential reset")
+            .range(0, 1)
+            .doc("What a spike takes from vm.");
+        s.state("vm", &Cell::vm, "Membrane potential").oldest();
+        s.output("act", &Cell::act, "Activity");
+    }
+    void check(Diagnostics& diagnostics) const {
+        membrane.check(diagnostics);
+        if (amplitude != 0 && amplitude != 1)
+            diagnostics.warning(at_parameter("spkAmpl"),
+                                "spkAmpl does not scale the spike, which is always 1; it divides the reset",
+                                "leave it at 1, and scale the weights of the connections instead");
+    }
+
+    double event_probability() const { return chance(probability); }
+    void update(Cell& c, Input& in) const {
+        const double loss = amplitude == 0 ? 0 : reset / amplitude;
+        c.vm = membrane.integrate(c.vm, in);
+        c.act = c.vm >= threshold ? in.event : 0;  // NaN is silent
+        c.vm -= c.act != 0 ? loss : 0;
+    }
 };
 
 }  // namespace forage

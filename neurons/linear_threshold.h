@@ -1,19 +1,42 @@
 #pragma once
 
-#include "core/types/neuron.h"
+#include "core/types/membrane.h"
 
 namespace forage {
 
-/// vm = vm * vmPrs + excGain * exc - inhGain * inh, clipped if asked; act = vm where it reaches the
-/// threshold, and 0 elsewhere. With a probability below 1 each cell is silent in a random part of the cycles.
+/// act = vm where it reaches the threshold, and 0 elsewhere. With a probability below 1 each cell is silent
+/// in a random part of the cycles.
 struct LinearThreshold {
-    double exc_gain = 1, inh_gain = 1, persistence = 0;
-    bool clip = false;
-    double minimum = 0, maximum = 1, probability = 1, threshold = 0;
+    Membrane membrane;
+    double probability = 1, threshold = 0;
 
-    static void describe(NeuronSpec<LinearThreshold>& spec);
-    void check(Diagnostics&) const;
-    void update(NeuronColumns&) const;
+    struct Cell {
+        double vm = 0, act = 0;
+    };
+
+    static void describe(NeuronSpec<LinearThreshold>& s) {
+        using T = LinearThreshold;
+        s.name("neuronLinearThreshold", "Linear threshold")
+            .doc("Sums its inputs, leaks, silent below threshold.");
+        Membrane::describe(s, &T::membrane);
+        s.param("probability", &T::probability)
+            .label("Probability")
+            .range(0, 1)
+            .doc("Chance per cycle that a cell is active.");
+        s.param("threshold", &T::threshold)
+            .label("Threshold potential")
+            .range(0, 1)
+            .doc("Potential below which act is 0.");
+        s.state("vm", &Cell::vm, "Membrane potential").oldest();
+        s.output("act", &Cell::act, "Activity");
+    }
+    void check(Diagnostics& diagnostics) const { membrane.check(diagnostics); }
+
+    double event_probability() const { return chance(probability); }
+    void update(Cell& c, Input& in) const {
+        c.vm = membrane.integrate(c.vm, in);
+        c.act = c.vm < threshold ? 0 : c.vm * in.event;
+    }
 };
 
 }  // namespace forage

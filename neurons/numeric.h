@@ -6,17 +6,16 @@ namespace forage {
 
 /// act = exc - inh: passes numbers on as they are.
 struct Numeric {
+    struct Cell {
+        double pot = 0, act = 0;
+    };
+
     static void describe(NeuronSpec<Numeric>& s) {
         s.name("neuronNumeric", "Numeric").doc("Passes the difference of its inputs on.");
-        s.elementwise();
         s.reads(InputKind::excitatory, InputKind::inhibitory);
-        s.state("pot", "Membrane potential").output("act", "Activity");
+        s.state("pot", &Cell::pot, "Membrane potential").output("act", &Cell::act, "Activity");
     }
-    void update(NeuronColumns& c) const {
-        auto [pot, act] = c.states<2>();
-        pot = c.excitation() - c.inhibition();
-        act = pot;
-    }
+    void update(Cell& c, const Input& in) const { c.act = c.pot = in.excitation - in.inhibition; }
 };
 
 }  // namespace forage

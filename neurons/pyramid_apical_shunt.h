@@ -10,11 +10,14 @@ namespace forage {
 struct PyramidApicalShunt {
     double persistence = 0, threshold = 0, reset = 0;
 
+    struct Cell {
+        double vm = 0, act = 0, shunt = 0, backprop = 0;
+    };
+
     static void describe(NeuronSpec<PyramidApicalShunt>& s) {
         using T = PyramidApicalShunt;
         s.name("neuronPyramidApicalShunt", "Pyramidal with apical shunt");
         s.doc("Spikes at threshold; modulatory input shunts its apical synapses.");
-        s.elementwise();
         s.reads(InputKind::excitatory, InputKind::inhibitory, InputKind::modulatory);
         s.param("vmPrs", &T::persistence)
             .label("Membrane persistence")
@@ -28,10 +31,18 @@ struct PyramidApicalShunt {
             .label("Membrane potential reset")
             .range(0, 1)
             .doc("What a spike takes from vm.");
-        s.state("vm", "Membrane potential").output("act", "Activity", 2);
-        s.feedback("shunt", "Apical shunt").feedback("backprop", "Backpropagating spikes");
+        s.state("vm", &Cell::vm, "Membrane potential").oldest();
+        s.output("act", &Cell::act, "Activity", 2);
+        s.feedback("shunt", &Cell::shunt, "Apical shunt");
+        s.feedback("backprop", &Cell::backprop, "Backpropagating spikes");
     }
-    void update(NeuronColumns& c) const;
+    void update(Cell& c, const Input& in) const {
+        c.backprop = c.act;
+        c.vm = c.vm * persistence + in.excitation - in.inhibition;
+        c.act = c.vm >= threshold ? 1 : 0;  // NaN is silent
+        c.vm -= c.act * reset;
+        c.shunt = 1 / (1 - in.modulation);
+    }
 };
 
 }  // namespace forage

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/types/neuron.h"
+#include "core/types/membrane.h"
 
 namespace forage {
 
@@ -8,18 +8,22 @@ namespace forage {
 struct RandomSpike {
     double probability = 0.3, amplitude = 1;
 
+    struct Cell {
+        double act = 0;
+    };
+
     static void describe(NeuronSpec<RandomSpike>& s) {
         using T = RandomSpike;
         s.name("neuronRandomSpike", "Random spike").doc("Spikes at random, without input.");
-        s.elementwise();
         s.param("probability", &T::probability)
             .label("Probability")
             .range(0, 1)
             .doc("Chance of a spike per cell and cycle.");
         s.param("spkAmpl", &T::amplitude).label("Spike amplitude").range(0, 1).doc("Activity of a spike.");
-        s.output("act", "Activity");
+        s.output("act", &Cell::act, "Activity");
     }
-    void update(NeuronColumns& c) const;
+    double event_probability() const { return chance(probability); }
+    double event_value() const { return amplitude; }
 };
 
 }  // namespace forage

@@ -6,14 +6,18 @@ namespace forage {
 
 /// psp = pre * shunt of the target cell.
 struct ApicalShunt {
+    struct Target {
+        double shunt = 0;
+    };
+
     static void describe(SynapseSpec<ApicalShunt>& s) {
         s.name("synapseApicalShunt", "Apical shunt")
             .doc("Passes its input on, times the shunt of its target.");
         s.output("psp", "Postsynaptic potential");
         s.feedback("apicalFeedback", "Apical feedback (declared by the original, without effect)", false);
-        s.feedback("apicalShunt", "Apical shunt");
+        s.feedback("apicalShunt", &Target::shunt, "Apical shunt");
     }
-    void update(SynapseColumns& c) const { c.state(0) = c.pre() * c.feedback(1); }
+    double output(double pre, const Target& target) const { return pre * target.shunt; }
 };
 
 }  // namespace forage

@@ -10,6 +10,13 @@ namespace forage {
 struct Hebbian {
     double rate = 0.1, decay = 0.1;
 
+    struct Synapse {
+        double weight = 0;
+    };
+    struct Target {
+        double post = 0;
+    };
+
     static void describe(SynapseSpec<Hebbian>& s) {
         using T = Hebbian;
         s.name("synapseHebbian", "Hebbian").doc("Strengthens where source and target are active together.");
@@ -21,8 +28,9 @@ struct Hebbian {
             .label("Decay")
             .range(0, 1)
             .doc("Without effect: the original ignores it.");
-        s.state("weight", "Weight").output("synpot", "Synaptic potential");
-        s.feedback("postact", "Postsynaptic activity");
+        s.state("weight", &Synapse::weight, "Weight");
+        s.output("synpot", "Synaptic potential");
+        s.feedback("postact", &Target::post, "Postsynaptic activity");
         s.event_driven();
     }
     void check(Diagnostics& diagnostics) const {
@@ -30,9 +38,9 @@ struct Hebbian {
             diagnostics.warning(at_parameter("decay"),
                                 "decay has no effect: weights do not decay, as in the original");
     }
-    void update(SynapseColumns& c) const;
-    void update_and_add(SynapseColumns& c) const;
-    void output(SynapseColumns& c) const { c.state(1) = c.state(0) * c.pre(); }
+
+    void update(Synapse& s, double pre, const Target& target) const { s.weight += target.post * pre * rate; }
+    double output(const Synapse& s, double pre) const { return s.weight * pre; }
 };
 
 }  // namespace forage

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/exception_message.h"
-#include "core/plugin/rehearsal.h"
+#include "core/plugin/contract.h"
 #include "core/plugin/shared_object.h"
 
 namespace forage::plugin {
@@ -58,6 +58,9 @@ class Loader {
         PluginTypes one;
         try {
             entry.declare(one);
+        } catch (const TypeError& e) {
+            return error(out.path, fmt::format("has a type {} that does not work: {}",
+                                               demangled(entry.name()), e.what()));
         } catch (...) {
             return error(out.path,
                          fmt::format("fails: its type {} throws in its constructor or describe(): {}",
@@ -107,7 +110,7 @@ class Loader {
                 if (s.history < 1)
                     return fmt::format("state '{}' has a history of {}, the least is 1", s.name, s.history);
         if constexpr (!std::is_same_v<Type, ModuleType>)
-            if (type.output() >= 0) return rehearse(type);
+            if (type.output() >= 0) return contract_violation(type);
         return {};
     }
 

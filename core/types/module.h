@@ -52,7 +52,7 @@ struct ModulePorts {
     std::string process;        ///< name of the process that holds the module
     std::vector<Group> inputs;  ///< in order of declaration (of the file, for a type that takes any)
     std::vector<Group> outputs;
-    RandomStream random;  ///< the module's own stream
+    RandomStream random;                 ///< the module's own stream
     Environment* environment = nullptr;  ///< core/run/environment.h; null in a run, or a check, without one
 };
 
@@ -144,7 +144,7 @@ class ModuleSpec {
     ModuleSpec& doc(std::string text) { return type_.doc = std::move(text), *this; }
     template <class M>
     ParameterBuilder param(std::string name, M T::*member) {
-        type_.parameters.push_back(detail::make_parameter(std::move(name), member));
+        type_.parameters.push_back(detail::make_parameter<T>(std::move(name), member));
         return {type_.parameters, type_.parameters.size() - 1};
     }
     PortBuilder input(std::string name, std::string label) {

@@ -1,27 +1,34 @@
 // Neuron types: what the cells of a group are. A neuron type is a plain struct whose members are its
 // parameters, with
 //
-//     static void describe(NeuronSpec<T>&);      // name, parameters, states: the only place that lists them
-//     void check(Diagnostics&) const;               // optional: warns of parameters that do not fit together
-//     void update(NeuronColumns&) const;         // one cycle, for all cells of a group
+//     struct Cell { double vm = 0, act = 0; };      // the states of a cell, with their initial values
+//     static void describe(NeuronSpec<T>&);         // name, parameters, states
+//     void update(Cell&, Input&) const;             // one cycle of one cell; const Input& without gains
+//     double event_probability() const;             // optional: of Input::event
+//     double event_value() const;                   // in place of update(): the activity of a cell with an
+//     event static constexpr int random_numbers = 1;      // optional: how many of Input::random are drawn,
+//     up to 4 void check(Diagnostics&) const;               // optional: warns of parameters that do not fit
+//     together
 //
-// neurons/linear_threshold.h is the example to copy.
+// The cells of such a type do not see each other, so that the SDK may update them in any order and by several
+// threads. A type whose cells do has no Cell, and
+//
+//     void update(NeuronColumns&) const;            // one cycle of all cells of a group
+//
+// neurons/linear_threshold.h is the example to copy, neurons/td_value.h one of the second kind.
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <functional>
 #include <memory>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "core/base/column.h"
 #include "core/base/diagnostic.h"
-#include "core/base/random.h"
+#include "core/types/cell_model.h"
+#include "core/types/neuron_columns.h"
 #include "core/types/parameter.h"
-#include "core/types/type_error.h"
 
 namespace forage {
 
@@ -35,127 +42,12 @@ struct StateInfo {
     double initial = 0;     ///< of all cells and past cycles, before the first update
 };
 
-/// What a neuron type's update sees: the columns of one group in one cycle.
-///
-/// A state's rows form a ring. `state(i)` is the row to be written in this cycle; before it is written it
-/// holds the value of `history` cycles ago, which is the previous cycle's for the usual history of 1.
-class NeuronColumns {
-  public:
-    struct State {
-        double* ring;        ///< first row of the ring
-        std::int64_t depth;  ///< rows in the ring
-    };
-
-    /// How many draws of numbers, and how many of events, have a column of their own.
-    static constexpr std::uint32_t draws_kept = 4;
-    /// Columns of `stride` cells that `scratch` must hold.
-    static constexpr Index scratch_columns = 2 * draws_kept;
-
-    /// The cells from `first`, a multiple of RandomStream::grain, to `first` + `size` - 1 of a group whose
-    /// rows are `stride` apart. `inputs` and `states` are those of cell 0.
-    NeuronColumns(Index size, Index stride, std::uint64_t cycle, std::array<double*, input_kinds> inputs,
-                  std::span<const State> states, const RandomStream* random, double* scratch,
-                  std::array<bool, input_kinds> silent = {}, Index first = 0)
-        : size_(size),
-          stride_(stride),
-          first_(first),
-          cycle_(cycle),
-          inputs_(inputs),
-          states_(states),
-          random_(random),
-          scratch_(scratch),
-          silent_(silent) {}
-
-    Index size() const { return size_; }  ///< number of cells
-    std::uint64_t cycle() const { return time_invariant_ = false, cycle_; }
-
-    /// What was delivered at the end of the last cycle, per cell. A type applies its gain in place.
-    Column excitation() const { return input(InputKind::excitatory); }
-    Column inhibition() const { return input(InputKind::inhibitory); }
-    Column modulation() const { return input(InputKind::modulatory); }
-
-    /// Nothing ever delivers this kind of input: it is 0 in all cells, and a type need neither scale nor read
-    /// it.
-    bool silent(InputKind kind) const { return silent_[static_cast<std::size_t>(kind)]; }
-
-    Column state(int i) const { return {row(i, 0), size_}; }
-    /// State i as it was `ago` cycles ago; 0 < ago < the state's history.
-    ConstColumn past(int i, int ago) const { return {row(i, ago), size_}; }
-
-    /// All states in order of declaration: `auto [vm, act] = c.states<2>();` Throws TypeError when the type
-    /// declares more or fewer.
-    template <int N>
-    std::array<Column, N> states() const {
-        if (states_.size() != N) detail::not_as_many(N, states_.size());
-        return [this]<int... I>(std::integer_sequence<int, I...>) {
-            return std::array<Column, N>{state(I)...};
-        }
-        (std::make_integer_sequence<int, N>{});
-    }
-
-    /// One number per cell, uniform in [0, 1), new in each cycle. Another `draw` of the same cycle gives
-    /// other, independent numbers, the same one the same numbers. The columns of draws 0 to 3 stay as they
-    /// are during the update; draw 4 takes that of draw 0, and so on.
-    Column uniform(std::uint32_t draw = 0) const {
-        time_invariant_ = false;
-        double* out = scratch_ + draw % draws_kept * stride_;
-        random_->uniform(cycle_, {out, static_cast<std::size_t>(size_)}, draw,
-                         static_cast<std::size_t>(first_));
-        return {out, size_};
-    }
-    /// out[i] = `value` with this probability, independent in each cell and cycle, else 0. Many times faster
-    /// than to compare uniform().
-    void events(double probability, Column out, double value = 1, std::uint32_t draw = 0) const {
-        time_invariant_ = false;
-        random_->events(cycle_, probability, {out.data(), static_cast<std::size_t>(out.size())}, value, draw,
-                        static_cast<std::size_t>(first_));
-    }
-    /// The same in a column of the draw's own, as for uniform().
-    Column events(double probability, std::uint32_t draw = 0) const {
-        const Column out(scratch_ + (draws_kept + draw % draws_kept) * stride_, size_);
-        return events(probability, out, 1, draw), out;
-    }
-
-    /// Whether the update has asked neither for the cycle nor for random numbers: then the same inputs and
-    /// states give the same again, which the engine makes use of.
-    bool time_invariant() const { return time_invariant_; }
-
-  private:
-    Column input(InputKind kind) const { return {inputs_[static_cast<std::size_t>(kind)] + first_, size_}; }
-    double* row(int i, int ago) const {
-        const auto index = static_cast<std::size_t>(i);  // of a negative one: very large
-        if (index >= states_.size()) detail::not_declared("state", i, states_.size());
-        const State& s = states_[index];
-        if (ago < 0 || ago > s.depth) detail::not_kept(i, ago, s.depth);
-        if (s.depth == 1) return s.ring + first_;  // two divisions less, of every small group's update
-        const auto now = static_cast<std::int64_t>(cycle_ % static_cast<std::uint64_t>(s.depth));
-        return s.ring + ((now - ago + s.depth) % s.depth) * stride_ + first_;
-    }
-
-    Index size_, stride_, first_;
-    std::uint64_t cycle_;
-    std::array<double*, input_kinds> inputs_;
-    std::span<const State> states_;
-    const RandomStream* random_;
-    double* scratch_;
-    std::array<bool, input_kinds> silent_;
-    mutable bool time_invariant_ = true;
-};
-
-/// A neuron type with its parameters set, ready to update one group.
-class NeuronInstance {
-  public:
-    virtual ~NeuronInstance() = default;
-    virtual void* parameters() = 0;
-    virtual void update(NeuronColumns&) const = 0;
-};
-
 struct NeuronType {
     std::string name, label, doc;
     std::vector<Parameter> parameters;
     std::vector<StateInfo> states;
     std::array<bool, input_kinds> reads{};  ///< which kinds of input the type uses; the others stay 0
-    bool elementwise = false;               ///< see NeuronSpec
+    bool elementwise = false;  ///< cells do not see each other: threads may share the update of a group
     std::function<std::unique_ptr<NeuronInstance>()> make;
     std::function<void(const void*, Diagnostics&)> check;  ///< of an object's parameters; may be empty
 
@@ -166,9 +58,23 @@ struct NeuronType {
     }
 };
 
+namespace detail {
+
+template <class T>
+auto cell_of() {
+    if constexpr (HasCell<T>)
+        return typename T::Cell{};
+    else
+        return NoNumbers{};
+}
+
+}  // namespace detail
+
 template <class T>
 class NeuronSpec {
   public:
+    using Cell = decltype(detail::cell_of<T>());
+
     explicit NeuronSpec(NeuronType& type) : type_(type) {}
     NeuronSpec& name(std::string name, std::string label) {
         return type_.name = std::move(name), type_.label = std::move(label), *this;
@@ -179,15 +85,30 @@ class NeuronSpec {
     NeuronSpec& reads(Kinds... kinds) {
         return ((type_.reads[static_cast<std::size_t>(kinds)] = true), ..., *this);
     }
-    /// Promises that what update() makes of a cell depends on this cell's inputs, states and random numbers
-    /// only, not on other cells and not on their number, and that update() changes nothing but its columns.
-    /// Then several threads may update parts of a large group at the same time, with one object.
-    NeuronSpec& elementwise() { return type_.elementwise = true, *this; }
-    template <class M>
-    ParameterBuilder param(std::string name, M T::*member) {
-        type_.parameters.push_back(detail::make_parameter(std::move(name), member));
+    /// A parameter: `&T::member`, or `&T::membrane, &Membrane::member` for a member of a member.
+    template <class... Path>
+    ParameterBuilder param(std::string name, Path... path) {
+        type_.parameters.push_back(detail::make_parameter<T>(std::move(name), path...));
         return {type_.parameters, type_.parameters.size() - 1};
     }
+
+    /// States of a type with a Cell: a member of it, which has the state's initial value. update() finds in
+    /// it what it left there in the last cycle.
+    NeuronSpec& state(std::string name, double Cell::*member, std::string label, int history = 1) {
+        return add(member, {std::move(name), std::move(label), history, false, false});
+    }
+    NeuronSpec& output(std::string name, double Cell::*member, std::string label, int history = 1) {
+        return add(member, {std::move(name), std::move(label), history, true, true});
+    }
+    NeuronSpec& feedback(std::string name, double Cell::*member, std::string label, int history = 1) {
+        return add(member, {std::move(name), std::move(label), history, false, true});
+    }
+    /// In the state declared last, update() finds what it left there as many cycles ago as the state's
+    /// history is long. This is a property of the original's types: a synapse that reads the state with a
+    /// delay makes the history longer, and so changes what the cell does.
+    NeuronSpec& oldest() { return oldest_.resize(type_.states.size()), oldest_.back() = true, *this; }
+
+    /// States of a type without a Cell, in the order in which NeuronColumns has them.
     NeuronSpec& state(std::string name, std::string label, int history = 1, double initial = 0) {
         return add({std::move(name), std::move(label), history, false, false, initial});
     }
@@ -198,15 +119,33 @@ class NeuronSpec {
         return add({std::move(name), std::move(label), history, false, true, initial});
     }
 
+    /// The states as the SDK's loop needs them. Throws TypeError when a member of Cell is not declared.
+    auto cell_states() const {
+        std::array<detail::CellState, detail::numbers_in<Cell>> out;
+        const auto& indices = numbers_.indices();
+        for (std::size_t i = 0; i < out.size(); ++i)
+            out[i] = {static_cast<int>(indices[i]), indices[i] < oldest_.size() && oldest_[indices[i]]};
+        return out;
+    }
+
   private:
     NeuronSpec& add(StateInfo state) { return type_.states.push_back(std::move(state)), *this; }
+    NeuronSpec& add(double Cell::*member, StateInfo state) {
+        state.initial = Cell{}.*member;
+        numbers_.declare(member, type_.states.size());
+        return add(std::move(state));
+    }
+
     NeuronType& type_;
+    detail::NumberMap<Cell> numbers_{"Cell"};
+    std::vector<bool> oldest_;
 };
 
 namespace detail {
 
+/// A type without a Cell, ready to update groups.
 template <class T>
-class NeuronModel final : public NeuronInstance {
+class ColumnModel final : public NeuronInstance {
   public:
     void* parameters() override { return &value_; }
     void update(NeuronColumns& columns) const override { value_.update(columns); }
@@ -219,13 +158,25 @@ class NeuronModel final : public NeuronInstance {
 
 template <class T>
 NeuronType neuron_type() {
-    static_assert(
-        requires(const T t, NeuronColumns& c) { t.update(c); },
-        "a neuron type needs void update(NeuronColumns&) const");
     NeuronType type;
     NeuronSpec<T> spec(type);
     T::describe(spec);
-    type.make = [] { return std::make_unique<detail::NeuronModel<T>>(); };
+    if constexpr (detail::HasCell<T>) {
+        static_assert(
+            detail::UpdatesCell<T> != detail::OnlySpikes<T>,
+            "a neuron type with a Cell needs void update(Cell&, Input&) const, or (Cell&, const Input&); or "
+            "event_probability() and double event_value() const");
+        static_assert(detail::random_numbers<T> <= NeuronColumns::draws_kept,
+                      "a cell has at most 4 random_numbers");
+        type.elementwise = true;
+        type.make = [states = spec.cell_states()] { return std::make_unique<detail::CellModel<T>>(states); };
+    } else {
+        static_assert(
+            requires(const T t, NeuronColumns& c) { t.update(c); },
+            "a neuron type needs a struct Cell and void update(Cell&, Input&) const, or void "
+            "update(NeuronColumns&) const");
+        type.make = [] { return std::make_unique<detail::ColumnModel<T>>(); };
+    }
     if constexpr (requires(const T t, Diagnostics d) { t.check(d); })
         type.check = [](const void* object, Diagnostics& diagnostics) {
             static_cast<const T*>(object)->check(diagnostics);

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -89,22 +91,25 @@ constexpr ParameterKind kind_of() {
     }
 }
 
+/// The parameter of T that `path` leads to: a member pointer, or several when the member is part of a member.
 /// The default is the member's initializer: read from a default-constructed object, written nowhere else.
-template <class T, class M>
-Parameter make_parameter(std::string name, M T::*member) {
+template <class T, class... Path>
+Parameter make_parameter(std::string name, Path... path) {
+    const auto member = [path...](auto& object) -> auto& { return (object.*....*path); };
+    using M = std::remove_cvref_t<decltype(member(std::declval<T&>()))>;
     Parameter p;
     p.label = name;
     p.name = std::move(name);
     p.kind = kind_of<M>();
     const T defaults{};
-    p.default_value = ParameterValue(defaults.*member);
-    p.offset = static_cast<std::size_t>(reinterpret_cast<const char*>(&(defaults.*member)) -
+    p.default_value = ParameterValue(member(defaults));
+    p.offset = static_cast<std::size_t>(reinterpret_cast<const char*>(&member(defaults)) -
                                         reinterpret_cast<const char*>(&defaults));
     p.size = sizeof(M);
     p.set = [member](void* object, const ParameterValue& v) {
-        static_cast<T*>(object)->*member = std::get<M>(v);
+        member(*static_cast<T*>(object)) = std::get<M>(v);
     };
-    p.get = [member](const void* object) { return ParameterValue(static_cast<const T*>(object)->*member); };
+    p.get = [member](const void* object) { return ParameterValue(member(*static_cast<const T*>(object))); };
     return p;
 }
 

@@ -9,6 +9,7 @@
 #include <typeinfo>
 #include <vector>
 
+#include "core/types/membrane.h"
 #include "core/types/module.h"
 #include "core/types/neuron.h"
 #include "core/types/synapse.h"
@@ -21,7 +22,7 @@ namespace forage {
 
 /// Grows whenever a plugin that was built before can no longer be used: when a declaration that types see
 /// has changed.
-inline constexpr int sdk_version = 6;
+inline constexpr int sdk_version = 7;
 
 /// What a plugin declares.
 struct PluginTypes {

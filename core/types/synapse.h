@@ -1,18 +1,19 @@
 // Synapse types: what the synapses of a connection are. A synapse type is a plain struct whose members are
 // its parameters, with
 //
-//     static void describe(SynapseSpec<T>&);
-//     void check(Diagnostics&) const;               // optional: warns of parameters that do not fit together
-//     void update(SynapseColumns&) const;        // one cycle, for some synapses at a time
-//     void output(SynapseColumns&) const;        // optional: writes the output state, and nothing else, as
-//                                                // the last update() did, from pre and the other states
-//                                                // alone: outputs need not be kept then
-//     void update_and_add(SynapseColumns&) const;  // optional, beside output(): what update() does, but
-//                                                  // what it would write to the output state is added to
-//                                                  // sums()
+//     struct Synapse { double weight = 0; };        // the states of a synapse, with their initial values
+//     struct Target { double post = 0; };           // what it reads of its target cell
+//     static void describe(SynapseSpec<T>&);        // name, parameters, states, output, feedback
+//     void update(Synapse&, double pre, const Target&) const;         // one cycle of one synapse: what it
+//     learns double output(const Synapse&, double pre, const Target&) const; // then: its postsynaptic
+//     potential void check(Diagnostics&) const;               // optional: warns of parameters that do not
+//     fit together
 //
-// A type that only multiplies its input by a constant declares that constant with `gain` and needs no
-// update(). The engine then attenuates and delays what the type puts out; synapses/fixed_weight.h is the
+// What a type does not need is left out: a struct and the arguments of it, update(). An output() that does
+// not read the target can be computed again at any time, and outputs need not be kept.
+//
+// A type that only multiplies its input by a constant has that constant as `double gain() const`, and neither
+// update() nor output(). The engine attenuates and delays what the type puts out. synapses/hebbian.h is the
 // example to copy.
 #pragma once
 
@@ -22,10 +23,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/column.h"
 #include "core/base/diagnostic.h"
 #include "core/types/parameter.h"
-#include "core/types/type_error.h"
+#include "core/types/synapse_columns.h"
+#include "core/types/synapse_model.h"
 
 namespace forage {
 
@@ -44,42 +45,6 @@ struct FeedbackInfo {
     bool required = true;
 };
 
-/// What an update sees: one entry per synapse, in synapse order; of some of a connection's at a time.
-class SynapseColumns {
-  public:
-    SynapseColumns(ConstColumn pre, const std::vector<Column>& states,
-                   const std::vector<ConstColumn>& feedback, double* sums = nullptr)
-        : pre_(pre), states_(states), feedback_(feedback), sums_(sums) {}
-    const ConstColumn& pre() const { return pre_; }  ///< source cell's activity of this cycle
-    Column state(std::size_t i) const {              ///< own states, in order of declaration
-        if (i >= states_.size()) detail::not_declared("state", static_cast<long long>(i), states_.size());
-        return states_[i];
-    }
-    const ConstColumn& feedback(std::size_t i) const {
-        if (i >= feedback_.size())
-            detail::not_declared("feedback", static_cast<long long>(i), feedback_.size());
-        return feedback_[i];
-    }
-    /// What update_and_add() adds to; of no cells elsewhere.
-    Column sums() const { return {sums_, sums_ ? pre_.size() : 0}; }
-
-  private:
-    ConstColumn pre_;
-    const std::vector<Column>& states_;
-    const std::vector<ConstColumn>& feedback_;
-    double* sums_;
-};
-
-class SynapseInstance {
-  public:
-    virtual ~SynapseInstance() = default;
-    virtual void* parameters() = 0;
-    virtual void update(SynapseColumns&) const = 0;
-    virtual double gain() const = 0;                         ///< psp = gain * pre, for types that declare one
-    virtual void output(SynapseColumns&) const = 0;          ///< for types that have it; without feedback
-    virtual void update_and_add(SynapseColumns&) const = 0;  ///< for types that have it
-};
-
 struct SynapseType {
     std::string name, label, doc;
     std::vector<Parameter> parameters;
@@ -87,8 +52,8 @@ struct SynapseType {
     std::vector<FeedbackInfo> feedback;
     bool has_gain = false;
     bool event_driven = false;  ///< see SynapseSpec
-    bool tells_output = false;  ///< has an output()
-    bool adds_output = false;   ///< has an update_and_add()
+    bool tells_output = false;  ///< the output depends on the source and the states alone
+    bool adds_output = false;   ///< has update_and_add()
     std::function<std::unique_ptr<SynapseInstance>()> make;
     std::function<void(const void*, Diagnostics&)> check;  ///< of an object's parameters; may be empty
 
@@ -102,88 +67,66 @@ struct SynapseType {
 template <class T>
 class SynapseSpec {
   public:
+    using Synapse = detail::Synapse<T>;
+    using Target = detail::Target<T>;
+
     explicit SynapseSpec(SynapseType& type) : type_(type) {}
     SynapseSpec& name(std::string name, std::string label) {
         return type_.name = std::move(name), type_.label = std::move(label), *this;
     }
     SynapseSpec& doc(std::string text) { return type_.doc = std::move(text), *this; }
-    template <class M>
-    ParameterBuilder param(std::string name, M T::*member) {
-        type_.parameters.push_back(detail::make_parameter(std::move(name), member));
+    /// A parameter: `&T::member`, or `&T::part, &Part::member` for a member of a member.
+    template <class... Path>
+    ParameterBuilder param(std::string name, Path... path) {
+        type_.parameters.push_back(detail::make_parameter<T>(std::move(name), path...));
         return {type_.parameters, type_.parameters.size() - 1};
     }
-    SynapseSpec& state(std::string name, std::string label, double initial = 0) {
-        return type_.states.push_back({std::move(name), std::move(label), false, initial}), *this;
+    /// A member of Synapse, which has the state's initial value.
+    SynapseSpec& state(std::string name, double Synapse::*member, std::string label) {
+        states_.declare(member, type_.states.size());
+        return type_.states.push_back({std::move(name), std::move(label), false, Synapse{}.*member}), *this;
     }
+    /// What output() gives.
     SynapseSpec& output(std::string name, std::string label) {
         return type_.states.push_back({std::move(name), std::move(label), true}), *this;
     }
+    /// A member of Target, which is 0 where a file leaves out one that is not required.
+    SynapseSpec& feedback(std::string name, double Target::*member, std::string label, bool required = true) {
+        target_.declare(member, type_.feedback.size());
+        return feedback(std::move(name), std::move(label), required);
+    }
+    /// A feedback that files may name, and that the type does not use.
     SynapseSpec& feedback(std::string name, std::string label, bool required = true) {
         return type_.feedback.push_back({std::move(name), std::move(label), required}), *this;
     }
-    /// Promises that update() leaves the states of a synapse as they are and makes its output 0 when its
-    /// source is silent (pre is 0) and all other numbers are finite. Such synapses are then passed over,
-    /// which is many times faster where activity is sparse.
+    /// Promises that update() leaves a synapse as it is and output() is 0 when its source is silent (pre is
+    /// 0) and all other numbers are finite. Such synapses are then passed over, which is many times faster
+    /// where activity is sparse.
     SynapseSpec& event_driven() { return type_.event_driven = true, *this; }
+
+    /// Where the numbers are that the SDK's loops need. Throws TypeError when a member is not declared.
+    detail::SynapseIndices<T> indices() const {
+        return {states_.indices(), target_.indices(), static_cast<std::size_t>(type_.output())};
+    }
 
   private:
     SynapseType& type_;
+    detail::NumberMap<Synapse> states_{"Synapse"};
+    detail::NumberMap<Target> target_{"Target"};
 };
-
-namespace detail {
-
-template <class T>
-concept TellsOutput = requires(T t, SynapseColumns& c) {
-    t.output(c);
-};
-template <class T>
-concept AddsOutput = requires(T t, SynapseColumns& c) {
-    t.update_and_add(c);
-};
-
-template <class T>
-class SynapseModel final : public SynapseInstance {
-  public:
-    void* parameters() override { return &value_; }
-    void update(SynapseColumns& columns) const override {
-        if constexpr (requires { value_.update(columns); }) value_.update(columns);
-    }
-    void output(SynapseColumns& columns) const override {
-        if constexpr (TellsOutput<const T>) value_.output(columns);
-    }
-    void update_and_add(SynapseColumns& columns) const override {
-        if constexpr (AddsOutput<const T>) value_.update_and_add(columns);
-    }
-    double gain() const override {
-        if constexpr (requires { value_.gain(); })
-            return value_.gain();
-        else
-            return 1;
-    }
-
-  private:
-    T value_;
-};
-
-}  // namespace detail
 
 template <class T>
 SynapseType synapse_type() {
-    static_assert(
-        requires(const T t, SynapseColumns& c) { t.update(c); } || requires(const T t) { t.gain(); },
-        "a synapse type needs void update(SynapseColumns&) const, or double gain() const");
-    static_assert(detail::TellsOutput<T> == detail::TellsOutput<const T> &&
-                      detail::AddsOutput<T> == detail::AddsOutput<const T>,
-                  "output() and update_and_add() of a synapse type are const, as update() is");
-    static_assert(detail::TellsOutput<T> || !detail::AddsOutput<T>,
-                  "a synapse type with an update_and_add() needs void output(SynapseColumns&) const, too");
+    static_assert(detail::HasOutput<T> != detail::HasGain<T>,
+                  "a synapse type needs double output(const Synapse&, double pre, const Target&) const, "
+                  "without what it "
+                  "does not read; or double gain() const");
     SynapseType type;
     SynapseSpec<T> spec(type);
     T::describe(spec);
-    type.has_gain = requires(const T t) { t.gain(); };
-    type.tells_output = detail::TellsOutput<const T>;
-    type.adds_output = detail::AddsOutput<const T>;
-    type.make = [] { return std::make_unique<detail::SynapseModel<T>>(); };
+    type.has_gain = detail::HasGain<T>;
+    type.tells_output = type.adds_output = detail::TellsOutput<T>;
+    type.make = [indices = spec.indices()] { return std::make_unique<detail::SynapseModel<T>>(indices); };
     if constexpr (requires(const T t, Diagnostics d) { t.check(d); })
         type.check = [](const void* object, Diagnostics& diagnostics) {
             static_cast<const T*>(object)->check(diagnostics);

@@ -48,7 +48,7 @@ struct ProbeSynapse {
             .output("psp", "Postsynaptic potential")
             .feedback("postact", "Activity of the target");
     }
-    void update(SynapseColumns&) const {}
+    double output(double) const { return 0; }
 };
 
 /// Few and fixed: a type that is added later must not change the answers.

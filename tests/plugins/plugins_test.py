@@ -29,19 +29,17 @@ CORPUS = {
     "other_layout": (r"was built with other compiler settings than this program", "build the plugin again"),
     "restless_parameter": (r"'synapseRestlessParameter' that does not work: it promises event_driven\(\), and changes "
                            r"state 'weight' while its source is silent: \S+ becomes \S+, with rate = 0\.", ""),
-    "other_sum": (r"'synapseOtherSum' that does not work: its update_and_add\(\) adds something else than its update\(\)", ""),
-    "other_output": (r"'synapseOtherOutput' that does not work: its output\(\) tells something else than its update\(\)", ""),
     "other_size": (r"'neuronOtherSize' that does not work: it computes with columns of different sizes", ""),
-    "other_version": (r"was built with version 7 of the SDK, this program has version 6", "build the plugin again"),
+    "other_version": (r"was built with version 8 of the SDK, this program has version 7", "build the plugin again"),
     "shipped_name": (r"has a neuron type 'neuronLinearThreshold', and so has Forage itself", "another name"),
     "restless": (r"'synapseRestless' that does not work: it promises event_driven\(\), and changes state 'weight'", ""),
-    "silent_output": (r"'synapseSilentOutput' that does not work: it has an output\(\), which is called only of types that "
-                      r"promise event_driven\(\)", ""),
-    "sociable": (r"'neuronSociable' that does not work: it promises elementwise\(\), and state 'act' depends on which", ""),
-    "synapse_feedback": (r"'synapseBlind' that does not work: it uses feedback 0, but declares 0", ""),
+    "restless_output": (r"'synapseRestlessOutput' that does not work: it promises event_driven\(\), and puts out something", ""),
+    "synapse_feedback": (r"has a type Blind that does not work: its Target holds a number that describe\(\) does not declare", ""),
     "three_states": (r"'neuronThreeStates' that does not work: it uses 3 states, but declares 2", ""),
     "throws_in_constructor": (r"its type ThrowingConstructor throws in its constructor or describe\(\): no device", "update()"),
     "throws_in_describe": (r"its type ThrowingDescribe throws in .*: something that is not a std::exception", "update()"),
+    "twice_declared": (r"has a type TwiceDeclared that does not work: describe\(\) declares a number of its Cell twice", ""),
+    "undeclared_state": (r"has a type UndeclaredState that does not work: its Cell holds a number that describe\(\) does not declare", ""),
     "unresolved": (r"uses 'lab::calibrate\(double\)', which is defined nowhere", "add the source file"),
 }
 LOADED = {"module_output", "throws_in_update", "twice_a", "twice_b"}  # nothing is wrong with these until they meet

@@ -95,7 +95,7 @@ struct TestLearningSynapse {
             .output("psp", "Postsynaptic potential")
             .feedback("postact", "Activity of the target");
     }
-    void update(SynapseColumns&) const {}
+    double output(double) const { return 0; }
 };
 
 /// Few types, and always the same: later ones must not change what a test sees.

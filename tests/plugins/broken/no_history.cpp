@@ -4,12 +4,16 @@
 struct NoHistory {
     double gain = 1;
 
+    struct Cell {
+        double act = 0;
+    };
+
     static void describe(forage::NeuronSpec<NoHistory>& s) {
         s.name("neuronNoHistory", "NoHistory").doc("Broken on purpose.").reads(forage::InputKind::excitatory);
         s.param("gain", &NoHistory::gain).doc("Factor.");
-        s.output("act", "Activity", 0);
+        s.output("act", &Cell::act, "Activity", 0);
     }
-    void update(forage::NeuronColumns& c) const { c.state(0) = c.excitation(); }
+    void update(Cell& c, const forage::Input& in) const { c.act = in.excitation; }
 };
 
 FORAGE_PLUGIN(NoHistory);

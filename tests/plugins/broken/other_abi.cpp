@@ -4,14 +4,18 @@
 struct OldStrings {
     double gain = 1;
 
+    struct Cell {
+        double act = 0;
+    };
+
     static void describe(forage::NeuronSpec<OldStrings>& s) {
         s.name("neuronOldStrings", "OldStrings")
             .doc("Broken on purpose.")
             .reads(forage::InputKind::excitatory);
         s.param("gain", &OldStrings::gain).doc("Factor.");
-        s.output("act", "Activity");
+        s.output("act", &Cell::act, "Activity");
     }
-    void update(forage::NeuronColumns& c) const { c.state(0) = c.excitation(); }
+    void update(Cell& c, const forage::Input& in) const { c.act = in.excitation; }
 };
 
 FORAGE_PLUGIN(OldStrings);

@@ -1,15 +1,17 @@
-// A synapse that promises to rest while its source is silent, and fades.
+// A synapse that promises to be event driven, and fades while its source is silent.
 #include <forage/plugin.h>
 
 struct Restless {
+    struct Synapse {
+        double weight = 0;
+    };
+
     static void describe(forage::SynapseSpec<Restless>& s) {
         s.name("synapseRestless", "Restless").doc("Broken on purpose.");
-        s.state("weight", "Weight").output("psp", "Potential").event_driven();
+        s.state("weight", &Synapse::weight, "Weight").output("psp", "Potential").event_driven();
     }
-    void update(forage::SynapseColumns& c) const {
-        c.state(0) *= 0.99;
-        c.state(1) = c.state(0) * c.pre();
-    }
+    void update(Synapse& s, double) const { s.weight *= 0.99; }
+    double output(const Synapse& s, double pre) const { return s.weight * pre; }
 };
 
 FORAGE_PLUGIN(Restless);

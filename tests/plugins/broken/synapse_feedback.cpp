@@ -2,11 +2,15 @@
 #include <forage/plugin.h>
 
 struct Blind {
+    struct Target {
+        double post = 0;
+    };
+
     static void describe(forage::SynapseSpec<Blind>& s) {
         s.name("synapseBlind", "Blind").doc("Broken on purpose.");
         s.output("psp", "Potential");
     }
-    void update(forage::SynapseColumns& c) const { c.state(0) = c.pre() * c.feedback(0); }
+    double output(double pre, const Target& target) const { return pre * target.post; }
 };
 
 FORAGE_PLUGIN(Blind);

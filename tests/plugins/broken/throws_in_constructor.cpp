@@ -5,15 +5,19 @@
 
 struct ThrowingConstructor {
     double gain = 1;
+    struct Cell {
+        double act = 0;
+    };
+
     ThrowingConstructor() { throw std::runtime_error("no device"); }
     static void describe(forage::NeuronSpec<ThrowingConstructor>& s) {
         s.name("neuronThrowingConstructor", "ThrowingConstructor")
             .doc("Broken on purpose.")
             .reads(forage::InputKind::excitatory);
         s.param("gain", &ThrowingConstructor::gain).doc("Factor.");
-        s.output("act", "Activity");
+        s.output("act", &Cell::act, "Activity");
     }
-    void update(forage::NeuronColumns& c) const { c.state(0) = c.excitation(); }
+    void update(Cell& c, const forage::Input& in) const { c.act = in.excitation; }
 };
 
 FORAGE_PLUGIN(ThrowingConstructor);

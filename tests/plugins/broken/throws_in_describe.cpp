@@ -4,15 +4,19 @@
 struct ThrowingDescribe {
     double gain = 1;
 
+    struct Cell {
+        double act = 0;
+    };
+
     static void describe(forage::NeuronSpec<ThrowingDescribe>& s) {
         s.name("neuronThrowingDescribe", "ThrowingDescribe")
             .doc("Broken on purpose.")
             .reads(forage::InputKind::excitatory);
         s.param("gain", &ThrowingDescribe::gain).doc("Factor.");
-        s.output("act", "Activity");
+        s.output("act", &Cell::act, "Activity");
         throw 42;
     }
-    void update(forage::NeuronColumns& c) const { c.state(0) = c.excitation(); }
+    void update(Cell& c, const forage::Input& in) const { c.act = in.excitation; }
 };
 
 FORAGE_PLUGIN(ThrowingDescribe);

@@ -6,16 +6,20 @@
 struct ThrowingUpdate {
     double gain = 1;
 
+    struct Cell {
+        double act = 0;
+    };
+
     static void describe(forage::NeuronSpec<ThrowingUpdate>& s) {
         s.name("neuronThrowingUpdate", "ThrowingUpdate")
             .doc("Broken on purpose.")
             .reads(forage::InputKind::excitatory);
         s.param("gain", &ThrowingUpdate::gain).doc("Factor.");
-        s.output("act", "Activity");
+        s.output("act", &Cell::act, "Activity");
     }
-    void update(forage::NeuronColumns& c) const {
-        if (c.cycle() == 7) throw std::runtime_error("out of range");
-        c.state(0) = 1.0 + static_cast<double>(c.cycle());
+    void update(Cell& c, const forage::Input&) const {
+        if (c.act == 7) throw std::runtime_error("out of range");
+        c.act += 1;
     }
 };
 

@@ -47,19 +47,23 @@ model::System window(const char* probability) {
     return system;
 }
 
-/// Learns like a Hebbian synapse, and does not tell its output.
+/// Learns like a Hebbian synapse; its output cannot be told later, as it seems to depend on the target.
 struct Mute {
+    struct Synapse {
+        double weight = 0;
+    };
+    struct Target {
+        double post = 0;
+    };
+
     static void describe(SynapseSpec<Mute>& s) {
-        s.name("mute", "Mute")
-            .state("weight", "Weight")
-            .output("psp", "Potential")
-            .feedback("post", "Activity");
+        s.name("mute", "Mute");
+        s.state("weight", &Synapse::weight, "Weight").output("psp", "Potential");
+        s.feedback("post", &Target::post, "Activity");
         s.event_driven();
     }
-    void update(SynapseColumns& c) const {
-        c.state(0) += 0.001 * c.pre() * c.feedback(0);
-        c.state(1) = c.state(0) * c.pre();
-    }
+    void update(Synapse& s, double pre, const Target& target) const { s.weight += 0.001 * pre * target.post; }
+    double output(const Synapse& s, double pre, const Target&) const { return s.weight * pre; }
 };
 
 constexpr int weight = 0, synpot = 1;  // states of a Hebbian synapse

@@ -45,7 +45,6 @@ template <bool in_parts>
 struct Failing {
     static void describe(NeuronSpec<Failing>& s) {
         s.name(in_parts ? "failing in parts" : "failing", "Failing").output("act", "Activity");
-        if (in_parts) s.elementwise();
     }
     void update(NeuronColumns& c) const {
         if (in_parts)
@@ -59,13 +58,18 @@ struct Failing {
 
 /// Throws in cycle 3.
 struct FailingSynapse {
-    mutable int deliveries = 0;
+    struct Synapse {
+        double deliveries = 0;
+    };
+
     static void describe(SynapseSpec<FailingSynapse>& s) {
-        s.name("failing synapse", "Failing").output("psp", "Potential");
+        s.name("failing synapse", "Failing");
+        s.state("deliveries", &Synapse::deliveries, "Deliveries").output("psp", "Potential");
     }
-    void update(SynapseColumns&) const {
-        if (++deliveries == 4) throw std::runtime_error("no way");
+    void update(Synapse& s, double) const {
+        if (++s.deliveries == 4) throw std::runtime_error("no way");
     }
+    double output(const Synapse&, double) const { return 0; }
 };
 
 std::atomic<bool> out_of_luck;  ///< the next update of an Unlucky group fails
@@ -81,13 +85,13 @@ struct Unlucky {
 std::mutex who_delivers;
 std::set<std::thread::id> deliverers;
 
-/// Takes a millisecond for each delivery.
+/// Takes a millisecond for each synapse.
 struct Slow {
     static void describe(SynapseSpec<Slow>& s) { s.name("slow", "Slow").output("psp", "Potential"); }
-    void update(SynapseColumns&) const {
+    double output(double) const {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
         const std::lock_guard lock(who_delivers);
-        deliverers.insert(std::this_thread::get_id());
+        return deliverers.insert(std::this_thread::get_id()), 0;
     }
 };
 
@@ -215,7 +219,9 @@ TEST_CASE("When several groups fail, whole ones and parts, the first one is told
         large(), small();
     Registry registry = types();
     registry.add(neuron_type<Failing<false>>());
-    registry.add(neuron_type<Failing<true>>());
+    auto in_parts = neuron_type<Failing<true>>();
+    in_parts.elementwise = true;  // as if it had a Cell, and would not see how many cells are updated at once
+    registry.add(in_parts);
     auto simulation = run(s, registry, {.threads = threads, .parallel_threshold_ns = 0, .min_task_ns = 0});
     smallest_part = 30 * 30;
     for (int t = 0; t < 3; ++t) simulation.step();

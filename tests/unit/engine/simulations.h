@@ -12,14 +12,22 @@ namespace forage::test {
 
 /// act = act of the cycle before + 1: 1, 2, 3... Delays of its connections must not change that.
 struct Counter {
-    static void describe(NeuronSpec<Counter>& s) { s.name("counter", "Counter").output("act", "Activity"); }
-    void update(NeuronColumns& c) const { c.state(0) += 1; }
+    struct Cell {
+        double act = 0;
+    };
+    static void describe(NeuronSpec<Counter>& s) {
+        s.name("counter", "Counter").output("act", &Cell::act, "Activity");
+    }
+    void update(Cell& c, const Input&) const { c.act += 1; }
 };
 
 /// act = 1.
 struct One {
-    static void describe(NeuronSpec<One>& s) { s.name("one", "One").output("act", "Activity"); }
-    void update(NeuronColumns& c) const { c.state(0) = 1; }
+    struct Cell {
+        double act = 0;
+    };
+    static void describe(NeuronSpec<One>& s) { s.name("one", "One").output("act", &Cell::act, "Activity"); }
+    void update(Cell& c, const Input&) const { c.act = 1; }
 };
 
 inline Registry registry() {

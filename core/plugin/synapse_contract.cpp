@@ -1,0 +1,91 @@
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/random.h"
+#include "core/plugin/contract.h"
+
+namespace forage::plugin {
+namespace {
+
+constexpr Index synapses = 64;
+constexpr int draws = 12;  ///< of states, feedback and parameters; the first one has the defaults
+
+/// Sets parameters to random values in their ranges; returns them as text: ", with rate = 0.3".
+std::string draw_parameters(const SynapseType& type, SynapseInstance& synapse, const RandomStream& random,
+                            std::uint64_t draw) {
+    std::string out;
+    for (std::uint32_t i = 0; i < type.parameters.size(); ++i) {
+        const Parameter& p = type.parameters[i];
+        if (!p.range || p.at_start) continue;
+        const double value = p.range->low + random.uniform(draw, i) * (p.range->high - p.range->low);
+        if (p.kind == ParameterKind::real)
+            p.set(synapse.parameters(), value);
+        else if (p.kind == ParameterKind::integer)
+            p.set(synapse.parameters(), static_cast<int>(value));
+        out += fmt::format("{}{} = {}", out.empty() ? ", with " : ", ", p.name,
+                           to_text(p.get(synapse.parameters())));
+    }
+    return out;
+}
+
+/// The first entry in which two columns differ, -1 for none. NaN is the same as NaN.
+Index first_difference(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) {
+    for (Index i = 0; i < a.size(); ++i)
+        if (a[i] != b[i] && !(std::isnan(a[i]) && std::isnan(b[i]))) return i;
+    return -1;
+}
+
+/// Whether synapses of silent sources stay as they are and put out 0, with random states and feedback.
+std::string check_event_driven(const SynapseType& type, int draw) {
+    const RandomStream random(1, "contract");
+    const auto number = static_cast<std::uint64_t>(draw);
+    const auto synapse = type.make();
+    const std::string parameters = draw > 0 ? draw_parameters(type, *synapse, random, number) : "";
+    const double width = draw % 3 == 0 ? 1 : draw % 3 == 1 ? 10 : 0.1;
+    std::vector<Eigen::ArrayXd> numbers;  // states, then feedback
+    for (std::uint32_t i = 0; i < type.states.size() + type.feedback.size(); ++i) {
+        auto& column = numbers.emplace_back(synapses);
+        random.uniform(number, {column.data(), static_cast<std::size_t>(synapses)}, i + 1);
+        column = width * (2 * column - 1);
+    }
+    const auto before = numbers;
+    const Eigen::ArrayXd silence = Eigen::ArrayXd::Zero(synapses);
+    std::vector<Column> states;
+    std::vector<ConstColumn> feedback;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (i < type.states.size())
+            states.emplace_back(numbers[i].data(), synapses);
+        else
+            feedback.emplace_back(numbers[i].data(), synapses);
+    SynapseColumns columns(ConstColumn(silence.data(), synapses), states, feedback);
+    synapse->update(columns);
+    for (std::size_t i = 0; i < type.states.size(); ++i) {
+        const bool output = type.states[i].output;
+        const Index at = first_difference(numbers[i], output ? silence : before[i]);
+        if (at < 0) continue;
+        if (output)
+            return fmt::format(
+                "it promises event_driven(), and puts out something while its source is silent: {}{}",
+                numbers[i][at], parameters);
+        return fmt::format(
+            "it promises event_driven(), and changes state '{}' while its source is silent: {} becomes {}{}",
+            type.states[i].name, before[i][at], numbers[i][at], parameters);
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string contract_violation(const SynapseType& type) try {
+    std::string out;
+    if (type.event_driven && !type.has_gain)
+        for (int draw = 0; draw < draws && out.empty(); ++draw) out = check_event_driven(type, draw);
+    return out;
+} catch (...) {
+    return {};  // a run will say so
+}
+
+}  // namespace forage::plugin
