@@ -8,6 +8,6 @@ function(forage_add_plugin name)
   set_target_properties(${name} PROPERTIES PREFIX "" SUFFIX .so CXX_EXTENSIONS OFF
                         CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
                         LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/plugins)
-  target_compile_options(${name} PRIVATE $<$<CONFIG:>:-O3>)  # nobody chose a build type
+  target_compile_options(${name} PRIVATE $<$<CONFIG:>:-O3>)  # no build type is set
   target_compile_definitions(${name} PRIVATE $<$<CONFIG:>:NDEBUG>)
 endfunction()

@@ -126,7 +126,7 @@ struct GameSite {
 struct GameRules {
     Location where;
     double duration = 300;        ///< s
-    double stale_after = 30;      ///< s after which a resource that nobody holds is bad, and yellow
+    double stale_after = 30;      ///< s after which a resource that is not held is bad, and yellow
     double dissolves_after = 50;  ///< s after which it is taken away
     int points = 2;               ///< for a good resource at a home
     int penalty = -1;             ///< for a bad one

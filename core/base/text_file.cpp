@@ -40,10 +40,10 @@ Diagnostic refusal(const std::string& path, int error) {
         case ENAMETOOLONG:
             return error_at(0, 0, "there is no such file: its name is longer than names can be");
         case ELOOP:
-            return error_at(0, 0, "this link leads back to itself", "name the file that it should lead to");
+            return error_at(0, 0, "this link refers to itself", "name the file that it should refer to");
         case EACCES:
             return error_at(0, 0, "cannot read the file: Permission denied",
-                            "'chmod +r' gives leave to read a file, 'chmod +x' to enter a folder");
+                            "'chmod +r' makes a file readable, 'chmod +x' makes a folder accessible");
         default:
             return error_at(0, 0, fmt::format("cannot read the file: {}", std::strerror(error)));
     }
@@ -101,7 +101,7 @@ std::string read_file(const std::string& path, std::size_t most) {
         if (count == 0 && pipe && text.empty()) {
             if (waited)
                 throw FileError(path, {},
-                                {error_at(0, 0, "this is a pipe, and nobody writes into it", "name a file")});
+                                {error_at(0, 0, "this is a pipe that no program writes into", "name a file")});
             poll(&ready, 1, 300), waited = true;
             continue;
         }

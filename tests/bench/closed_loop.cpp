@@ -2,11 +2,11 @@
 //
 //     bench_closed_loop [SYSTEM.iqr WORLD.world [SETTING...]]
 //
-// Without arguments: the systems that ship, also in the open arena, where the robot ends up at a wall, and
-// the tutorial's own where $FORAGE_SHARED is. They run as `forage run -o ''` runs them: groups that nobody
-// reads are left out, among them the camera of the reactive systems. Then with everything updated. A run is
-// repeated, and of each block of cycles its fastest repetition counts; the figure is the median over blocks.
-// Parts are measured apart from the whole. Last result: docs/design/performance.md.
+// Without arguments: the shipped systems, also in the open arena, where the robot ends up at a wall, and
+// the tutorial's own if $FORAGE_SHARED is set. They run as `forage run -o ''` does, with pruning (the camera
+// of the reactive systems, for example), and then with everything updated. A run is repeated, and each block
+// of cycles counts with its fastest repetition; the figure is the median over blocks. Parts are measured
+// apart from the whole. Last result: docs/design/performance.md.
 #include <algorithm>
 #include <array>
 #include <chrono>

@@ -7,7 +7,7 @@
 // results.tsv has of the original, and their median), the ratio of the best to the original's, the time to
 // load and build, and the peak of memory. The two systems of the tutorial get their recorded input again and
 // again, so that their senses never stand still. All groups are updated; their inputs are not kept between
-// cycles, as in a run in which nobody records them. Last result: docs/design/performance.md.
+// cycles, as in a run that does not record them. Last result: docs/design/performance.md.
 #include <algorithm>
 #include <cstdio>
 #include <map>

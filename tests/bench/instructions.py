@@ -1,12 +1,12 @@
-"""How many instructions does a cycle take? More than the recorded number is a slow-down that no clock is needed to see.
+"""How many instructions does a cycle take? More than the recorded number is a slow-down, which shows without a clock.
 
     instructions.py FORAGE COMPILER [--record]
 
-Runs each case of instructions.json twice under valgrind, for some cycles and for more, and counts what the further cycles
-took. More than 5 % above the record fails; more than 5 % below asks for a new one: --record writes it. valgrind shows
-programs a processor with AVX2, whatever there is, so that the numbers are those of any machine; another compiler than the
-recorded one makes other code, and the test is skipped. The systems of the engine alone have --hash, which asks for everything:
-otherwise nobody would read them, and all would be left out.
+Runs each case of instructions.json twice under valgrind, for some cycles and for more, and counts the instructions of the
+additional cycles. More than 5 % above the record is a failure; more than 5 % below needs a new record, which --record writes.
+valgrind always simulates a processor with AVX2, so the numbers are the same on any machine. Another compiler than the
+recorded one makes other code; then the test is skipped. The systems of the engine alone run with --hash, which demands
+everything; otherwise all their groups would be pruned.
 """
 import json
 import os

@@ -396,7 +396,7 @@ class Faults(Stopped):
 class Kill(Stopped):
     def test_killed_at_any_moment_it_leaves_behind_what_it_would_have(self):
         chance = random.Random(1)
-        # With a digest of everything, and as it is without: then groups that nobody reads are left out.
+        # With a digest, which computes all groups, and without, which prunes some.
         kinds = [(*EVERYTHING, "--cycles", 800)]
         kinds.append(tuple(word for word in kinds[0] if word != "--hash"))
         begun = time.monotonic()

@@ -83,7 +83,7 @@ def check(root, used=None):
                     used.update((room_of(path), pattern) for pattern, _ in OWNED if re.match(pattern, match[2]))
                 if fault:
                     faults.append(f'{path}:{number}: {fault}')
-    # A room that this script does not know would be checked by nobody.
+    # A room that this script does not know would not be checked.
     for folder in sorted((root / 'core').iterdir()):
         if folder.is_dir() and f'core/{folder.name}' not in ROOMS:
             faults.append(f'core/{folder.name}: not in the table of rooms in tests/layering/layering.py')

@@ -1,4 +1,4 @@
-// Uses a function that nobody defines.
+// Uses a function that is not defined.
 #include <forage/plugin.h>
 
 namespace lab {
