@@ -21,8 +21,8 @@ ALLOWED = {
     'core/run': {'core/base', 'core/types', 'core/model', 'core/engine', 'core/observe'},
     'core/plugin': {'core/base', 'core/types'},
     # Shipped types use what a plugin can use, and nothing of each other's.
-    'neurons': {'core/base', 'core/types'},
-    'synapses': {'core/base', 'core/types'},
+    'neurons': {'core/types'},
+    'synapses': {'core/types'},
     'modules': {'core/base', 'core/types'},
     'bug_interface': {'core/base', 'core/types', 'core/xml', 'core/run'},
     # Pictures, and what other projects see.
