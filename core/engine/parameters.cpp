@@ -1,4 +1,5 @@
-// Parameters that change while the system runs.
+#include "core/engine/parameters.h"
+
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -6,8 +7,6 @@
 #include <fmt/format.h>
 
 #include "core/base/named_file.h"
-#include "core/engine/group_cycle.h"
-#include "core/engine/plan/plan.h"
 #include "core/engine/simulation.h"
 
 namespace forage::engine {
@@ -15,24 +14,22 @@ namespace {
 
 using model::Assignment;
 
-template <class Items, class Id>
-auto* find(Items& items, Id id, const std::string& wanted) {
-    const auto it = std::find_if(items.begin(), items.end(), [&](const auto& i) { return i.*id == wanted; });
-    return it == items.end() ? nullptr : &*it;
-}
-
-/// The object that holds the parameter; null when its module is disabled.
-void* holder(Plan& plan, const Assignment& a) {
+/// The number of the item whose parameter is set; -1 for a module that is disabled.
+int number_of(const Layout& layout, const Assignment& a) {
+    const auto number = [&](const auto& items, auto id) {
+        const auto it =
+            std::find_if(items.begin(), items.end(), [&](const auto& i) { return i.*id == a.id; });
+        return it == items.end() ? -1 : static_cast<int>(it - items.begin());
+    };
     switch (a.owner) {
         case Assignment::Owner::group:
-            return find(plan.groups, &GroupPlan::id, a.id)->neuron->parameters();
+            return number(layout.groups, &Layout::Group::id);
         case Assignment::Owner::connection:
-            return find(plan.connections, &ConnectionPlan::id, a.id)->synapse->parameters();
+            return number(layout.connections, &Layout::Connection::id);
         case Assignment::Owner::process:
             break;
     }
-    ModulePlan* module = find(plan.modules, &ModulePlan::process_id, a.id);
-    return module ? module->module->parameters() : nullptr;
+    return number(layout.modules, &Layout::Module::process_id);
 }
 
 struct Refusal {
@@ -40,109 +37,92 @@ struct Refusal {
 };
 
 /// Why a parameter cannot change while the system runs; empty when it can.
-std::optional<Refusal> refusal(const Assignment& a, const void* holder) {
+std::optional<Refusal> refusal(const Layout& layout, const Assignment& a) {
     const std::string before = "set it before the run";
     if (!a.parameter) return Refusal{"a module cannot be switched on or off while the system runs", before};
-    if (!holder) return Refusal{"the module is disabled", "enable it: enableModule=true"};
+    if (number_of(layout, a) < 0) return Refusal{"the module is disabled", "enable it: enableModule=true"};
     if (a.parameter->at_start)
         return Refusal{fmt::format("'{}' is read at start only", a.parameter->name), before};
     return std::nullopt;
 }
 
-/// Copies of what holds parameters, in which changes are tried.
-class Rehearsal {
+/// Copies of objects with parameters, by their number.
+template <class Instance>
+class Copies {
   public:
-    Rehearsal(Plan& plan, Diagnostics& diagnostics) : plan_(plan), diagnostics_(diagnostics) {}
-
-    void make(const Assignment& a) {
-        switch (a.owner) {
-            case Assignment::Owner::group:
-                return with_type(neurons_, *find(plan_.groups, &GroupPlan::id, a.id), &GroupPlan::neuron, a);
-            case Assignment::Owner::connection:
-                return with_type(synapses_, *find(plan_.connections, &ConnectionPlan::id, a.id),
-                                 &ConnectionPlan::synapse, a);
-            case Assignment::Owner::process:
-                break;
-        }
-        const ModulePlan& m = *find(plan_.modules, &ModulePlan::process_id, a.id);
-        ModuleInstance& copy = copied(modules_, m, &ModulePlan::module);
-        a.parameter->set(copy.parameters(), a.value);
-        Diagnostics found;
-        try {
-            copy.check(m.ports, found);
-        } catch (const FileError& e) {
-            return report(e, diagnostics_);
-        }
-        pass_on(a, found);
-    }
-
-  private:
-    template <class T>
-    using Copies = std::map<std::string, std::unique_ptr<T>>;
-
-    template <class T, class Item>
-    static T& copied(Copies<T>& copies, const Item& item, std::unique_ptr<T> Item::*instance) {
-        auto& copy = copies[key(item)];
+    template <class Type>
+    Instance& of(int number, const Type& type, Instance& original) {
+        auto& copy = copies_[number];
         if (!copy) {
-            copy = item.type.make();
-            for (const auto& p : item.type.parameters)
-                p.set(copy->parameters(), p.get((item.*instance)->parameters()));
+            copy = type.make();
+            for (const auto& p : type.parameters) p.set(copy->parameters(), p.get(original.parameters()));
         }
         return *copy;
     }
-    static const std::string& key(const GroupPlan& g) { return g.id; }
-    static const std::string& key(const ModulePlan& m) { return m.process_id; }
-    static const std::string& key(const ConnectionPlan& c) { return c.id; }
 
-    template <class T, class Item>
-    void with_type(Copies<T>& copies, const Item& item, std::unique_ptr<T> Item::*instance,
-                   const Assignment& a) {
-        T& copy = copied(copies, item, instance);
-        a.parameter->set(copy.parameters(), a.value);
-        if (!item.type.check) return;
-        Diagnostics found;
-        item.type.check(copy.parameters(), found);
-        pass_on(a, found);
-    }
-    void pass_on(const Assignment& a, const Diagnostics& found) {
-        for (Diagnostic d : found.all()) {
-            d.where = a.at;
-            d.message = fmt::format("'{}': {}", a.text, d.message);
-            diagnostics_.add(std::move(d));
-        }
-    }
-
-    Plan& plan_;
-    Diagnostics& diagnostics_;
-    Copies<NeuronInstance> neurons_;
-    Copies<SynapseInstance> synapses_;
-    Copies<ModuleInstance> modules_;
+  private:
+    std::map<int, std::unique_ptr<Instance>> copies_;
 };
 
 }  // namespace
 
-void Simulation::check(std::span<const Assignment> changes, Diagnostics& diagnostics) const {
-    Rehearsal rehearsal(*plan_, diagnostics);
+void check_changes(const Plan& plan, const State& state, std::span<const Assignment> changes,
+                   Diagnostics& diagnostics) {
+    Copies<NeuronInstance> neurons;
+    Copies<SynapseInstance> synapses;
+    Copies<ModuleInstance> modules;
+    const auto pass_on = [&](const Assignment& a, const Diagnostics& found) {
+        for (Diagnostic d : found.all()) {
+            d.where = a.at;
+            d.message = fmt::format("'{}': {}", a.text, d.message);
+            diagnostics.add(std::move(d));
+        }
+    };
+    const auto change_cells = [&](const Assignment& a, const auto& type, auto& copy) {
+        a.parameter->set(copy.parameters(), a.value);
+        Diagnostics found;
+        if (type.check) type.check(copy.parameters(), found);
+        pass_on(a, found);
+    };
     for (const auto& a : changes) {
-        if (const auto refused = refusal(a, holder(*plan_, a)))
+        if (const auto refused = refusal(plan.layout, a)) {
             diagnostics.error(a.at, fmt::format("'{}': {}", a.text, refused->why), refused->hint);
-        else
-            rehearsal.make(a);
+            continue;
+        }
+        const int i = number_of(plan.layout, a);
+        if (a.owner == Assignment::Owner::group) {
+            const auto& type = plan.layout.groups[i].type;
+            change_cells(a, type, neurons.of(i, type, *state.groups[i].neuron));
+        } else if (a.owner == Assignment::Owner::connection) {
+            const auto& type = plan.layout.connections[i].type;
+            change_cells(a, type, synapses.of(i, type, *state.connections[i].synapse));
+        } else {
+            auto& copy = modules.of(i, plan.layout.modules[i].type, *state.modules[i].module);
+            a.parameter->set(copy.parameters(), a.value);
+            Diagnostics found;
+            try {
+                copy.check(plan.modules[i].ports, found);
+            } catch (const FileError& e) {
+                report(e, diagnostics);
+            }
+            pass_on(a, found);
+        }
     }
 }
 
-void Simulation::set(const Assignment& a) {
-    if (delivers_early_)
-        throw std::logic_error(
-            "parameters change between cycles, not between update_groups() and "
-            "update_connections()");
-    void* object = holder(*plan_, a);
-    if (const auto refused = refusal(a, object))
+void set_parameter(const Plan& plan, State& state, Cycle& cycle, const Assignment& a) {
+    if (const auto refused = refusal(plan.layout, a))
         throw RunError(fmt::format("'{}': {}", a.text, refused->why));
-    a.parameter->set(object, a.value);
-    if (a.owner == Assignment::Owner::group) touch(*find(plan_->groups, &GroupPlan::id, a.id), cycle_);
-    if (a.owner == Assignment::Owner::connection)
-        find(plan_->connections, &ConnectionPlan::id, a.id)->changed = true;
+    const int i = number_of(plan.layout, a);
+    if (a.owner == Assignment::Owner::group) {
+        a.parameter->set(state.groups[i].neuron->parameters(), a.value);
+        cycle.invalidate(i);
+    } else if (a.owner == Assignment::Owner::connection) {
+        a.parameter->set(state.connections[i].synapse->parameters(), a.value);
+        state.connections[i].changed = true;
+    } else {
+        a.parameter->set(state.modules[i].module->parameters(), a.value);
+    }
 }
 
 }  // namespace forage::engine

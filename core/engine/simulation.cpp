@@ -1,35 +1,45 @@
 #include "core/engine/simulation.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "core/base/exception_message.h"
-#include "core/engine/early_delivery.h"
-#include "core/engine/group_cycle.h"
-#include "core/engine/group_delivery.h"
-#include "core/engine/group_update.h"
-#include "core/engine/parallel/parallel_executor.h"
-#include "core/engine/plan/plan.h"
+#include "core/engine/cycle.h"
+#include "core/engine/executor.h"
+#include "core/engine/parameters.h"
+#include "core/engine/plan/compile.h"
 
 namespace forage::engine {
+
+struct Simulation::Parts {
+    Parts(Compiled compiled, const Options& options)
+        : plan(std::move(compiled.plan)),
+          state(std::move(compiled.state)),
+          cycle(*plan, *state, options.threads),
+          executor(make_executor(*plan, cycle, options.threads, options.parallel_threshold_ns,
+                                 options.min_task_ns)) {}
+    std::unique_ptr<const Plan> plan;
+    std::unique_ptr<State> state;
+    Cycle cycle;
+    std::unique_ptr<Executor> executor;  ///< null when one thread does all
+    bool shared = false;                 ///< the running cycle
+    bool running = false;                ///< a cycle: between update_groups() and update_connections()
+    std::uint64_t shared_cycles = 0;
+    std::optional<NotFinite> not_finite;
+};
+
 namespace {
 
-template <class T>
-auto& at(std::vector<T>& all, int index) {
-    return all[static_cast<std::size_t>(index)];
-}
-
-/// The first number of a group's update that is not finite, by states, then by cells. None when somebody
+/// The first number of a group's update that is not finite, by states, then by cells. None when something
 /// else put it there, in a cycle that is remembered.
-std::optional<NotFinite> find_not_finite(const GroupPlan& g, int group, std::uint64_t cycle) {
-    for (std::size_t state = 0; state < g.states.size(); ++state) {
-        const double* row = state_row(g, state, cycle);
-        for (Index cell = 0; cell < g.cells; ++cell)
+std::optional<NotFinite> find_not_finite(const Plan& plan, const State& state, int group) {
+    const auto& g = state.groups[group];
+    for (std::size_t s = 0; s < g.states.size(); ++s) {
+        const double* row = state_row(g, plan.groups[group], s, state.cycle);
+        for (Index cell = 0; cell < plan.groups[group].cells; ++cell)
             if (!std::isfinite(row[cell]))
-                return NotFinite{group, static_cast<int>(state), cell, cycle, row[cell]};
+                return NotFinite{group, static_cast<int>(s), cell, state.cycle, row[cell]};
     }
     return std::nullopt;
 }
@@ -41,11 +51,9 @@ std::optional<NotFinite> find_not_finite(const GroupPlan& g, int group, std::uin
                     what, demand));
 }
 
-/// A group to read. Throws std::logic_error when it is pruned.
-GroupPlan& computed(std::vector<GroupPlan>& groups, int group) {
-    auto& g = groups[group];
-    if (g.pruned) refuse_pruned(fmt::format("group '{}'", g.path), "read_group()");
-    return g;
+void require_computed(const Plan& plan, int group) {
+    if (plan.groups[group].pruned)
+        refuse_pruned(fmt::format("group '{}'", plan.layout.groups[group].path), "read_group()");
 }
 
 }  // namespace
@@ -60,206 +68,147 @@ std::optional<Simulation> Simulation::build(const model::System& system, const R
 
 std::optional<Simulation> Simulation::build(const model::System& system, Layout layout, const Demand& demand,
                                             const Options& options, Diagnostics& diagnostics) {
-    auto plan = compile(system, std::move(layout), demand, options.seed,
-                        options.general_forms ? Forms::general : Forms::fastest, diagnostics);
-    if (!plan) return std::nullopt;
-    return Simulation(std::move(plan), options);
+    auto compiled =
+        compile(system, std::move(layout), demand, options.seed,
+                options.general_forms ? Forms::general : Forms::fastest, options.environment, diagnostics);
+    if (!compiled.plan) return std::nullopt;
+    return Simulation(std::make_unique<Parts>(std::move(compiled), options));
 }
 
-Simulation::Simulation(std::unique_ptr<Plan> plan, const Options& options)
-    : plan_(std::move(plan)), parallel_threshold_ns_(options.parallel_threshold_ns) {
-    std::size_t widest = 0, most_compared = 0;
-    for (auto& g : plan_->groups) {
-        widest = std::max(widest, static_cast<std::size_t>(g.stride));
-        most_compared = std::max(most_compared, compared_numbers(g));
-    }
-    for (auto& m : plan_->modules) m.ports.environment = options.environment;
-    estimate_deliveries(*plan_);
-    early_ = std::make_unique<EarlyDelivery>(*plan_);
-    if (options.threads > 1 && update_cost(*plan_) + delivery_cost(*plan_) >= parallel_threshold_ns_)
-        shared_cycle_ = std::make_unique<ParallelExecutor>(*plan_, options.threads, options.min_task_ns);
-    for (int t = 0; t < threads(); ++t)  // not touched, and so not in memory, until a type draws numbers
-        plan_->scratch.push_back(
-            std::make_unique_for_overwrite<double[]>(widest * std::size_t{NeuronColumns::scratch_columns}));
-    plan_->before.assign(static_cast<std::size_t>(threads()), std::vector<double>(most_compared));
-}
+Simulation::Simulation(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
 void Simulation::start() {
-    for (auto& m : plan_->modules) {
-        try {
-            bind_inputs(m);
-            ModuleFrame frame(0, m.in, m.out, &m.written, &m.read);
-            m.module->start(m.ports, frame);
-        } catch (...) {
-            throw RunError(fmt::format("{} of process '{}' could not start: {}", m.type.name, m.process,
-                                       current_exception_message()));
-        }
-        note_changes(m);
-    }
-    for (const int i : plan_->updated) receive_from_modules(*plan_, at(plan_->groups, i));
-    started_ = true;
+    parts_->cycle.start_modules();
+    parts_->state->started = true;
 }
 
 void Simulation::step() {
-    update_groups(true);
+    update_groups();
     update_modules();
     update_connections();
 }
 
-/// Whether threads share the cycle that begins.
-bool Simulation::begin_sharing() {
-    if (!shared_cycle_) return false;
-    if (parallel_threshold_ns_ == 0) return true;
-    return trial_.begin(
-        [&] { return update_cost(*plan_) + delivery_cost(*plan_) >= parallel_threshold_ns_; });
-}
-
-void Simulation::update_alone() {
-    const UpdateFrame frame{cycle_, plan_->scratch[0].get(), plan_->before[0].data(), plan_->checks_finite};
-    for (std::size_t k = 0; k < plan_->updated.size(); ++k) {
-        auto& g = at(plan_->groups, plan_->updated[k]);
-        update(g, frame);
-        if (!delivers_early_) continue;
-        remember(g, cycle_);
-        for (const int i : early_->after(k)) deliver_early(i);
-    }
-}
-
-/// A failure waits until its turn comes: groups that fail in their updates come first.
-void Simulation::deliver_early(int group) {
-    failed_delivery_.guard(group, 0, [&] { deliver_to(*plan_, at(plan_->groups, group), cycle_); });
-}
-
-void Simulation::deliver_late() {
-    for (const int i : early_->late()) {
-        if (failed_delivery_.before(i)) break;
-        deliver_to(*plan_, at(plan_->groups, i), cycle_);
-    }
-    failed_delivery_.raise();
-}
-
-void Simulation::update_groups() { update_groups(!plan_->overwritten); }
-
-void Simulation::update_groups(bool deliver_early) {
-    if (!started_) throw RunError("the simulation is not started");
-    shown_ = cycle_;
-    shared_ = begin_sharing();
-    shared_cycles_ += shared_;
-    delivers_early_ = deliver_early;
-    failed_delivery_.forget();
-    if (shared_)
-        shared_cycle_->update_groups(cycle_, deliver_early);
+void Simulation::update_groups() {
+    auto& [plan, state, cycle, executor, shared, running, shared_cycles, not_finite] = *parts_;
+    if (!state->started) throw RunError("the simulation is not started");
+    state->shown = state->cycle;
+    running = true;
+    shared = executor && executor->begin();
+    shared_cycles += shared;
+    if (shared)
+        executor->update_groups();
     else
-        update_alone();
-    if (!plan_->checks_finite) return;
-    for (const int i : plan_->updated)
-        if (!at(plan_->groups, i).finite) {
-            not_finite_ = find_not_finite(at(plan_->groups, i), i, cycle_);
-            plan_->checks_finite = !not_finite_;
-            if (not_finite_) return;
+        cycle.update_groups();
+    if (!cycle.check_finite) return;
+    for (const int i : plan->updated)
+        if (!state->groups[i].finite) {
+            not_finite = find_not_finite(*plan, *state, i);
+            cycle.check_finite = !not_finite;
+            if (not_finite) return;
         }
 }
 
-/// Lets a module see the activity of this cycle; before the first one, zeros.
-void Simulation::bind_inputs(ModulePlan& module) {
-    for (std::size_t i = 0; i < module.in.size(); ++i)
-        if (module.input_groups[i] >= 0) {
-            const auto& g = at(plan_->groups, module.input_groups[i]);
-            new (&module.in[i]) ConstColumn(activity_row(g, cycle_), g.cells);
-        }
-}
-
-void Simulation::update_modules() {
-    for (auto& m : plan_->modules) {
-        try {
-            bind_inputs(m);
-            ModuleFrame frame(cycle_, m.in, m.out, &m.written, &m.read);
-            m.module->update(frame);
-        } catch (...) {
-            throw RunError(fmt::format("{} of process '{}' failed in cycle {}: {}", m.type.name, m.process,
-                                       cycle_, current_exception_message()));
-        }
-        note_changes(m);
-    }
-}
+void Simulation::update_modules() { parts_->cycle.update_modules(); }
 
 void Simulation::update_connections() {
-    const bool early = std::exchange(delivers_early_, false);
-    if (!early)
-        for (const int i : plan_->updated) remember(at(plan_->groups, i), cycle_);
-    if (shared_)
-        shared_cycle_->deliver(cycle_);
-    else if (early)
-        deliver_late();
+    auto& cycle = parts_->cycle;
+    cycle.begin_deliveries();
+    if (parts_->shared)
+        parts_->executor->deliver();
     else
-        for (const int i : plan_->updated) deliver_to(*plan_, at(plan_->groups, i), cycle_);
-    trial_.end();
-    ++cycle_;
+        cycle.deliver();
+    if (parts_->executor) parts_->executor->end();
+    parts_->running = false;
+    ++parts_->state->cycle;
 }
 
-void Simulation::check_finite(bool wanted) { plan_->checks_finite = wanted; }
+int Simulation::threads() const { return parts_->executor ? parts_->executor->threads() : 1; }
+std::uint64_t Simulation::shared_cycles() const { return parts_->shared_cycles; }
+std::uint64_t Simulation::cycle() const { return parts_->state->cycle; }
+void Simulation::check_finite(bool wanted) { parts_->cycle.check_finite = wanted; }
+const std::optional<NotFinite>& Simulation::not_finite() const { return parts_->not_finite; }
 
-GroupPlan& Simulation::overwritten(int group) {
-    auto& g = computed(plan_->groups, group);
-    if (!g.overwritten)
+void Simulation::check(std::span<const model::Assignment> changes, Diagnostics& diagnostics) const {
+    check_changes(*parts_->plan, *parts_->state, changes, diagnostics);
+}
+
+void Simulation::set(const model::Assignment& change) {
+    if (parts_->running && !parts_->plan->overwritten)
         throw std::logic_error(
-            fmt::format("group '{}' is not to be overwritten: nothing demanded that. Call "
-                        "Demand::overwrite_group() before Simulation::build()",
-                        g.path));
-    touch(g, cycle_);
-    return g;
+            "parameters change between cycles, not between update_groups() and update_connections()");
+    set_parameter(*parts_->plan, *parts_->state, parts_->cycle, change);
 }
 
-void Simulation::invalidate(int group) { touch(plan_->groups[group], cycle_); }
+void Simulation::checkpoint(Archive& archive) { parts_->state->checkpoint(*parts_->plan, archive); }
 
-int Simulation::threads() const { return shared_cycle_ ? shared_cycle_->threads() : 1; }
-const Layout& Simulation::layout() const { return plan_->layout; }
-bool Simulation::pruned(int group) const { return plan_->groups[group].pruned; }
+const Layout& Simulation::layout() const { return parts_->plan->layout; }
+bool Simulation::pruned(int group) const { return parts_->plan->groups[group].pruned; }
 
 ConstColumn Simulation::input(int group, InputKind kind) const {
-    const auto& g = computed(plan_->groups, group);
-    if (!g.keeps_input) refuse_pruned(fmt::format("the input of group '{}'", g.path), "read_input()");
-    return {g.inputs[static_cast<std::size_t>(kind)][g.row], g.cells};
+    const auto& p = parts_->plan->groups[group];
+    require_computed(*parts_->plan, group);
+    if (!p.keeps_input)
+        refuse_pruned(fmt::format("the input of group '{}'", layout().groups[group].path), "read_input()");
+    const auto& g = parts_->state->groups[group];
+    return {g.inputs[static_cast<std::size_t>(kind)][g.row], p.cells};
 }
 
 ConstColumn Simulation::state(int group, int state) const {
-    const auto& g = computed(plan_->groups, group);
-    return {state_row(g, static_cast<std::size_t>(state), shown_), g.cells};
+    require_computed(*parts_->plan, group);
+    const auto& p = parts_->plan->groups[group];
+    return {state_row(parts_->state->groups[group], p, state, parts_->state->shown), p.cells};
 }
 
-Column Simulation::output(int group) {
-    auto& g = overwritten(group);
-    return {activity_row(g, shown_), g.cells};
-}
+Column Simulation::output(int group) { return writable_state(group, parts_->plan->groups[group].output); }
 
 Column Simulation::writable_state(int group, int state) {
-    auto& g = overwritten(group);
-    return {state_row(g, static_cast<std::size_t>(state), shown_), g.cells};
+    require_computed(*parts_->plan, group);
+    const auto& p = parts_->plan->groups[group];
+    if (!p.overwritten)
+        throw std::logic_error(
+            fmt::format("group '{}' is not to be overwritten: nothing demanded that. Call "
+                        "Demand::overwrite_group() before Simulation::build()",
+                        layout().groups[group].path));
+    parts_->cycle.invalidate(group);
+    return {state_row(parts_->state->groups[group], p, state, parts_->state->shown), p.cells};
 }
 
+void Simulation::invalidate(int group) { parts_->cycle.invalidate(group); }
+
 ConstColumn Simulation::module_output(int module, int port) const {
-    const auto& m = at(plan_->modules, module);
-    const auto i = static_cast<std::size_t>(port);
-    if (m.out[i].size() > 0 && !m.read[i])
-        refuse_pruned(fmt::format("output '{}' of process '{}'", m.ports.outputs[i].port, m.process),
-                      "read_output()");
-    return {m.out[i].data(), m.out[i].size()};
+    const Column& out = parts_->state->modules[module].out[port];
+    if (out.size() > 0 && !parts_->plan->modules[module].read[port]) {
+        const auto& about = layout().modules[module];
+        refuse_pruned(
+            fmt::format("output '{}' of process '{}'", about.ports.outputs[port].port, about.process),
+            "read_output()");
+    }
+    return {out.data(), out.size()};
 }
+
 bool Simulation::has_written(int module, int port) const {
-    return at(plan_->modules, module).ever_written[static_cast<std::size_t>(port)];
+    return parts_->state->modules[module].ever_written[port];
 }
 
 std::string_view Simulation::connection_form(int connection) const {
-    return at(plan_->connections, connection).kernel->form();
+    const auto& c = parts_->plan->connections[connection];
+    return c.kernel ? c.kernel->form() : "pruned";
 }
-std::size_t Simulation::synapses(int connection) const { return at(plan_->connections, connection).synapses; }
+
+std::size_t Simulation::synapses(int connection) const {
+    return parts_->plan->connections[connection].synapses;
+}
+
 ConstColumn Simulation::synapse_state(int connection, int state) const {
-    const auto& c = at(plan_->connections, connection);
-    if (c.plastic && c.pruned) refuse_pruned(fmt::format("connection '{}'", c.name), "read_synapses()");
-    return c.plastic ? c.plastic->state(static_cast<std::size_t>(state)) : ConstColumn(nullptr, 0);
+    const auto& c = parts_->plan->connections[connection];
+    const auto& about = layout().connections[connection];
+    if (!about.type.has_gain && !c.reads_states)
+        refuse_pruned(fmt::format("what the synapses of connection '{}' keep", about.name),
+                      "read_synapses()");
+    return c.plastic ? c.plastic->state(parts_->state->numbers.data(), state) : ConstColumn(nullptr, 0);
 }
 
 }  // namespace forage::engine

@@ -10,8 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/engine/first_failure.h"
-#include "core/engine/parallel/parallel_tuner.h"
 #include "core/engine/plan/demand.h"
 #include "core/engine/plan/layout.h"
 #include "core/model/edit.h"
@@ -20,11 +18,9 @@
 
 namespace forage::engine {
 
-struct GroupPlan;
-struct ModulePlan;
-struct Plan;
-class EarlyDelivery;
-class ParallelExecutor;
+/// Whether this build can share cycles among threads (CMake option FORAGE_THREADS). Otherwise every
+/// simulation runs on one thread.
+bool has_threads();
 
 /// A type's update or a module's start failed; the message names the type, its place in the system and the
 /// cycle.
@@ -92,16 +88,14 @@ class Simulation {
 
     int threads() const;  ///< that may share a cycle
     /// How many cycles they have shared.
-    std::uint64_t shared_cycles() const { return shared_cycles_; }
-    std::uint64_t cycle() const {
-        return cycle_;
-    }  ///< the number of completed cycles; the next one has this number
+    std::uint64_t shared_cycles() const;
+    std::uint64_t cycle() const;  ///< the number of completed cycles; the next one has this number
 
     /// Searches the states of every group that is updated for numbers that are not finite, or no longer does.
     /// A new simulation does not search. The search ends with the first such number.
     void check_finite(bool wanted);
     /// The first one that was found: in the first group of the first cycle, by states, then by cells.
-    const std::optional<NotFinite>& not_finite() const { return not_finite_; }
+    const std::optional<NotFinite>& not_finite() const;
 
     // Parameters while the system runs. An assignment names something by its id in the system that was built.
 
@@ -143,30 +137,10 @@ class Simulation {
     ConstColumn synapse_state(int connection, int state) const;
 
   private:
-    Simulation(std::unique_ptr<Plan> plan, const Options& options);
-    void bind_inputs(ModulePlan& module);
+    struct Parts;
+    explicit Simulation(std::unique_ptr<Parts> parts);
 
-    std::unique_ptr<Plan> plan_;
-    bool begin_sharing();
-    void update_groups(bool deliver_early);
-    void update_alone();
-    /// The group, to be overwritten. Throws std::logic_error when the demand does not say so.
-    GroupPlan& overwritten(int group);
-    void deliver_early(int group);
-    void deliver_late();
-
-    double parallel_threshold_ns_;
-    ParallelTuner<> trial_;
-    std::unique_ptr<ParallelExecutor> shared_cycle_;  ///< null when one thread does all
-    bool shared_ = false;                             ///< the running cycle
-    std::uint64_t shared_cycles_ = 0;
-    std::unique_ptr<EarlyDelivery> early_;
-    bool delivers_early_ = false;   ///< the running cycle
-    FirstFailure failed_delivery_;  ///< of groups that were delivered to early, in the running cycle
-    bool started_ = false;
-    std::uint64_t cycle_ = 0;
-    std::optional<NotFinite> not_finite_;
-    std::uint64_t shown_ = 0;  ///< the cycle whose numbers are read
+    std::unique_ptr<Parts> parts_;
 };
 
 }  // namespace forage::engine

@@ -1,292 +1,296 @@
-#include "core/engine/kernels/plastic_by_source.h"
-
+// Plastic synapses of types that are event-driven, laid out by their source: those of silent sources are
+// passed over. Carries maps and windows that learn: 11 x 11 Hebbian synapses per cell, with sources that
+// spike with a probability of 0.3, take 50 us per cycle for 50 x 50 cells; the list takes 1,900.
+//
+// Sources are taken line by line: rows of the grid, or columns, whichever keeps the synapse order at each
+// target. Target lines that a line of sources reaches are live. They stand in a frame: cell a of line c at
+// slot a * ring + c % ring, so that the targets of each source follow each other, and the next line of
+// sources finds most of them where they are.
 #include <algorithm>
-#include <bit>
-#include <cstdint>
+#include <cmath>
 #include <cstring>
-#include <numeric>
+#include <limits>
 
 #include "core/base/simd.h"
 #include "core/engine/finite.h"
+#include "core/engine/kernels/forms.h"
 
 namespace forage::engine {
 namespace {
 
-FORAGE_SIMD void add_to(const double* from, Index n, double* to) {
-    // As wide as the steps between the stretches of sources: what one has stored goes to the next without a
-    // detour through the cache.
-    constexpr Index lanes = SlidingTargets::lanes;
-    typedef double Lanes __attribute__((vector_size(lanes * sizeof(double))));  // NOLINT: no `using` for this
-    Index i = 0;
-    for (; i + lanes <= n; i += lanes) {
-        Lanes sums, more;
-        std::memcpy(&sums, to + i, sizeof sums);
-        std::memcpy(&more, from + i, sizeof more);
-        sums += more;
-        std::memcpy(to + i, &sums, sizeof sums);
+/// The vectors of a ring: what one source has written, the next one reads in the same pieces.
+constexpr int frame_lanes = 4;
+typedef double FrameLanes __attribute__((vector_size(frame_lanes * sizeof(double))));  // NOLINT: no `using`
+
+FORAGE_SIMD void add_to_frame(const double* psp, Index n, double* sums) {
+    for (Index i = 0; i < n; i += frame_lanes) {
+        FrameLanes sum, more;
+        std::memcpy(&sum, sums + i, sizeof sum);
+        std::memcpy(&more, psp + i, sizeof more);
+        sum += more;
+        std::memcpy(sums + i, &sum, sizeof sum);
     }
-    for (; i < n; ++i) to[i] += from[i];
 }
 
-/// Synapses by the source's rank, and by target.
-std::vector<std::size_t> sorted(const connectivity::Synapses& s, const std::vector<int>& cell,
-                                int source_cells) {
-    std::vector<std::size_t> rank(static_cast<std::size_t>(source_cells)), out(s.size());
-    for (std::size_t n = 0; n < cell.size(); ++n) rank[static_cast<std::size_t>(cell[n])] = n;
-    std::vector<std::size_t> begin(cell.size() + 1, 0);
-    for (const int pre : s.pre) ++begin[rank[static_cast<std::size_t>(pre)] + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    auto next = begin;
-    for (std::size_t i = 0; i < s.size(); ++i) out[next[rank[static_cast<std::size_t>(s.pre[i])]]++] = i;
-    const auto by_target = [&](std::size_t a, std::size_t b) { return s.post[a] < s.post[b]; };
-    for (std::size_t n = 0; n < cell.size(); ++n) {
-        const auto first = out.begin() + static_cast<std::ptrdiff_t>(begin[n]),
-                   last = out.begin() + static_cast<std::ptrdiff_t>(begin[n + 1]);
-        if (!std::is_sorted(first, last, by_target)) std::sort(first, last, by_target);
-    }
-    return out;
+/// Where the factor is NaN there is no synapse.
+FORAGE_SIMD void attenuate(const double* factor, Index n, double* psp) {
+    for (Index i = 0; i < n; ++i) psp[i] = factor[i] == factor[i] ? psp[i] * factor[i] : 0;
 }
+
+/// A group as lines of cells.
+struct Lines {
+    int cells, lines;
+    int to_next_cell, to_next_line;
+
+    Lines(GroupShape g, bool columns) {
+        const bool grid = g.width * g.height == g.cells;
+        const int width = grid ? g.width : g.cells, height = grid ? g.height : 1;
+        cells = columns ? height : width, lines = columns ? width : height;
+        to_next_cell = columns ? width : 1, to_next_line = columns ? 1 : width;
+    }
+    int line_of(int index) const { return to_next_line == 1 ? index % lines : index / to_next_line; }
+    int cell_of(int index) const { return to_next_cell == 1 ? index % cells : index / to_next_cell; }
+    int index(int cell, int line) const { return cell * to_next_cell + line * to_next_line; }
+};
+
+class PlasticBySource final : public PlasticKernel {
+  public:
+    PlasticBySource(Lines source, Lines target, const SynapseType& type, bool reads_states)
+        : type_(type),
+          output_state_(type.output()),
+          keeps_output_(reads_states),
+          source_(source),
+          target_(target) {}
+
+    /// Takes the synapses in. False when another form serves better.
+    bool fill(const connectivity::Synapses& s) {
+        if (!in_order(s) || !find_live_lines(s)) return false;
+        constexpr double none = std::numeric_limits<double>::quiet_NaN();
+        factor_.assign(places_, none);
+        place_.resize(s.size());
+        bool all_one = live_slots_ == s.size();
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            const Source& source = sources_[rank(s.pre[i])];
+            place_[i] =
+                source.place + slot(target_.cell_of(s.post[i]), target_.line_of(s.post[i])) - source.slot;
+            double& factor = factor_[place_[i]];
+            if (!std::isnan(factor)) return false;  // two synapses from one cell to another
+            factor = s.reference - s.attenuation[i];
+            if (std::isnan(factor)) return false;
+            all_one = all_one && factor == 1;
+        }
+        if (all_one) factor_ = std::vector<double>();
+        return true;
+    }
+    void reserve(Rows& rows) {
+        for (int i = 0; i < std::ssize(type_.states); ++i)
+            states_.push_back(rows.reserve(keeps(i) ? places_ : 0));
+        if (keeps_output_) updated_ = rows.reserve(static_cast<Index>(sources_.size()));
+        diverged_ = rows.reserve(1);
+        adds_outputs_ = type_.adds_output && factor_.empty() && !keeps_output_;
+        Index most = 0;
+        for (const Source& source : sources_) most = std::max(most, source.size);
+        active_.resize(source_.cells);
+        pre_.resize(most), output_.resize(most);
+        sums_.resize(target_.cells * ring_);
+        feedback_.assign(type_.feedback.size(), std::vector<double>(sums_.size()));
+        for (const auto& f : feedback_) feedback_columns_.emplace_back(f.data(), 0);
+        for (std::size_t i = 0; i < states_.size(); ++i) source_states_.emplace_back(nullptr, 0);
+    }
+
+    void begin(double* numbers) const override {
+        for (int i = 0; i < std::ssize(states_); ++i)
+            if (keeps(i)) std::fill_n(numbers + states_[i], places_, type_.states[i].initial);
+    }
+    void learn(const KernelInput& in) override { update(in, nullptr); }
+    void deliver(const KernelInput& in, double* target, bool first) override {
+        if (first) std::fill_n(target, target_.cells * target_.lines, 0.0);
+        update(in, target);
+    }
+    ConstColumn state(const double* numbers, int i) const override {
+        std::vector<double> all(numbers + states_[i], numbers + states_[i] + places_);
+        if (i == output_state_)
+            for (std::size_t n = 0; n < sources_.size(); ++n)
+                if (numbers[updated_ + n] == 0) std::fill_n(&all[sources_[n].place], sources_[n].size, 0.0);
+        shown_.clear();
+        for (const Index place : place_) shown_.push_back(all[place]);
+        return {shown_.data(), static_cast<Index>(shown_.size())};
+    }
+    std::string_view form() const override { return "plastic by source"; }
+    double cost() const override { return 0.2 * static_cast<double>(place_.size()); }
+
+  private:
+    struct Source {
+        Index place;       ///< of its first synapse
+        Index slot, size;  ///< of its targets in the frame
+    };
+
+    std::size_t rank(int source) const {
+        return static_cast<std::size_t>(source_.line_of(source) * source_.cells + source_.cell_of(source));
+    }
+    Index slot(int cell, int line) const { return cell * ring_ + line % ring_; }
+    bool keeps(int state) const { return keeps_output_ || state != output_state_; }
+
+    /// Whether targets sum their synapses in synapse order when sources are taken line by line.
+    bool in_order(const connectivity::Synapses& s) const {
+        std::vector<std::size_t> last(target_.cells * target_.lines, 0);
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            const std::size_t now = rank(s.pre[i]);
+            if (std::exchange(last[s.post[i]], now) > now) return false;
+        }
+        return true;
+    }
+
+    /// Finds the ring, and each source's place in it. False when three of four places would be empty.
+    bool find_live_lines(const connectivity::Synapses& s) {
+        struct Range {
+            int first = std::numeric_limits<int>::max(), last = -1;
+            void add(int n) { first = std::min(first, n), last = std::max(last, n); }
+        };
+        std::vector<Range> lines(source_.lines), cells(source_.lines * source_.cells);
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            lines[source_.line_of(s.pre[i])].add(target_.line_of(s.post[i]));
+            cells[rank(s.pre[i])].add(target_.cell_of(s.post[i]));
+        }
+        for (std::size_t n = 1; n < lines.size(); ++n) {  // lines come and go in order
+            lines[n].last = std::max(lines[n].last, lines[n - 1].last);
+            auto &later = lines[lines.size() - n], &earlier = lines[lines.size() - n - 1];
+            earlier.first = std::min(earlier.first, later.first);
+        }
+        int most = 0;
+        for (const Range& r : lines) {
+            entered_.push_back(r.last + 1), left_.push_back(std::min(r.first, r.last + 1));
+            most = std::max(most, entered_.back() - left_.back());
+        }
+        ring_ = (most + frame_lanes - 1) / frame_lanes * frame_lanes;
+        for (std::size_t n = 0; n < cells.size(); ++n) {
+            const Index first = cells[n].last < 0 ? 0 : cells[n].first, count = cells[n].last + 1 - first;
+            sources_.push_back({places_, first * ring_, count * ring_});
+            places_ += count * ring_;
+            const std::size_t line = n / source_.cells;
+            live_slots_ += count * (entered_[line] - left_[line]);
+        }
+        return places_ <= 4 * static_cast<Index>(s.size());
+    }
+
+    /// Updates the synapses of active sources.
+    void update(const KernelInput& in, double* target) {
+        // 0 times infinity is NaN: once a number was not finite, no synapse is passed over any more.
+        double& diverged = in.numbers[diverged_];
+        for (const Ring& f : in.feedback)
+            if (f.rows && !all_finite(f.ago(in.cycle, 0), f.stride)) diverged = 1;
+        const bool all = diverged != 0;
+        int first = 0, last = 0;  // live lines
+        for (int line = 0; line < source_.lines; ++line) {
+            slide(in, target, first, left_[line], last, entered_[line]);
+            first = left_[line], last = entered_[line];
+            int count = 0;
+            for (int cell = 0; cell < source_.cells; ++cell) {  // without branches: spikes cannot be foreseen
+                const bool active = (in.now[source_.index(cell, line)] != 0) | all;
+                if (keeps_output_) in.numbers[updated_ + line * source_.cells + cell] = active;
+                active_[count] = cell;
+                count += active;
+            }
+            for (int k = 0; k < count; ++k) {
+                const Source* source = &sources_[line * source_.cells];
+                if (k + 1 < count) fetch(in, source[active_[k + 1]]);
+                update_source(in, source[active_[k]], in.now[source_.index(active_[k], line)],
+                              target != nullptr);
+            }
+        }
+        slide(in, target, first, last, last, last);
+    }
+
+    /// Lines leave the frame and others enter it. Slots between are 0.
+    void slide(const KernelInput& in, double* target, int leave, int stay, int enter, int end) {
+        for (int line = leave; line < std::min(stay, enter); ++line)
+            for (int cell = 0; cell < target_.cells; ++cell) {
+                const Index s = slot(cell, line);
+                if (target) target[target_.index(cell, line)] += sums_[s];
+                for (auto& f : feedback_) f[s] = 0;
+            }
+        for (int line = std::max(enter, stay); line < end; ++line)
+            for (int cell = 0; cell < target_.cells; ++cell) {
+                const Index s = slot(cell, line);
+                sums_[s] = 0;
+                for (std::size_t f = 0; f < feedback_.size(); ++f)
+                    if (in.feedback[f].rows)
+                        feedback_[f][s] = in.feedback[f].ago(in.cycle, 0)[target_.index(cell, line)];
+            }
+    }
+
+    /// Lets states come from memory while others are computed.
+    void fetch(const KernelInput& in, const Source& source) const {
+        constexpr Index line_of_cache = 8;
+        for (int i = 0; i < std::ssize(states_); ++i)
+            for (Index k = 0; keeps(i) && k < source.size; k += line_of_cache)
+                __builtin_prefetch(in.numbers + states_[i] + source.place + k, 1);
+    }
+
+    void update_source(const KernelInput& in, const Source& source, double activity, bool sum) {
+        if (!std::isfinite(activity)) in.numbers[diverged_] = 1;  // what synapses learn from it stays
+        if (source.size == 0) return;
+        if (std::memcmp(&pre_[0], &activity, sizeof activity) != 0)
+            std::fill(pre_.begin(), pre_.end(), activity);  // spikes are alike
+        for (std::size_t f = 0; f < feedback_.size(); ++f)
+            new (&feedback_columns_[f]) ConstColumn(&feedback_[f][source.slot], source.size);
+        for (int i = 0; i < std::ssize(states_); ++i)
+            new (&source_states_[i])
+                Column(keeps(i) ? in.numbers + states_[i] + source.place : output_.data(), source.size);
+        const bool adds = sum && adds_outputs_;
+        SynapseColumns columns(ConstColumn(pre_.data(), source.size), source_states_, feedback_columns_,
+                               adds ? &sums_[source.slot] : nullptr);
+        if (adds) return in.synapse.update_and_add(columns);
+        in.synapse.update(columns);
+        double* psp = source_states_[output_state_].data();
+        if (!factor_.empty()) attenuate(&factor_[source.place], source.size, psp);
+        if (sum) add_to_frame(psp, source.size, &sums_[source.slot]);
+    }
+
+    const SynapseType& type_;
+    int output_state_;
+    bool keeps_output_;
+    bool adds_outputs_ = false;  ///< the type does, as nothing attenuates them and nothing reads them
+    Lines source_, target_;
+    int ring_ = 0;                     ///< lines for which the frame has room
+    std::vector<int> left_, entered_;  ///< by source line: the first live line, and the one after the last
+    std::vector<Source> sources_;      ///< line by line
+    Index places_ = 0;
+    std::size_t live_slots_ = 0;  ///< of all sources' places: those that hold a target
+    std::vector<Index> place_;    ///< of the synapses, in synapse order
+    std::vector<double> factor_;  ///< reference - attenuation, by place; empty when all are 1
+    std::vector<Rows::Offset> states_;
+    Rows::Offset updated_ =
+        0;  ///< by source: 0 when the last update passed over it, so that its outputs are 0
+    Rows::Offset diverged_ = 0;  ///< 1 once a number that the synapses read was not finite
+
+    std::vector<int> active_;                    ///< cells of a line of sources
+    std::vector<double> pre_, output_;           ///< per synapse of a source
+    std::vector<double> sums_;                   ///< the frame
+    std::vector<std::vector<double>> feedback_;  ///< likewise
+    std::vector<Column> source_states_;
+    std::vector<ConstColumn> feedback_columns_;
+    mutable std::vector<double> shown_;  ///< what state() gave last
+};
 
 }  // namespace
 
-PlasticBySource::PlasticBySource(connectivity::Synapses s, const SourceOrder& order, int source_cells,
-                                 int target_cells, const SynapseType& type, const SynapseInstance& synapse,
-                                 Arena& arena)
-    : synapse_(synapse),
-      output_(static_cast<std::size_t>(type.output())),
-      keeps_outputs_(!type.tells_output),
-      adds_outputs_(type.adds_output),
-      target_cells_(target_cells),
-      sliding_(SlidingTargets::make(order, target_cells)),
-      place_(s.size()) {
-    if (!sliding_) frame_.emplace(order);
-    for (const auto& source : order.sources) cell_.push_back(source.cell);
-    first_.push_back(0);
-    for (const Stretch& source : stretches())  // each begins with a line of the cache
-        first_.push_back(first_.back() + Arena::stride(source.size));
-    for (const auto& frame : order.frames) frames_.push_back({frame.first_source, frame.last_source});
-    place_synapses(s, source_cells);
-    adds_outputs_ &= factor_.empty();
-    reserve(type, arena);
-}
-
-void PlasticBySource::place_synapses(const connectivity::Synapses& s, int source_cells) {
-    factor_.assign(static_cast<std::size_t>(first_.back()), 1.0);
-    const auto target_places = sliding_ ? sliding_->take_target_places() : std::vector<int>();
-    const auto by_source = sorted(s, cell_, source_cells);
-    for (std::size_t n = 0, k = 0; n < cell_.size(); ++n)
-        for (const std::size_t begin = k; k < by_source.size() && s.pre[by_source[k]] == cell_[n]; ++k) {
-            const std::size_t i = by_source[k];
-            place_[i] = first_[n] + (sliding_ ? target_places[k] : static_cast<Index>(k - begin));
-            factor_[static_cast<std::size_t>(place_[i])] = s.reference - s.attenuation[i];
+std::unique_ptr<PlasticKernel> make_plastic_by_source(const connectivity::Synapses& s, GroupShape source,
+                                                      GroupShape target, const SynapseType& type,
+                                                      bool reads_states, Rows& rows) {
+    constexpr std::size_t least = 8;  // synapses per source; an update for each has a cost of its own
+    if (s.size() < least * static_cast<std::size_t>(source.cells) ||
+        std::any_of(s.delay.begin(), s.delay.end(), [](int delay) { return delay != 0; }))
+        return nullptr;
+    for (const bool source_columns : {false, true})
+        for (const bool target_columns : {source_columns, !source_columns}) {
+            auto out = std::make_unique<PlasticBySource>(Lines(source, source_columns),
+                                                         Lines(target, target_columns), type, reads_states);
+            if (!out->fill(s)) continue;
+            out->reserve(rows);
+            return out;
         }
-    if (std::all_of(factor_.begin(), factor_.end(), [](double f) { return f == 1; }))
-        factor_ = std::vector<double>();
-}
-
-void PlasticBySource::reserve(const SynapseType& type, Arena& arena) {
-    Index largest_frame = sliding_ ? sliding_->places() : 0;
-    for (const Stretch& source : stretches()) {
-        largest_source_ = std::max(largest_source_, source.size);
-        if (!sliding_) largest_frame = std::max(largest_frame, source.place + source.size);
-    }
-    for (std::size_t i = 0; i < type.states.size(); ++i) {
-        state_offsets_.push_back(arena.reserve(kept(i) ? first_.back() : largest_source_));
-        initial_.push_back(type.states[i].initial);
-    }
-    for (std::size_t i = 0; i < type.feedback.size(); ++i)
-        gathered_offsets_.push_back(arena.reserve(largest_frame));
-    pre_offset_ = arena.reserve(largest_source_);
-    sum_offset_ = arena.reserve(target_cells_);
-    frame_sum_offset_ = arena.reserve(largest_frame);
-    activity_offset_ = arena.reserve(static_cast<Index>(cell_.size()) + 1);
-    active_.resize(cell_.size());
-}
-
-void PlasticBySource::place(Arena& arena, std::vector<Ring> feedback) {
-    feedback_ = std::move(feedback);
-    for (std::size_t i = 0; i < state_offsets_.size(); ++i) {
-        states_.push_back(arena.at(state_offsets_[i]));
-        if (initial_[i] != 0) std::fill_n(states_[i], kept(i) ? first_.back() : largest_source_, initial_[i]);
-    }
-    for (std::size_t f = 0; f < feedback_.size(); ++f) {
-        cells_.push_back(nullptr);
-        gathered_.push_back(arena.at(gathered_offsets_[f]));
-        feedback_columns_.emplace_back(gathered_[f], 0);
-    }
-    for (double* s : states_) source_states_.emplace_back(s, 0);
-    pre_ = arena.at(pre_offset_);
-    sums_ = arena.at(sum_offset_);
-    frame_sums_ = arena.at(frame_sum_offset_);
-    activity_ = arena.at(activity_offset_);
-    diverged_ = activity_ + cell_.size();
-}
-
-void PlasticBySource::deliver(const History& source, double* target) {
-    std::fill_n(sums_, target_cells_, 0.0);
-    update(source, sums_);
-    add_to(sums_, target_cells_, target);
-}
-
-/// Whether synapses may rest. 0 times infinity is NaN: once a number was not finite nobody rests any more.
-bool PlasticBySource::read_feedback(std::uint64_t cycle) {
-    for (std::size_t f = 0; f < feedback_.size(); ++f) {
-        if (!feedback_[f].rows) continue;  // reads 0
-        const double* row = feedback_[f].ago(cycle, 0);
-        if (*diverged_ == 0 && !all_finite(row, Arena::stride(target_cells_))) *diverged_ = 1;
-        cells_[f] = row;
-    }
-    return *diverged_ == 0;
-}
-
-/// The sources whose synapses are updated, by frame; outputs of others become 0.
-void PlasticBySource::find_active(const double* source, bool may_rest) {
-    std::size_t count = 0;
-    double odd = 0;  // x - x is not 0 when x is not finite
-    std::size_t* const active = active_.data();
-    const int* const cell = cell_.data();
-    if (keeps_outputs_)
-        for (std::size_t n = 0; n < cell_.size(); ++n)
-            if (source[cell[n]] == 0 && activity_[n] != 0)
-                std::fill(states_[output_] + first_[n], states_[output_] + first_[n + 1], 0.0);
-    // Without branches: who is active cannot be foreseen.
-    const std::size_t always = may_rest ? 0 : 1;
-    for (std::size_t n = 0; n < cell_.size(); ++n) {
-        const double activity = source[cell[n]];
-        activity_[n] = activity;
-        odd += activity - activity;
-        active[count] = n;
-        count += static_cast<std::size_t>(activity != 0) | always;
-    }
-    active_count_ = count;
-    if (odd != 0) *diverged_ = 1;  // what the synapses learn from it stays when their source falls silent
-}
-
-void PlasticBySource::update(const History& source, double* sums) {
-    find_active(source.now, read_feedback(source.cycle));
-    if (active_count_ == 0) return;
-    const std::size_t* next = active_.data();
-    const std::size_t* const last = next + active_count_;
-    for (std::size_t f = 0; f < frames_.size(); ++f) {
-        const std::size_t* first = next;
-        while (next != last && *next < frames_[f].last_source) ++next;
-        if (sliding_) {
-            slide_into(f, sums);
-            update_sliding(first, next, sums != nullptr);
-        } else if (next != first) {
-            update_frame(f, first, next, sums);
-        }
-    }
-    if (sliding_) slide_into(frames_.size(), sums);
-}
-
-void PlasticBySource::slide_into(std::size_t frame, double* sums) {
-    const auto leaving = sliding_->leaving(frame), entering = sliding_->entering(frame);
-    if (sums) {
-        for (const auto [target, place] : leaving) sums[target] = frame_sums_[place];
-        for (const auto [target, place] : entering) frame_sums_[place] = sums[target];
-    }
-    for (std::size_t f = 0; f < feedback_.size(); ++f)
-        if (const double* cells = cells_[f])
-            for (const auto [target, place] : entering) gathered_[f][place] = cells[target];
-}
-
-/// Updates some sources of the frame that is there.
-void PlasticBySource::update_sliding(const std::size_t* first, const std::size_t* last, bool sums) {
-    for (const std::size_t* n = first; n != last; ++n) {
-        const Stretch stretch = sliding_->sources()[*n];
-        if (sums)
-            update_and_add(*n, stretch.place);
-        else
-            update_source(*n, stretch.place);
-    }
-}
-
-/// Updates some sources of a frame.
-void PlasticBySource::update_frame(std::size_t frame, const std::size_t* first, const std::size_t* last,
-                                   double* sums) {
-    Stretch part = stretches()[*first];  // what they reach of it
-    for (const std::size_t* n = first + 1; n != last; ++n) {
-        const Stretch source = stretches()[*n];
-        const Index end = std::max(part.place + part.size, source.place + source.size);
-        part.place = std::min(part.place, source.place);
-        part.size = end - part.place;
-    }
-    for (std::size_t f = 0; f < feedback_.size(); ++f)
-        if (cells_[f]) frame_->gather(frame, part, cells_[f], gathered_[f]);
-    const bool one = last - first == 1;
-    if (sums && !one) frame_->gather(frame, part, sums, frame_sums_);
-    for (const std::size_t* n = first; n != last; ++n) {
-        const Stretch source = stretches()[*n];
-        const Index place = source.place - part.place;
-        if (sums && !one)
-            update_and_add(*n, place);
-        else if (const double* psp = update_source(*n, place); sums)
-            frame_->add(frame, part, psp, sums);
-    }
-    if (sums && !one) frame_->scatter(frame, part, frame_sums_, sums);
-}
-
-/// All synapses of the n-th source, whose feedback begins at `place` of what is gathered; gives their
-/// outputs.
-const double* PlasticBySource::update_source(std::size_t n, Index place) {
-    SynapseColumns seen = columns(n, place, nullptr);
-    synapse_.update(seen);
-    return attenuated(n);
-}
-
-/// The same; they are added to the sums there.
-void PlasticBySource::update_and_add(std::size_t n, Index place) {
-    double* const sums = frame_sums_ + place;
-    if (!adds_outputs_) return add_to(update_source(n, place), stretches()[n].size, sums);
-    SynapseColumns seen = columns(n, place, sums);
-    synapse_.update_and_add(seen);
-}
-
-/// What an update of the n-th source sees.
-SynapseColumns PlasticBySource::columns(std::size_t n, Index place, double* sums) {
-    const Index size = look_at(n);
-    for (std::size_t f = 0; f < feedback_.size(); ++f)
-        new (&feedback_columns_[f]) ConstColumn(gathered_[f] + place, size);
-    return {ConstColumn(pre_, size), source_states_, feedback_columns_, sums};
-}
-
-/// Lets `pre_` and `source_states_` be those of the n-th source; gives its number of places.
-Index PlasticBySource::look_at(std::size_t n) const {
-    const Index size = stretches()[n].size;
-    if (std::bit_cast<std::uint64_t>(pre_[0]) != std::bit_cast<std::uint64_t>(activity_[n]))
-        std::fill_n(pre_, largest_source_, activity_[n]);  // spikes are alike
-    for (std::size_t s = 0; s < states_.size(); ++s)
-        new (&source_states_[s]) Column(states_[s] + (kept(s) ? first_[n] : 0), size);
-    return size;
-}
-
-const double* PlasticBySource::attenuated(std::size_t n) const {
-    Column& output = source_states_[output_];
-    if (!factor_.empty()) output *= ConstColumn(&factor_[static_cast<std::size_t>(first_[n])], output.size());
-    return output.data();
-}
-
-/// Tells outputs that are not kept.
-std::vector<double> PlasticBySource::outputs() const {
-    const std::vector<ConstColumn> no_feedback;
-    std::vector<double> out(static_cast<std::size_t>(first_.back()), 0.0);
-    for (std::size_t n = 0; n < cell_.size(); ++n) {
-        if (activity_[n] == 0 && *diverged_ == 0) continue;
-        const Index size = look_at(n);
-        SynapseColumns columns(ConstColumn(pre_, size), source_states_, no_feedback);
-        synapse_.output(columns);
-        std::copy_n(attenuated(n), size, out.begin() + first_[n]);
-    }
-    return out;
-}
-
-ConstColumn PlasticBySource::state(std::size_t i) const {
-    const auto told = kept(i) ? std::vector<double>() : outputs();
-    const double* all = kept(i) ? states_[i] : told.data();
-    shown_.resize(place_.size());
-    for (std::size_t k = 0; k < shown_.size(); ++k) shown_[k] = all[place_[k]];
-    return {shown_.data(), static_cast<Index>(shown_.size())};
+    return nullptr;
 }
 
 }  // namespace forage::engine

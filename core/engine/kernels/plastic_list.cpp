@@ -1,108 +1,100 @@
-#include "core/engine/kernels/plastic_list.h"
-
+// Plastic synapses in synapse order: the general form. Carries delays, apical synapses, and whatever does not
+// fit plastic_by_source.cpp; 5 ns per synapse and cycle.
 #include <algorithm>
 
+#include "core/engine/kernels/forms.h"
+
 namespace forage::engine {
+namespace {
 
-PlasticList::PlasticList(connectivity::Synapses s, int target_cells, const SynapseType& type,
-                         const SynapseInstance& synapse, Arena& arena)
-    : synapse_(synapse),
-      output_(static_cast<std::size_t>(type.output())),
-      pre_cell_(std::move(s.pre)),
-      post_cell_(std::move(s.post)),
-      delay_(std::move(s.delay)),
-      factor_(std::move(s.attenuation)),
-      longest_(*std::max_element(delay_.begin(), delay_.end())),
-      size_(static_cast<Index>(pre_cell_.size())),
-      target_cells_(target_cells) {
-    for (double& f : factor_) f = s.reference - f;
-    for (const auto& state : type.states) {
-        state_offsets_.push_back(arena.reserve(size_));
-        initial_.push_back(state.initial);
+class PlasticList final : public PlasticKernel {
+  public:
+    PlasticList(connectivity::Synapses s, int target_cells, const SynapseType& type, Rows& rows)
+        : type_(type),
+          pre_(std::move(s.pre)),
+          post_(std::move(s.post)),
+          delay_(std::move(s.delay)),
+          factor_(std::move(s.attenuation)),
+          depth_(*std::max_element(delay_.begin(), delay_.end()) + 1),
+          size_(static_cast<Index>(pre_.size())),
+          gathered_(type.feedback.size(), std::vector<double>(std::min(size_, block))),
+          sums_(target_cells),
+          ago_(depth_) {
+        for (double& f : factor_) f = s.reference - f;
+        for (std::size_t i = 0; i < type.states.size(); ++i) states_.push_back(rows.reserve(size_));
+        if (depth_ > 1) psp_ring_ = rows.reserve(size_, depth_);
+        for (const auto& g : gathered_) feedback_columns_.emplace_back(g.data(), 0);
+        for (std::size_t i = 0; i < states_.size(); ++i) block_states_.emplace_back(nullptr, 0);
     }
-    const Index part = std::min(size_, block);
-    for (std::size_t i = 0; i < type.feedback.size(); ++i) feedback_offsets_.push_back(arena.reserve(part));
-    pre_offset_ = arena.reserve(part);
-    if (longest_ > 0) psp_offset_ = arena.reserve(size_, longest_ + 1);
-    sum_offset_ = arena.reserve(target_cells_);
-    feedback_rows_.resize(static_cast<std::size_t>(longest_) + 1);
-    psp_rows_.resize(static_cast<std::size_t>(longest_) + 1);
-}
-
-void PlasticList::place(Arena& arena, std::vector<Ring> feedback) {
-    feedback_ = std::move(feedback);
-    for (std::size_t i = 0; i < state_offsets_.size(); ++i) {
-        states_.emplace_back(arena.at(state_offsets_[i]), size_);
-        if (initial_[i] != 0) states_[i].setConstant(initial_[i]);
+    void begin(double* numbers) const override {
+        for (std::size_t i = 0; i < states_.size(); ++i)
+            std::fill_n(numbers + states_[i], size_, type_.states[i].initial);
     }
-    for (const auto offset : feedback_offsets_) {
-        gathered_.push_back(arena.at(offset));
-        feedback_columns_.emplace_back(arena.at(offset), std::min(size_, block));
+    void learn(const KernelInput& in) override {
+        for (Index first = 0; first < size_; first += block)
+            learn_block(in, first, std::min(block, size_ - first));
     }
-    for (Column& s : states_) block_states_.emplace_back(s.data(), s.size());
-    pre_ = arena.at(pre_offset_);
-    if (longest_ > 0) psp_ring_ = arena.at(psp_offset_);
-    sums_ = arena.at(sum_offset_);
-}
-
-void PlasticList::learn(const History& source) {
-    for (Index first = 0; first < size_; first += block)
-        learn_block(source, first, std::min(block, size_ - first));
-}
-
-void PlasticList::learn_block(const History& source, Index first, Index size) {
-    const int *pre = &pre_cell_[static_cast<std::size_t>(first)],
-              *post = &post_cell_[static_cast<std::size_t>(first)],
-              *delay = &delay_[static_cast<std::size_t>(first)];
-    for (Index i = 0; i < size; ++i) pre_[i] = source.now[pre[i]];
-    for (std::size_t f = 0; f < feedback_.size(); ++f) {
-        double* gathered = gathered_[f];
-        new (&feedback_columns_[f]) ConstColumn(gathered, size);
-        if (!feedback_[f].rows) continue;  // reads 0
-        if (longest_ == 0) {
-            const double* row = feedback_[f].ago(source.cycle, 0);
-            for (Index i = 0; i < size; ++i) gathered[i] = row[post[i]];
+    void deliver(const KernelInput& in, double* target, bool first) override {
+        learn(in);
+        const double* psp = in.numbers + states_[type_.output()];
+        std::fill(sums_.begin(), sums_.end(), 0.0);
+        if (depth_ == 1) {
+            for (Index i = 0; i < size_; ++i) sums_[post_[i]] += psp[i];
         } else {
-            feedback_[f].tabulate(source.cycle, feedback_rows_);
-            for (Index i = 0; i < size; ++i)
-                gathered[i] = feedback_rows_[static_cast<std::size_t>(delay[i])][post[i]];
+            const Index stride = Rows::stride(size_);
+            double* ring = in.numbers + psp_ring_;
+            std::copy_n(psp, size_, ring + static_cast<Index>(in.cycle % ago_.size()) * stride);
+            for (int d = 0; d < depth_; ++d) ago_[d] = Ring{ring, depth_, stride}.ago(in.cycle, d);
+            for (Index i = 0; i < size_; ++i) sums_[post_[i]] += ago_[delay_[i]][i];
         }
+        const auto cells = static_cast<Index>(sums_.size());
+        if (first) std::fill_n(target, cells, 0.0);
+        Column(target, cells) += ConstColumn(sums_.data(), cells);
     }
-    for (std::size_t s = 0; s < states_.size(); ++s)
-        new (&block_states_[s]) Column(states_[s].data() + first, size);
-    SynapseColumns columns(ConstColumn(pre_, size), block_states_, feedback_columns_);
-    synapse_.update(columns);
-    block_states_[output_] *= ConstColumn(factor_.data() + first, size);
-}
+    ConstColumn state(const double* numbers, int i) const override { return {numbers + states_[i], size_}; }
+    std::string_view form() const override { return "plastic"; }
+    double cost() const override { return 5 * static_cast<double>(size_); }
 
-/// Without delays; a target's synapses often follow each other, and their sum then stays in a register.
-void PlasticList::sum_now(double* sums) const {
-    const double* psp = states_[output_].data();
-    const auto n = post_cell_.size();
-    for (std::size_t i = 0; i < n;) {
-        const int target = post_cell_[i];
-        double sum = sums[target];
-        for (; i < n && post_cell_[i] == target; ++i) sum += psp[i];
-        sums[target] = sum;
-    }
-}
+  private:
+    /// Synapses that learn at a time: what is gathered for an update stays in the nearest cache.
+    static constexpr Index block = 1024;
 
-void PlasticList::deliver(const History& source, double* target) {
-    learn(source);
-    const double* psp = states_[output_].data();
-    const auto n = pre_cell_.size();
-    std::fill_n(sums_, target_cells_, 0.0);
-    if (longest_ == 0) {
-        sum_now(sums_);
-    } else {
-        const Ring ring{psp_ring_, std::int64_t{longest_} + 1, Arena::stride(size_)};
-        ring.tabulate(source.cycle, psp_rows_);
-        const auto now = static_cast<Index>(source.cycle % static_cast<std::uint64_t>(ring.depth));
-        std::copy_n(psp, n, psp_ring_ + now * ring.stride);
-        for (std::size_t i = 0; i < n; ++i)
-            sums_[post_cell_[i]] += psp_rows_[static_cast<std::size_t>(delay_[i])][i];
+    void learn_block(const KernelInput& in, Index first, Index size) {
+        double pre[block];
+        for (Index i = 0; i < size; ++i) pre[i] = in.now[pre_[first + i]];
+        for (std::size_t f = 0; f < gathered_.size(); ++f) {
+            new (&feedback_columns_[f]) ConstColumn(gathered_[f].data(), size);
+            if (in.feedback[f].rows)
+                for (Index i = 0; i < size; ++i)
+                    gathered_[f][i] = in.feedback[f].ago(in.cycle, delay_[first + i])[post_[first + i]];
+        }
+        for (std::size_t s = 0; s < states_.size(); ++s)
+            new (&block_states_[s]) Column(in.numbers + states_[s] + first, size);
+        SynapseColumns columns(ConstColumn(pre, size), block_states_, feedback_columns_);
+        in.synapse.update(columns);
+        block_states_[type_.output()] *= ConstColumn(factor_.data() + first, size);
     }
-    Column(target, target_cells_) += ConstColumn(sums_, target_cells_);
+
+    const SynapseType& type_;
+    std::vector<int> pre_, post_, delay_;
+    std::vector<double> factor_;  ///< reference - attenuation
+    int depth_;                   ///< longest delay + 1
+    Index size_;
+    std::vector<Rows::Offset> states_;
+    Rows::Offset psp_ring_ = 0;  ///< attenuated outputs of the last depth_ cycles
+
+    std::vector<std::vector<double>> gathered_;  ///< feedback, per synapse of a block
+    std::vector<double> sums_;                   ///< per target cell
+    std::vector<const double*> ago_;             ///< rows of the ring, by delay
+    std::vector<Column> block_states_;
+    std::vector<ConstColumn> feedback_columns_;
+};
+
+}  // namespace
+
+std::unique_ptr<PlasticKernel> make_plastic_list(connectivity::Synapses synapses, int target_cells,
+                                                 const SynapseType& type, Rows& rows) {
+    return std::make_unique<PlasticList>(std::move(synapses), target_cells, type, rows);
 }
 
 }  // namespace forage::engine

@@ -1,155 +1,155 @@
-#include "core/engine/parallel/parallel_executor.h"
-
+// A cycle that threads share. Carries single systems of more than some thousand cells: two threads gain 1.8
+// to 1.9 times with windows over 100 x 100 cells and with 20 groups of 1,000 all to all.
 #include <algorithm>
+#include <span>
+#include <vector>
 
-#include "core/engine/group_delivery.h"
-#include "core/engine/group_update.h"
+#include "core/engine/executor.h"
+#include "core/engine/parallel/parallel_tuner.h"
+#include "core/engine/parallel/thread_pool.h"
+#include "core/engine/simulation.h"
 
 namespace forage::engine {
 namespace {
 
-auto& at(auto& all, int index) { return all[static_cast<std::size_t>(index)]; }
+/// Small groups go to one thread whole. The update of a large one whose cells are independent is divided, and
+/// so are its large deliveries. A thread gets the same groups and parts in every cycle, as long as it is not
+/// late, so that what it wrote is in its own cache. Each cell has one writer, and each sum its order.
+class ParallelExecutor final : public Executor {
+  public:
+    ParallelExecutor(const Plan& plan, Cycle& cycle, int threads, double threshold_ns, double min_task_ns)
+        : plan_(plan),
+          cycle_(cycle),
+          pool_(threads),
+          parts_(2 * pool_.threads()),
+          threshold_ns_(threshold_ns),
+          share_([this](SharedKernel& kernel, const KernelInput& in, double* target, bool first) {
+              deliver_parts(kernel, in, target, first);
+          }) {
+        share_out(min_task_ns);
+    }
+    int threads() const override { return pool_.threads(); }
+    bool begin() override {
+        return threshold_ns_ == 0 || tuner_.begin([this] { return cycle_.cost() >= threshold_ns_; });
+    }
+    void end() override { tuner_.end(); }
 
-/// About, ns.
-double cost(const GroupPlan& g) { return static_cast<double>(g.cells) + g.delivery_cost; }
+    /// Where several groups fail, the exception of the first comes out.
+    void update_groups() override {
+        for (auto& d : divided_updates_) d.runs = cycle_.begin_update(d.group);
+        auto work = [this](int i, int thread) {
+            const auto& [group, part, divided] = updates_[i];
+            if (divided < 0)
+                cycle_.update(group, thread);
+            else if (divided_updates_[divided].runs)
+                found_[i] = cycle_.update_part(group, part, thread);
+        };
+        pool_.run(update_shares_, work);
+        for (const auto& d : divided_updates_) {
+            Cycle::Found all;
+            for (int i = d.first; i < d.first + parts_; ++i) all.add(found_[i]);
+            if (d.runs) cycle_.end_update(d.group, all);
+            if (!plan_.overwritten) cycle_.remember(d.group);
+        }
+    }
+    void deliver() override {
+        auto work = [this](int i, int) { cycle_.deliver_to(deliveries_[i]); };
+        pool_.run(delivery_shares_, work);
+        for (const int group : divided_deliveries_) cycle_.deliver_to(group, share_);
+    }
+
+  private:
+    struct Update {
+        int group;
+        Part part;
+        int divided;  ///< in divided_updates_; -1: the group is updated whole
+    };
+    struct Divided {
+        int group;
+        int first;  ///< of its parts, in updates_
+        bool runs;  ///< there is an update in this cycle
+    };
+
+    /// Shares follow each other in order of groups, and cost about the same.
+    void share_out(double min_task_ns) {
+        std::vector<double> update_cost, delivery_cost;
+        for (const int i : plan_.updated) {
+            const auto& g = plan_.groups[i];
+            const auto worth = [&](double ns) { return ns >= parts_ * min_task_ns; };
+            const auto cells = static_cast<double>(g.cells);
+            const bool large = g.cells > static_cast<Index>(2 * RandomStream::grain);
+            const auto shared = [&](int c) {
+                return dynamic_cast<SharedKernel*>(plan_.connections[c].kernel.get()) != nullptr;
+            };
+            const bool deliver_in_parts = worth(g.delivery_cost) && std::ranges::any_of(g.incoming, shared);
+            const double whole = cells + (deliver_in_parts ? 0 : g.delivery_cost);
+            if (plan_.layout.groups[i].type.elementwise && large && worth(cells)) {
+                divided_updates_.push_back({i, static_cast<int>(updates_.size()), false});
+                for (int p = 0; p < parts_; ++p) {
+                    updates_.push_back({i, {p, parts_}, static_cast<int>(divided_updates_.size()) - 1});
+                    update_cost.push_back(whole / parts_);
+                }
+            } else {
+                updates_.push_back({i, {}, -1});
+                update_cost.push_back(whole);
+            }
+            if (deliver_in_parts)
+                divided_deliveries_.push_back(i);
+            else
+                deliveries_.push_back(i), delivery_cost.push_back(whole);
+        }
+        found_.resize(updates_.size());
+        update_shares_ = shares(update_cost);
+        delivery_shares_ = shares(delivery_cost);
+    }
+
+    /// The first item of each thread, and the end: items of about the same cost for each, in order.
+    std::vector<int> shares(const std::vector<double>& cost) const {
+        double all = 0, before = 0;
+        for (const double c : cost) all += c;
+        std::vector<int> out{0};
+        for (int i = 0; i < std::ssize(cost); before += cost[i++])
+            while (std::ssize(out) < threads() &&
+                   before + cost[i] / 2 >= all * static_cast<double>(out.size()) / threads())
+                out.push_back(i);
+        out.resize(threads() + 1, static_cast<int>(cost.size()));
+        return out;
+    }
+
+    void deliver_parts(SharedKernel& kernel, const KernelInput& in, double* target, bool first) {
+        const auto cells = static_cast<std::size_t>(kernel.target_cells());
+        auto prepare = [&](int p, int) {
+            const Part part{p, parts_};
+            kernel.prepare(in, part);
+            if (first) std::fill(target + part.first(cells), target + part.last(cells), 0.0);
+        };
+        pool_.run(parts_, prepare);
+        auto add = [&](int p, int) { kernel.add(target, {p, parts_}); };
+        pool_.run(parts_, add);
+    }
+
+    const Plan& plan_;
+    Cycle& cycle_;
+    ThreadPool pool_;
+    int parts_;  ///< of what is divided
+    double threshold_ns_;
+    ParallelTuner<> tuner_;
+    Cycle::Share share_;
+    std::vector<Update> updates_;
+    std::vector<Divided> divided_updates_;
+    std::vector<Cycle::Found> found_;                   ///< by update
+    std::vector<int> deliveries_, divided_deliveries_;  ///< groups
+    std::vector<int> update_shares_, delivery_shares_;  ///< see ThreadPool
+};
 
 }  // namespace
 
-ParallelExecutor::ParallelExecutor(Plan& plan, int threads, double least)
-    : plan_(plan),
-      pool_(threads),
-      parts_(2 * pool_.threads()),
-      least_(least),
-      failed_update_(pool_.threads()),
-      failed_delivery_(pool_.threads()) {
-    share_out();
-}
+bool has_threads() { return true; }
 
-void ParallelExecutor::divide() {
-    for (auto& g : plan_.groups) {
-        const auto worth = [&](double cost) { return cost >= parts_ * least_; };
-        const auto cells = static_cast<std::size_t>(g.cells);
-        g.update_divides =
-            g.type.elementwise && cells > 2 * RandomStream::grain && worth(static_cast<double>(cells));
-        g.delivery_divides = worth(g.delivery_cost) &&
-                             std::any_of(g.incoming.begin(), g.incoming.end(),
-                                         [&](int i) { return at(plan_.connections, i).kernel->divides(); });
-        g.parts.resize(g.update_divides || g.delivery_divides ? static_cast<std::size_t>(parts_) : 0);
-    }
-}
-
-/// Whole groups in order, about the same cost for each thread; parts evenly.
-void ParallelExecutor::share_out() {
-    divide();
-    double whole = 0, before = 0;
-    for (const int i : plan_.updated)
-        if (const auto& g = at(plan_.groups, i); g.parts.empty()) whole += cost(g);
-    std::vector<int> owner;  // of a whole group: its thread; of another one: the part that does what is whole
-    for (int divided = 0; const int i : plan_.updated) {
-        const auto& g = at(plan_.groups, i);
-        if (!g.parts.empty()) {
-            owner.push_back(divided++ * 2 % parts_);  // in turns, another thread's
-            continue;
-        }
-        const double share = whole > 0 ? (before + cost(g) / 2) / whole : 0;
-        before += cost(g);
-        owner.push_back(std::min(static_cast<int>(share * threads()), threads() - 1));
-    }
-    items_.clear();
-    shares_ = {0};
-    std::vector<std::vector<int>> whole_groups(static_cast<std::size_t>(threads()));
-    for (int t = 0; t < threads(); ++t) {
-        for (std::size_t n = 0; n < plan_.updated.size(); ++n) {
-            const int g = plan_.updated[n];
-            const int parts = static_cast<int>(at(plan_.groups, g).parts.size());
-            for (int p = parts * t / threads(); p < parts * (t + 1) / threads(); ++p)
-                items_.push_back({g, p, p == owner[n]});
-            if (parts == 0 && owner[n] == t) {
-                items_.push_back({g, 0, true});
-                at(whole_groups, t).push_back(g);
-            }
-        }
-        shares_.push_back(static_cast<int>(items_.size()));
-    }
-    ready_.emplace(plan_, whole_groups, least_);
-}
-
-template <class Work>
-void ParallelExecutor::for_items(FirstFailure& failure, Work work) {
-    auto guarded = [&](int i, int thread) {
-        const Item& item = at(items_, i);
-        failure.guard(item.group, thread, [&] { work(at(plan_.groups, item.group), item, thread); });
-    };
-    pool_.run(shares_, guarded);
-}
-
-void ParallelExecutor::deliver_early(int updated, int thread, std::uint64_t cycle) {
-    remember(at(plan_.groups, updated), cycle);
-    ready_->updated(updated, thread, [&](int i) {
-        failed_delivery_.guard(i, thread, [&] { deliver_to(plan_, at(plan_.groups, i), cycle); });
-    });
-}
-
-void ParallelExecutor::update_groups(std::uint64_t cycle, bool early) {
-    delivers_early_ = early;
-    failed_delivery_.forget();  // of a cycle that was not ended
-    ready_->begin();
-    const auto frame = [&](int thread) {
-        return UpdateFrame{cycle, at(plan_.scratch, thread).get(), at(plan_.before, thread).data(),
-                           plan_.checks_finite};
-    };
-    for (const int i : plan_.updated)
-        if (auto& g = at(plan_.groups, i); g.update_divides) begin_update(g);
-    for_items(failed_update_, [&](GroupPlan& g, const Item& item, int thread) {
-        if (g.update_divides && g.in_parts) {
-            update_part(g, item.part, frame(thread));
-        } else if (item.whole) {
-            update(g, frame(thread));
-            if (early && !g.update_divides) deliver_early(item.group, thread, cycle);
-        }
-    });
-    if (failed_update_.any()) ready_->restart();
-    failed_update_.raise();
-    for (const int i : plan_.updated)
-        if (auto& g = at(plan_.groups, i); g.update_divides) {
-            end_update(g, frame(0));
-            if (early) remember(g, cycle);
-        }
-}
-
-void ParallelExecutor::add_divided(GroupPlan& g, std::uint64_t cycle) {
-    for (const int connection : g.incoming) {
-        auto& c = at(plan_.connections, connection);
-        auto add = [&](int part, int) { add_part(plan_, g, c, part, cycle); };
-        if (divides(g, c))
-            pool_.run(parts_, add);
-        else
-            deliver_through(plan_, g, c, cycle);
-        c.changed = false;
-    }
-}
-
-void ParallelExecutor::deliver(std::uint64_t cycle) {
-    if (!delivers_early_ || ready_->some_wait()) deliver_waiting(cycle);
-    failed_delivery_.raise();
-}
-
-void ParallelExecutor::deliver_waiting(std::uint64_t cycle) {
-    for (const int i : plan_.updated)
-        if (auto& g = at(plan_.groups, i); g.delivery_divides) begin_delivery(plan_, g, cycle);
-    for_items(failed_delivery_, [&](GroupPlan& g, const Item& item, int) {
-        if (delivers_early_ && !ready_->waits(item.group)) return;
-        if (g.delivery_divides && g.receives)
-            prepare_part(plan_, g, item.part, cycle);
-        else if (!g.delivery_divides && item.whole)
-            deliver_to(plan_, g, cycle);
-    });
-    for (const int i : plan_.updated) {
-        auto& g = at(plan_.groups, i);
-        if (!g.delivery_divides) continue;
-        if (failed_delivery_.before(i + 1)) break;
-        failed_delivery_.guard(i, 0, [&] { add_divided(g, cycle); });
-    }
+std::unique_ptr<Executor> make_executor(const Plan& plan, Cycle& cycle, int threads, double threshold_ns,
+                                        double min_task_ns) {
+    if (threads < 2 || cycle.cost() < threshold_ns) return nullptr;
+    return std::make_unique<ParallelExecutor>(plan, cycle, threads, threshold_ns, min_task_ns);
 }
 
 }  // namespace forage::engine

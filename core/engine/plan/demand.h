@@ -32,23 +32,28 @@ class Demand {
 
     bool reads_everything() const { return reads_everything_; }
     bool reads_input(int group) const { return reads_everything_ || contains(inputs_, group); }
+    bool reads_synapses(int connection) const { return reads_everything_ || contains(synapses_, connection); }
     bool overwrites(int group) const { return overwrites_everything_ || contains(overwritten_, group); }
     bool overwrites_anything() const { return overwrites_everything_ || !overwritten_.empty(); }
 
     /// Whether everything in `other` is demanded here, too.
     bool covers(const Demand& other) const {
-        const auto in = [](const std::vector<int>& all) { return [&all](int n) { return contains(all, n); }; };
+        const auto in = [](const std::vector<int>& all) {
+            return [&all](int n) { return contains(all, n); };
+        };
         const auto read = [&](const Output& o) {
-            return std::any_of(outputs_.begin(), outputs_.end(),
-                               [&](const Output& mine) { return mine.module == o.module && mine.port == o.port; });
+            return std::any_of(outputs_.begin(), outputs_.end(), [&](const Output& mine) {
+                return mine.module == o.module && mine.port == o.port;
+            });
         };
         const bool reads = reads_everything_ ||
                            (!other.reads_everything_ && std::ranges::all_of(other.groups_, in(groups_)) &&
                             std::ranges::all_of(other.inputs_, in(inputs_)) &&
                             std::ranges::all_of(other.synapses_, in(synapses_)) &&
                             std::ranges::all_of(other.outputs_, read));
-        return reads && (overwrites_everything_ ||
-                         (!other.overwrites_everything_ && std::ranges::all_of(other.overwritten_, in(overwritten_))));
+        return reads &&
+               (overwrites_everything_ ||
+                (!other.overwrites_everything_ && std::ranges::all_of(other.overwritten_, in(overwritten_))));
     }
 
     const std::vector<int>& groups() const { return groups_; }

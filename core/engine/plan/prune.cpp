@@ -1,7 +1,7 @@
 // Which groups and connections a demand needs.
 #include <algorithm>
 
-#include "core/engine/plan/plan.h"
+#include "core/engine/plan/compile.h"
 
 namespace forage::engine {
 namespace {

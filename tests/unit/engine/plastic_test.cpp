@@ -3,8 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/engine/kernels/sliding_targets.h"
-#include "core/engine/kernels/source_order.h"
+#include "core/engine/kernels/forms.h"
 #include "tests/unit/engine/simulations.h"
 
 using namespace forage;
@@ -45,6 +44,17 @@ model::System window(const char* probability) {
     learn.arborization.shape = model::RectArbor{5, 7};
     learn.attenuation = {model::GaussianFunction{0, 1, 2}, {}};
     return system;
+}
+
+/// The third line of cells with itself, and the eleventh and twelfth with the twelfth to fourteenth.
+model::TuplesPattern two_parts() {
+    const auto lines = [](int first, int last) {
+        std::vector<model::Point> out;
+        for (int y = first; y <= last; ++y)
+            for (int x = 1; x <= 30; ++x) out.push_back({x, y, {}});
+        return out;
+    };
+    return {{{lines(3, 3), lines(3, 3)}, {lines(11, 12), lines(12, 14)}}};
 }
 
 /// Learns like a Hebbian synapse; its output cannot be told later, as it seems to depend on the target.
@@ -174,8 +184,9 @@ TEST_CASE("Synapses of silent sources are passed over, and all is as if they wer
     types.add(synapse_type<Mute>());
     auto system = window("0.2");
     auto& learn = *model::find_connection(system, "learn");
-    // Windows whose sources share frames of targets, runs of targets, single targets, all targets.
-    switch (GENERATE(0, 1, 2, 3)) {
+    // Rows of a window, round the target and round the source; some of its targets; two parts of the group,
+    // with lines between that are not connected; all targets.
+    switch (GENERATE(0, 1, 2, 3, 4)) {
         case 0:
             break;
         case 1:
@@ -183,6 +194,10 @@ TEST_CASE("Synapses of silent sources are passed over, and all is as if they wer
             break;
         case 2:
             learn.arborization.probability = 0.4;
+            break;
+        case 3:
+            learn.pattern = two_parts();
+            learn.arborization.shape = model::RectArbor{1, 1};
             break;
         default:
             learn.pattern = model::ForeachPattern{};
@@ -197,10 +212,17 @@ TEST_CASE("Synapses of silent sources are passed over, and all is as if they wer
     // What diverges, the source or the target, spoils the weights of silent sources too: 0 times infinity.
     const std::string diverging = GENERATE("P/A", "P/B");
     auto fast = run(system, types), plain = run(system, types, {.general_forms = true});
+    // The same when the states of the synapses are not read, so that their outputs are not kept.
+    Diagnostics diagnostics;
+    engine::Demand cells_only;
+    for (int g = 0; g < std::ssize(fast.layout().groups); ++g) cells_only.overwrite_group(g);
+    auto lean = *engine::Simulation::build(system, types, cells_only, {}, diagnostics);
+    lean.start();
+    CHECK_THROWS_AS(lean.synapse_state(0, weight), std::logic_error);
     REQUIRE(fast.connection_form(0) == "plastic by source");
     REQUIRE(plain.connection_form(0) == "plastic");
     for (int t = 0; t < 50; ++t) {
-        for (auto* s : {&fast, &plain}) {
+        for (auto* s : {&fast, &plain, &lean}) {
             s->update_groups();
             if (t == 30) s->output(group(*s, diverging))[333] = INFINITY;
             s->update_modules();
@@ -213,69 +235,36 @@ TEST_CASE("Synapses of silent sources are passed over, and all is as if they wer
         for (const int state : {weight, synpot})
             REQUIRE(same(fast.synapse_state(0, state), plain.synapse_state(0, state)));
         REQUIRE(same(activity(fast, "P/B"), activity(plain, "P/B")));
+        REQUIRE(same(activity(lean, "P/B"), activity(plain, "P/B")));
         CHECK(plain.synapse_state(0, weight).allFinite() == (t < 30));
     }
 }
 
-TEST_CASE("Sources that targets hear in orders that contradict each other are not sorted") {
-    connectivity::Synapses s;
-    for (int target = 0; target < 8; ++target)
-        for (const int source : target % 2 ? std::array{0, 1} : std::array{1, 0})
-            s.pre.push_back(source), s.post.push_back(target), s.delay.push_back(0),
+TEST_CASE("Synapses are laid out by source only where that keeps their order at each target") {
+    const auto form = [](const auto& pairs, GroupShape sources, int delay) {
+        connectivity::Synapses s;
+        for (const auto& [pre, post] : pairs)
+            s.pre.push_back(pre), s.post.push_back(post), s.delay.push_back(delay),
                 s.attenuation.push_back(0);
-    const auto order = [&] {
-        std::vector<int> cells;
-        for (const auto& source : engine::order_of_sources(s, 2, 8).sources) cells.push_back(source.cell);
-        return cells;
+        engine::Rows rows;
+        const SynapseType type = *registry().synapse("synapseHebbian");
+        return std::string(
+            engine::make_plastic(s, sources, {8, 1, 8}, type, true, rows, engine::Forms::fastest)->form());
     };
-    CHECK(order().empty());
-    for (std::size_t i = 0; i < s.pre.size(); ++i) s.pre[i] = 1 - static_cast<int>(i % 2);
-    CHECK(order() == std::vector{1, 0});
-    s.delay.back() = 1;
-    CHECK(order().empty());
-}
-
-TEST_CASE("Of windows that move along rows of cells, a target stays at its place until none reaches it") {
-    // 12 x 4 sources, each with the targets of 7 x 3 cells round its own, column by column.
-    constexpr int width = 12, height = 4, cells = width * height;
-    connectivity::Synapses s;
-    for (int x = 0; x < width; ++x)
-        for (int y = 0; y < height; ++y)
-            for (int ty = std::max(0, y - 1); ty < std::min(height, y + 2); ++ty)
-                for (int tx = std::max(0, x - 3); tx < std::min(width, x + 4); ++tx)
-                    s.pre.push_back(width * y + x), s.post.push_back(width * ty + tx), s.delay.push_back(0),
-                        s.attenuation.push_back(0);
-    const auto order = engine::order_of_sources(s, cells, cells);
-    REQUIRE(order.frames.size() == width);
-    const auto slides = engine::SlidingTargets::make(order, cells);
-    REQUIRE(slides);
-    CHECK(slides->places() == height * 8);  // rows of seven, filled up
-    CHECK(slides->entering(0).size() == 4 * height);
-    for (std::size_t frame = 1; frame < width; ++frame) {
-        CHECK(slides->entering(frame).size() == (frame < 9 ? height : 0));
-        CHECK(slides->leaving(frame).size() == (frame > 3 ? height : 0));
-    }
-    CHECK(slides->leaving(width).size() == 4 * height);
-    // Everybody leaves from where he entered.
-    std::vector<int> place(cells, -1);
-    for (std::size_t frame = 0; frame <= width; ++frame) {
-        for (const auto m : slides->leaving(frame)) CHECK(std::exchange(place[m.target], -1) == m.place);
-        for (const auto m : slides->entering(frame)) CHECK(std::exchange(place[m.target], m.place) == -1);
-    }
-    CHECK(std::count(place.begin(), place.end(), -1) == cells);
-}
-
-TEST_CASE("Targets do not slide when hardly any stay, or when a source leaves some of a row out") {
-    connectivity::Synapses s;
-    const auto connect_to = [&](int pre, int first, int last) {
-        for (int post = first; post < last; ++post)
-            s.pre.push_back(pre), s.post.push_back(post), s.delay.push_back(0), s.attenuation.push_back(0);
-    };
-    SECTION("each has targets of its own") { connect_to(0, 0, 8), connect_to(1, 8, 16); }
-    SECTION("two runs in one row, of which a source has one") {
-        connect_to(0, 0, 8), connect_to(0, 16, 24), connect_to(1, 16, 24), connect_to(2, 7, 17);
-    }
-    const auto order = engine::order_of_sources(s, s.pre.back() + 1, 24);
-    REQUIRE(order.frames.size() == 2);
-    CHECK(!engine::SlidingTargets::make(order, 24));
+    using Pairs = std::vector<std::pair<int, int>>;
+    Pairs row_by_row, column_by_column, backwards;
+    for (int target = 0; target < 8; ++target)
+        for (int i = 0; i < 12; ++i) {  // of 4 x 3 sources
+            row_by_row.emplace_back(i, target);
+            column_by_column.emplace_back(i % 3 * 4 + i / 3, target);
+            backwards.emplace_back(11 - i, target);
+        }
+    const GroupShape sources{4, 3, 12};
+    CHECK(form(row_by_row, sources, 0) == "plastic by source");
+    CHECK(form(column_by_column, sources, 0) == "plastic by source");
+    CHECK(form(backwards, sources, 0) == "plastic");
+    CHECK(form(row_by_row, sources, 1) == "plastic");
+    auto mixed = row_by_row;
+    std::copy(column_by_column.begin(), column_by_column.begin() + 12, mixed.begin());
+    CHECK(form(mixed, sources, 0) == "plastic");
 }

@@ -1,0 +1,52 @@
+// The forms of connections. Each is a file of its own; all give the bits of the list.
+#pragma once
+
+#include "core/connectivity/connect.h"
+#include "core/connectivity/regular.h"
+#include "core/engine/kernels/kernel.h"
+
+namespace forage::engine {
+
+/// Synapses sorted by target; those of one target stay in synapse order.
+struct ByTarget {
+    std::vector<int> start;  ///< of target t's synapses; one more entry than targets
+    std::vector<int> pre, delay;
+    std::vector<double> factor;  ///< reference - attenuation
+
+    std::size_t targets() const { return start.size() - 1; }
+};
+/// Frees the parts of `synapses` as it goes.
+ByTarget sort_by_target(connectivity::Synapses synapses, int target_cells);
+
+enum class Forms {
+    fastest,  ///< the cheapest form that fits
+    general,  ///< always the list of synapses: what the other forms are tested against
+};
+
+/// A kernel for synapses that multiply by a constant: psp = (gain * pre) * factor, rounded in this order.
+std::unique_ptr<Kernel> make_kernel(connectivity::Synapses synapses, int source_cells, int target_cells,
+                                    Forms forms);
+/// The same for a connection that is the same everywhere.
+std::unique_ptr<Kernel> make_kernel(const connectivity::Regular& regular, int source_cells, int target_cells);
+/// A kernel for synapses with an update(). Reserves their states. With `reads_states`, PlasticKernel::state()
+/// is called.
+std::unique_ptr<PlasticKernel> make_plastic(connectivity::Synapses synapses, GroupShape source,
+                                            GroupShape target, const SynapseType& type, bool reads_states,
+                                            Rows& rows, Forms forms);
+
+// One form each. Where synapses are passed by reference, the result is null when the form does not fit.
+
+std::unique_ptr<Kernel> make_one_to_one(int cells, int delay, double factor);
+std::unique_ptr<Kernel> make_one_to_one(const ByTarget& synapses, int source_cells);
+std::unique_ptr<Kernel> make_broadcast(ByTarget synapses_of_one, int target_cells);
+std::unique_ptr<Kernel> make_broadcast(const ByTarget& synapses);
+std::unique_ptr<Kernel> make_window(const connectivity::Regular& window);
+std::unique_ptr<Kernel> make_sliced(const ByTarget& synapses, int source_cells);
+std::unique_ptr<Kernel> make_list(ByTarget synapses, int source_cells);
+std::unique_ptr<PlasticKernel> make_plastic_by_source(const connectivity::Synapses& synapses,
+                                                      GroupShape source, GroupShape target,
+                                                      const SynapseType& type, bool reads_states, Rows& rows);
+std::unique_ptr<PlasticKernel> make_plastic_list(connectivity::Synapses synapses, int target_cells,
+                                                 const SynapseType& type, Rows& rows);
+
+}  // namespace forage::engine

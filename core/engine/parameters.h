@@ -1,0 +1,19 @@
+// Parameters that change while a system runs.
+#pragma once
+
+#include <span>
+
+#include "core/engine/cycle.h"
+#include "core/model/edit.h"
+
+namespace forage::engine {
+
+/// Reports what set_parameter() would refuse, and what the types find wrong when these changes are made in
+/// this order. Changes nothing.
+void check_changes(const Plan& plan, const State& state, std::span<const model::Assignment> changes,
+                   Diagnostics& diagnostics);
+
+/// Changes a parameter. Throws RunError for one that cannot change while the system runs.
+void set_parameter(const Plan& plan, State& state, Cycle& cycle, const model::Assignment& change);
+
+}  // namespace forage::engine

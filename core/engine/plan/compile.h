@@ -1,0 +1,36 @@
+// From a model to a plan, and the state in which a run begins.
+#pragma once
+
+#include "core/engine/kernels/forms.h"
+#include "core/engine/plan/demand.h"
+#include "core/engine/plan/plan.h"
+#include "core/engine/state.h"
+
+namespace forage::engine {
+
+/// What the numbers of a system may take: 16 GiB. Lists of synapses come on top.
+inline constexpr double most_bytes = 16.0 * (1 << 30);
+
+struct Compiled {
+    std::unique_ptr<const Plan> plan;
+    std::unique_ptr<State> state;
+};
+
+/// Compiles a system for a demand. Without a plan when `diagnostics` got an error. Reports a system that
+/// takes more than `most_bytes`, before it takes them, or more than there is. `layout` is that of the system.
+Compiled compile(const model::System& system, Layout layout, const Demand& demand, std::uint64_t seed,
+                 Forms forms, Environment* environment, Diagnostics& diagnostics);
+
+/// What a demand does not need: by the numbers of a layout, and outputs by module and port.
+struct Pruned {
+    std::vector<bool> groups, connections;
+    std::vector<std::vector<bool>> outputs;
+};
+
+/// Finds the groups from which nothing that is demanded follows, nor a module's input.
+Pruned prune(const Layout& layout, const Demand& demand);
+
+/// Orders the updates and deliveries of a cycle: sets `steps` and `late`.
+void order_steps(Plan& plan);
+
+}  // namespace forage::engine

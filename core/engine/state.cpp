@@ -1,0 +1,126 @@
+#include "core/engine/state.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/exception_message.h"
+#include "core/engine/simulation.h"
+
+namespace forage::engine {
+namespace {
+
+/// Outputs of modules with more cells are not compared with what they were: only whether they are written.
+constexpr Index most_compared_cells = 1024;
+
+/// The parameters that `object` holds. They may have changed since the start.
+void keep(Archive& archive, const std::vector<Parameter>& parameters, void* object) {
+    for (const auto& p : parameters) {
+        ParameterValue value = p.get(object);
+        std::visit([&](auto& v) { archive(v); }, value);
+        if (archive.loading()) p.set(object, value);
+    }
+}
+
+void keep(Archive& archive, const GroupPlan& plan, const Layout::Group& about, GroupState& g) {
+    archive.same(about.id, "a group");
+    archive.same(plan.cells, about.path);
+    std::uint64_t drawn = 0;  // by this seed
+    plan.random.bits(0, {&drawn, 1});
+    archive.same(drawn, "the seed");
+    keep(archive, about.type.parameters, g.neuron->parameters());
+    archive.same(plan.pruned, "what is pruned");
+    archive.same(plan.keeps_input, "the inputs that are kept");
+    archive(g.row, g.delivered, g.same_input, g.same_for, g.quiescent, g.changed, g.silent);
+}
+
+void keep(Archive& archive, const ModulePlan& plan, const Layout::Module& about, ModuleState& m) {
+    if (!about.type.checkpoints)
+        throw RunError(fmt::format(
+            "{} of process '{}' cannot be part of a checkpoint: the type has members, and does not declare "
+            "them with checkpoint(Archive&)",
+            about.type.name, about.process));
+    archive.same(about.process_id, "a process");
+    archive.same(about.type.name, about.process);
+    keep(archive, about.type.parameters, m.module->parameters());
+    archive.same(plan.read, "what is pruned");
+    archive(m.written, m.changed, m.ever_written, m.last);
+    try {
+        m.module->checkpoint(archive);
+    } catch (const ArchiveError&) {
+        throw;
+    } catch (...) {
+        throw RunError(fmt::format("{} of process '{}' failed to take part in a checkpoint: {}",
+                                   about.type.name, about.process, current_exception_message()));
+    }
+}
+
+void keep(Archive& archive, const ConnectionPlan& plan, const Layout::Connection& about, ConnectionState& c) {
+    archive.same(about.id, "a connection");
+    archive.same(plan.synapses, about.name);
+    keep(archive, about.type.parameters, c.synapse->parameters());
+    archive.same(plan.pruned, "what is pruned");
+    archive(c.changed);
+}
+
+}  // namespace
+
+void State::begin(const Plan& plan) {
+    numbers.assign(plan.rows.size(), 0.0);
+    const auto at = [&](Rows::Offset offset) { return numbers.data() + offset; };
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        const auto& p = plan.groups[i];
+        auto& g = groups[i];
+        if (p.pruned) continue;
+        for (std::size_t s = 0; s < p.states.size(); ++s) {
+            const auto [first, depth] = p.states[s];
+            g.states.push_back({at(first), depth});
+            for (std::int64_t row = 0; row < depth; ++row)
+                std::fill_n(at(first) + row * p.stride, p.cells,
+                            plan.layout.groups[i].type.states[s].initial);
+        }
+        for (std::size_t k = 0; k < input_kinds; ++k)
+            for (std::size_t row = 0; row < 2; ++row) g.inputs[k][row] = at(p.inputs[k][row]);
+        if (p.history > 0) g.past = at(p.past);
+    }
+    for (std::size_t i = 0; i < modules.size(); ++i) {
+        const auto& about = plan.layout.modules[i];
+        const auto cells = [&](int group) { return group < 0 ? 0 : plan.groups[group].cells; };
+        auto& m = modules[i];
+        for (const int g : about.input_groups) m.in.emplace_back(nullptr, cells(g));
+        for (std::size_t port = 0; port < about.output_groups.size(); ++port) {
+            const Index n = cells(about.output_groups[port]);
+            m.out.emplace_back(at(plan.modules[i].outputs[port]), n);
+            m.last.emplace_back(Eigen::ArrayXd::Zero(n <= most_compared_cells ? n : 0));
+        }
+        for (auto* flags : {&m.written, &m.changed, &m.ever_written}) flags->resize(m.out.size());
+    }
+    for (std::size_t i = 0; i < connections.size(); ++i) {
+        const auto& p = plan.connections[i];
+        if (p.pruned) continue;
+        for (const int s : p.feedback) {
+            const auto& target = groups[p.target];
+            connections[i].feedback.push_back(
+                s < 0 ? Ring{nullptr, 1, 0}
+                      : Ring{target.states[s].ring, target.states[s].depth, plan.groups[p.target].stride});
+        }
+        if (p.plastic) p.plastic->begin(numbers.data());
+    }
+}
+
+void State::checkpoint(const Plan& plan, Archive& archive) {
+    archive.same(groups.size(), "the number of groups");
+    archive.same(modules.size(), "the number of modules");
+    archive.same(connections.size(), "the number of connections");
+    for (std::size_t i = 0; i < groups.size(); ++i)
+        keep(archive, plan.groups[i], plan.layout.groups[i], groups[i]);
+    for (std::size_t i = 0; i < modules.size(); ++i)
+        keep(archive, plan.modules[i], plan.layout.modules[i], modules[i]);
+    for (std::size_t i = 0; i < connections.size(); ++i)
+        keep(archive, plan.connections[i], plan.layout.connections[i], connections[i]);
+    archive.same(numbers.size(), "the memory");
+    archive.numbers(numbers.data(), numbers.size());
+    archive(started, cycle, shown);
+}
+
+}  // namespace forage::engine
