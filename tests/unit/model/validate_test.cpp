@@ -246,8 +246,8 @@ TEST_CASE("Settings are applied to an object, and what is not set keeps its defa
     model::apply(system.processes[0].groups[0].neuron.settings, type.parameters, object->parameters());
     const auto& cell = *static_cast<const LinearThreshold*>(object->parameters());
     CHECK(cell.threshold == 0.5);
-    CHECK(cell.clip);
-    CHECK(cell.exc_gain == LinearThreshold{}.exc_gain);
+    CHECK(cell.membrane.clip);
+    CHECK(cell.membrane.exc_gain == Membrane{}.exc_gain);
     model::apply({{"threshold", "x", {}, {}}, {"nothing", "1", {}, {}}}, type.parameters,
                  object->parameters());  // reported by validate()
     CHECK(cell.threshold == 0.5);
