@@ -1,49 +1,48 @@
 #include "bug_interface/world/material.h"
 
 #include <algorithm>
-#include <array>
 #include <sstream>
 
 namespace forage::bug {
 namespace {
 
 struct NamedMaterial {
-    std::array<float, 3> ambient, diffuse;
+    std::string name;
+    Colour ambient, diffuse;
 };
 
-// The order is that of `known_materials`.
-const std::array<std::string, 13> known_materials = {
-    "Gazebo/Grey",      "Gazebo/White",     "Gazebo/Black",  "Gazebo/Red",    "Gazebo/Green",
-    "Gazebo/Blue",      "Gazebo/Yellow",    "Gazebo/Purple", "Gazebo/Orange", "Gazebo/DarkGrey",
-    "Gazebo/Turquoise", "Gazebo/RedBright", "Gazebo/Indigo"};
-constexpr std::array<NamedMaterial, 13> table = {{
-    {{0.3f, 0.3f, 0.3f}, {0.7f, 0.7f, 0.7f}},
-    {{1, 1, 1}, {1, 1, 1}},
-    {{0, 0, 0}, {0, 0, 0}},
-    {{1, 0, 0}, {1, 0, 0}},
-    {{0, 1, 0}, {0, 1, 0}},
-    {{0, 0, 1}, {0, 0, 1}},
-    {{1, 1, 0}, {1, 1, 0}},
-    {{1, 0, 1}, {1, 0, 1}},
-    {{1, 0.5088f, 0.0468f}, {1, 0.5088f, 0.0468f}},
-    {{0.175f, 0.175f, 0.175f}, {0.175f, 0.175f, 0.175f}},
-    {{0, 1, 1}, {0, 1, 1}},
-    {{0.87f, 0.26f, 0.07f}, {0.87f, 0.26f, 0.07f}},
-    {{0.33f, 0, 0.5f}, {0.33f, 0, 0.5f}},
-}};
-
-Colour colour(const std::array<float, 3>& c) { return {c[0], c[1], c[2]}; }
+const std::vector<NamedMaterial>& named_materials() {
+    static const std::vector<NamedMaterial> all = {
+        {"Gazebo/Grey", {0.3f, 0.3f, 0.3f}, {0.7f, 0.7f, 0.7f}},
+        {"Gazebo/White", {1, 1, 1}, {1, 1, 1}},
+        {"Gazebo/Black", {0, 0, 0}, {0, 0, 0}},
+        {"Gazebo/Red", {1, 0, 0}, {1, 0, 0}},
+        {"Gazebo/Green", {0, 1, 0}, {0, 1, 0}},
+        {"Gazebo/Blue", {0, 0, 1}, {0, 0, 1}},
+        {"Gazebo/Yellow", {1, 1, 0}, {1, 1, 0}},
+        {"Gazebo/Purple", {1, 0, 1}, {1, 0, 1}},
+        {"Gazebo/Orange", {1, 0.5088f, 0.0468f}, {1, 0.5088f, 0.0468f}},
+        {"Gazebo/DarkGrey", {0.175f, 0.175f, 0.175f}, {0.175f, 0.175f, 0.175f}},
+        {"Gazebo/Turquoise", {0, 1, 1}, {0, 1, 1}},
+        {"Gazebo/RedBright", {0.87f, 0.26f, 0.07f}, {0.87f, 0.26f, 0.07f}},
+        {"Gazebo/Indigo", {0.33f, 0, 0.5f}, {0.33f, 0, 0.5f}},
+    };
+    return all;
+}
 
 }  // namespace
 
 std::optional<Material> named_material(std::string_view name) {
-    const auto found = std::find(known_materials.begin(), known_materials.end(), name);
-    if (found == known_materials.end()) return {};
-    const auto& m = table[static_cast<std::size_t>(found - known_materials.begin())];
-    return Material{colour(m.ambient), colour(m.diffuse), {}};
+    for (const NamedMaterial& m : named_materials())
+        if (m.name == name) return Material{m.ambient, m.diffuse, {}};
+    return {};
 }
 
-std::span<const std::string> material_names() { return known_materials; }
+std::vector<std::string> material_names() {
+    std::vector<std::string> out;
+    for (const NamedMaterial& m : named_materials()) out.push_back(m.name);
+    return out;
+}
 
 std::string texture_in_script(std::string_view script_text, std::string_view name) {
     std::istringstream in{std::string(script_text)};

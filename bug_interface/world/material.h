@@ -2,9 +2,9 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bug_interface/world/description.h"
 
@@ -14,7 +14,7 @@ namespace forage::bug {
 std::optional<Material> named_material(std::string_view name);
 
 /// The names that named_material() knows.
-std::span<const std::string> material_names();
+std::vector<std::string> material_names();
 
 /// The file name that `script_text` gives to the texture of material `name`; empty when there is none.
 std::string texture_in_script(std::string_view script_text, std::string_view name);

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
-#include <filesystem>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/base/diagnostic.h"
+#include "bug_interface/world/sdf_format.h"
+#include "core/base/number.h"
 #include "core/base/text_file.h"
+#include "core/xml/check.h"
 
 namespace forage::bug {
 namespace {
@@ -21,6 +22,20 @@ constexpr std::string_view scheme = "model://";
 std::string lower(std::string_view text) {
     std::string out(text);
     for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return out;
+}
+
+constexpr const char* what_to_write = "<sdf version=\"1.4\">model.sdf</sdf>";
+
+/// The <sdf> of the newest version; false when there is none. Those without a version are the oldest.
+xml::Element newest(const xml::Element& model) {
+    xml::Element out;
+    int newest = -1;
+    for (const xml::Element& e : model.children("sdf")) {
+        const std::string_view version = e["version"].view;
+        const int minor = version.starts_with("1.") ? parse_number<int>(version.substr(2)).value_or(0) : 0;
+        if (minor > newest) newest = minor, out = e;
+    }
     return out;
 }
 
@@ -87,6 +102,33 @@ std::string ModelFolders::hint(std::string_view uri, const std::vector<std::stri
     return fmt::format("the models are {}{}",
                        fmt::join(names.begin(), names.begin() + static_cast<long>(n), ", "),
                        n < names.size() ? fmt::format(" and {} more", names.size() - n) : "");
+}
+
+std::optional<std::string> file_of_model(const fs::path& folder, const Location& where,
+                                         Diagnostics& diagnostics) {
+    fs::path config = folder / "model.config";
+    if (!fs::exists(config)) config = folder / "manifest.xml";
+    if (!fs::exists(config)) {
+        diagnostics.error(where,
+                          fmt::format("the folder '{}' of this model has no model.config", folder.string()),
+                          "it says which file holds the model; copy it from another model");
+        return {};
+    }
+    const auto document = xml::open(config.string(), model_config_format(), diagnostics);
+    if (!document) return {};
+    const xml::Element sdf = newest(document->root());
+    if (!sdf || sdf.value().view.empty()) {
+        diagnostics.error(sdf ? sdf.where() : document->root().where(),
+                          "this does not say which file holds the model", what_to_write);
+        return {};
+    }
+    const fs::path file = folder / sdf.value().view;
+    if (!fs::is_regular_file(file)) {
+        diagnostics.error(sdf.value().where(), fmt::format("there is no file '{}'", file.string()),
+                          what_to_write);
+        return {};
+    }
+    return file.string();
 }
 
 std::optional<std::string> read_text(const std::string& path) {

@@ -1,10 +1,13 @@
-// Where the models are that a world includes.
+// Where the models are that a world includes, and which file of a folder holds the model.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/base/diagnostic.h"
 
 namespace forage::bug {
 
@@ -27,6 +30,12 @@ class ModelFolders {
   private:
     std::vector<std::string> folders_;
 };
+
+/// The path of the file that model.config in `folder` (or manifest.xml, as it was once called) names for the
+/// newest version of SDF. Reports an error at `where`, which asks for the model, and returns nothing when
+/// there is none.
+std::optional<std::string> file_of_model(const std::filesystem::path& folder, const Location& where,
+                                         Diagnostics& diagnostics);
 
 /// The text of a regular file; empty when it cannot be read.
 std::optional<std::string> read_text(const std::string& path);

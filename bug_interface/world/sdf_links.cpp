@@ -11,71 +11,54 @@ namespace forage::bug {
 
 Link read_link(SdfSource& in, const xml::Element& e) {
     Link link;
-    link.where = e.where, link.name = name_of(e), link.pose = in.pose_of(e);
-    if (const auto* inertial = e.child("inertial")) {
-        link.mass = in.value(*inertial, "mass", 1.0);
-        link.inertia_z = in.value(*inertial, "inertia/izz", 1.0);
-        if (!(link.mass > 0 && link.inertia_z > 0))
-            in.diagnostics.error(inertial->where, "mass and inertia must be positive",
-                                 "they are in kg and kg m2");
-        constexpr double heaviest = 1e6;
-        if (link.mass > heaviest || link.inertia_z > heaviest)
-            in.diagnostics.error(inertial->where, fmt::format("mass or inertia is more than {:g}", heaviest),
-                                 "they are in kg and kg m2");
+    link.where = e.where(), link.name = e["name"].text(), link.pose = in.pose_of(e);
+    if (const xml::Element inertial = e.child("inertial")) {
+        link.mass = inertial.value("mass").number(1);
+        link.inertia_z = inertial.value("inertia/izz").number(1);
     }
-    each(e, "collision", [&](const xml::Element& c) {
-        const double friction = in.value(c, "surface/friction/ode/mu", 1.0);
-        if (friction < 0)
-            in.diagnostics.error(c.child("surface/friction/ode/mu")->where,
-                                 "a friction coefficient is at least 0", "0 is ice, 1 holds well");
-        link.collisions.push_back({c.where, name_of(c), in.pose_of(c), read_shape(in, c), friction});
-    });
-    each(e, "visual", [&](const xml::Element& v) {
-        link.visuals.push_back({v.where, name_of(v), in.pose_of(v), read_shape(in, v), read_material(in, v)});
-    });
-    each(e, "sensor", [&](const xml::Element& s) { read_sensor(in, s, link); });
+    for (const xml::Element& c : e.children("collision"))
+        link.collisions.push_back({c.where(), c["name"].text(), in.pose_of(c), read_shape(in, c),
+                                   c.value("surface/friction/ode/mu").number(1)});
+    for (const xml::Element& v : e.children("visual"))
+        link.visuals.push_back(
+            {v.where(), v["name"].text(), in.pose_of(v), read_shape(in, v), read_material(in, v)});
+    for (const xml::Element& s : e.children("sensor")) read_sensor(in, s, link);
     return link;
 }
 
 void read_joint(SdfSource& in, const xml::Element& e, Model& model) {
-    static const std::vector<std::string> types = {"revolute",   "revolute2", "prismatic", "ball",
-                                                   "screw",      "universal", "fixed",     "gearbox",
-                                                   "continuous", "piston"};
-    const std::string type = attribute_of(e, "type");
-    const bool known = std::find(types.begin(), types.end(), type) != types.end();
-    if (!known)
-        in.diagnostics.error(e.where, fmt::format("there is no joint of type '{}'", type),
-                             suggest(type, types));
-    if (text_of(e, "parent") == text_of(e, "child"))
-        in.diagnostics.error(e.where,
-                             fmt::format("joint '{}' ties '{}' to itself", name_of(e), text_of(e, "child")),
-                             "<parent> and <child> name two links");
-    const auto* axis = e.child("axis");
+    const std::string_view type = e["type"].view;
+    if (e.value("parent").view == e.value("child").view)
+        in.diagnostics.error(
+            e.where(), fmt::format("joint '{}' ties '{}' to itself", e["name"].view, e.value("child").view),
+            "<parent> and <child> name two links");
+    const xml::Element axis = e.child("axis");
     if (type != "revolute" || !axis) {
-        if (known && type != "fixed")
+        if (type != "fixed")
             in.diagnostics.warning(
-                e.where, fmt::format("joint '{}' does not turn here", name_of(e)),
+                e.where(), fmt::format("joint '{}' does not turn here", e["name"].view),
                 type == "revolute" ? "give it an <axis>" : "only joints of type=\"revolute\" do, about z");
         return;
     }
     Hinge hinge;
-    hinge.where = e.where, hinge.name = name_of(e), hinge.pose = in.pose_of(e);
-    hinge.parent = text_of(e, "parent"), hinge.child = text_of(e, "child");
-    const Eigen::Vector3d xyz = in.value(*axis, "xyz", Eigen::Vector3d(0, 0, 1));
-    hinge.lower = in.value(*axis, "limit/lower", -1e16), hinge.upper = in.value(*axis, "limit/upper", 1e16);
+    hinge.where = e.where(), hinge.name = e["name"].text(), hinge.pose = in.pose_of(e);
+    hinge.parent = e.value("parent").text(), hinge.child = e.value("child").text();
+    const Eigen::Vector3d xyz = read_vector(axis.value("xyz"), Eigen::Vector3d(0, 0, 1));
+    hinge.lower = axis.value("limit/lower").number(-1e16),
+    hinge.upper = axis.value("limit/upper").number(1e16);
     if (hinge.lower == hinge.upper) return;
     if (hinge.upper - hinge.lower > 2 * std::numbers::pi)
-        in.diagnostics.warning(axis->where, fmt::format("joint '{}' turns by more than a turn", hinge.name),
+        in.diagnostics.warning(axis.where(), fmt::format("joint '{}' turns by more than a turn", hinge.name),
                                "give its <axis> a <limit> with <lower> and <upper>, in rad");
     if (std::abs(xyz.x()) > 1e-6 || std::abs(xyz.y()) > 1e-6 || xyz.z() == 0) {
         in.diagnostics.warning(
-            axis->where,
+            axis.where(),
             fmt::format("the axis of joint '{}' is not vertical: it does not turn here", hinge.name));
         return;
     }
     hinge.sense = xyz.z() > 0 ? 1 : -1;
     if (!(hinge.lower < hinge.upper))
-        in.diagnostics.error(axis->where,
+        in.diagnostics.error(axis.where(),
                              fmt::format("joint '{}' has its lower limit above the upper one", hinge.name),
                              fmt::format("they are {:g} and {:g} rad", hinge.lower, hinge.upper));
     model.hinges.push_back(std::move(hinge));

@@ -2,13 +2,13 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "bug_interface/world/model_config.h"
 #include "bug_interface/world/sdf_elements.h"
-#include "bug_interface/world/world_file.h"
 
 namespace forage::bug {
 namespace {
@@ -22,21 +22,15 @@ class Reader {
 
     std::optional<WorldDescription> read() {
         const int errors_before = diagnostics_.errors();
-        const auto* root = in_.open(path_);
+        const xml::Element root = in_.open(path_);
         if (!root) return {};
-        const auto* world_element = root->child("world");
+        const xml::Element world_element = root.child("world");
         if (!world_element) {
-            diagnostics_.error(root->where, "the file has no <world>",
+            diagnostics_.error(root.where(), "the file has no <world>",
                                "a world file is <sdf><world name=\"..\">..</world></sdf>");
             return {};
         }
-        int worlds = 0;
-        each(*root, "world", [&](const xml::Element& e) {
-            if (++worlds == 2)
-                diagnostics_.error(e.where, "this is the second <world> of the file",
-                                   "a file holds one world");
-        });
-        WorldDescription world = read_world_element(*world_element);
+        WorldDescription world = read_world_element(world_element);
         if (diagnostics_.errors() > errors_before) return {};
         return world;
     }
@@ -48,7 +42,7 @@ class Reader {
     struct Content {
         std::optional<Model> model;
         std::size_t links = 0;  ///< of the model and those within it
-        const xml::Element* light = nullptr;
+        xml::Element light;
     };
 
     /// What an <include> stands for. A file that is included many times is read once; what is wrong in it is
@@ -58,8 +52,8 @@ class Reader {
         if (file.empty()) return {};
         if (const auto known = contents_.find(file); known != contents_.end()) {
             if (open_.contains(file))
-                diagnostics_.error(include.where,
-                                   fmt::format("'{}' includes itself", text_of(include, "uri")),
+                diagnostics_.error(include.where(),
+                                   fmt::format("'{}' includes itself", include.value("uri").view),
                                    "take this <include> away, or the one that leads here");
             return known->second;
         }
@@ -71,44 +65,39 @@ class Reader {
     }
 
     Content read_model_file(const std::string& file, const xml::Element& include) {
-        const auto* root = in_.open(file);
+        const xml::Element root = in_.open(file);
         if (!root) return {};
-        if (root->children.size() > 1)
-            diagnostics_.warning(root->children[1].where,
+        if (const auto inside = root.children(); inside.size() > 1)
+            diagnostics_.warning(inside[1].where(),
                                  "the included file holds several models; the first one is used");
         Content content;
-        if (const auto* model = root->child("model"))
-            content.model = read_model(*model), content.links = count_links(*content.model);
-        else if (const auto* light = root->child("light"))
+        if (const xml::Element model = root.child("model"))
+            content.model = read_model(model), content.links = count_links(*content.model);
+        else if (const xml::Element light = root.child("light"))
             content.light = light;
         else
-            diagnostics_.error(include.where, fmt::format("'{}' holds neither a model nor a light", file),
+            diagnostics_.error(include.where(), fmt::format("'{}' holds neither a model nor a light", file),
                                "an <include> stands for <sdf><model name=\"..\">..</model></sdf>");
         return content;
     }
 
     /// The file that an <include> names; empty when there is none.
     std::string model_file(const xml::Element& include) {
-        const auto* element = include.child("uri");
-        if (!element) {
-            diagnostics_.error(include.where, "this <include> does not say what to include",
-                               "write <uri>model://NAME</uri> into it");
+        const xml::Element element = include.child("uri");
+        const std::string uri = element.value().text();
+        const Location where = element.where();
+        if (uri.empty()) {
+            diagnostics_.error(where, "<uri> is empty", "write <uri>model://NAME</uri>");
             return {};
         }
-        if (element->text.empty()) {
-            diagnostics_.error(element->where, "<uri> is empty", "write <uri>model://NAME</uri>");
-            return {};
-        }
-        const std::string& uri = element->text;
-        const Location& where = element->where;
         const std::string found = in_.folders.find(uri);
         // A bare name that happens to be a folder here would not be one elsewhere.
         const bool bare = uri.find('/') == std::string::npos;
         if (found.empty() || (bare && fs::is_directory(found))) {
-            const auto names = in_.folders.names();
-            if (!names.empty()) {
+            const auto known = in_.folders.names();
+            if (!known.empty()) {
                 diagnostics_.error(where, fmt::format("there is no model '{}'", uri),
-                                   ModelFolders::hint(uri, names));
+                                   ModelFolders::hint(uri, known));
             } else if (!no_models_) {
                 no_models_ = true;  // once is enough
                 diagnostics_.error(
@@ -124,12 +113,12 @@ class Reader {
 
     /// `model`, with the name and the place that an <include> gives it.
     Model placed(Model model, const xml::Element& include) {
-        model.where = include.where;
-        if (const auto name = text_of(include, "name"); !name.empty()) model.name = name;
+        model.where = include.where();
+        if (const auto name = include.value("name"); !name.view.empty()) model.name = name.view;
         if (include.child("pose")) model.pose = in_.pose_of(include);
-        model.is_static = in_.value(include, "static", model.is_static);
-        if (const auto* frame = include.child("placement_frame"))
-            diagnostics_.error(frame->where, "<placement_frame> is not supported",
+        model.is_static = include.value("static").flag(model.is_static);
+        if (const xml::Element frame = include.child("placement_frame"))
+            diagnostics_.error(frame.where(), "<placement_frame> is not supported",
                                "give the <pose> of the model's origin");
         read_plugins(include, model);
         return model;
@@ -148,7 +137,7 @@ class Reader {
         if (links_ > most_links && !too_many_) {
             too_many_ = true;  // once is enough
             diagnostics_.error(
-                include.where,
+                include.where(),
                 fmt::format("with this <include> there are more than {} included models and links",
                             most_links),
                 "does a model include others many times?");
@@ -160,80 +149,72 @@ class Reader {
 
     Model read_model(const xml::Element& e) {
         Model model;
-        model.where = e.where, model.name = name_of(e), model.pose = in_.pose_of(e);
-        model.is_static = in_.value(e, "static", false);
-        each(e, "link", [&](const xml::Element& l) { model.links.push_back(read_link(in_, l)); });
+        model.where = e.where(), model.name = e["name"].text(), model.pose = in_.pose_of(e);
+        model.is_static = e.value("static").flag(false);
+        for (const xml::Element& l : e.children("link")) model.links.push_back(read_link(in_, l));
         each_model(e, model.models, [](const xml::Element&) {});
-        each(e, "joint", [&](const xml::Element& j) { read_joint(in_, j, model); });
+        for (const xml::Element& j : e.children("joint")) read_joint(in_, j, model);
         check_joints(in_, model);
         read_plugins(e, model);
         return model;
     }
 
     void read_plugins(const xml::Element& e, Model& model) {
-        each(e, "plugin", [&](const xml::Element& p) {
-            model.plugins.push_back({p.where, name_of(p), attribute_of(p, "filename")});
-        });
+        for (const xml::Element& p : e.children("plugin"))
+            model.plugins.push_back({p.where(), p["name"].text(), p["filename"].text()});
     }
 
     /// The models and includes in `parent`, in file order; visit_light(element) for an included light.
     template <class F>
     void each_model(const xml::Element& parent, std::vector<Model>& models, F visit_light) {
-        for (const xml::Element& e : parent.children) {
-            if (e.name == "model") models.push_back(read_model(e));
-            if (e.name != "include") continue;
+        for (const xml::Element& e : parent.children()) {
+            if (e.name() == "model") models.push_back(read_model(e));
+            if (e.name() != "include") continue;
             const Content content = included(e);
             if (content.model && fits(content.links, e)) models.push_back(placed(*content.model, e));
-            if (content.light) visit_light(*content.light);
+            if (content.light) visit_light(content.light);
         }
     }
 
     WorldDescription read_world_element(const xml::Element& e) {
         WorldDescription world;
         world.path = path_;
-        if (const auto* physics = e.child("physics")) {
+        if (const xml::Element physics = e.child("physics")) {
             // Until version 1.3 they were called otherwise.
-            world.step = in_.value(*physics, "max_step_size", in_.value(*physics, "ode/solver/dt", 0.001));
-            world.update_rate =
-                in_.value(*physics, "real_time_update_rate", in_.value(*physics, "update_rate", 1000.0));
-            if (!(world.step > 0 && world.update_rate > 0))
-                diagnostics_.error(physics->where, "max_step_size and real_time_update_rate must be positive",
-                                   "usual are 0.001 (s) and 1000 (1/s)");
-            else if (!(world.step >= 1e-6 && world.step <= 1 && world.update_rate <= 1e6))
-                diagnostics_.error(physics->where,
-                                   "max_step_size lies between 1e-6 and 1 s, real_time_update_rate below 1e6",
-                                   "usual are 0.001 (s) and 1000 (1/s)");
+            world.step =
+                physics.value("max_step_size").number(physics.value("ode/solver/dt").number(world.step));
+            world.update_rate = physics.value("real_time_update_rate")
+                                    .number(physics.value("update_rate").number(world.update_rate));
         }
-        world.ambient = in_.value(e, "scene/ambient", Colour(Colour::Constant(world.ambient)))(0);
+        world.ambient = read_colour(e.value("scene/ambient"), Colour(Colour::Constant(world.ambient)))(0);
         const auto read_light = [&](const xml::Element& light) {
-            if (attribute_of(light, "type") != "directional") {
-                diagnostics_.warning(light.where,
+            if (light["type"].view != "directional") {
+                diagnostics_.warning(light.where(),
                                      "only directional lights are simulated; this one is ignored");
             } else if (world.sun) {
-                diagnostics_.warning(light.where,
+                diagnostics_.warning(light.where(),
                                      "there are several directional lights; the first one is used");
             } else {
-                const Eigen::Vector3d d = in_.value(light, "direction", Eigen::Vector3d(0, 0, -1));
+                const Eigen::Vector3d d = read_vector(light.value("direction"), Eigen::Vector3d(0, 0, -1));
                 if (!(d.norm() > 0))
-                    diagnostics_.error(light.where, "a light needs a <direction> that is not 0",
+                    diagnostics_.error(light.where(), "a light needs a <direction> that is not 0",
                                        "straight down is 0 0 -1");
                 world.sun = -d.normalized();
             }
         };
-        each(e, "light", read_light);
-        each(e, "plugin", [&](const xml::Element& p) {
-            const bool game = attribute_of(p, "filename") == "libforage_game.so";
-            if (game && world.game)
-                diagnostics_.error(p.where, "there are two games in this world", "take one away");
-            else if (game)
-                world.game = read_game(in_, p);
-            else
+        for (const xml::Element& light : e.children("light")) read_light(light);
+        for (const xml::Element& p : e.children("plugin")) {
+            const std::string_view file = p["filename"].view;
+            if (file != "libforage_game.so")
                 diagnostics_.warning(
-                    p.where,
-                    fmt::format("plugin '{}' of the world is not known here and does nothing",
-                                attribute_of(p, "filename")),
+                    p.where(),
+                    fmt::format("plugin '{}' of the world is not known here and does nothing", file),
                     "known is libforage_game.so");
-        });
+            else if (world.game)
+                diagnostics_.error(p.where(), "there are two games in this world", "take one away");
+            else
+                world.game = read_game(in_, p);
+        }
         each_model(e, world.models, read_light);
         return world;
     }
@@ -247,6 +228,20 @@ class Reader {
     std::size_t links_ = 0;  ///< in all models that were included so far
     bool no_models_ = false, too_many_ = false;
 };
+
+/// Reports a path that names a folder, with the worlds in it.
+bool is_a_folder(const std::string& path, Diagnostics& diagnostics) {
+    std::error_code ignored;
+    if (!fs::is_directory(path, ignored)) return false;
+    std::set<std::string> worlds;
+    for (fs::directory_iterator entry(path, ignored), end; !ignored && entry != end; entry.increment(ignored))
+        if (entry->path().extension() == ".world") worlds.insert(entry->path().string());
+    diagnostics.error({std::make_shared<SourceFile>(SourceFile{path, {}}), 0, 0},
+                      "this is a folder, not a world file",
+                      worlds.empty() ? "give the path of a .world file"
+                                     : fmt::format("in it are {}", fmt::join(worlds, ", ")));
+    return true;
+}
 
 }  // namespace
 

@@ -1,242 +1,300 @@
 #include "core/xml/check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 
 #include <fmt/format.h>
-#include <tinyxml2.h>
+#include <fmt/ranges.h>
 
+#include "core/base/named_file.h"
 #include "core/base/number.h"
 #include "core/types/parameter.h"
-#include "core/xml/format.h"
 
 namespace forage::xml {
 namespace {
 
+/// The attribute or element whose value is checked.
+struct Subject {
+    std::string_view name;
+    bool is_element;
+    const ValueRule& rule;
+
+    std::string label() const { return is_element ? fmt::format("<{}>", name) : std::string(name); }
+    /// "hcount: cells in a row, from 1 to 100000"
+    std::string description() const {
+        const bool low = std::isfinite(rule.low), high = std::isfinite(rule.high);
+        return fmt::format("{}: {}{}", name, rule.doc,
+                           low && high ? fmt::format(", from {:.15g} to {:.15g}", rule.low, rule.high)
+                           : low       ? fmt::format(", at least {:.15g}", rule.low)
+                                       : "");
+    }
+    /// What `text`, which is of another kind, was probably meant to be.
+    std::string hint(std::string_view text) const {
+        if (text.ends_with(',')) return description();  // of a list
+        const std::string meant = mended(rule.kind == ValueKind::boolean ? ParameterKind::boolean
+                                         : rule.kind == ValueKind::whole ? ParameterKind::integer
+                                                                         : ParameterKind::real,
+                                         text);
+        return meant.empty() ? description() : fmt::format("did you mean '{}'?", meant);
+    }
+};
+
+template <class Rules>
+std::vector<std::string> names_of(const Rules& rules) {
+    std::vector<std::string> out;
+    for (const auto& r : rules) out.push_back(r.name);
+    return out;
+}
+
 class Checker {
   public:
-    Checker(const Document& document, const Format& format, Diagnostics& out)
-        : document_(document), format_(format), out_(out) {}
+    Checker(const Format& format, Diagnostics& out) : format_(format), out_(out) {}
 
-    /// Whether a model of the document is wrong only where that was reported: nothing is missing from it, and
-    /// no cell.
     bool sound() const { return sound_; }
 
-    void element(const tinyxml2::XMLElement& e, const ElementRule& rule) {
-        attributes(e, rule);
-        const int errors_before = out_.errors();
-        const int inner = children(e, rule);
-        if (out_.errors() > errors_before + inner) sound_ = false;
+    void element(const Element& e, const ChildRule& rule) {
+        if (!rule.value) {
+            for (const Value& text : e.texts())
+                ignored(text.where(),
+                        format_.open ? fmt::format("a text in <{}> has no effect", e.name())
+                                     : fmt::format("<{}> holds no text", e.name()),
+                        format_.where_texts_stand);
+            return contents(e, *rule.rule);
+        }
+        const auto& exception = rule.value->exception;
+        const bool excepted = !exception.attribute.empty() && e[exception.attribute].view == exception.says;
+        value(e.value(), {}, excepted ? format_.values.find(exception.rule)->second : *rule.value);
+        if (rule.value->kind == ValueKind::any)
+            attributes(e, *rule.rule);
+        else
+            contents(e, *rule.rule);
     }
 
   private:
-    /// Returns the number of errors in the children themselves.
-    int children(const tinyxml2::XMLElement& e, const ElementRule& rule) {
-        int inside = 0;
-        std::map<std::string_view, int> count;
+    // ---- elements ----
+
+    void contents(const Element& e, const ElementRule& rule) {
+        attributes(e, rule);
+        children(e, rule);
+    }
+
+    /// An error that leaves open what the rest of the file means.
+    void structural(const Location& where, std::string message, std::string hint) {
+        out_.error(where, std::move(message), std::move(hint));
+        sound_ = false;
+    }
+
+    void children(const Element& e, const ElementRule& rule) {
+        std::vector<int> count(rule.children.size());
         int chosen = 0;
         bool strangers = false;
-        for (const auto* node = e.FirstChild(); node; node = node->NextSibling()) {
-            if (const auto* text = node->ToText(); text && !rule.has_text) inside += stray(*text, rule);
-            const auto* child = node->ToElement();
-            if (!child) continue;
+        for (const Element& child : e.children()) {
             if (out_.errors() >= most_errors) {
                 sound_ = false;
-                return inside;
+                return;
             }
-            const std::string_view name = child->Name();
-            const auto allowed = std::find_if(rule.children.begin(), rule.children.end(),
-                                              [&](const auto& c) { return c.name == name; });
-            if (allowed == rule.children.end()) {
-                const auto at = document_.at(*child);
-                const auto message = fmt::format("<{}> cannot hold <{}>", rule.name, name);
-                // Where one of several is chosen, nothing says what the unknown one might have meant: no
-                // leniency.
-                if (rule.choose)
-                    out_.error(at, message, place_hint(rule, name));
-                else
-                    out_.unknown(at, message, place_hint(rule, name));
-                strangers = true;
+            const auto known = std::find_if(rule.children.begin(), rule.children.end(),
+                                            [&](const ChildRule& c) { return c.name == child.name(); });
+            if (known == rule.children.end()) {
+                strangers |= unknown(child, rule);
                 continue;
             }
+            const int n = ++count[static_cast<std::size_t>(known - rule.children.begin())];
             ++chosen;
             if (rule.choose && chosen > rule.choose)
-                out_.error(document_.at(*child),
-                           fmt::format("<{}> holds more than {}", rule.name, amount(rule)),
+                structural(child.where(), fmt::format("<{}> holds more than {}", e.name(), amount(rule)),
                            "remove what is too much");
-            else if (++count[allowed->name] > allowed->most)
-                out_.error(document_.at(*child),
-                           fmt::format("<{}> holds more than {} <{}>", rule.name, allowed->most, name),
+            else if (n > known->most)
+                structural(child.where(),
+                           fmt::format("<{}> holds more than {} <{}>", e.name(), known->most, known->name),
                            "keep one of them");
-            if (const ElementRule* inner = find_element(name, format_)) {
-                const int before = out_.errors();
-                element(*child, *inner);
-                inside += out_.errors() - before;
-            }
+            element(child, *known);
         }
-        // What is missing is probably what was misspelt; but under leniency that was no error, and this must
-        // be one.
-        if (strangers && (rule.choose || !out_.lenient)) return inside;
+        if (strangers) return;  // what is missing is probably what was misspelt
         if (chosen < rule.choose)
-            out_.error(document_.at(e),
-                       fmt::format("<{}> holds {}, it needs {}", rule.name,
+            structural(e.where(),
+                       fmt::format("<{}> holds {}, it needs {}", e.name(),
                                    chosen ? "only one element" : "no element", amount(rule)),
                        fmt::format("{} of <{}>", rule.choose > 1 ? "source, then target, each one" : "one",
-                                   fmt::join(child_names(rule), ">, <")));
-        for (const auto& c : rule.children)
-            if (count[c.name] < c.least)
-                out_.error(document_.at(e), fmt::format("<{}> needs the element <{}>", rule.name, c.name),
-                           fmt::format("<{}>: {}", c.name, find_element(c.name, format_)->doc));
-        return inside;
+                                   fmt::join(names_of(rule.children), ">, <")));
+        for (std::size_t i = 0; i < count.size(); ++i)
+            if (const ChildRule& c = rule.children[i]; count[i] < c.least)
+                structural(e.where(), fmt::format("<{}> needs the element <{}>", e.name(), c.name),
+                           fmt::format("<{}>: {}", c.name, c.value ? c.value->doc : c.rule->doc));
     }
 
     static std::string amount(const ElementRule& rule) {
         return rule.choose == 1 ? "one element" : fmt::format("{} elements", rule.choose);
     }
-    static std::vector<std::string> child_names(const ElementRule& rule) {
-        std::vector<std::string> out;
-        for (const auto& c : rule.children) out.push_back(c.name);
-        return out;
+
+    void ignored(const Location& where, std::string message, std::string_view hint) {
+        if (format_.open)
+            out_.warning(where, std::move(message), std::string(hint));
+        else
+            out_.unknown(where, std::move(message), std::string(hint));
     }
 
-    /// Returns the number of errors.
-    int stray(const tinyxml2::XMLText& text, const ElementRule& rule) {
-        const Location at = document_.at(text);
-        out_.unknown(at, fmt::format("<{}> holds no text", rule.name),
-                     "a text for people stands in a <Note>, a remark in <!-- -->");
-        return out_.lenient ? 0 : 1;
+    /// Returns whether what is missing may be the unknown element.
+    bool unknown(const Element& e, const ElementRule& parent) {
+        if (format_.open && e.name().find(':') != std::string_view::npos) return false;  // of another program
+        const auto message =
+            format_.open && !parent.choose
+                ? fmt::format("<{}> is not known in <{}> and has no effect", e.name(), e.parent().name())
+                : fmt::format("<{}> cannot hold <{}>", e.parent().name(), e.name());
+        // Where one of several is chosen, nothing says what the unknown one might have meant: no leniency.
+        if (parent.choose) return structural(e.where(), message, place_hint(parent, e)), true;
+        ignored(e.where(), message, place_hint(parent, e));
+        const bool error = !format_.open && !out_.lenient;
+        if (error) sound_ = false;
+        return error;
     }
 
-    std::string place_hint(const ElementRule& parent, std::string_view name) const {
-        const std::vector<std::string> children = child_names(parent);
-        if (nearest(name, children).empty())
-            for (const auto& other : format_)
-                for (const auto& c : other.children)
-                    if (c.name == name) return fmt::format("<{}> belongs into <{}>", name, other.name);
-        return children.empty() ? fmt::format("<{}> holds no elements", parent.name)
-                                : suggest(name, children);
+    std::string place_hint(const ElementRule& parent, const Element& e) const {
+        const std::vector<std::string> children = names_of(parent.children);
+        std::vector<std::string_view> homes;
+        for (const auto& other : format_.elements)
+            for (const auto& c : other.children)
+                if (c.name == e.name()) homes.push_back(other.name);
+        if (!format_.open && homes.size() == 1 && nearest(e.name(), children).empty())
+            return fmt::format("<{}> belongs into <{}>", e.name(), homes.front());
+        return children.empty() ? fmt::format("<{}> holds no elements", e.parent().name())
+                                : suggest(e.name(), children);
     }
 
-    void attributes(const tinyxml2::XMLElement& e, const ElementRule& rule) {
-        std::vector<std::string> known;
-        for (const auto& a : rule.attributes) known.push_back(a.name);
-        std::vector<std::string_view> meant;  // by attributes that are misspelt: they are not missing as well
-        for (const auto* a = e.FirstAttribute(); a; a = a->Next()) {
-            if (const AttributeRule* r = rule.attribute(a->Name())) {
-                const int before = out_.errors();
-                value(*a, *r);
-                // A wrong size would make groups look wrong where they are used, a wrong holder its
-                // references unset.
-                if (out_.errors() > before &&
-                    (rule.name == "TopologyRect" || rule.name == "Point" || rule.name == "XRefHolder"))
-                    sound_ = false;
-            } else {
-                meant.push_back(nearest(a->Name(), known));
-                std::string hint = suggest(a->Name(), known);
-                if (known.empty()) hint = fmt::format("<{}> has no attributes", rule.name);
-                out_.unknown(document_.name_of(*a),
-                             fmt::format("<{}> has no attribute '{}'", rule.name, a->Name()), hint);
+    // ---- attributes and values ----
+
+    void attributes(const Element& e, const ElementRule& rule) {
+        std::vector<std::string> meant;  // by attributes that are misspelt: they are not missing as well
+        for (const Attribute& a : e.attributes()) {
+            if (const AttributeRule* r = rule.attribute(a.name)) {
+                value(a.value, a.name, r->value);
+            } else if (!format_.open) {
+                const std::vector<std::string> known = names_of(rule.attributes);
+                meant.emplace_back(nearest(a.name, known));
+                out_.unknown(
+                    e.document().place(a.at), fmt::format("<{}> has no attribute '{}'", e.name(), a.name),
+                    known.empty() ? fmt::format("<{}> has no attributes", e.name()) : suggest(a.name, known));
             }
         }
-        for (const auto& r : rule.attributes)
-            if (r.required && !e.FindAttribute(r.name.c_str())) {
+        for (const AttributeRule& r : rule.attributes)
+            if (r.required && !e[r.name]) {
                 sound_ = false;
                 if (!out_.lenient && std::find(meant.begin(), meant.end(), r.name) != meant.end()) continue;
-                out_.error(document_.at(e), fmt::format("<{}> needs the attribute '{}'", rule.name, r.name),
-                           fmt::format("{}: {}", r.name, r.doc));
+                out_.error(e.where(), fmt::format("<{}> needs the attribute '{}'", e.name(), r.name),
+                           r.value.doc.empty() ? fmt::format("<{} {}=\"...\">", e.name(), r.name)
+                                               : fmt::format("{}: {}", r.name, r.value.doc));
             }
     }
 
-    void value(const tinyxml2::XMLAttribute& a, const AttributeRule& rule) {
-        const std::string_view text = a.Value();
-        const auto wrong = [&](std::string message, std::string hint) {
-            out_.error(document_.value_of(a), std::move(message), std::move(hint));
-        };
-        switch (rule.kind) {
-            case ValueKind::text:
-                return;
-            case ValueKind::choice:
-                if (std::find(rule.choices.begin(), rule.choices.end(), text) == rule.choices.end())
-                    wrong(fmt::format("'{}' is not one of {}", text, fmt::join(rule.choices, ", ")),
-                          suggest(text, rule.choices));
-                return;
-            case ValueKind::boolean:
-                if (!parse_parameter(ParameterKind::boolean, text))
-                    wrong(fmt::format("{} = '{}' is not true or false", rule.name, text),
-                          hint(ParameterKind::boolean, text, fmt::format("{}: {}", rule.name, rule.doc)));
-                return;
-            case ValueKind::whole:
-            case ValueKind::number:
-                number(text, rule, wrong);
+    /// A value of the attribute `attribute`, or of an element when that is empty.
+    void value(const Value& v, std::string_view attribute, const ValueRule& rule) {
+        if (rule.kind == ValueKind::text || rule.kind == ValueKind::any) return;
+        const Subject subject{attribute.empty() ? v.element.name() : attribute, attribute.empty(), rule};
+        const int errors_before = out_.errors();
+        if (subject.is_element && v.view.empty() && format_.open) {
+            if (!rule.may_be_empty)
+                out_.warning(v.where(), fmt::format("<{}> is empty and has no effect", subject.name));
+        } else if (rule.kind == ValueKind::choice) {
+            if (std::find(rule.choices.begin(), rule.choices.end(), v.view) == rule.choices.end())
+                out_.error(v.where(),
+                           fmt::format("'{}' is not one of {}", v.view, fmt::join(rule.choices, ", ")),
+                           suggest(v.view, rule.choices));
+        } else if (rule.kind == ValueKind::boolean) {
+            if (!v.flag() || (!format_.open && v.view != "true" && v.view != "false"))
+                out_.error(v.where(), fmt::format("{} = '{}' is not true or false", subject.label(), v.view),
+                           subject.hint(v.view));
+        } else if (subject.is_element) {
+            numbers(v, subject);
+        } else {
+            number(v, subject);
         }
+        if (rule.decisive && out_.errors() > errors_before) sound_ = false;
     }
 
-    template <class Wrong>
-    static void number(std::string_view text, const AttributeRule& rule, const Wrong& wrong) {
-        const auto parsed = parse_number<double>(text);
-        const double v = parsed.value_or(0);
+    void numbers(const Value& v, const Subject& subject) {
+        const auto list = v.words();
+        for (const Value& word : list)
+            if (!number(word, subject)) return;
+        if (list.size() < subject.rule.least || list.size() > subject.rule.most)
+            out_.error(v.element.where(),
+                       fmt::format("<{}> has {} numbers instead of {}", subject.name, list.size(),
+                                   subject.rule.most),
+                       subject.description());
+    }
+
+    /// Whether a word is a number that the rule allows.
+    bool number(const Value& v, const Subject& subject) {
+        const std::string_view word = v.view;
+        const ValueRule& rule = subject.rule;
         const bool whole = rule.kind == ValueKind::whole;
-        const std::string range = fmt::format("{}: {}{}", rule.name, rule.doc, limits(rule));
-        if (!parsed || (whole && v != std::trunc(v))) {
-            wrong(fmt::format("{} = '{}' is not a {}", rule.name, text, whole ? "whole number" : "number"),
-                  hint(whole ? ParameterKind::integer : ParameterKind::real, text, range));
-        } else if (v < rule.low || v > rule.high) {
-            wrong(fmt::format("{} = {} is not possible", rule.name, text), range);
-        } else if (whole && !parse_number<int>(text)) {  // 1e2, 3.0
-            wrong(fmt::format("{} = '{}' is not written as a whole number", rule.name, text),
-                  fmt::format("write {}", to_text(v)));
-        }
+        const auto wrong = [&](std::string_view what, std::string hint) {
+            out_.error(v.where(), fmt::format("{} = {}", subject.label(), what), std::move(hint));
+            return false;
+        };
+        const auto number = parse_number<double>(word);
+        if (!number && out_of_range(word)) return wrong(no_number(word), subject.description());
+        if (!number || (whole && *number != std::trunc(*number)))
+            return wrong(whole ? fmt::format("'{}' is not a whole number", word) : no_number(word),
+                         subject.hint(word));
+        if (*number < rule.low || *number > rule.high)
+            return wrong(fmt::format("{} is not possible", word), subject.description());
+        if (whole && !format_.open && !parse_number<int>(word))  // 1e2, 3.0
+            return wrong(fmt::format("'{}' is not written as a whole number", word),
+                         fmt::format("write {}", to_text(*number)));
+        return true;
     }
 
-    static std::string hint(ParameterKind kind, std::string_view text, std::string otherwise) {
-        const std::string meant = mended(kind, text);
-        return meant.empty() ? std::move(otherwise) : fmt::format("did you mean '{}'?", meant);
-    }
+    static constexpr int most_errors = 100'000;  // of more, none is printed
 
-    static std::string limits(const AttributeRule& rule) {
-        if (rule.low < -1e299 || rule.high > 1e299) return {};
-        return fmt::format(", from {:.0f} to {:.0f}", rule.low, rule.high);
-    }
-
-    static constexpr int most_errors = 100'000;  // nobody reads more
-
-    const Document& document_;
     const Format& format_;
     Diagnostics& out_;
     bool sound_ = true;
 };
 
-/// A hint for a file of another kind than the one that is wanted.
-std::string what_begins_with(std::string_view name, std::string_view wanted) {
-    if (name == "sdf")
-        return wanted == "experiment" ? "this looks like a world"
-                                      : "this looks like a world; pass it with --world";
-    if (name == "iqrEntity")
-        return wanted == "system" ? "this is a process file: a part of a system, not a system"
-                                  : "this is a process file";
-    if (name == "System")
-        return wanted == "process" ? "this is a system file, not a part of one"
-                                   : "this is a system file; 'forage run' runs it";
-    if (name == "experiment") return "this is an experiment file; 'forage experiment' runs it";
-    return fmt::format("is this a {} file?", wanted);
+/// What a file is whose outermost element has this name; empty when it is nothing known.
+std::string_view what_begins_with(std::string_view root) {
+    static constexpr std::array<std::array<std::string_view, 2>, 4> known = {
+        {{"System", "this is a system file, which 'forage run' runs; it is no part of another file"},
+         {"iqrEntity", "this is a process file: a part of a system, not a system"},
+         {"experiment", "this is an experiment file; 'forage experiment' runs it"},
+         {"sdf", "this looks like a world file; --world names it, or <world> in an experiment"}}};
+    for (const auto& [name, what] : known)
+        if (name == root) return what;
+    return {};
 }
 
 }  // namespace
 
-bool check(const Document& document, std::string_view root, Diagnostics& diagnostics) {
-    const std::string_view name = document.root().Name();
-    if (name != root) {
-        const std::string_view kind = root == "System" ? "system" : root == "iqrEntity" ? "process" : root;
-        diagnostics.error(document.at(document.root()),
-                          fmt::format("the file begins with <{}>, {} {} file with <{}>", name,
-                                      kind == "experiment" ? "an" : "a", kind, root),
-                          what_begins_with(name, kind));
-        return false;
-    }
-    const Format& format = root == "experiment" ? experiment_format() : format_table();
-    Checker checker(document, format, diagnostics);
-    checker.element(document.root(), *find_element(name, format));
+std::unique_ptr<const Document> open(const std::string& path, const Format& format,
+                                     Diagnostics& diagnostics) {
+    constexpr std::size_t largest_file = std::size_t{32} << 20;
+    auto text = read_file(path, largest_file, diagnostics);
+    return text ? open(path, std::move(*text), format, diagnostics) : nullptr;
+}
+
+std::unique_ptr<const Document> open(const std::string& path, std::string text, const Format& format,
+                                     Diagnostics& diagnostics) {
+    auto document = Document::parse(path, std::move(text), format.beginning, format.most_nodes, diagnostics);
+    if (!document) return nullptr;
+    const std::string_view name = document->root().name();
+    if (std::find(format.roots.begin(), format.roots.end(), name) != format.roots.end()) return document;
+    const std::string_view known = what_begins_with(name);
+    diagnostics.error(
+        document->root().where(),
+        fmt::format("the file begins with <{}>, {} with <{}>", name, format.name, format.roots.front()),
+        known.empty() ? fmt::format("a file of this kind begins with {}", format.beginning)
+                      : std::string(known));
+    return nullptr;
+}
+
+bool check(const Document& document, const Format& format, Diagnostics& diagnostics) {
+    return check(document.root(), *format.find(format.roots.front()), format, diagnostics);
+}
+
+bool check(const Element& element, const ElementRule& rule, const Format& format, Diagnostics& diagnostics) {
+    Checker checker(format, diagnostics);
+    checker.element(element, {.name = rule.name, .value = rule.value, .rule = &rule});
     return checker.sound();
 }
 

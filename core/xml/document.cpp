@@ -1,109 +1,210 @@
 #include "core/xml/document.h"
 
 #include <algorithm>
-#include <vector>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
-#include "core/base/named_file.h"
+#include "core/base/number.h"
 #include "core/xml/well_formed.h"
 
 namespace forage::xml {
 namespace {
 
-constexpr std::size_t largest_file = std::size_t{32} << 20;
+constexpr std::string_view blanks = " \t\r\n";
 
-/// Where tinyxml2's copy of the text begins. It parses in place and hands out pointers into that copy, so the
-/// offset of anything it names is a difference of pointers. The first thing in a document begins at the first
-/// '<'.
-const char* buffer_start(const tinyxml2::XMLDocument& xml, const std::string& text) {
-    const tinyxml2::XMLNode* first = xml.FirstChild();
-    const auto open = text.find('<');
-    if (!first || open == std::string::npos) return nullptr;
-    std::size_t prefix = 1;  // "<" of an element
-    if (first->ToDeclaration())
-        prefix = 2;  // "<?"
-    else if (first->ToComment())
-        prefix = 4;  // "<!--"
-    else if (first->ToUnknown())
-        prefix = 2;  // "<!"
-    else if (first->ToText())
-        return nullptr;
-    return first->Value() - prefix - open;
+void collect_comments(const tinyxml2::XMLNode& parent, std::vector<Comment>& out) {
+    std::size_t waiting = out.size();  // for the element before which they stand
+    for (const auto* node = parent.FirstChild(); node; node = node->NextSibling()) {
+        if (node->ToComment()) out.push_back({node->Value(), {}, Element(parent.ToElement())});
+        if (const auto* element = node->ToElement()) {
+            for (; waiting < out.size(); ++waiting) out[waiting].before = Element(element);
+            collect_comments(*element, out);
+            waiting = out.size();
+        }
+    }
 }
 
 }  // namespace
 
-Document::Document() : xml_(std::make_unique<tinyxml2::XMLDocument>()) {}
-Document::Document(Document&&) noexcept = default;
-Document& Document::operator=(Document&&) noexcept = default;
-Document::~Document() = default;
-
-std::optional<Document> Document::read(const std::string& path, std::string_view beginning,
-                                       Diagnostics& diagnostics) {
-    auto text = read_file(path, largest_file, diagnostics);
-    if (!text) return std::nullopt;
-    return parse(path, std::move(*text), beginning, diagnostics);
+std::vector<std::string_view> words(std::string_view list) {
+    std::vector<std::string_view> out;
+    constexpr std::size_t most = std::size_t{1} << 20;
+    for (auto from = list.find_first_not_of(blanks); from != list.npos && out.size() < most;
+         from = list.find_first_not_of(blanks, from)) {
+        const auto to = std::min(list.find_first_of(blanks, from), list.size());
+        out.push_back(list.substr(from, to - from));
+        from = to;
+    }
+    return out;
 }
 
-std::optional<Document> Document::parse(std::string path, std::string text, std::string_view beginning,
-                                        Diagnostics& diagnostics, std::size_t most_nodes) {
-    Document document;
-    document.source_ = std::make_shared<SourceFile>(SourceFile{std::move(path), std::move(text)});
-    const std::string& t = document.source_->text;
-    document.line_starts_ = {0};
-    for (std::size_t i = 0; i < t.size(); ++i)
-        if (t[i] == '\n') document.line_starts_.push_back(i + 1);
+// ---- values ----
 
-    if (const auto fault = first_fault(t, beginning, most_nodes)) {
-        const Location where =
-            fault->of_the_whole ? Location{document.source_, 0, 0} : document.place(fault->offset);
-        diagnostics.error(where, fault->message, fault->hint);
-        return std::nullopt;
+std::optional<double> Value::number() const { return parse_number<double>(view); }
+
+int Value::whole(int otherwise) const {
+    const auto value = number();
+    return value && std::abs(*value) <= std::numeric_limits<int>::max() ? static_cast<int>(*value)
+                                                                        : otherwise;
+}
+
+std::optional<bool> Value::flag() const {
+    std::string lower(view.substr(0, 6));
+    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (lower == "true" || lower == "1") return true;
+    if (lower == "false" || lower == "0") return false;
+    return std::nullopt;
+}
+
+std::vector<double> Value::numbers() const {
+    std::vector<double> out;
+    for (const auto word : xml::words(view)) {
+        const auto value = parse_number<double>(word);
+        if (!value) break;
+        out.push_back(*value);
     }
-    auto& xml = *document.xml_;
+    return out;
+}
+
+Location Value::where() const { return at ? element.document().place(at) : element.where(); }
+
+std::vector<Value> Value::words() const {
+    std::vector<Value> out;
+    const char *place = at, *passed = view.data();
+    for (const auto word : xml::words(view)) {
+        for (auto left = word.data() - std::exchange(passed, word.data()); left > 0 && *place; ++place)
+            left -= *place != '\r';  // line ends of Windows are one character in `view`
+        out.push_back({word, place, element});
+    }
+    return out;
+}
+
+// ---- elements ----
+
+std::string_view Element::name() const { return xml_->Name(); }
+
+const Document& Element::document() const {
+    return *static_cast<const Document*>(xml_->GetDocument()->GetUserData());
+}
+
+Location Element::where() const { return document().place(document().in_source(xml_->Name()) - 1); }
+
+Element Element::parent() const { return Element(xml_->Parent()->ToElement()); }
+
+std::vector<Attribute> Element::attributes() const {
+    const Document& d = document();
+    std::vector<Attribute> out;
+    for (const auto* a = xml_->FirstAttribute(); a; a = a->Next())
+        out.push_back({a->Name(), d.in_source(a->Name()), {a->Value(), d.in_source(a->Value()), *this}});
+    return out;
+}
+
+Value Element::operator[](std::string_view attribute) const {
+    for (const auto* a = xml_->FirstAttribute(); a; a = a->Next())
+        if (a->Name() == attribute) return {a->Value(), document().in_source(a->Value()), *this};
+    return {{}, nullptr, *this};
+}
+
+std::vector<Element> Element::children(std::string_view wanted) const {
+    std::vector<Element> out;
+    for (const auto* e = xml_->FirstChildElement(); e; e = e->NextSiblingElement())
+        if (wanted.empty() || e->Name() == wanted) out.emplace_back(e);
+    return out;
+}
+
+Element Element::child(std::string_view path) const {
+    const auto slash = std::min(path.find('/'), path.size());
+    const Element found(xml_->FirstChildElement(std::string(path.substr(0, slash)).c_str()));
+    return !found || slash == path.size() ? found : found.child(path.substr(slash + 1));
+}
+
+std::vector<Value> Element::texts() const {
+    const Document& d = document();
+    std::vector<Value> out;
+    for (const auto* node = xml_->FirstChild(); node; node = node->NextSibling()) {
+        if (!node->ToText()) continue;
+        const std::string_view piece = node->Value();
+        const auto first = piece.find_first_not_of(blanks);
+        if (first == piece.npos) continue;
+        // Looked up in the text as it was read: tinyxml2 has shortened its copy after the first line end.
+        const char* at = d.in_source(piece.data());
+        while (blanks.find(*at) != blanks.npos) ++at;
+        out.push_back({piece.substr(first, piece.find_last_not_of(blanks) + 1 - first), at, *this});
+    }
+    return out;
+}
+
+std::string Element::text() const {
+    std::string out;
+    for (const auto* node = xml_->FirstChild(); node; node = node->NextSibling())
+        if (node->ToText()) out += node->Value();
+    return out.find_first_not_of(blanks) == out.npos ? std::string() : out;
+}
+
+Value Element::value(std::string_view path) const {
+    const Element e = path.empty() ? *this : child(path);
+    if (!e) return {{}, nullptr, *this};
+    const auto all = e.texts();
+    return all.empty() ? Value{{}, document().in_source(e.xml_->Name()) - 1, e} : all.front();
+}
+
+// ---- documents ----
+
+std::unique_ptr<const Document> Document::parse(std::string path, std::string text,
+                                                std::string_view beginning, std::size_t most_nodes,
+                                                Diagnostics& diagnostics) {
+    auto document = std::make_unique<Document>();
+    document->source = std::make_shared<SourceFile>(SourceFile{std::move(path), std::move(text)});
+    const std::string& t = document->source->text;
+    document->line_starts = {0};
+    for (std::size_t i = 0; i < t.size(); ++i)
+        if (t[i] == '\n') document->line_starts.push_back(i + 1);
+    const auto root = find_root(*document, beginning, most_nodes, diagnostics);
+    if (!root) return nullptr;
+
+    document->xml = std::make_shared<tinyxml2::XMLDocument>();
+    auto& xml = *document->xml;
     if (xml.Parse(t.data(), t.size()) != tinyxml2::XML_SUCCESS || !xml.RootElement()) {
-        diagnostics.error({document.source_, std::max(xml.ErrorLineNum(), 0), 0},
-                          fmt::format("not XML that can be read ({})",
-                                      tinyxml2::XMLDocument::ErrorIDToName(xml.ErrorID())));
-        return std::nullopt;
+        diagnostics.error({document->source, std::max(xml.ErrorLineNum(), 0), 0},
+                          fmt::format("not XML that can be read ({})", xml.ErrorName()));
+        return nullptr;
     }
-    document.buffer_ = buffer_start(xml, t);
+    xml.SetUserData(document.get());
+    // tinyxml2 parses in place and hands out pointers into its copy of the text.
+    document->buffer = xml.RootElement()->Name() - (root->data() - t.data());
     return document;
 }
 
-const tinyxml2::XMLElement& Document::root() const { return *xml_->RootElement(); }
+Element Document::root() const { return Element(xml->RootElement()); }
 
-Location Document::place(std::size_t offset) const {
-    const auto next = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
-    return {source_, static_cast<int>(next - line_starts_.begin()),
-            static_cast<int>(offset - *(next - 1)) + 1};
-}
-
-Location Document::locate(const char* in_buffer, int fallback_line, int shift) const {
-    const std::ptrdiff_t offset = in_buffer - buffer_ + shift;
-    if (!buffer_ || offset < 0 || offset >= static_cast<std::ptrdiff_t>(source_->text.size()))
-        return {source_, fallback_line, 0};
-    return place(static_cast<std::size_t>(offset));
+std::vector<Comment> Document::comments() const {
+    std::vector<Comment> out;
+    collect_comments(*xml, out);
+    return out;
 }
 
-Location Document::at(const tinyxml2::XMLElement& element) const {
-    return locate(element.Name(), element.GetLineNum(), -1);
+std::vector<std::string> Document::instructions() const {
+    std::vector<std::string> out;
+    for (const auto* node = xml->FirstChild(); node; node = node->NextSibling())
+        if (node->ToDeclaration() && !std::string_view(node->Value()).starts_with("xml "))
+            out.emplace_back(node->Value());
+    return out;
 }
-Location Document::at(const tinyxml2::XMLText& text) const {
-    const std::ptrdiff_t offset = text.Value() - buffer_;
-    if (!buffer_ || offset < 0) return {source_, text.GetLineNum(), 0};
-    // Looked up in the text as it was read: tinyxml2 has shortened its copy of what follows the first line
-    // end.
-    return place(std::min(source_->text.find_first_not_of(" \t\r\n", static_cast<std::size_t>(offset)),
-                          source_->text.size()));
+
+const char* Document::in_source(const char* in_buffer) const {
+    const auto size = static_cast<std::ptrdiff_t>(source->text.size());
+    return source->text.data() + std::clamp<std::ptrdiff_t>(in_buffer - buffer, 0, size);
 }
-Location Document::name_of(const tinyxml2::XMLAttribute& a) const {
-    return locate(a.Name(), a.GetLineNum(), 0);
-}
-Location Document::value_of(const tinyxml2::XMLAttribute& a) const {
-    return locate(a.Value(), a.GetLineNum(), 0);
+
+Location Document::place(const char* at) const {
+    const auto offset = static_cast<std::size_t>(at - source->text.data());
+    const auto next = std::upper_bound(line_starts.begin(), line_starts.end(), offset);
+    return {source, static_cast<int>(next - line_starts.begin()), static_cast<int>(offset - *(next - 1)) + 1};
 }
 
 }  // namespace forage::xml

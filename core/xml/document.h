@@ -1,6 +1,8 @@
-// An XML file whose elements and attributes know their line and column.
+// An XML file as a tree of elements, each of which knows its place in the file.
 #pragma once
 
+#include <compare>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,44 +14,116 @@
 namespace tinyxml2 {
 class XMLDocument;
 class XMLElement;
-class XMLAttribute;
-class XMLText;
 }  // namespace tinyxml2
 
 namespace forage::xml {
 
-class Document {
+struct Attribute;
+struct Document;
+struct Value;
+
+/// A handle of an element, which the document owns. It is false when there is no such element.
+class Element {
   public:
-    /// Reads `path`; on failure reports what and where, and returns nothing. `beginning`: how the outermost
-    /// element of such a file begins, for hints ("<System ...>").
-    static std::optional<Document> read(const std::string& path, std::string_view beginning,
-                                        Diagnostics& diagnostics);
-    /// Parses `text`, which a person knows as `path`; at most `most_nodes` elements and attributes.
-    static std::optional<Document> parse(std::string path, std::string text, std::string_view beginning,
-                                         Diagnostics& diagnostics,
-                                         std::size_t most_nodes = std::size_t{1} << 20);
+    Element() = default;
+    explicit Element(const tinyxml2::XMLElement* xml) : xml_(xml) {}
 
-    Document(Document&&) noexcept;
-    Document& operator=(Document&&) noexcept;
-    ~Document();
+    explicit operator bool() const { return xml_ != nullptr; }
+    auto operator<=>(const Element&) const = default;
 
-    const tinyxml2::XMLElement& root() const;
-    const std::shared_ptr<const SourceFile>& source() const { return source_; }
+    std::string_view name() const;
+    Location where() const;  ///< of the '<'
+    Element parent() const;  ///< false for the outermost element
+    const Document& document() const;
 
-    Location at(const tinyxml2::XMLElement& element) const;  ///< of the '<'
-    Location at(const tinyxml2::XMLText& text) const;        ///< of the first character that is no blank
-    Location name_of(const tinyxml2::XMLAttribute& attribute) const;   ///< of the attribute's name
-    Location value_of(const tinyxml2::XMLAttribute& attribute) const;  ///< of the value's first character
+    std::vector<Attribute> attributes() const;
+    /// The value of an attribute.
+    Value operator[](std::string_view attribute) const;
+
+    /// The elements directly in this one, in file order; with a name, only those of this name.
+    std::vector<Element> children(std::string_view name = {}) const;
+    /// The first element to which a path of names leads ("inertia/izz").
+    Element child(std::string_view path) const;
+
+    /// The pieces of text directly in the element, without the blanks round each. Comments, elements and
+    /// CDATA sections divide a text into pieces; those of blanks alone do not count.
+    std::vector<Value> texts() const;
+    /// All text directly in the element, with its blanks; empty when there are only blanks.
+    std::string text() const;
+    /// The first piece of text in the element to which `path` leads, in this element when the path is empty.
+    /// It is present, though empty, in an element without text.
+    Value value(std::string_view path = {}) const;
 
   private:
-    Document();
-    Location place(std::size_t offset) const;  ///< of a byte of the text
-    Location locate(const char* in_buffer, int fallback_line, int shift) const;
-
-    std::unique_ptr<tinyxml2::XMLDocument> xml_;
-    std::shared_ptr<const SourceFile> source_;
-    std::vector<std::size_t> line_starts_;
-    const char* buffer_ = nullptr;  ///< where tinyxml2 keeps its copy of the text
+    const tinyxml2::XMLElement* xml_ = nullptr;
 };
+
+/// The value of an attribute, or a text. It is false when the file has no such attribute or element. A getter
+/// returns nothing, or `otherwise`, when the value is absent or of another kind, which check() reports.
+struct Value {
+    std::string_view view;     ///< empty when absent
+    const char* at = nullptr;  ///< first character in the file's text; null when absent
+    Element element;           ///< the element that has it, or should have it
+
+    explicit operator bool() const { return at != nullptr; }
+    std::string text() const { return std::string(view); }
+    std::optional<double> number() const;
+    double number(double otherwise) const { return number().value_or(otherwise); }
+    /// The number without its fraction; `otherwise` also for a number that no int holds.
+    int whole(int otherwise) const;
+    /// true, false, 1 or 0, in upper or lower case.
+    std::optional<bool> flag() const;
+    bool flag(bool otherwise) const { return flag().value_or(otherwise); }
+    /// The parts of a list with blanks between them, each with its place.
+    std::vector<Value> words() const;
+    /// Numbers with blanks between them, up to the first word that is none.
+    std::vector<double> numbers() const;
+
+    /// The place of the first character; that of the element when the value is absent.
+    Location where() const;
+};
+
+struct Attribute {
+    std::string_view name;
+    const char* at;  ///< first character of the name in the file's text
+    Value value;
+};
+
+/// A comment, and the element before which it stands; false at the end of `parent`, the element that holds
+/// it.
+struct Comment {
+    std::string_view text;
+    Element before, parent;
+};
+
+/// A file that is well-formed XML. Elements point to it: it stays where it is.
+struct Document {
+    std::shared_ptr<const SourceFile> source;
+    std::vector<std::size_t> line_starts;  ///< offset of the first byte of each line
+    std::shared_ptr<tinyxml2::XMLDocument> xml;
+    const char* buffer = nullptr;  ///< where tinyxml2 keeps its copy of the text
+
+    /// Parses `text`, which users know as the file `path`: XML 1.0 in UTF-8, without entities of its own,
+    /// elements nested at most 64 deep. Reports the first fault, if there is one, and returns null.
+    /// `beginning` is the start tag of such a file, for hints ("<System ...>"); `most_nodes` limits its
+    /// elements, attributes and comments.
+    static std::unique_ptr<const Document> parse(std::string path, std::string text,
+                                                 std::string_view beginning, std::size_t most_nodes,
+                                                 Diagnostics& diagnostics);
+
+    Element root() const;
+    std::vector<Comment> comments() const;  ///< in file order
+    std::vector<std::string> instructions()
+        const;  ///< processing instructions, without the declaration of XML
+
+    /// What tinyxml2 points to, in the file's text.
+    const char* in_source(const char* in_buffer) const;
+    /// The place of a character of the file's text.
+    Location place(const char* at) const;
+};
+
+/// The parts of a list with blanks between them: at most 1,048,576, as a longer list is wrong wherever it
+/// stands.
+std::vector<std::string_view> words(std::string_view list);
 
 }  // namespace forage::xml

@@ -2,143 +2,124 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include <fmt/format.h>
-#include <tinyxml2.h>
 
-#include "core/base/number.h"
 #include "core/model/lookup.h"
-#include "core/types/parameter.h"
 #include "core/xml/check.h"
-#include "core/xml/comments.h"
 
 namespace forage::xml {
 namespace {
 
-using tinyxml2::XMLElement;
+/// Comments by the process, group or connection that they stand before. Others belong to the one that they
+/// stand in, or to the file's root.
+std::map<Element, std::vector<std::string>> comments_by_owner(const Document& document) {
+    const auto is_owner = [](Element e) {
+        return e.name() == "Process" || e.name() == "Group" || e.name() == "Connection";
+    };
+    std::map<Element, std::vector<std::string>> out;
+    for (const Comment& c : document.comments()) {
+        Element owner = c.before && is_owner(c.before) ? c.before : c.parent;
+        while (owner && !is_owner(owner)) owner = owner.parent();
+        out[owner ? owner : document.root()].emplace_back(c.text);
+    }
+    return out;
+}
 
-/// Builds the model from a document that has passed check(): names and values need no second look here.
+/// Builds the model from a document that check() found sound: no element is missing.
 class Reader {
   public:
     Reader(const Document& document, Diagnostics& out)
-        : document_(document), out_(out), comments_(document.root()) {}
+        : document_(document), out_(out), comments_(comments_by_owner(document)) {}
 
-    model::System system(const XMLElement& e) {
+    model::System system() {
+        const Element& e = document_.root();
         model::System s;
-        s.at = document_.at(e);
-        s.id = text(e, "id"), s.name = text(e, "name"), s.author = text(e, "author"),
-        s.date = text(e, "date"), s.port = text(e, "port");
-        s.cycles_per_second = number(e, "cylesPerSecond", 25);
-        s.sync_plots = flag(e, "syncPlots", false);
+        s.at = e.where();
+        s.id = e["id"].text(), s.name = e["name"].text(), s.author = e["author"].text(),
+        s.date = e["date"].text(), s.port = e["port"].text();
+        s.cycles_per_second = e["cylesPerSecond"].number(25);
+        s.sync_plots = e["syncPlots"].flag(false);
         s.note = note(e);
-        s.comments = comments_.of(e);
-        for (const auto* n = e.GetDocument()->FirstChild(); n; n = n->NextSibling())
-            if (n->ToDeclaration() && !std::string_view(n->Value()).starts_with("xml "))
-                s.instructions.emplace_back(n->Value());
-        each(e, "Process", [&](const XMLElement& p) { s.processes.push_back(process(p)); });
-        each(e, "Connection", [&](const XMLElement& c) { s.connections.push_back(connection(c)); });
+        s.comments = comments_of(e);
+        s.instructions = document_.instructions();
+        for (const Element& p : e.children("Process")) s.processes.push_back(process(p));
+        for (const Element& c : e.children("Connection")) s.connections.push_back(connection(c));
         return s;
     }
 
-    model::ProcessFile process_file(const XMLElement& e) {
+    model::ProcessFile process_file() {
+        const Element& e = document_.root();
         model::ProcessFile f;
-        if (const auto* p = e.FirstChildElement("Process")) f.process = process(*p);
-        auto comments = comments_.of(e);
+        f.process = process(e.child("Process"));
+        auto comments = comments_of(e);
         f.process.comments.insert(f.process.comments.begin(), comments.begin(), comments.end());
-        each(e, "Connection", [&](const XMLElement& c) { f.connections.push_back(connection(c)); });
+        for (const Element& c : e.children("Connection")) f.connections.push_back(connection(c));
         return f;
     }
 
   private:
-    static std::string text(const XMLElement& e, const char* name) {
-        const char* value = e.Attribute(name);
-        return value ? value : "";
+    std::vector<std::string> comments_of(const Element& e) const {
+        const auto it = comments_.find(e);
+        return it == comments_.end() ? std::vector<std::string>() : it->second;
     }
-    static double number(const XMLElement& e, const char* name, double otherwise) {
-        const char* value = e.Attribute(name);
-        return parse_number<double>(value ? value : "").value_or(otherwise);
+    static std::optional<std::string> note(const Element& e) {
+        const Element n = e.child("Note");
+        return n ? std::optional(n.text()) : std::nullopt;
     }
-    static int whole(const XMLElement& e, const char* name, int otherwise) {
-        const char* value = e.Attribute(name);
-        return parse_number<int>(value ? value : "").value_or(otherwise);
-    }
-    static bool flag(const XMLElement& e, const char* name, bool otherwise) {
-        const char* value = e.Attribute(name);
-        return value ? std::string_view(value) == "true" : otherwise;
-    }
-    template <class F>
-    static void each(const XMLElement& e, const char* name, F visit) {
-        for (const auto* c = e.FirstChildElement(name); c; c = c->NextSiblingElement(name)) visit(*c);
-    }
-    Location value_at(const XMLElement& e, const char* name) const {
-        const auto* a = e.FindAttribute(name);
-        return a ? document_.value_of(*a) : document_.at(e);
-    }
-
-    /// A note's whole text, also where a comment or a CDATA section divides it.
-    static std::optional<std::string> note(const XMLElement& e) {
-        const auto* n = e.FirstChildElement("Note");
-        if (!n) return std::nullopt;
-        std::string out;
-        for (const auto* node = n->FirstChild(); node; node = node->NextSibling())
-            if (node->ToText()) out += node->Value();
-        return model::trim(out).empty() ? std::string() : out;  // blanks alone say nothing
-    }
-    static std::optional<model::Icon> icon(const XMLElement& e) {
-        const auto* i = e.FirstChildElement("DiagramIcon");
+    static std::optional<model::Icon> icon(const Element& e) {
+        const Element i = e.child("DiagramIcon");
         if (!i) return std::nullopt;
-        return model::Icon{whole(*i, "x", 0), whole(*i, "y", 0), whole(*i, "width", 50),
-                           whole(*i, "height", 50)};
+        return model::Icon{i["x"].whole(0), i["y"].whole(0), i["width"].whole(50), i["height"].whole(50)};
     }
 
-    model::Process process(const XMLElement& e) {
+    model::Process process(const Element& e) {
         model::Process p;
-        p.at = document_.at(e);
-        p.id = text(e, "id"), p.name = text(e, "name"), p.color = text(e, "color"),
-        p.hostname = text(e, "hostname");
-        p.port = text(e, "port"), p.path = text(e, "path");
-        p.module_enabled = flag(e, "enableModule", true);
-        p.path_at = value_at(e, "path");
-        p.comments = comments_.of(e);
-        if (const auto* m = e.FirstChildElement("Module")) p.module = module(*m);
+        p.at = e.where();
+        p.id = e["id"].text(), p.name = e["name"].text(), p.color = e["color"].text(),
+        p.hostname = e["hostname"].text();
+        p.port = e["port"].text(), p.path = e["path"].text();
+        p.module_enabled = e["enableModule"].flag(true);
+        p.path_at = e["path"].where();
+        p.comments = comments_of(e);
+        if (const Element m = e.child("Module")) p.module = module(m);
         p.note = note(e);
         p.icon = icon(e);
-        each(e, "Group", [&](const XMLElement& g) { p.groups.push_back(group(g)); });
+        for (const Element& g : e.children("Group")) p.groups.push_back(group(g));
         return p;
     }
 
-    void use(const XMLElement& e, model::TypeUse& u) {
-        u.type = text(e, "name");
-        u.at = value_at(e, "name");
+    void use(const Element& e, model::TypeUse& u) {
+        u.type = e["name"].text();
+        u.at = e["name"].where();
         u.note = note(e);
-        each(e, "Parameter", [&](const XMLElement& p) {
+        for (const Element& p : e.children("Parameter"))
             u.settings.push_back(
-                {text(p, "name"), text(p, "value"), value_at(p, "name"), value_at(p, "value")});
-        });
+                {p["name"].text(), p["value"].text(), p["name"].where(), p["value"].where()});
     }
 
     /// Only holders of these names mean something in this element.
-    void only_holders(const XMLElement& e, const std::vector<std::string>& meaningful) {
-        each(e, "XRefHolder", [&](const XMLElement& h) {
-            if (std::find(meaningful.begin(), meaningful.end(), text(h, "name")) == meaningful.end())
-                out_.unknown(value_at(h, "name"),
-                             fmt::format("a <{}> has no cross references '{}'", e.Name(), text(h, "name")),
-                             suggest(text(h, "name"), meaningful));
-        });
+    void only_holders(const Element& e, const std::vector<std::string>& meaningful) {
+        for (const Element& h : e.children("XRefHolder")) {
+            const Value name = h["name"];
+            if (std::find(meaningful.begin(), meaningful.end(), name.view) == meaningful.end())
+                out_.unknown(name.where(),
+                             fmt::format("a <{}> has no cross references '{}'", e.name(), name.view),
+                             suggest(name.view, meaningful));
+        }
     }
 
-    std::vector<model::CrossReference> references(const XMLElement& e, std::string_view holder) {
+    std::vector<model::CrossReference> references(const Element& e, std::string_view holder) {
         std::vector<model::CrossReference> out;
-        each(e, "XRefHolder", [&](const XMLElement& h) {
-            if (text(h, "name") == holder)
-                each(h, "XRef", [&](const XMLElement& r) {
-                    out.push_back({text(r, "name"), text(r, "target"), document_.at(r)});
-                });
-        });
+        for (const Element& h : e.children("XRefHolder"))
+            if (h["name"].view == holder)
+                for (const Element& r : h.children("XRef"))
+                    out.push_back({r["name"].text(), r["target"].text(), r.where()});
         return out;
     }
 
-    model::ModuleUse module(const XMLElement& e) {
+    model::ModuleUse module(const Element& e) {
         model::ModuleUse m;
         use(e, m);
         only_holders(e, {"InputFromGroup", "OutputToGroup"});
@@ -147,89 +128,75 @@ class Reader {
         return m;
     }
 
-    model::Group group(const XMLElement& e) {
+    model::Group group(const Element& e) {
         model::Group g;
-        g.at = document_.at(e);
-        g.id = text(e, "id"), g.name = text(e, "name"), g.color = text(e, "color");
-        if (const auto* t = e.FirstChildElement("Topology")) g.topology = topology(*t);
-        if (const auto* n = e.FirstChildElement("Neuron")) use(*n, g.neuron);
+        g.at = e.where();
+        g.id = e["id"].text(), g.name = e["name"].text(), g.color = e["color"].text();
+        g.topology = topology(e.child("Topology").children().front());
+        use(e.child("Neuron"), g.neuron);
         g.note = note(e);
         g.icon = icon(e);
-        g.comments = comments_.of(e);
+        g.comments = comments_of(e);
         return g;
     }
 
-    model::Topology topology(const XMLElement& e) {
-        if (const auto* sparse = e.FirstChildElement("TopologySparse"))
-            return model::SparseTopology{points(*sparse)};
-        model::RectTopology rect;
-        if (const auto* r = e.FirstChildElement("TopologyRect")) {
-            rect.width = whole(*r, "hcount", 1), rect.height = whole(*r, "vcount", 1);
-            rect.wrap_x = flag(*r, "cylinderVert", false), rect.wrap_y = flag(*r, "cylinderHor", false);
-        }
-        return rect;
+    model::Topology topology(const Element& e) {
+        if (e.name() == "TopologySparse") return model::SparseTopology{points(e)};
+        return model::RectTopology{e["hcount"].whole(1), e["vcount"].whole(1), e["cylinderVert"].flag(false),
+                                   e["cylinderHor"].flag(false)};
     }
 
-    std::vector<model::Point> points(const XMLElement& e) {
+    std::vector<model::Point> points(const Element& e) {
         std::vector<model::Point> out;
-        each(e, "Point", [&](const XMLElement& p) {
-            out.push_back({whole(p, "x", 1), whole(p, "y", 1), document_.at(p)});
-        });
+        for (const Element& p : e.children("Point"))
+            out.push_back({p["x"].whole(1), p["y"].whole(1), p.where()});
         return out;
     }
 
-    model::Population population(const XMLElement& e) {
-        const std::string_view name = e.Name();
-        if (name == "Region")
-            return model::Region{whole(e, "xstart", 1), whole(e, "ystart", 1), whole(e, "width", 1),
-                                 whole(e, "height", 1), document_.at(e)};
-        if (name == "List") return model::List{points(e), document_.at(e)};
+    model::Population population(const Element& e) {
+        if (e.name() == "Region")
+            return model::Region{e["xstart"].whole(1), e["ystart"].whole(1), e["width"].whole(1),
+                                 e["height"].whole(1), e.where()};
+        if (e.name() == "List") return model::List{points(e), e.where()};
         return model::All{};
     }
 
     template <class P>
-    P populations(const XMLElement& e, P pattern) {
-        const auto* source = e.FirstChildElement();
-        const auto* target = source->NextSiblingElement();
-        pattern.source = population(*source);
-        pattern.target = population(*target);
+    P populations(const Element& e, P pattern) {
+        const auto inside = e.children();
+        pattern.source = population(inside[0]);
+        pattern.target = population(inside[1]);
         return pattern;
     }
 
-    model::Pattern pattern(const XMLElement& e) {
-        if (const auto* m = e.FirstChildElement("PatternMapped")) {
+    model::Pattern pattern(const Element& e) {
+        if (e.name() == "PatternMapped") {
             model::MappedPattern mapped;
-            mapped.all = text(*m, "type") == "all";
-            return populations(*m, mapped);
+            mapped.all = e["type"].view == "all";
+            return populations(e, mapped);
         }
-        if (const auto* f = e.FirstChildElement("PatternForeach"))
-            return populations(*f, model::ForeachPattern{});
+        if (e.name() == "PatternForeach") return populations(e, model::ForeachPattern{});
         model::TuplesPattern tuples;
-        if (const auto* t = e.FirstChildElement("PatternTuples"))
-            each(*t, "Tuple", [&](const XMLElement& tuple) {
-                const auto* s = tuple.FirstChildElement("SourceList");
-                const auto* d = tuple.FirstChildElement("TargetList");
-                if (s && d) tuples.tuples.push_back({points(*s), points(*d)});
-            });
+        for (const Element& t : e.children("Tuple"))
+            tuples.tuples.push_back({points(t.child("SourceList")), points(t.child("TargetList"))});
         return tuples;
     }
 
-    model::Arborization arborization(const XMLElement& e) {
+    model::Arborization arborization(const Element& s) {
         model::Arborization a;
-        const XMLElement& s = *e.FirstChildElement();
-        const std::string_view name = s.Name();
-        a.at = document_.at(s);
+        const std::string_view name = s.name();
+        a.at = s.where();
         a.direction =
-            text(s, "direction") == "PF" ? model::Direction::projective : model::Direction::receptive;
-        a.probability = number(s, "initialization_probability", 1);
+            s["direction"].view == "PF" ? model::Direction::projective : model::Direction::receptive;
+        a.probability = s["initialization_probability"].number(1);
         const auto window = [&]<class W>(W) {
-            return W{whole(s, "innerwidth", 0), whole(s, "innerheight", 0), whole(s, "outerwidth", 1),
-                     whole(s, "outerheight", 1)};
+            return W{s["innerwidth"].whole(0), s["innerheight"].whole(0), s["outerwidth"].whole(1),
+                     s["outerheight"].whole(1)};
         };
         if (name == "ArbRect")
-            a.shape = model::RectArbor{whole(s, "width", 1), whole(s, "height", 1)};
+            a.shape = model::RectArbor{s["width"].whole(1), s["height"].whole(1)};
         else if (name == "ArbEllipse")
-            a.shape = model::EllipseArbor{whole(s, "width", 1), whole(s, "height", 1)};
+            a.shape = model::EllipseArbor{s["width"].whole(1), s["height"].whole(1)};
         else if (name == "ArbRectWindow")
             a.shape = window(model::RectWindowArbor{});
         else if (name == "ArbEllipseWindow")
@@ -237,59 +204,58 @@ class Reader {
         else if (name == "ArbAll")
             a.shape = model::AllArbor{};
         else
-            a.shape = model::RandomArbor{whole(s, "count", 1)};
+            a.shape = model::RandomArbor{s["count"].whole(1)};
         return a;
     }
 
-    model::DistanceFunction function(const XMLElement& e) {
+    model::DistanceFunction function(const Element& form) {
         model::DistanceFunction f;
-        const XMLElement& form = *e.FirstChildElement();
-        const std::string_view name = form.Name();
-        const double min = number(form, "min", 0), max = number(form, "max", 1);
-        f.at = document_.at(form);
+        const std::string_view name = form.name();
+        const double min = form["min"].number(0), max = form["max"].number(1);
+        f.at = form.where();
         if (name == "FunUniform")
-            f.form = model::UniformFunction{number(form, "value", 0)};
+            f.form = model::UniformFunction{form["value"].number(0)};
         else if (name == "FunLinear")
             f.form = model::LinearFunction{min, max};
         else if (name == "FunGaussian")
-            f.form = model::GaussianFunction{min, max, number(form, "sigma", 1)};
+            f.form = model::GaussianFunction{min, max, form["sigma"].number(1)};
         else if (name == "FunBlock")
-            f.form = model::BlockFunction{min, max, whole(form, "width", 0), whole(form, "height", 0)};
+            f.form = model::BlockFunction{min, max, form["width"].whole(0), form["height"].whole(0)};
         else
             f.form = model::RandomFunction{max};
         return f;
     }
 
-    model::Connection connection(const XMLElement& e) {
+    model::Connection connection(const Element& e) {
         model::Connection c;
-        c.at = document_.at(e);
-        c.id = text(e, "id"), c.name = text(e, "name"), c.source = text(e, "source"),
-        c.target = text(e, "target");
-        c.source_at = value_at(e, "source"), c.target_at = value_at(e, "target");
-        const std::string kind = text(e, "type");
+        c.at = e.where();
+        c.id = e["id"].text(), c.name = e["name"].text(), c.source = e["source"].text(),
+        c.target = e["target"].text();
+        c.source_at = e["source"].where(), c.target_at = e["target"].where();
+        const std::string_view kind = e["type"].view;
         c.kind = kind == "inhibitory"   ? InputKind::inhibitory
                  : kind == "modulatory" ? InputKind::modulatory
                                         : InputKind::excitatory;
-        if (const auto* p = e.FirstChildElement("Pattern")) c.pattern = pattern(*p);
-        if (const auto* a = e.FirstChildElement("Arborization")) c.arborization = arborization(*a);
-        if (const auto* f = e.FirstChildElement("AttenuationFunction")) c.attenuation = function(*f);
-        if (const auto* f = e.FirstChildElement("DelayFunction")) c.delay = function(*f);
-        if (const auto* s = e.FirstChildElement("Synapse")) {
+        c.pattern = pattern(e.child("Pattern").children().front());
+        c.arborization = arborization(e.child("Arborization").children().front());
+        c.attenuation = function(e.child("AttenuationFunction").children().front());
+        c.delay = function(e.child("DelayFunction").children().front());
+        if (const Element s = e.child("Synapse")) {
             c.synapse.emplace();
-            use(*s, *c.synapse);
-            only_holders(*s, {"Freedback"});
-            c.synapse->feedback = references(*s, "Freedback");
+            use(s, *c.synapse);
+            only_holders(s, {"Freedback"});
+            c.synapse->feedback = references(s, "Freedback");
         }
         c.note = note(e);
-        c.comments = comments_.of(e);
-        if (const auto* l = e.FirstChildElement("DiagramLine"))
-            c.line = model::Line{whole(*l, "APSource", 0), whole(*l, "APTarget", 0), points(*l)};
+        c.comments = comments_of(e);
+        if (const Element l = e.child("DiagramLine"))
+            c.line = model::Line{l["APSource"].whole(0), l["APTarget"].whole(0), points(l)};
         return c;
     }
 
     const Document& document_;
     Diagnostics& out_;
-    const Comments comments_;
+    const std::map<Element, std::vector<std::string>> comments_;
 };
 
 /// Reads the files of linked processes, which stand in for what the system itself says of them.
@@ -339,33 +305,40 @@ class Linker {
     Diagnostics& out_;
 };
 
-std::optional<model::System> build(const std::string& path, const std::optional<Document>& document,
-                                   Diagnostics& diagnostics) {
-    if (!document || !check(*document, "System", diagnostics)) return std::nullopt;
+/// The model that `read` makes of a document; nothing when it has errors that leave open what the file means,
+/// or when reading it found others.
+template <class Read>
+auto build(const Document* document, const Format& format, Diagnostics& diagnostics, Read read) {
+    std::optional<decltype(read(*document))> out;
+    if (!document || !check(*document, format, diagnostics)) return out;
     const int errors_before = diagnostics.errors();
-    auto system = Reader(*document, diagnostics).system(document->root());
-    Linker(system, path, diagnostics).run();
-    if (diagnostics.errors() > errors_before) return std::nullopt;
-    return system;
+    out = read(*document);
+    if (diagnostics.errors() > errors_before) out.reset();
+    return out;
+}
+
+std::optional<model::System> build_system(const std::string& path, const Document* document,
+                                          Diagnostics& diagnostics) {
+    return build(document, system_format(), diagnostics, [&](const Document& d) {
+        model::System system = Reader(d, diagnostics).system();
+        Linker(system, path, diagnostics).run();
+        return system;
+    });
 }
 
 }  // namespace
 
 std::optional<model::System> read_system(const std::string& path, Diagnostics& diagnostics) {
-    return build(path, Document::read(path, "<System ...>", diagnostics), diagnostics);
+    return build_system(path, open(path, system_format(), diagnostics).get(), diagnostics);
 }
 
 std::optional<model::System> parse_system(std::string path, std::string text, Diagnostics& diagnostics) {
-    return build(path, Document::parse(path, std::move(text), "<System ...>", diagnostics), diagnostics);
+    return build_system(path, open(path, std::move(text), system_format(), diagnostics).get(), diagnostics);
 }
 
 std::optional<model::ProcessFile> read_process(const std::string& path, Diagnostics& diagnostics) {
-    const auto document = Document::read(path, "<iqrEntity ...>", diagnostics);
-    if (!document || !check(*document, "iqrEntity", diagnostics)) return std::nullopt;
-    const int errors_before = diagnostics.errors();
-    auto file = Reader(*document, diagnostics).process_file(document->root());
-    if (diagnostics.errors() > errors_before) return std::nullopt;
-    return file;
+    return build(open(path, process_format(), diagnostics).get(), process_format(), diagnostics,
+                 [&](const Document& d) { return Reader(d, diagnostics).process_file(); });
 }
 
 }  // namespace forage::xml

@@ -1,55 +1,58 @@
 #include "core/xml/schema.h"
 
-#include <fmt/format.h>
-#include <tinyxml2.h>
+#include <cmath>
 
-#include "core/xml/format.h"
+#include <fmt/format.h>
+
+#include "core/xml/printer.h"
+#include "core/xml/rules.h"
 
 namespace forage::xml {
 namespace {
 
-class Schema {
+class Schema : Printer {
   public:
     explicit Schema(const Registry& registry) : registry_(registry) {}
 
-    std::string text() {
-        open("grammar");
-        attribute("xmlns", "http://relaxng.org/ns/structure/1.0");
-        attribute("xmlns:a", "http://relaxng.org/ns/compatibility/annotations/1.0");
-        attribute("datatypeLibrary", "http://www.w3.org/2001/XMLSchema-datatypes");
+    /// `roots` are the elements with which a file may begin.
+    std::string grammar(const Format& format, const std::vector<std::string>& roots) {
+        open("grammar", {{"xmlns", "http://relaxng.org/ns/structure/1.0"},
+                         {"xmlns:a", "http://relaxng.org/ns/compatibility/annotations/1.0"},
+                         {"datatypeLibrary", "http://www.w3.org/2001/XMLSchema-datatypes"}});
         open("start"), open("choice");
-        reference("System"), reference("iqrEntity");
+        for (const auto& root : roots) reference(root);
         close(), close();
-        for (const auto& rule : format_table()) define(rule);
+        for (const auto& rule : format.elements) define(rule);
         close();
-        return std::string("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n") + out_.CStr();
+        return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + result();
     }
 
   private:
-    void open(const char* name) { out_.OpenElement(name); }
-    void close() { out_.CloseElement(); }
-    void attribute(const char* name, const std::string& value) { out_.PushAttribute(name, value.c_str()); }
-    void reference(const std::string& name) { open("ref"), attribute("name", name), close(); }
-    void documentation(const std::string& text) {
-        if (text.empty()) return;
-        open("a:documentation"), out_.PushText(text.c_str()), close();
-    }
-    void value(const std::string& text) { open("value"), out_.PushText(text.c_str()), close(); }
-    void data(const char* type) { open("data"), attribute("type", type), close(); }
-    void limit(const char* name, double v) {
-        open("param"), attribute("name", name);
-        out_.PushText(fmt::format("{:.15g}", v).c_str());  // no exponent for a whole number
-        close();
+    void element(const std::string& name) { open("element", {{"name", name}}); }
+    void attribute(const std::string& name) { open("attribute", {{"name", name}}); }
+    void reference(const std::string& name) { leaf("ref", {{"name", name}}); }
+    void written(const char* name, const std::string& content) { open(name), text(content), close(); }
+    void documentation(const std::string& doc) {
+        if (!doc.empty()) written("a:documentation", doc);
     }
     void choice_of(const std::vector<std::string>& values) {
         open("choice");
-        for (const auto& v : values) value(v);
+        for (const auto& v : values) written("value", v);
+        close();
+    }
+    void number(const char* type, double low, double high) {
+        open("data", {{"type", type}});
+        for (const auto& [name, limit] : {std::pair("minInclusive", low), std::pair("maxInclusive", high)})
+            if (std::isfinite(limit)) {
+                open("param", {{"name", name}});
+                text(fmt::format("{:.15g}", limit));  // no exponent for a whole number
+                close();
+            }
         close();
     }
 
     void define(const ElementRule& rule) {
-        open("define"), attribute("name", rule.name);
-        open("element"), attribute("name", rule.name);
+        open("define", {{"name", rule.name}}), element(rule.name);
         documentation(rule.doc);
         if (rule.name == "Neuron")
             of_types(registry_.neurons());
@@ -66,34 +69,33 @@ class Schema {
 
     void attribute_of(const AttributeRule& rule) {
         if (!rule.required) open("optional");
-        open("attribute"), attribute("name", rule.name);
-        documentation(rule.doc);
-        switch (rule.kind) {
-            case ValueKind::text:
-                open("text"), close();
-                break;
-            case ValueKind::boolean:
-                choice_of({"true", "false"});
-                break;
-            case ValueKind::choice:
-                choice_of(rule.choices);
-                break;
-            case ValueKind::whole:
-            case ValueKind::number:
-                open("data"), attribute("type", rule.kind == ValueKind::whole ? "integer" : "double");
-                if (rule.low > -1e299) limit("minInclusive", rule.low);
-                if (rule.high < 1e299) limit("maxInclusive", rule.high);
-                close();
-        }
+        attribute(rule.name);
+        documentation(rule.value.doc);
+        value(rule.value);
         close();
         if (!rule.required) close();
     }
 
+    void value(const ValueRule& rule) {
+        switch (rule.kind) {
+            case ValueKind::boolean:
+                return choice_of({"true", "false"});
+            case ValueKind::choice:
+                return choice_of(rule.choices);
+            case ValueKind::whole:
+                return number("integer", rule.low, rule.high);
+            case ValueKind::number:
+                return number("double", rule.low, rule.high);
+            default:
+                return leaf("text");
+        }
+    }
+
     void content(const ElementRule& rule) {
-        if (rule.has_text)
-            open("text"), close();
+        if (rule.value)
+            value(*rule.value);
         else if (rule.children.empty())
-            open("empty"), close();
+            leaf("empty");
         else if (rule.choose > 0)
             for (int i = 0; i < rule.choose; ++i) {
                 open("choice");
@@ -125,9 +127,9 @@ class Schema {
         open("choice");
         for (const auto& [name, type] : types) {
             open("group");
-            open("attribute"), attribute("name", "name");
+            attribute("name");
             documentation(type.label + ": " + type.doc);
-            value(name);
+            written("value", name);
             close();
             open("interleave");
             parameters(type.parameters);
@@ -141,28 +143,19 @@ class Schema {
 
     void parameters(const std::vector<Parameter>& all) {
         if (all.empty()) return;
-        open("zeroOrMore"), open("element"), attribute("name", "Parameter"), open("choice");
+        open("zeroOrMore"), element("Parameter"), open("choice");
         for (const auto& p : all) {
             open("group");
-            open("attribute"), attribute("name", "name");
+            attribute("name");
             documentation(p.label + ". " + p.doc + " Default " + to_text(p.default_value) + "." +
                           (p.at_start ? " Read at start." : ""));
-            value(p.name);
+            written("value", p.name);
             close();
-            open("attribute"), attribute("name", "value");
-            switch (p.kind) {
-                case ParameterKind::boolean:
-                    choice_of({"true", "false"});
-                    break;
-                case ParameterKind::real:
-                    data("double");
-                    break;
-                case ParameterKind::integer:
-                    data("integer");
-                    break;
-                case ParameterKind::text:
-                    open("text"), close();
-            }
+            attribute("value");
+            value({.kind = p.kind == ParameterKind::boolean   ? ValueKind::boolean
+                           : p.kind == ParameterKind::real    ? ValueKind::number
+                           : p.kind == ParameterKind::integer ? ValueKind::whole
+                                                              : ValueKind::text});
             close();
             close();
         }
@@ -173,22 +166,20 @@ class Schema {
         std::string name, doc;
     };
     void holder(const char* name, const std::vector<Place>& places, bool any) {
-        open("element"), attribute("name", "XRefHolder");
-        open("attribute"), attribute("name", "name"), value(name), close();
-        if (any)
+        element("XRefHolder");
+        attribute("name"), written("value", name), close();
+        if (any) {
             open("zeroOrMore"), reference("XRef"), close();
-        else if (!places.empty()) {
-            open("zeroOrMore"), open("element"), attribute("name", "XRef");
-            open("attribute"), attribute("name", "name"), open("choice");
-            for (const auto& p : places) {
-                documentation(p.doc);
-                value(p.name);
-            }
+        } else if (places.empty()) {
+            leaf("empty");
+        } else {
+            open("zeroOrMore"), element("XRef");
+            attribute("name"), open("choice");
+            for (const auto& p : places) documentation(p.doc), written("value", p.name);
             close(), close();
-            open("attribute"), attribute("name", "target"), open("text"), close(), close();
+            attribute("target"), leaf("text"), close();
             close(), close();
-        } else
-            open("empty"), close();
+        }
         close();
     }
     void holders(const NeuronType&) {}
@@ -209,11 +200,16 @@ class Schema {
     }
 
     const Registry& registry_;
-    tinyxml2::XMLPrinter out_;
 };
 
 }  // namespace
 
-std::string relax_ng(const Registry& registry) { return Schema(registry).text(); }
+std::string relax_ng(const Registry& registry) {
+    return Schema(registry).grammar(system_format(), {"System", "iqrEntity"});
+}
+
+std::string relax_ng_of_experiments() {
+    return Schema(Registry{}).grammar(experiment_format(), {"experiment"});
+}
 
 }  // namespace forage::xml

@@ -1,4 +1,4 @@
-// The format as a schema, so that editors complete and check system files.
+// The formats as schemas, with which editors complete and check files.
 #pragma once
 
 #include <string>
@@ -7,9 +7,12 @@
 
 namespace forage::xml {
 
-/// A RELAX NG grammar of .iqr and .iqrProcess files, made from the format table and the types of `registry`:
+/// A RELAX NG grammar of .iqr and .iqrProcess files, made from their tables and the types of `registry`:
 /// elements, attributes and their ranges, and for each type its parameters and cross references, with their
 /// documentation.
 std::string relax_ng(const Registry& registry);
+
+/// A RELAX NG grammar of experiment files.
+std::string relax_ng_of_experiments();
 
 }  // namespace forage::xml

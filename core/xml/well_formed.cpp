@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,44 +13,39 @@
 namespace forage::xml {
 namespace {
 
-constexpr std::size_t deepest = 64;  // a system file has seven levels
-constexpr std::string_view blanks = " \t\r\n";
-
-bool begins_name(char c) {
-    return std::isalpha(static_cast<unsigned char>(c)) || c == '_' || c == ':' || (c & 0x80);
-}
-bool continues_name(char c) {
-    return begins_name(c) || std::isdigit(static_cast<unsigned char>(c)) || c == '-' || c == '.';
-}
-
+/// A function that finds a fault reports it and returns false.
 class Scanner {
   public:
-    Scanner(std::string_view text, std::string_view beginning, std::size_t most_nodes)
-        : text_(text), beginning_(beginning), most_nodes_(most_nodes) {}
+    Scanner(const Document& document, std::string_view beginning, std::size_t most_nodes,
+            Diagnostics& diagnostics)
+        : document_(document),
+          text_(document.source->text),
+          beginning_(beginning),
+          most_nodes_(most_nodes),
+          diagnostics_(diagnostics) {}
 
-    std::optional<Fault> run() {
-        if (characters() && content()) return std::nullopt;
-        return std::move(fault_);
+    std::optional<std::string_view> run() {
+        return characters() && content() ? std::optional(root_) : std::nullopt;
     }
 
   private:
-    struct Open {
-        std::string_view name;
-        std::size_t at;
-    };
+    static constexpr std::size_t deepest = 64;  // a system file has seven levels
+    static constexpr std::string_view blanks = " \t\r\n";
+
+    static bool begins_name(char c) {
+        return std::isalpha(static_cast<unsigned char>(c)) || c == '_' || c == ':' || (c & 0x80);
+    }
+    static bool continues_name(char c) {
+        return begins_name(c) || std::isdigit(static_cast<unsigned char>(c)) || c == '-' || c == '.';
+    }
 
     bool fail(std::size_t offset, std::string message, std::string hint = {}) {
-        fault_ = Fault{std::min(offset, text_.size()), std::move(message), std::move(hint)};
+        diagnostics_.error(document_.place(text_.data() + std::min(offset, text_.size())), std::move(message),
+                           std::move(hint));
         return false;
     }
-    std::string line_of(const Open& open) const {
-        return fmt::format(
-            "line {}",
-            1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(open.at), '\n'));
-    }
     bool fail_whole(std::string message, std::string hint) {
-        fail(0, std::move(message), std::move(hint));
-        fault_->of_the_whole = true;
+        diagnostics_.error({document_.source, 0, 0}, std::move(message), std::move(hint));
         return false;
     }
     std::string begins() const { return fmt::format("a file of this kind begins with {}", beginning_); }
@@ -58,6 +54,9 @@ class Scanner {
                text_.find('<') < text_.size();
     }
     bool at(std::string_view what) const { return text_.substr(pos_).starts_with(what); }
+    std::size_t offset(std::string_view part) const {
+        return static_cast<std::size_t>(part.data() - text_.data());
+    }
     std::size_t skip_blanks() {
         const std::size_t from = pos_;
         pos_ = std::min(text_.find_first_not_of(blanks, pos_), text_.size());
@@ -100,24 +99,23 @@ class Scanner {
             pos_ = open;
             if (pos_ < text_.size() && !markup()) return false;
         }
-        if (!open_.empty())
-            return fail(open_.back().at,
-                        fmt::format("<{}> is not closed before the file ends", open_.back().name),
-                        fmt::format("is the file complete? A </{}> is missing", open_.back().name));
+        if (!open_.empty()) {
+            const std::string_view last = open_.back();
+            return fail(offset(last) - 1, fmt::format("<{}> is not closed before the file ends", last),
+                        fmt::format("is the file complete? A </{}> is missing", last));
+        }
         return root_.empty() ? fail_whole("the file holds no element", begins()) : true;
     }
 
     bool plain_text(std::size_t from, std::size_t to) {
-        if (open_.empty()) {
-            const std::size_t first = text_.find_first_not_of(blanks, from);
-            return first >= to
-                       ? true
-                       : fail(first,
-                              root_.empty() ? "there is text before the first element"
-                                            : fmt::format("there is text after the end of <{}>", root_),
-                              looks_like_xml() ? "remove it, or make it a comment: <!-- -->"
-                                               : "is this an XML file?");
-        }
+        const std::size_t first = text_.find_first_not_of(blanks, from);
+        if (first >= to) return true;
+        if (open_.empty())
+            return fail(
+                first,
+                root_.empty() ? "there is text before the first element"
+                              : fmt::format("there is text after the end of <{}>", root_),
+                looks_like_xml() ? "remove it, or make it a comment: <!-- -->" : "is this an XML file?");
         return references(from, to);
     }
 
@@ -126,41 +124,46 @@ class Scanner {
         const std::string_view text = text_.substr(0, to);  // to search no farther
         for (std::size_t i = text.find('&', from); i < to; i = text.find('&', i + 1)) {
             const std::size_t end = text.find(';', i);
-            const std::string_view what = end < to ? text.substr(i + 1, end - i - 1) : std::string_view{};
+            const auto what = end < to ? text.substr(i + 1, end - i - 1) : std::string_view();
             if (what == "lt" || what == "gt" || what == "amp" || what == "quot" || what == "apos" ||
-                character(what))
+                is_character(what))
                 continue;
-            const bool named = !what.empty() && std::all_of(what.begin(), what.end(), continues_name);
             if (what.starts_with('#') && what.size() < 40)
                 return fail(
                     i, fmt::format("'&{};' is no character that XML may hold", what),
                     "&#N; is a character by its number in Unicode; control characters have none here");
-            return fail(
-                i, named ? fmt::format("there is no entity '&{};'", what) : "a '&' that begins no entity",
-                named ? "XML has &lt; &gt; &amp; &quot; and &apos;; other characters stand for themselves"
-                      : "a '&' itself is written &amp;");
+            if (!what.empty() && std::all_of(what.begin(), what.end(), continues_name))
+                return fail(
+                    i, fmt::format("there is no entity '&{};'", what),
+                    "XML has &lt; &gt; &amp; &quot; and &apos;; other characters stand for themselves");
+            return fail(i, "a '&' that begins no entity", "a '&' itself is written &amp;");
         }
         return true;
     }
 
-    static bool character(std::string_view reference) {
+    static bool is_character(std::string_view reference) {
         if (!reference.starts_with('#')) return false;
-        reference.remove_prefix(1);
-        const bool hex = reference.starts_with('x');
-        if (hex) reference.remove_prefix(1);
+        const bool hex = reference.starts_with("#x");
+        reference.remove_prefix(hex ? 2 : 1);
         unsigned code = 0;
         const auto [end, error] =
             std::from_chars(reference.data(), reference.data() + reference.size(), code, hex ? 16 : 10);
-        return error == std::errc{} && end == reference.data() + reference.size() && !reference.empty() &&
+        return error == std::errc{} && end == reference.data() + reference.size() &&
                (code >= 0x20 || code == 9 || code == 10 || code == 13) && code <= 0x10ffff &&
                (code < 0xd800 || code > 0xdfff);
     }
 
     bool markup() {
+        const bool only_instructions = std::exchange(only_instructions_, at("<?"));
+        if (at("<?"))
+            return only_instructions ? skip("<?", "?>", "the declaration that begins here is not closed")
+                                     : fail(pos_, "a '<?' stands after another thing than a '<?'",
+                                            "move it to the beginning of the file, after the <?xml?>");
         if (at("<!--")) return skip("<!--", "-->", "the comment that begins here is not closed");
         if (at("<![CDATA["))
-            return skip("<![CDATA[", "]]>", "the CDATA section that begins here is not closed");
-        if (at("<?")) return skip("<?", "?>", "the declaration that begins here is not closed");
+            return open_.empty()
+                       ? fail(pos_, "there is text outside of the first element")
+                       : skip("<![CDATA[", "]]>", "the CDATA section that begins here is not closed");
         if (at("<!")) {
             const std::size_t end = std::min(text_.find('>', pos_), text_.size());
             const std::size_t bracket = text_.substr(0, end).find('[', pos_);
@@ -173,8 +176,6 @@ class Scanner {
     }
 
     bool skip(std::string_view begin, std::string_view end, std::string message) {
-        if (open_.empty() && begin == "<![CDATA[")
-            return fail(pos_, "there is text outside of the first element");
         const std::size_t close = text_.find(end, pos_ + begin.size());
         if (close == std::string_view::npos)
             return fail(pos_, std::move(message), fmt::format("it ends with {}", end));
@@ -192,15 +193,14 @@ class Scanner {
             return fail(start, "a damaged end tag", "an end tag is written </Name>");
         ++pos_;
         if (open_.empty()) return fail(start, fmt::format("</{}> closes nothing", closes));
-        const Open last = open_.back();
-        if (last.name != closes) {
-            const bool is_open =
-                std::any_of(open_.begin(), open_.end(), [&](const Open& o) { return o.name == closes; });
-            return fail(
-                start,
-                fmt::format("</{}> comes before <{}> of {} is closed", closes, last.name, line_of(last)),
-                is_open ? fmt::format("close it with </{}>, or end its start tag with '/>'", last.name)
-                        : fmt::format("no <{}> is open here; is </{}> meant?", closes, last.name));
+        const std::string_view last = open_.back();
+        if (last != closes) {
+            const bool is_open = std::find(open_.begin(), open_.end(), closes) != open_.end();
+            return fail(start,
+                        fmt::format("</{}> comes before <{}> of line {} is closed", closes, last,
+                                    document_.place(last.data()).line),
+                        is_open ? fmt::format("close it with </{}>, or end its start tag with '/>'", last)
+                                : fmt::format("no <{}> is open here; is </{}> meant?", closes, last));
         }
         open_.pop_back();
         return true;
@@ -208,58 +208,54 @@ class Scanner {
 
     bool start_tag() {
         const std::size_t start = pos_++;
-        const std::string_view element = name();
-        if (element.empty())
-            return fail(start, "a '<' that begins no element", "a '<' itself is written &lt;");
+        const std::string_view tag = name();
+        if (tag.empty()) return fail(start, "a '<' that begins no element", "a '<' itself is written &lt;");
         if (open_.empty() && !root_.empty())
-            return fail(start, fmt::format("<{}> stands after the end of <{}>", element, root_),
+            return fail(start, fmt::format("<{}> stands after the end of <{}>", tag, root_),
                         "a file holds one outermost element");
         if (open_.size() >= deepest)
-            return fail(start, fmt::format("<{}> is nested more than {} elements deep", element, deepest));
+            return fail(start, fmt::format("<{}> is nested more than {} elements deep", tag, deepest));
         if (!counted(start)) return false;
-        if (root_.empty()) root_ = element;
-        std::vector<std::string_view> seen;
-        last_value_ = {};
+        if (root_.empty()) root_ = tag;
+        seen_.clear(), last_value_ = {};
         while (true) {
             const std::size_t gap = skip_blanks();
             if (at("/>")) return pos_ += 2, true;
             if (at(">")) {
                 ++pos_;
-                open_.push_back({element, start});
+                open_.push_back(tag);
                 return true;
             }
             if (pos_ >= text_.size() || at("<"))
                 return fail(
-                    start, fmt::format("the start tag <{}> is not closed", element),
+                    start, fmt::format("the start tag <{}> is not closed", tag),
                     pos_ >= text_.size() ? "is the file complete?" : "a start tag ends with '>' or '/>'");
-            if (!attribute(element, gap, seen)) return false;
+            if (!attribute(tag, gap)) return false;
         }
     }
 
-    bool attribute(std::string_view element, std::size_t gap, std::vector<std::string_view>& seen) {
+    bool attribute(std::string_view tag, std::size_t gap) {
         const std::size_t start = pos_;
         const std::string_view attribute = name();
-        // After a forgotten quote the next value's first quote closes, and its text stands where a name
+        // After a forgotten quote the first quote of the next value closes, and its text stands where a name
         // should.
         if ((attribute.empty() || gap == 0) && last_value_.find('=') != std::string_view::npos)
-            return fail(static_cast<std::size_t>(last_value_.data() - text_.data()) - 1,
-                        fmt::format("the value of '{}' has no closing quote", seen.back()),
+            return fail(offset(last_value_) - 1,
+                        fmt::format("the value of '{}' has no closing quote", seen_.back()),
                         "attributes are written name=\"value\"");
         if (attribute.empty())
-            return fail(start, fmt::format("no attribute of <{}> can begin here", element),
+            return fail(start, fmt::format("no attribute of <{}> can begin here", tag),
                         "attributes are written name=\"value\"");
         if (gap == 0)
             return fail(start, fmt::format("there is no blank before the attribute '{}'", attribute),
                         "attributes are written name=\"value\", with a blank between them");
-        // Seen names are few: only a hostile file has many, and the limit keeps it from costing more than
-        // time.
-        if (std::find(seen.begin(), seen.end(), attribute) != seen.end())
-            return fail(start, fmt::format("<{}> has the attribute '{}' twice", element, attribute),
+        if (std::find(seen_.begin(), seen_.end(), attribute) != seen_.end())
+            return fail(start, fmt::format("<{}> has the attribute '{}' twice", tag, attribute),
                         "remove one of them");
-        if (seen.size() >= 1000)
-            return fail(start, fmt::format("<{}> has more than {} attributes", element, seen.size()));
+        constexpr std::size_t most = 1000;  // each is compared with all before it
+        if (seen_.size() >= most)
+            return fail(start, fmt::format("<{}> has more than {} attributes", tag, most));
         if (!counted(start)) return false;
-        seen.push_back(attribute);
         skip_blanks();
         if (!at("="))
             return fail(start, fmt::format("the attribute '{}' has no value", attribute),
@@ -270,35 +266,38 @@ class Scanner {
             return fail(pos_, fmt::format("the value of '{}' does not begin with a quote", attribute),
                         fmt::format("it is written {}=\"value\"", attribute));
         const char quote = text_[pos_];
-        const std::size_t value = ++pos_, end = text_.find(quote, value);
-        const std::size_t bracket = text_.substr(0, end).find('<', value);
-        if (end == std::string_view::npos || bracket < end)
-            return fail(value - 1, fmt::format("the value of '{}' has no closing quote", attribute),
-                        bracket < end ? "or a '<' in it, which is written &lt;" : "is the file complete?");
-        pos_ = end + 1;
-        last_value_ = text_.substr(value, end - value);
-        return references(value, end);
+        const std::size_t from = ++pos_, to = text_.find(quote, from);
+        const std::size_t bracket = text_.substr(0, to).find('<', from);
+        if (to == std::string_view::npos || bracket < to)
+            return fail(from - 1, fmt::format("the value of '{}' has no closing quote", attribute),
+                        bracket < to ? "or a '<' in it, which is written &lt;" : "is the file complete?");
+        pos_ = to + 1;
+        last_value_ = text_.substr(from, to - from);
+        seen_.push_back(attribute);
+        return references(from, to);
     }
 
     bool counted(std::size_t where) {
         return ++nodes_ <= most_nodes_ ||
                fail(where,
-                    fmt::format("the file has more than {} elements, attributes and remarks", most_nodes_));
+                    fmt::format("the file has more than {} elements, attributes and comments", most_nodes_));
     }
 
+    const Document& document_;
     std::string_view text_, beginning_;
     std::size_t most_nodes_;
+    Diagnostics& diagnostics_;
     std::size_t pos_ = 0, nodes_ = 0;
-    std::string_view root_;
-    std::string_view last_value_;  ///< of the attribute before this one
-    std::vector<Open> open_;
-    std::optional<Fault> fault_;
+    bool only_instructions_ = true;       ///< nothing else came so far: tinyxml2 reads them nowhere else
+    std::string_view root_, last_value_;  ///< the value is that of the attribute before this one
+    std::vector<std::string_view> open_, seen_;  ///< elements, and attributes of this tag
 };
 
 }  // namespace
 
-std::optional<Fault> first_fault(std::string_view text, std::string_view beginning, std::size_t most_nodes) {
-    return Scanner(text, beginning, most_nodes).run();
+std::optional<std::string_view> find_root(const Document& document, std::string_view beginning,
+                                          std::size_t most_nodes, Diagnostics& diagnostics) {
+    return Scanner(document, beginning, most_nodes, diagnostics).run();
 }
 
 }  // namespace forage::xml

@@ -1,27 +1,25 @@
 #include "core/xml/writer.h"
 
-#include <algorithm>
 #include <array>
 
-#include <tinyxml2.h>
-
-#include "core/types/parameter.h"
+#include "core/xml/printer.h"
 
 namespace forage::xml {
 namespace {
 
-class Writer {
+class Writer : Printer {
   public:
+    using Printer::result;
+
     void system(const model::System& s) {
         comments(s.comments);
-        open("System");
-        attribute("id", s.id);
-        attribute("name", s.name);
-        attribute("author", s.author);
-        attribute("date", s.date);
-        attribute("cylesPerSecond", s.cycles_per_second);
-        attribute("syncPlots", s.sync_plots);
-        if (!s.port.empty()) attribute("port", s.port);
+        open("System", {{"id", s.id},
+                        {"name", s.name},
+                        {"author", s.author},
+                        {"date", s.date},
+                        {"cylesPerSecond", s.cycles_per_second},
+                        {"syncPlots", s.sync_plots},
+                        unless_empty("port", s.port)});
         note(s.note);
         for (const auto& p : s.processes) process(p.linked() ? p.placeholder.front() : p);
         for (const auto& c : s.connections)
@@ -30,127 +28,82 @@ class Writer {
     }
 
     void process_file(const model::ProcessFile& f) {
-        open("iqrEntity");
-        attribute("type", "Process");
+        open("iqrEntity", {{"type", "Process"}});
         process(f.process);
         for (const auto& c : f.connections) connection(c);
         close();
     }
 
-    std::string text() const {
-        std::string out;
-        for (const char* c = out_.CStr(); *c; ++c) {
-            if (*c == carriage_return)
-                out += "&#13;";
-            else if (*c == line_feed)
-                out += "&#10;";
-            else if (*c == tab)
-                out += "&#9;";
-            else
-                out += *c;
-        }
-        return out;
-    }
-
   private:
-    void open(const char* name) { out_.OpenElement(name); }
-    void close() { out_.CloseElement(); }
-    void attribute(const char* name, std::string value) {
-        for (char& c : value) c = c == '\r' ? carriage_return : c == '\n' ? line_feed : c == '\t' ? tab : c;
-        out_.PushAttribute(name, value.c_str());
-    }
-    void attribute(const char* name, const char* value) { out_.PushAttribute(name, value); }
-    void attribute(const char* name, bool value) { attribute(name, value ? "true" : "false"); }
-    void attribute(const char* name, int value) { attribute(name, to_text(value)); }
-    void attribute(const char* name, double value) { attribute(name, to_text(value)); }
-    /// An element with nothing in it.
-    template <class... Values>
-    void leaf(const char* name, const Values&... attributes) {
-        open(name);
-        (attribute(attributes.first, attributes.second), ...);
-        close();
+    static Attribute unless_empty(const char* name, const std::string& value) {
+        return {name, value, value.empty()};
     }
 
     void comments(const std::vector<std::string>& all) {
-        for (const auto& c : all) out_.PushComment(c.c_str());
+        for (const auto& c : all) comment(c);
     }
     void note(const std::optional<std::string>& n) {
         if (!n) return;
         open("Note");
-        if (!n->empty()) {
-            std::string content = *n;
-            std::replace(content.begin(), content.end(), '\r', carriage_return);
-            out_.PushText(content.c_str());
-        }
+        if (!n->empty()) text(*n);
         close();
     }
     void icon(const std::optional<model::Icon>& i) {
-        if (i)
-            leaf("DiagramIcon", std::pair("x", i->x), std::pair("y", i->y), std::pair("width", i->width),
-                 std::pair("height", i->height));
+        if (i) leaf("DiagramIcon", {{"x", i->x}, {"y", i->y}, {"width", i->width}, {"height", i->height}});
     }
 
     void process(const model::Process& p) {
         comments(p.comments);
-        open("Process");
-        attribute("id", p.id);
-        attribute("name", p.name);
-        if (!p.hostname.empty()) attribute("hostname", p.hostname);
-        if (!p.port.empty()) attribute("port", p.port);
-        attribute("enableModule", p.module_enabled);
-        if (!p.path.empty()) attribute("path", p.path);
-        if (!p.color.empty()) attribute("color", p.color);
-        if (p.module) module(*p.module);
+        open("Process", {{"id", p.id},
+                         {"name", p.name},
+                         unless_empty("hostname", p.hostname),
+                         unless_empty("port", p.port),
+                         {"enableModule", p.module_enabled},
+                         unless_empty("path", p.path),
+                         unless_empty("color", p.color)});
+        if (p.module) {
+            use("Module", *p.module);
+            references("InputFromGroup", p.module->inputs);
+            references("OutputToGroup", p.module->outputs);
+            end_use(*p.module);
+        }
         note(p.note);
         icon(p.icon);
         for (const auto& g : p.groups) group(g);
         close();
     }
 
-    void settings(const model::TypeUse& use) {
-        attribute("name", use.type);
-        for (const auto& s : use.settings)
-            leaf("Parameter", std::pair("name", s.name), std::pair("value", s.value));
+    void use(const char* element, const model::TypeUse& u) {
+        open(element, {{"name", u.type}});
+        for (const auto& s : u.settings) leaf("Parameter", {{"name", s.name}, {"value", s.value}});
     }
+    void end_use(const model::TypeUse& u) { note(u.note), close(); }
     void references(const char* holder, const std::vector<model::CrossReference>& all) {
         if (all.empty()) return;
-        open("XRefHolder");
-        attribute("name", holder);
-        for (const auto& r : all) leaf("XRef", std::pair("name", r.name), std::pair("target", r.target));
-        close();
-    }
-    void module(const model::ModuleUse& m) {
-        open("Module");
-        settings(m);
-        references("InputFromGroup", m.inputs);
-        references("OutputToGroup", m.outputs);
-        note(m.note);
+        open("XRefHolder", {{"name", holder}});
+        for (const auto& r : all) leaf("XRef", {{"name", r.name}, {"target", r.target}});
         close();
     }
 
     void group(const model::Group& g) {
         comments(g.comments);
-        open("Group");
-        attribute("id", g.id);
-        attribute("name", g.name);
-        if (!g.color.empty()) attribute("color", g.color);
+        open("Group", {{"id", g.id}, {"name", g.name}, unless_empty("color", g.color)});
         open("Topology");
         if (const auto* rect = std::get_if<model::RectTopology>(&g.topology))
-            leaf("TopologyRect", std::pair("hcount", rect->width), std::pair("vcount", rect->height),
-                 std::pair("cylinderHor", rect->wrap_y), std::pair("cylinderVert", rect->wrap_x));
+            leaf("TopologyRect", {{"hcount", rect->width},
+                                  {"vcount", rect->height},
+                                  {"cylinderHor", rect->wrap_y},
+                                  {"cylinderVert", rect->wrap_x}});
         else
             points("TopologySparse", std::get<model::SparseTopology>(g.topology).points);
         close();
-        open("Neuron");
-        settings(g.neuron);
-        note(g.neuron.note);
-        close();
+        use("Neuron", g.neuron), end_use(g.neuron);
         note(g.note);
         icon(g.icon);
         close();
     }
 
-    void point(const model::Point& p) { leaf("Point", std::pair("x", p.x), std::pair("y", p.y)); }
+    void point(const model::Point& p) { leaf("Point", {{"x", p.x}, {"y", p.y}}); }
     void points(const char* name, const std::vector<model::Point>& all) {
         open(name);
         for (const auto& p : all) point(p);
@@ -159,8 +112,7 @@ class Writer {
 
     void population(const model::Population& p) {
         if (const auto* r = std::get_if<model::Region>(&p))
-            leaf("Region", std::pair("xstart", r->x), std::pair("ystart", r->y), std::pair("width", r->width),
-                 std::pair("height", r->height));
+            leaf("Region", {{"xstart", r->x}, {"ystart", r->y}, {"width", r->width}, {"height", r->height}});
         else if (const auto* l = std::get_if<model::List>(&p))
             points("List", l->points);
         else
@@ -170,8 +122,7 @@ class Writer {
     void pattern(const model::Pattern& pattern) {
         open("Pattern");
         if (const auto* mapped = std::get_if<model::MappedPattern>(&pattern)) {
-            open("PatternMapped");
-            attribute("type", mapped->all ? "all" : "center");
+            open("PatternMapped", {{"type", mapped->all ? "all" : "center"}});
             population(mapped->source), population(mapped->target);
         } else if (const auto* each = std::get_if<model::ForeachPattern>(&pattern)) {
             open("PatternForeach");
@@ -188,36 +139,46 @@ class Writer {
         close();
     }
 
-    void shape(const model::RectArbor& a) {
-        open("ArbRect"), attribute("width", a.width), attribute("height", a.height);
-    }
-    void shape(const model::EllipseArbor& a) {
-        open("ArbEllipse"), attribute("width", a.width), attribute("height", a.height);
-    }
-    void shape(const model::RectWindowArbor& a) { open("ArbRectWindow"), window(a); }
-    void shape(const model::EllipseWindowArbor& a) { open("ArbEllipseWindow"), window(a); }
-    void shape(const model::AllArbor&) { open("ArbAll"); }
-    void shape(const model::RandomArbor& a) { open("ArbRandom"), attribute("count", a.count); }
-    template <class Window>
-    void window(const Window& a) {
-        attribute("innerwidth", a.inner_width), attribute("innerheight", a.inner_height);
-        attribute("outerwidth", a.outer_width), attribute("outerheight", a.outer_height);
-    }
-
-    void form(const model::UniformFunction& f) { leaf("FunUniform", std::pair("value", f.value)); }
-    void form(const model::LinearFunction& f) {
-        leaf("FunLinear", std::pair("min", f.min), std::pair("max", f.max));
-    }
-    void form(const model::GaussianFunction& f) {
-        leaf("FunGaussian", std::pair("min", f.min), std::pair("max", f.max), std::pair("sigma", f.sigma));
-    }
-    void form(const model::BlockFunction& f) {
-        open("FunBlock");
-        attribute("min", f.min), attribute("max", f.max), attribute("width", f.width);
-        if (f.height != 0) attribute("height", f.height);
+    void arborization(const model::Arborization& a) {
+        const Attribute direction{"direction", a.direction == model::Direction::projective ? "PF" : "RF"},
+            probability{"initialization_probability", a.probability};
+        const auto rect = [&](const char* name, const auto& s) {
+            leaf(name, {{"width", s.width}, {"height", s.height}, direction, probability});
+        };
+        const auto window = [&](const char* name, const auto& s) {
+            leaf(name, {{"innerwidth", s.inner_width},
+                        {"innerheight", s.inner_height},
+                        {"outerwidth", s.outer_width},
+                        {"outerheight", s.outer_height},
+                        direction,
+                        probability});
+        };
+        open("Arborization");
+        if (const auto* rectangle = std::get_if<model::RectArbor>(&a.shape))
+            rect("ArbRect", *rectangle);
+        else if (const auto* ellipse = std::get_if<model::EllipseArbor>(&a.shape))
+            rect("ArbEllipse", *ellipse);
+        else if (const auto* frame = std::get_if<model::RectWindowArbor>(&a.shape))
+            window("ArbRectWindow", *frame);
+        else if (const auto* ring = std::get_if<model::EllipseWindowArbor>(&a.shape))
+            window("ArbEllipseWindow", *ring);
+        else if (const auto* random = std::get_if<model::RandomArbor>(&a.shape))
+            leaf("ArbRandom", {{"count", random->count}, direction, probability});
+        else
+            leaf("ArbAll", {direction, probability});
         close();
     }
-    void form(const model::RandomFunction& f) { leaf("FunRandom", std::pair("max", f.max)); }
+
+    void form(const model::UniformFunction& f) { leaf("FunUniform", {{"value", f.value}}); }
+    void form(const model::LinearFunction& f) { leaf("FunLinear", {{"min", f.min}, {"max", f.max}}); }
+    void form(const model::GaussianFunction& f) {
+        leaf("FunGaussian", {{"min", f.min}, {"max", f.max}, {"sigma", f.sigma}});
+    }
+    void form(const model::BlockFunction& f) {
+        leaf("FunBlock",
+             {{"min", f.min}, {"max", f.max}, {"width", f.width}, {"height", f.height, f.height == 0}});
+    }
+    void form(const model::RandomFunction& f) { leaf("FunRandom", {{"max", f.max}}); }
     void function(const char* name, const model::DistanceFunction& f) {
         open(name);
         std::visit([this](const auto& g) { form(g); }, f.form);
@@ -227,42 +188,28 @@ class Writer {
     void connection(const model::Connection& c) {
         static constexpr std::array kinds{"excitatory", "inhibitory", "modulatory"};
         comments(c.comments);
-        open("Connection");
-        attribute("id", c.id);
-        attribute("name", c.name);
-        attribute("type", kinds[static_cast<std::size_t>(c.kind)]);
-        attribute("source", c.source);
-        attribute("target", c.target);
+        open("Connection", {{"id", c.id},
+                            {"name", c.name},
+                            {"type", kinds[static_cast<std::size_t>(c.kind)]},
+                            {"source", c.source},
+                            {"target", c.target}});
         pattern(c.pattern);
-        open("Arborization");
-        std::visit([this](const auto& a) { shape(a); }, c.arborization.shape);
-        attribute("direction", c.arborization.direction == model::Direction::projective ? "PF" : "RF");
-        attribute("initialization_probability", c.arborization.probability);
-        close();
-        close();
+        arborization(c.arborization);
         function("AttenuationFunction", c.attenuation);
         function("DelayFunction", c.delay);
         if (c.synapse) {
-            open("Synapse");
-            settings(*c.synapse);
+            use("Synapse", *c.synapse);
             references("Freedback", c.synapse->feedback);
-            note(c.synapse->note);
-            close();
+            end_use(*c.synapse);
         }
         note(c.note);
         if (c.line) {
-            open("DiagramLine");
-            attribute("APSource", c.line->source_anchor), attribute("APTarget", c.line->target_anchor);
+            open("DiagramLine", {{"APSource", c.line->source_anchor}, {"APTarget", c.line->target_anchor}});
             for (const auto& v : c.line->vertices) point(v);
             close();
         }
         close();
     }
-
-    // The printer writes these as they are, and a reader would take them for blanks (in a text, a carriage
-    // return for a line end): they pass it as characters that no XML holds.
-    static constexpr char carriage_return = 1, line_feed = 2, tab = 3;
-    tinyxml2::XMLPrinter out_;
 };
 
 constexpr const char* declaration = "<?xml version=\"1.0\" encoding=\"UTF-8\" standalone=\"no\"?>\n";
@@ -275,13 +222,13 @@ std::string write_system(const model::System& system) {
     std::string instructions;
     for (const auto& i : system.instructions) instructions += "<?" + i + "?>\n";
     return declaration + instructions + "<!DOCTYPE System PUBLIC '-//INI/iqr421' 'iqrSystem.dtd'>\n" +
-           writer.text();
+           writer.result();
 }
 
 std::string write_process(const model::ProcessFile& file) {
     Writer writer;
     writer.process_file(file);
-    return declaration + writer.text();
+    return declaration + writer.result();
 }
 
 }  // namespace forage::xml

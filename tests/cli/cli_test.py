@@ -555,13 +555,15 @@ class Others(Cli):
             self.assertEqual(done.stderr, "")
 
     def test_schema_is_current_and_accepts_the_shipped_systems(self):
-        schema = PROJECT / "docs" / "reference" / "iqr.rng"
+        reference = PROJECT / "docs" / "reference"
+        schema, experiments = reference / "iqr.rng", reference / "experiment.rng"
         self.assertEqual(self.forage("schema").stdout, schema.read_text(), "run: forage schema > docs/reference/iqr.rng")
+        self.assertEqual(self.forage("schema", "--experiment").stdout, experiments.read_text(), "run: forage schema --experiment > docs/reference/experiment.rng")
         if not shutil.which("xmllint"):
             self.skipTest("xmllint is absent")
         files = [*(PROJECT / "systems").glob("*.iqr"), *SHARED.glob("original/*/*.iqr"), *SHARED.glob("original/*/*.iqrProcess")]
-        for file in files:
-            done = subprocess.run(["xmllint", "--nowarning", "--noout", "--relaxng", schema, file], capture_output=True, text=True)
+        for grammar, file in [*((schema, f) for f in files), *((experiments, f) for f in (PROJECT / "systems").glob("*/*.xml"))]:
+            done = subprocess.run(["xmllint", "--nowarning", "--noout", "--relaxng", grammar, file], capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, done.stderr)
         bad = PROJECT / "tests" / "diagnostics" / "bad_systems" / "four_mistakes_of_four_kinds.iqr"
         done = subprocess.run(["xmllint", "--nowarning", "--noout", "--relaxng", schema, bad], capture_output=True, text=True)

@@ -56,11 +56,11 @@ class World(unittest.TestCase):
         text = (SYSTEMS / "worlds" / "team_arena.world").read_text()
         models = {"FORAGE_MODEL_PATH": str(SYSTEMS / "worlds" / "models")}
         for old, new, said in [
-            ("-4.5 5.5 0 0 0 -0.8", "-4.5 nan 0 0 0 -0.8", r"bad.world:\d+:\d+: error: <pose> holds a number that is not finite"),
+            ("-4.5 5.5 0 0 0 -0.8", "-4.5 nan 0 0 0 -0.8", r"bad.world:\d+:\d+: error: <pose> = 'nan' is not a finite number"),
             ("<name>A_2</name>", "<name>A_1</name>", r"bad.world:\d+:\d+: error: there are two robots named 'A_1'"),
             ("model://home", "model://hom", r"bad.world:\d+:\d+: error: there is no model 'model://hom'"),
-            ("<most>12</most>", "<moost>12</moost>", r"bad.world:\d+:\d+: error: <moost> is no rule of a game"),
-            ("<site>-1 1 0.1</site>", "<site>-1 1</site>", r"bad.world:\d+:\d+: error: <site> cannot be '-1 1'"),
+            ("<most>12</most>", "<moost>12</moost>", r"bad.world:\d+:\d+: error: <plugin> cannot hold <moost>"),
+            ("<site>-1 1 0.1</site>", "<site>-1 1</site>", r"bad.world:\d+:\d+: error: <site> has 2 numbers instead of 3"),
         ]:
             self.assertIn(old, text)
             (self.here / "bad.world").write_text(text.replace(old, new, 1))

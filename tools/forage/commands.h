@@ -92,8 +92,8 @@ int describe(const RunInput& input);
 int view(const std::string& directory);
 /// Lists the types, or describes one with its parameters.
 int types(const std::string& name, const std::vector<std::string>& plugins);
-/// Prints a RELAX NG schema of system files that use these types.
-int schema(const std::vector<std::string>& plugins);
+/// Prints a RELAX NG schema of experiment files, or of system files with the types of these plugins.
+int schema(bool of_experiments, const std::vector<std::string>& plugins);
 
 /// Writes the project of a plugin into the folder `name`. `kind` is neuron, synapse or module.
 int new_project(const std::string& kind, const std::string& name);

@@ -107,6 +107,8 @@ int program(int argc, char** argv) {
     auto& schema_command =
         *app.add_subcommand("schema", "Print a RELAX NG schema of system files, for editors");
     schema_command.footer("Example:\n  forage schema > iqr.rng");
+    bool of_experiments = false;
+    schema_command.add_flag("--experiment", of_experiments, "The schema of experiment files instead");
     std::string shell;
     auto& completion_command =
         *app.add_subcommand("completion", "Print a script that completes command lines");
@@ -158,7 +160,7 @@ int program(int argc, char** argv) {
         if (app.got_subcommand("completion")) return fmt::print("{}", completion(app, shell)), fine;
         if (app.got_subcommand("new")) return new_project(new_kind, new_name);
         if (app.got_subcommand("build-plugin")) return build_plugin(build_options);
-        if (app.got_subcommand("schema")) return schema(plugins);
+        if (app.got_subcommand("schema")) return schema(of_experiments, plugins);
         return types(type, plugins);
     } catch (const std::exception& e) {
         fmt::print(stderr, "error: {}\n", e.what());

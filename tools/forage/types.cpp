@@ -99,7 +99,8 @@ std::optional<Registry> registry_with(const std::vector<std::string>& plugins) {
 
 }  // namespace
 
-int schema(const std::vector<std::string>& plugins) {
+int schema(bool of_experiments, const std::vector<std::string>& plugins) {
+    if (of_experiments) return fmt::print("{}", xml::relax_ng_of_experiments()), fine;
     const auto registry = registry_with(plugins);
     if (!registry) return bad_input;
     fmt::print("{}", xml::relax_ng(*registry));

@@ -273,7 +273,7 @@ TEST_CASE("An unknown element is a warning at its line, with the nearest name") 
                       text = edited(target, "<psoe>0 2.5 0 0 0 0</psoe>");
     CHECK(said_of(text) == line_of(text, "<psoe>") +
                                ": warning: <psoe> is not known in <include> and has no effect | did you mean "
-                               "<pose>?\n");
+                               "'pose'?\n");
     const std::string model = said_of(edited(
         "<include>",
         "<model name='m'><satic>1</satic><static>1</static><link name='l'><collision name='c'><geometry>"
@@ -282,12 +282,12 @@ TEST_CASE("An unknown element is a warning at its line, with the nearest name") 
         "name='s'><ray><scan><horizontl/><horizontal/></scan>"
         "<range/></ray></sensor></link></model><lihgt/><include>"));
     for (const char* what :
-         {"<satic> is not known in <model> and has no effect | did you mean <static>?",
-          "<sze> is not known in <box> and has no effect | did you mean <size>?",
-          "<surfce> is not known in <collision> and has no effect | did you mean <surface>?",
-          "<materal> is not known in <visual> and has no effect | did you mean <material>?",
-          "<horizontl> is not known in <scan> and has no effect | did you mean <horizontal>?",
-          "<lihgt> is not known in <world> and has no effect | did you mean <light>?"})
+         {"<satic> is not known in <model> and has no effect | did you mean 'static'?",
+          "<sze> is not known in <box> and has no effect | did you mean 'size'?",
+          "<surfce> is not known in <collision> and has no effect | did you mean 'surface'?",
+          "<materal> is not known in <visual> and has no effect | did you mean 'material'?",
+          "<horizontl> is not known in <scan> and has no effect | did you mean 'horizontal'?",
+          "<lihgt> is not known in <world> and has no effect | did you mean 'light'?"})
         CHECK_THAT(model, ContainsSubstring(what));
 }
 
@@ -299,8 +299,7 @@ TEST_CASE("An incomplete or wrong include gives an error with a hint") {
         CHECK(std::count(out.begin(), out.end(), '\n') == 1);
         return out.substr(out.find("error: ") + 7);
     };
-    CHECK(said("") ==
-          "this <include> does not say what to include | write <uri>model://NAME</uri> into it\n");
+    CHECK(said("") == "<include> needs the element <uri> | <uri>: what is included, model://NAME\n");
     CHECK(said("<uri></uri>") == "<uri> is empty | write <uri>model://NAME</uri>\n");
     CHECK(said("<uri>model://wall</uri>") ==
           "there is no model 'model://wall' | did you mean 'model://wall_straight'?\n");
@@ -326,18 +325,19 @@ TEST_CASE("Models that are not found give one error with a hint") {
 TEST_CASE("A malformed value gives an error at its line") {
     const std::string target = "<pose>0 2.5 0 0 0 0</pose>";
     const auto said = [&](const std::string& instead) { return said_of(edited(target, instead)); };
-    const std::string pose = " | a pose is x y z roll pitch yaw: six numbers, in m and rad\n";
-    CHECK(said("<pose>a b c</pose>") == "71: error: <pose> cannot be 'a b c'" + pose);
+    const std::string pose = " | pose: six numbers x y z roll pitch yaw, in m and rad\n";
+    CHECK(said("<pose>a b c</pose>") == "71: error: <pose> = 'a' is not a number" + pose);
     CHECK(said("<pose>1 2 3</pose>") == "71: error: <pose> has 3 numbers instead of 6" + pose);
-    CHECK(said("<static>maybe</static>") == "71: error: <static> cannot be 'maybe' | write true or false\n");
+    CHECK(said("<static>maybe</static>") ==
+          "71: error: <static> = 'maybe' is not true or false | static: true or false\n");
     CHECK(said("</include><model><link name='l'/></model><include><uri>model://target</uri>") ==
           "71: error: <model> needs the attribute 'name' | <model name=\"...\">\n");
     CHECK(said_of(edited("<sdf version=\"1.4\">", "<sdf>")) ==
-          "24: error: <sdf> needs the attribute 'version' | <sdf version=\"1.4\">\n");
-    CHECK(
-        said_of(edited("<max_step_size>0.001<", "<max_step_size>fast<")) ==
-        "32: error: <max_step_size> cannot be 'fast' | a number is expected here, with a point and without a "
-        "unit\n");
+          "24: error: <sdf> needs the attribute 'version' | version: of the format, such as 1.4\n");
+    CHECK(said_of(edited("<max_step_size>0.001<", "<max_step_size>fast<")) ==
+          "32: error: <max_step_size> = 'fast' is not a number | max_step_size: in s, usually 0.001, from "
+          "1e-06 "
+          "to 1\n");
 }
 
 TEST_CASE("An angle of more than a turn gives a warning") {
@@ -372,7 +372,7 @@ TEST_CASE("A file that is not a world gives an error that says what it is") {
     const auto systems = test::source_dir() / "systems";
     const Scratch scratch;
     CHECK(said(systems / "reactive_foraging.iqr") ==
-          "the root element is <System>; that of a world or a model is <sdf>");
+          "the file begins with <System>, a world or model file with <sdf>");
     CHECK_THAT(said(systems / "worlds"), ContainsSubstring("is a folder, not a world file"));
     CHECK_THAT(said(systems / "worlds/models/floor_open/materials/floor_open.png"),
                ContainsSubstring("the byte 0x89 is not UTF-8"));
@@ -381,7 +381,7 @@ TEST_CASE("A file that is not a world gives an error that says what it is") {
     CHECK_THAT(said(scratch.write("a.world", " \n")), ContainsSubstring("is empty"));
     CHECK(said(scratch.write("a.world", "hello")) == "there is text before the first element");
     CHECK(said(scratch.write("a.world", "<!-- <sdf> --><sfd/>")) ==
-          "the root element is <sfd>; that of a world or a model is <sdf>");
+          "the file begins with <sfd>, a world or model file with <sdf>");
 }
 
 TEST_CASE(

@@ -1,8 +1,5 @@
-// Every place that a diagnostic points at is found by pointers into tinyxml2's copy of the text: these tests
-// are what holds that together.
+// Places of elements, attributes and texts in a file.
 #include <algorithm>
-
-#include <tinyxml2.h>
 
 #include "core/xml/document.h"
 #include "tests/support/catch.h"
@@ -24,30 +21,27 @@ std::pair<int, int> place_of(const std::string& text, const std::string& needle,
 
 std::pair<int, int> pair(const Location& at) { return {at.line, at.column}; }
 
-Document parsed(const std::string& text) {
+std::unique_ptr<const Document> parsed(const std::string& text) {
     Diagnostics diagnostics;
-    auto document = Document::parse("test.iqr", text, "<System ...>", diagnostics);
+    auto document = xml::Document::parse("test.iqr", text, "<System ...>", 1000, diagnostics);
     INFO(format(diagnostics));
     REQUIRE(document);
-    return std::move(*document);
+    return document;
 }
 
 /// Checks the places of the elements <A>, <B> and of B's attributes `one` and `two` with the values 11
 /// and 22.
 void check_places(const std::string& text) {
     INFO(text);
-    const Document document = parsed(text);
-    const auto& a = document.root();
-    const auto* b = a.FirstChildElement("B");
+    const auto document = parsed(text);
+    const xml::Element a = document->root(), b = a.child("B");
     REQUIRE(b);
-    CHECK(pair(document.at(a)) == place_of(text, "<A"));
-    CHECK(pair(document.at(*b)) == place_of(text, "<B"));
-    for (const auto& [name, value] : {std::pair("one", "11"), std::pair("two", "22")}) {
-        const auto* attribute = b->FindAttribute(name);
-        REQUIRE(attribute);
-        CHECK(pair(document.name_of(*attribute)) == place_of(text, name));
-        CHECK(pair(document.value_of(*attribute)) == place_of(text, value));
-    }
+    CHECK(pair(a.where()) == place_of(text, "<A"));
+    CHECK(pair(b.where()) == place_of(text, "<B"));
+    for (const auto& attribute : b.attributes())
+        CHECK(pair(document->place(attribute.at)) == place_of(text, std::string(attribute.name)));
+    CHECK(pair(b["one"].where()) == place_of(text, "11"));
+    CHECK(pair(b["two"].where()) == place_of(text, "22"));
 }
 
 const std::string plain = "<A>\n  <B one=\"11\" two='22'/>\n</A>\n";
@@ -63,11 +57,11 @@ TEST_CASE("Places do not depend on what stands before the first element") {
                  "<!-- one <B> -->\n", "\n\n   ", "\t", "<!DOCTYPE A>\n<!-- x -->", "\xef\xbb\xbf",
                  "\xef\xbb\xbf<?xml version=\"1.0\"?>\n");
     const std::string text = before + plain;
-    const Document document = parsed(text);
-    CHECK(pair(document.at(document.root())) == place_of(text, "<A"));
-    const auto* two = document.root().FirstChildElement()->FindAttribute("two");
-    CHECK(pair(document.value_of(*two)) == place_of(text, "22"));
-    CHECK(pair(document.name_of(*two)) == place_of(text, "two"));
+    const auto document = parsed(text);
+    CHECK(pair(document->root().where()) == place_of(text, "<A"));
+    const auto two = document->root().child("B").attributes()[1];
+    CHECK(pair(document->root().child("B")["two"].where()) == place_of(text, "22"));
+    CHECK(pair(document->place(two.at)) == place_of(text, "two"));
 }
 
 TEST_CASE("Places hold in tags over several lines, with tabs and blanks round the equals sign") {
@@ -89,43 +83,33 @@ TEST_CASE("Entities and characters of several bytes before a place do not shift 
         "<A><!-- &amp; \xe2\x82\xac\r\n\r\n --><![CDATA[ <b & ]]><C/>&amp;<B one=\"11\" two=\"22\"/></A>");
 }
 
-TEST_CASE("Places hold after values have been read, which decodes them in place") {
-    const std::string text = "<A><B zero=\"&amp;&amp;&amp;\" one=\"11\" two=\"22\"/></A>";
-    const Document document = parsed(text);
-    const auto* b = document.root().FirstChildElement();
-    CHECK(std::string(b->Attribute("zero")) == "&&&");
-    CHECK(pair(document.value_of(*b->FindAttribute("zero"))) == place_of(text, "&amp;"));
-    CHECK(pair(document.name_of(*b->FindAttribute("one"))) == place_of(text, "one"));
-    CHECK(pair(document.value_of(*b->FindAttribute("two"))) == place_of(text, "22"));
+TEST_CASE("A value is at its first character as it stands in the file, an empty one at its closing quote") {
+    const std::string text = "<A x=\"\" y=\"\" z=\"&amp;&amp;\"/>";
+    const auto document = parsed(text);
+    CHECK(document->root()["z"].text() == "&&");
+    CHECK(pair(document->root()["z"].where()) == place_of(text, "&amp;"));
+    CHECK(document->root()["x"].where().column == 7);
+    CHECK(document->root()["y"].where().column == 12);
 }
 
-TEST_CASE("An empty value is at its closing quote") {
-    const std::string text = "<A x=\"\" y=\"\"/>";
-    const Document document = parsed(text);
-    CHECK(document.value_of(*document.root().FindAttribute("x")).column == 7);
-    CHECK(document.value_of(*document.root().FindAttribute("y")).column == 12);
+TEST_CASE("An absent value is at its element") {
+    const auto document = parsed("<A>\n <B/></A>");
+    CHECK(pair(document->root().child("B")["x"].where()) == std::pair(2, 2));
+    CHECK(pair(document->root().value("C").where()) == std::pair(1, 1));
 }
 
-TEST_CASE("A text is at its first character that is no blank") {
-    const std::string text = "<A>\r\n\r\n\t  &amp; text<B/>\r\n more</A>";
-    const Document document = parsed(text);
-    CHECK(pair(document.at(*document.root().FirstChild()->ToText())) == place_of(text, "&amp;"));
-    CHECK(pair(document.at(*document.root().LastChild()->ToText())) == place_of(text, "more"));
-}
-
-TEST_CASE("Places stay right when the document moves") {
-    std::vector<Document> documents;
-    for (int i = 0; i < 10; ++i) documents.push_back(parsed(plain));
-    for (const auto& document : documents)
-        CHECK(pair(document.at(*document.root().FirstChildElement())) == std::pair(2, 3));
+TEST_CASE("A text is at its first character that is no blank, and a word of a list at its own") {
+    const std::string text = "<A>\r\n\r\n\t  1 two\r\n three<B/></A>";
+    const auto document = parsed(text);
+    const xml::Value value = document->root().value();
+    CHECK(pair(value.where()) == place_of(text, "1"));
+    REQUIRE(value.words().size() == 3);
+    for (const xml::Value& word : value.words()) CHECK(pair(word.where()) == place_of(text, word.text()));
 }
 
 TEST_CASE("A place outlives its document") {
     Location at;
-    {
-        const Document document = parsed(plain);
-        at = document.at(document.root());
-    }
+    { at = parsed(plain)->root().where(); }
     CHECK(at.file->text == plain);
     CHECK(at.file->path == "test.iqr");
 }

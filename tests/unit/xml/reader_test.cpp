@@ -1,6 +1,6 @@
 #include "core/xml/reader.h"
 
-#include "core/xml/format.h"
+#include "core/xml/rules.h"
 #include "tests/support/model_text.h"
 
 using namespace forage;
@@ -194,6 +194,14 @@ TEST_CASE("A remark outside of a note is not read as anything") {
           "15:3: <Topology> holds no text | a text for people stands in a <Note>, a remark in <!-- -->");
 }
 
+TEST_CASE("Each piece of text where none may stand is reported, also in the outermost element") {
+    Diagnostics diagnostics;
+    const std::string text = replaced(replaced(small_system, "<Topology>", "<Topology>one<!-- -->two"),
+                                      "</System>", "three</System>");
+    xml::parse_system("test.iqr", text, diagnostics);
+    CHECK(diagnostics.errors() == 3);
+}
+
 TEST_CASE("Cross references of a module do not pass for those of a synapse, nor the other way round") {
     CHECK(
         mistake(replaced(small_system, "OutputToGroup", "Freedback")) ==
@@ -212,11 +220,12 @@ TEST_CASE("Whole numbers beyond what an int holds are refused and never cast") {
 }
 
 TEST_CASE("Every element that another one can hold is described by the format table") {
-    for (const auto& rule : xml::format_table()) {
-        INFO(rule.name);
-        CHECK_FALSE(rule.doc.empty());
-        for (const auto& child : rule.children) CHECK(xml::find_element(child.name));
-        for (const auto& a : rule.attributes) CHECK_FALSE(a.doc.empty());
-    }
-    CHECK(xml::find_element("Nothing") == nullptr);
+    for (const auto* format : {&xml::system_format(), &xml::process_format(), &xml::experiment_format()})
+        for (const auto& rule : format->elements) {
+            INFO(rule.name);
+            CHECK_FALSE(rule.doc.empty());
+            for (const auto& child : rule.children) CHECK(format->find(child.name));
+            for (const auto& a : rule.attributes) CHECK_FALSE(a.value.doc.empty());
+        }
+    CHECK(xml::system_format().find("Nothing") == nullptr);
 }

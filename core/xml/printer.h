@@ -1,0 +1,64 @@
+// XML text, element by element.
+#pragma once
+
+#include <algorithm>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include <tinyxml2.h>
+
+#include "core/types/parameter.h"
+
+namespace forage::xml {
+
+/// Writes elements with indentation, each on a line of its own. Reading the text gives the same names and
+/// values. Names are literals.
+class Printer {
+  public:
+    struct Attribute {
+        const char* name;
+        ParameterValue value;
+        bool absent = false;  ///< it is not written
+    };
+    using Attributes = std::initializer_list<Attribute>;
+
+    void open(const char* name, Attributes attributes = {}) {
+        out_.OpenElement(name);
+        for (const Attribute& a : attributes)
+            if (!a.absent) out_.PushAttribute(a.name, hidden(to_text(a.value), "\r\n\t").c_str());
+    }
+    void close() { out_.CloseElement(); }
+    /// An element without content.
+    void leaf(const char* name, Attributes attributes = {}) { open(name, attributes), close(); }
+    /// The text of the element that was opened last; such an element holds no others.
+    void text(const std::string& content) { out_.PushText(hidden(content, "\r").c_str()); }
+    void comment(const std::string& content) { out_.PushComment(content.c_str()); }
+
+    std::string result() const {
+        std::string out;
+        for (const char* c = out_.CStr(); *c; ++c)
+            if (*c == 1)
+                out += "&#13;";
+            else if (*c == 2)
+                out += "&#10;";
+            else if (*c == 3)
+                out += "&#9;";
+            else
+                out += *c;
+        return out;
+    }
+
+  private:
+    /// tinyxml2 writes these characters as they are, and a reader would take them for blanks: they pass it as
+    /// characters that no XML holds.
+    static std::string hidden(std::string text, std::string_view special) {
+        for (char& c : text)
+            if (special.find(c) != special.npos) c = c == '\r' ? 1 : c == '\n' ? 2 : 3;
+        return text;
+    }
+
+    tinyxml2::XMLPrinter out_;
+};
+
+}  // namespace forage::xml

@@ -1,0 +1,55 @@
+#include "core/xml/rules.h"
+
+#include <algorithm>
+
+#include "core/xml/document.h"
+
+namespace forage::xml {
+namespace {
+
+template <class Rules>
+auto* named(Rules& rules, std::string_view name) {
+    const auto it = std::find_if(rules.begin(), rules.end(), [&](const auto& r) { return r.name == name; });
+    return it == rules.end() ? nullptr : &*it;
+}
+
+}  // namespace
+
+const AttributeRule* ElementRule::attribute(std::string_view wanted) const {
+    return named(attributes, wanted);
+}
+
+const ElementRule* Format::find(std::string_view element) const { return named(elements, element); }
+
+Format&& Format::link() && {
+    static const ElementRule nothing_inside;
+    std::map<std::string_view, ElementRule*> index;
+    for (ElementRule& e : elements) index[e.name] = &e;
+    for (ElementRule& e : elements)
+        for (std::string_view word : words(e.content)) {
+            const auto colon = std::min(word.find(':'), word.size());
+            const ValueRule* value =
+                colon < word.size() ? &values.at(std::string(word.substr(colon + 1))) : nullptr;
+            std::string_view element = word.substr(0, colon);
+            if (element.empty()) {
+                e.value = value;
+                continue;
+            }
+            ChildRule child{{}, 0, std::numeric_limits<int>::max(), value};
+            if (const char often = element.back(); often == '?' || often == '!' || often == '+') {
+                element.remove_suffix(1);
+                child.least = often != '?';
+                if (often != '+') child.most = 1;
+            }
+            child.name = element;
+            const auto rule = index.find(element);
+            child.rule = rule == index.end() || value ? &nothing_inside : rule->second;
+            e.children.push_back(std::move(child));
+        }
+    for (ElementRule& e : elements)
+        for (ChildRule& child : e.children)
+            if (!child.value) child.value = child.rule->value;
+    return std::move(*this);
+}
+
+}  // namespace forage::xml

@@ -1,0 +1,121 @@
+// File formats as tables: which elements and attributes there are, where they stand and what they mean. The
+// check, its hints and the schemas come from these tables.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace forage::xml {
+
+enum class ValueKind {
+    text,
+    choice,   ///< one of several words
+    boolean,  ///< true or false; in an open format also 1, 0 and capitals
+    number,   ///< one number or several
+    whole,    ///< a whole number
+    any,      ///< texts and elements that only their reader knows
+};
+
+/// What an attribute or an element may say.
+struct ValueRule {
+    ValueKind kind = ValueKind::text;
+    std::string doc = {};
+    double low = -std::numeric_limits<double>::infinity();  ///< numbers outside of `low` to `high` are errors
+    double high = std::numeric_limits<double>::infinity();
+    std::vector<std::string> choices = {};
+    std::size_t least = 1, most = 1;  ///< how many numbers
+    bool may_be_empty = false;        ///< the same as if the element were not there
+    bool decisive = false;            ///< when it is wrong, nothing can be said of what depends on it
+
+    /// Another rule holds in an element whose `attribute` has the value `says`.
+    struct Exception {
+        std::string_view attribute, says;
+        std::string_view rule;  ///< in Format::values
+    };
+    Exception exception = {};
+};
+
+struct AttributeRule {
+    std::string name;
+    ValueRule value;
+    bool required = false;
+};
+
+struct ElementRule;
+
+/// An element that may stand in another one.
+struct ChildRule {
+    std::string name;
+    int least = 0, most = 1;
+    const ValueRule* value = nullptr;   ///< what it says; null when it holds no text
+    const ElementRule* rule = nullptr;  ///< its attributes and elements
+};
+
+struct ElementRule {
+    std::string name, doc;
+    /// The elements that may stand in it, with blanks between them: "Note?:text Process". After a name:
+    /// ? at most once, ! once, + at least once, nothing for any number; and :KIND when the element says a
+    /// value, of a kind in Format::values. A kind without a name is that of the element itself.
+    std::string_view content = {};
+    std::vector<AttributeRule> attributes = {};
+    int choose = 0;  ///< how many elements it holds in all, when they are alternatives; else 0
+
+    std::vector<ChildRule> children = {};  ///< `content`, as Format::link() reads it
+    const ValueRule* value = nullptr;
+
+    const AttributeRule* attribute(std::string_view name) const;
+};
+
+/// A kind of file.
+struct Format {
+    std::string_view name;                ///< with its article: "a system file"
+    std::string_view beginning;           ///< the start tag of such a file: "<System ...>"
+    std::vector<std::string_view> roots;  ///< names of the outermost element; the first one is in the table
+    std::size_t most_nodes = std::size_t{1} << 20;  ///< elements, attributes and comments of a file
+    /// Whether other programs extend the format: unknown elements have no effect and are warnings, unknown
+    /// attributes are not looked at.
+    bool open = false;
+    std::string_view where_texts_stand = "a remark is written <!-- -->";  ///< hint for a text elsewhere
+    std::map<std::string, ValueRule, std::less<>> values = {};            ///< by kind
+    std::vector<ElementRule> elements = {};
+
+    /// Null when the format has no element of that name.
+    const ElementRule* find(std::string_view element) const;
+    /// Makes the children of all elements. Nothing may be added to the tables afterwards.
+    Format&& link() &&;
+};
+
+// Rows of a table. A rule is optional unless required().
+inline AttributeRule required(AttributeRule rule) {
+    rule.required = true;
+    return rule;
+}
+inline AttributeRule text(std::string name, std::string doc) {
+    return {std::move(name), {ValueKind::text, std::move(doc)}};
+}
+inline AttributeRule flag(std::string name, std::string doc) {
+    return {std::move(name), {ValueKind::boolean, std::move(doc)}};
+}
+inline AttributeRule choice(std::string name, std::string doc, std::vector<std::string> choices) {
+    return {std::move(name),
+            {.kind = ValueKind::choice, .doc = std::move(doc), .choices = std::move(choices)}};
+}
+inline AttributeRule number(std::string name, std::string doc,
+                            double low = -std::numeric_limits<double>::infinity(),
+                            double high = std::numeric_limits<double>::infinity()) {
+    return {std::move(name), {ValueKind::number, std::move(doc), low, high}};
+}
+inline AttributeRule whole(std::string name, std::string doc, double low, double high = 1e6) {
+    return {std::move(name), {ValueKind::whole, std::move(doc), low, high}};
+}
+
+const Format& system_format();
+const Format& process_format();
+const Format& experiment_format();
+
+}  // namespace forage::xml

@@ -1,0 +1,187 @@
+// The elements and attributes of system and process files, with the original's spellings.
+#include "core/xml/rules.h"
+
+namespace forage::xml {
+namespace {
+
+AttributeRule direction() {
+    return choice("direction", "RF: around the source cell; PF: around the target cell", {"RF", "PF"});
+}
+AttributeRule probability() {
+    return required(number("initialization_probability",
+                           "chance that a point of the arborization becomes a synapse", 0, 1));
+}
+AttributeRule cells(std::string name, double low = 1, std::string doc = "a number of cells") {
+    return required(whole(std::move(name), std::move(doc), low, 1e5));
+}
+AttributeRule decisive(AttributeRule rule) {
+    rule.value.decisive = true;
+    return rule;
+}
+AttributeRule coordinate(std::string name) {
+    return required(whole(std::move(name), "in the units of the diagram, or a cell from 1", -1e6));
+}
+AttributeRule id() { return required(text("id", "unique in the file")); }
+AttributeRule name() { return required(text("name", "as shown to people")); }
+AttributeRule type_name(std::string doc) { return required(text("name", std::move(doc))); }
+AttributeRule port() { return text("port", "port of the original's remote control"); }
+AttributeRule color() { return text("color", "#RRGGBB"); }
+
+std::vector<ElementRule> elements() {
+    constexpr std::string_view functions = "FunUniform FunLinear FunGaussian FunBlock FunRandom",
+                               populations = "All Region List";
+    const std::vector<AttributeRule> rect{cells("width"), cells("height"), direction(), probability()};
+    const std::vector<AttributeRule> window{cells("innerwidth", 0),
+                                            cells("innerheight", 0),
+                                            cells("outerwidth"),
+                                            cells("outerheight"),
+                                            direction(),
+                                            probability()};
+    const AttributeRule min = required(number("min", "value at distance 0")),
+                        max = required(number("max", "value at the largest distance"));
+    return {
+        {"System",
+         "a brain model: processes and the connections between their groups",
+         "Note? Process Connection",
+         {id(), name(), text("author", "who made it"), text("date", "when it was made"),
+          required(number("cylesPerSecond", "pace of the simulation, in cycles per second; 0: unthrottled", 0,
+                          1e6)),
+          flag("syncPlots", "plots follow every cycle"), port()}},
+        {"iqrEntity",
+         "a part of a system in a file of its own",
+         "Process! Connection",
+         {required(choice("type", "what the part is", {"Process"}))}},
+        {"Process",
+         "a part of the system: groups, and possibly the module that ties them to the outside",
+         "Module? Note? DiagramIcon? Group",
+         {id(), name(), text("hostname", "unused"), port(), flag("enableModule", "whether the module runs"),
+          text("path", "file of a linked process"), color()}},
+        {"Module",
+         "what ties the process to the outside",
+         "Parameter XRefHolder Note?",
+         {type_name("the module type")}},
+        {"Parameter",
+         "a parameter of a type",
+         "",
+         {type_name("as the type declares it"), required(text("value", "its value"))}},
+        {"XRefHolder",
+         "a list of cross references",
+         "XRef",
+         {required(
+             decisive(choice("name", "InputFromGroup and OutputToGroup in a module, Freedback in a synapse",
+                             {"InputFromGroup", "OutputToGroup", "Freedback"})))}},
+        {"XRef",
+         "a named place and what stands in it",
+         "",
+         {type_name("as the type declares it"),
+          required(text("target", "id of a group, or a state of the target's neuron; empty: unset"))}},
+        {"Note", "a text for people", ":text"},
+        {"DiagramIcon",
+         "place of an icon in the diagram",
+         "",
+         {coordinate("x"), coordinate("y"), whole("width", "of the icon", 0),
+          whole("height", "of the icon", 0)}},
+        {"Group",
+         "cells of one neuron type",
+         "Topology! Neuron! Note? DiagramIcon?",
+         {id(), name(), color()}},
+        {"Topology", "the cells of a group", "TopologyRect TopologySparse", {}, 1},
+        {"TopologyRect",
+         "a rectangle of cells",
+         "",
+         {decisive(cells("hcount", 1, "cells in a row")), decisive(cells("vcount", 1, "cells in a column")),
+          flag("cylinderHor", "the upper edge meets the lower one"),
+          flag("cylinderVert", "the left edge meets the right one")}},
+        {"TopologySparse", "single cells", "Point+"},
+        {"Point",
+         "a cell, or a vertex of a line",
+         "",
+         {decisive(coordinate("x")), decisive(coordinate("y"))}},
+        {"Neuron", "the type of a group's cells", "Parameter Note?", {type_name("the neuron type")}},
+        {"Connection",
+         "synapses from one group to another",
+         "Pattern! Arborization! AttenuationFunction! DelayFunction! Synapse? Note? DiagramLine?",
+         {id(), name(), required(text("source", "id of a group")), required(text("target", "id of a group")),
+          choice("type", "how it acts on its target", {"excitatory", "inhibitory", "modulatory"})}},
+        {"Pattern", "which cells are paired", "PatternMapped PatternForeach PatternTuples", {}, 1},
+        {"PatternMapped",
+         "the smaller population laid over the larger",
+         populations,
+         {choice("type", "pair with the centre of the projection, or with all cells under it",
+                 {"center", "all"})},
+         2},
+        {"PatternForeach", "every source cell with every target cell", populations, {}, 2},
+        {"PatternTuples", "cell by cell", "Tuple+"},
+        {"Tuple", "every source of it with every target of it", "SourceList! TargetList!"},
+        {"SourceList", "cells of the source", "Point+"},
+        {"TargetList", "cells of the target", "Point+"},
+        {"All", "every cell"},
+        {"Region",
+         "a rectangle of cells",
+         "",
+         {cells("xstart", 1, "its leftmost column"), cells("ystart", 1, "its uppermost row"),
+          cells("width", 1, "its columns"), cells("height", 1, "its rows")}},
+        {"List", "single cells", "Point+"},
+        {"Arborization",
+         "how a pair spreads into synapses",
+         "ArbRect ArbEllipse ArbRectWindow ArbEllipseWindow ArbAll ArbRandom",
+         {},
+         1},
+        {"ArbRect", "a rectangle", "", rect},
+        {"ArbEllipse", "an ellipse", "", rect},
+        {"ArbRectWindow", "a rectangle with a hole", "", window},
+        {"ArbEllipseWindow", "an ellipse with a hole", "", window},
+        {"ArbAll", "every cell", "", {direction(), probability()}},
+        {"ArbRandom", "cells chosen at random", "", {cells("count", 0), direction(), probability()}},
+        {"AttenuationFunction", "what is lost over the distance", functions, {}, 1},
+        {"DelayFunction", "cycles lost over the distance", functions, {}, 1},
+        {"FunUniform",
+         "the same everywhere",
+         "",
+         {required(number("value", "attenuation, or delay in cycles"))}},
+        {"FunLinear", "rises with the distance", "", {min, max}},
+        {"FunGaussian",
+         "rises with the distance like a Gaussian upside down",
+         "",
+         {min, max, required(number("sigma", "its width in cells"))}},
+        {"FunBlock",
+         "min near, max far",
+         "",
+         {min, max, required(whole("width", "diameter of what is near, in cells", 0)),
+          whole("height", "without effect", 0)}},
+        {"FunRandom", "random between 0 and max", "", {max}},
+        {"Synapse",
+         "the type of a connection's synapses",
+         "Parameter XRefHolder Note?",
+         {type_name("the synapse type")}},
+        {"DiagramLine",
+         "the line that draws a connection",
+         "Point",
+         {whole("APSource", "where it leaves the source's icon, 16 points around it", 0, 15),
+          whole("APTarget", "where it meets the target's icon", 0, 15)}},
+    };
+}
+
+Format format(std::string_view name, std::string_view beginning, std::string_view root) {
+    return Format{.name = name,
+                  .beginning = beginning,
+                  .roots = {root},
+                  .where_texts_stand = "a text for people stands in a <Note>, a remark in <!-- -->",
+                  .values = {{"text", {}}},
+                  .elements = elements()}
+        .link();
+}
+
+}  // namespace
+
+const Format& system_format() {
+    static const Format table = format("a system file", "<System ...>", "System");
+    return table;
+}
+
+const Format& process_format() {
+    static const Format table = format("a process file", "<iqrEntity ...>", "iqrEntity");
+    return table;
+}
+
+}  // namespace forage::xml
