@@ -55,12 +55,12 @@ std::vector<RecordingFile> recorded_files(const std::vector<model::RecordingSpec
     };
     std::set<std::string> seen;
     for (const auto& asked : recordings) {
-        const std::string& wish = asked.column.text;
+        const std::string& whole = asked.column.text;
         const std::string option = asked.column.at.file ? "record" : "--record";
-        const auto [text, file] = take_apart(wish);
+        const auto [text, file] = take_apart(whole);
         if (file != file_name(file)) {
             diagnostics.error(asked.column.at,
-                              fmt::format("{} \'{}\': '{}' is not a plain file name", option, wish, file),
+                              fmt::format("{} \'{}\': '{}' is not a plain file name", option, whole, file),
                               "-o chooses the directory; names have letters, digits, '.', '-' and '_'");
             continue;
         }
@@ -87,14 +87,14 @@ std::vector<RecordingFile> recorded_files(const std::vector<model::RecordingSpec
         } else if (!several) {
             diagnostics.error(
                 asked.column.at,
-                fmt::format("{} \'{}\': a .{} file holds one source", option, wish, format.name),
+                fmt::format("{} \'{}\': a .{} file holds one source", option, whole, format.name),
                 "name another file, or one that ends in .npz, .h5 or .dat");
             continue;
         }
         if (at->every != asked.every) {
             diagnostics.error(asked.column.at,
                               fmt::format("{} '{}': '{}' has a row every {} cycles, not every {}", option,
-                                          wish, name, at->every, asked.every),
+                                          whole, name, at->every, asked.every),
                               "name another file for it");
             continue;
         }

@@ -548,6 +548,13 @@ class Others(Cli):
             done = subprocess.run(["mandoc", "-T", "lint", "-W", "error"], input=text, capture_output=True, text=True)
             self.assertEqual(done.stdout, "")
 
+    def test_the_page_on_expressions_names_options_that_exist(self):
+        page = (PROJECT / "docs/reference/expressions.md").read_text()
+        named = set(re.findall(r"`(--[a-z-]+)`", page))
+        self.assertGreaterEqual(named, {"--record", "--plot", "--until", "--schedule", "--set", "--clamp", "--add", "--multiply"})
+        listed = set(re.findall(r"--[a-z-]+", self.forage("run", "--help").stdout))
+        self.assertEqual(named - listed, set())
+
     def test_shipped_systems_are_fine(self):
         for system in (PROJECT / "systems").glob("*.iqr"):
             done = self.forage("check", system)

@@ -36,12 +36,11 @@ std::vector<std::string> usual_plots(const Results& results) {
 
 /// The recording that a plot means, and which part of it; null when there is none.
 const Results::Entry* find_recording(const Results& results, const PlotSpec& spec,
-                                     std::optional<observe::Part>& part) {
-    const auto matches = [](std::string_view wanted, const std::string& name) {
-        return wanted == name || wanted == name.substr(0, name.rfind(':')) || file_name(wanted) == name ||
-               file_name(wanted) + "_act" == name;
+                                     const expression::Source& wanted, std::optional<observe::Part>& part) {
+    const auto matches = [](std::string_view text, const std::string& name) {
+        return text == name || text == name.substr(0, name.rfind(':')) || file_name(text) == name ||
+               file_name(text) + "_act" == name;
     };
-    const auto wanted = expression::parse_source(spec.what);
     for (const auto& entry : results.recordings) {
         const std::string& name = entry.what.name;
         if (spec.what.empty() ? results.recordings.size() == 1
@@ -57,8 +56,11 @@ const Results::Entry* find_recording(const Results& results, const PlotSpec& spe
 /// A picture of recorded rows; empty when there is no such recording, which is reported.
 std::string draw_rows(const Results& results, const PlotSpec& spec, plot::Format format,
                       Diagnostics& diagnostics) {
+    const auto wanted =
+        expression::Context{spec.what, "forage plot", diagnostics}.parsed(&expression::parse_source);
+    if (!wanted) return {};
     std::optional<observe::Part> part;
-    const auto* entry = find_recording(results, spec, part);
+    const auto* entry = find_recording(results, spec, *wanted, part);
     if (!entry) {
         std::vector<std::string> names;
         for (const auto& r : results.recordings) names.push_back(r.what.name);

@@ -161,8 +161,8 @@ std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Di
     plugin::add(sources.plugins, out.registry);
     for (const auto& p : sources.plugins) out.plugins.push_back(p.path);
     if (sources.system && !sources.plugins_failed) {
-        for (const auto& wish : input.settings)
-            model::set(out.system, out.registry, wish.text, diagnostics, wish.at);
+        for (const auto& setting : input.settings)
+            model::set(out.system, out.registry, setting.text, diagnostics, setting.at);
         if (diagnostics.failed())
             model::validate(out.system, out.registry, diagnostics,
                             out.world.get());  // reports all mistakes at once

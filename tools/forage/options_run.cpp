@@ -59,15 +59,15 @@ void add_manipulations(CLI::App& run, RunSpec& o) {
             ->option_text(text);
     };
     add("--clamp", Mode::clamp,
-        "Overwrite the activity of a group: 'Process/Group(x,y)=value' for one of its cells, with all others "
-        "0; 'Process/Group=FILE' with a list of patterns; FILE with a table of rows "
-        "cycle,process,group,v0,v1,...; options stand behind ';', such as '; every 10; until trial 5'. See "
+        "Overwrite the activity of a group: 'Process/Group(x,y)=value' sets a cell, and all others to 0; "
+        "'Process/Group=FILE' applies a list of patterns; FILE is a table of rows "
+        "cycle,process,group,v0,v1,...; options follow ';', such as '; every 10; until trial 5'. See "
         "docs/reference/expressions.md; may be repeated",
         "MANIPULATION");
-    add("--add", Mode::add, "The same, added to the activity after any clamp; other cells stay",
+    add("--add", Mode::add, "Add to the activity of a group, after any --clamp; written as for --clamp",
         "MANIPULATION");
-    add("--multiply", Mode::multiply, "The same, multiplied with the activity at last; other cells stay",
-        "MANIPULATION");
+    add("--multiply", Mode::multiply,
+        "Multiply the activity of a group, after any --add; written as for --clamp", "MANIPULATION");
 }
 
 void add_recording(CLI::App& run, RunSpec& o) {

@@ -45,14 +45,14 @@ std::string key_of(const PlannedRun& run, const model::Experiment& experiment, c
     key["trials"] = or_null(o.length.trials);
     key["longest_trial"] = o.length.trial_timeout;
     key["until"] = o.length.until.text;
-    for (const auto& wish : o.input.settings) key["set"].push_back(wish.text);
-    for (const auto& wish : o.changes) key["at"].push_back(wish.text());
+    for (const auto& each : o.input.settings) key["set"].push_back(each.text);
+    for (const auto& each : o.changes) key["at"].push_back(each.text());
     for (const auto& m : o.manipulations)
         key["manipulate"].push_back({static_cast<int>(m.mode), m.group.text, m.cells.text,
                                      m.patterns.empty() ? "" : file_digest(m.patterns.text), m.every, m.step,
                                      or_null(m.times), m.backwards, m.from.text, m.until.text});
     for (const auto& r : o.recordings) key["record"].push_back({r.column.text, r.every});
-    for (const auto& wish : o.plots) key["plot"].push_back(wish.text);
+    for (const auto& each : o.plots) key["plot"].push_back(each.text);
     for (const auto& m : experiment.measures)
         key["measure"].push_back({static_cast<int>(m.kind), m.what.text});
     return key.dump();
