@@ -238,13 +238,13 @@ void Cycle::deliver() {
     for (const int i : plan_.late) deliver_to(i);
 }
 
-void Cycle::deliver_to(int group, const Share& share) {
+void Cycle::deliver_to(int group, const Share* share) {
     auto& g = state_.groups[group];
     g.same_input = receives_the_same(group);
     if (!g.same_input) g.quiescent = false;
     g.receives = !(g.quiescent && g.delivered);
     g.delivered = true;
-    if (g.receives) receive_from_modules(group);
+    if (g.receives && !plan_.groups[group].module_inputs.empty()) receive_from_modules(group);
     for (const int c : plan_.groups[group].incoming) deliver_through(c, share);
 }
 
@@ -276,7 +276,7 @@ void Cycle::receive_from_modules(int group) {
     }
 }
 
-void Cycle::deliver_through(int connection, const Share& share) {
+void Cycle::deliver_through(int connection, const Share* share) {
     const auto& plan = plan_.connections[connection];
     const auto& from = plan_.groups[plan.source];
     const auto &source = state_.groups[plan.source], &target = state_.groups[plan.target];
@@ -293,7 +293,7 @@ void Cycle::deliver_through(int connection, const Share& share) {
         if (!(plan.effective && target.receives)) {
             if (plan.plastic) plan.plastic->learn(in);
         } else if (shared) {
-            share(*shared, in, row, plan.first);
+            (*share)(*shared, in, row, plan.first);
         } else {
             plan.kernel->deliver(in, row, plan.first);
         }

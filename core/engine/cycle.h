@@ -72,7 +72,7 @@ class Cycle {
     /// Does what Kernel::deliver() does, for a kernel that threads share.
     using Share =
         std::function<void(SharedKernel& kernel, const KernelInput& in, double* target, bool first)>;
-    void deliver_to(int group, const Share& share = {});
+    void deliver_to(int group, const Share* share = nullptr);
 
     /// About how long the updates and deliveries of the next cycle take on one thread, ns.
     double cost() const;
@@ -84,7 +84,7 @@ class Cycle {
     };
     bool receives_the_same(int group) const;
     void receive_from_modules(int group);
-    void deliver_through(int connection, const Share& share);
+    void deliver_through(int connection, const Share* share);
     void note_changes(int module);
     void show_inputs(int module);
 

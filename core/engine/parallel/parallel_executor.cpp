@@ -55,7 +55,7 @@ class ParallelExecutor final : public Executor {
     void deliver() override {
         auto work = [this](int i, int) { cycle_.deliver_to(deliveries_[i]); };
         pool_.run(delivery_shares_, work);
-        for (const int group : divided_deliveries_) cycle_.deliver_to(group, share_);
+        for (const int group : divided_deliveries_) cycle_.deliver_to(group, &share_);
     }
 
   private:
