@@ -6,8 +6,8 @@
 # so that an #include line says which room it comes from.
 add_library(forage_options INTERFACE)
 target_compile_features(forage_options INTERFACE cxx_std_20)
-# The same bits everywhere: no contraction to fused multiply-add, no fast math. Nobody asks errno about mathematics, nor for
-# signals of the processor, which else keep loops with a root or a choice from being vectorised.
+# The same bits everywhere: no contraction to fused multiply-add, no fast math. Mathematical functions set
+# no errno and raise no signals, as both would keep loops with a root or a choice from being vectorised.
 target_compile_options(forage_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                                                 -ffp-contract=off -fno-math-errno -fno-trapping-math)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)

@@ -96,7 +96,7 @@ class Validator {
                            "remove one of them");
             const auto value = parse_parameter(p->kind, s.value);
             if (!value) {
-                const std::string meant = mended(p->kind, s.value);
+                const std::string meant = corrected(p->kind, s.value);
                 out_.error(
                     s.value_at, fmt::format("{} = '{}' is not {}", p->name, s.value, describe(p->kind)),
                     !meant.empty() ? fmt::format("did you mean '{}'?", meant)

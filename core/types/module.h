@@ -59,8 +59,8 @@ struct ModulePorts {
 /// What a module sees in one cycle.
 class ModuleFrame {
   public:
-    /// `written[port]` becomes true when output `port` is taken. `read[port]`: somebody reads that output;
-    /// without the list, all of them.
+    /// `written[port]` becomes true when output `port` is taken. `read[port]` says whether that output is
+    /// read in this run; without the list, every output is.
     ModuleFrame(std::uint64_t cycle, const std::vector<ConstColumn>& in, const std::vector<Column>& out,
                 std::vector<char>* written = nullptr, const std::vector<char>* read = nullptr)
         : cycle_(cycle), in_(in), out_(out), written_(written), read_(read) {}
@@ -68,8 +68,8 @@ class ModuleFrame {
     const ConstColumn& input(std::size_t port) const {  ///< activity of this cycle
         return in_[declared("input", port, in_.size())];
     }
-    /// To be written now, received in the next cycle. An output that a module does not take in a cycle is not
-    /// looked at: take those only that change, and take them again in every cycle.
+    /// The excitation that the port's group receives in the next cycle. An output that a module does not take
+    /// in a cycle keeps its values, so take an output only in the cycles in which it changes.
     Column output(std::size_t port) const {
         declared("output", port, out_.size());
         if (written_) (*written_)[port] = 1;
@@ -78,9 +78,9 @@ class ModuleFrame {
     Index output_size(std::size_t port) const {  ///< 0: unset
         return out_[declared("output", port, out_.size())].size();
     }
-    /// Whether what is written into an output reaches anybody: false for one that is unset, and for one whose
-    /// group nobody reads in this run. The same from start() to the last update. A module may ask to save
-    /// itself a costly output; writing one that is not read is harmless.
+    /// Whether an output is read in this run: false for a port that is unset or whose group is pruned. The
+    /// answer is the same from start() to the last update. A module may ask to save the cost of an output;
+    /// to write an output that is not read is harmless.
     bool is_read(std::size_t port) const { return output_size(port) > 0 && (!read_ || (*read_)[port]); }
     std::size_t inputs() const { return in_.size(); }
     std::size_t outputs() const { return out_.size(); }

@@ -24,7 +24,7 @@ std::optional<ParameterValue> parse_parameter(ParameterKind kind, std::string_vi
     return std::nullopt;
 }
 
-std::string mended(ParameterKind kind, std::string_view text) {
+std::string corrected(ParameterKind kind, std::string_view text) {
     std::string out;
     for (const char c : text) {
         if (c == ' ' || c == '\t' || c == '\r' || c == '\n' || (c == '+' && out.empty())) continue;

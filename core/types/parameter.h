@@ -44,9 +44,9 @@ struct Parameter {
 /// Empty when `text` is not one; NaN and infinities are not numbers here.
 std::optional<ParameterValue> parse_parameter(ParameterKind kind, std::string_view text);
 
-/// `text` as it was probably meant, when it is no value of `kind` but nearly one ("True", " 1", "0,5"); else
-/// empty.
-std::string mended(ParameterKind kind, std::string_view text);
+/// The value of `kind` that `text` was probably meant to be ("True", " 1", "0,5"); empty when it is a value
+/// already, or not nearly one.
+std::string corrected(ParameterKind kind, std::string_view text);
 
 /// Whether `value` is a number outside of `range`.
 bool outside(const ParameterValue& value, const std::optional<ParameterRange>& range);

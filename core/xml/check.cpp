@@ -32,7 +32,7 @@ struct Subject {
     /// What `text`, which is of another kind, was probably meant to be.
     std::string hint(std::string_view text) const {
         if (text.ends_with(',')) return description();  // of a list
-        const std::string meant = mended(rule.kind == ValueKind::boolean ? ParameterKind::boolean
+        const std::string meant = corrected(rule.kind == ValueKind::boolean ? ParameterKind::boolean
                                          : rule.kind == ValueKind::whole ? ParameterKind::integer
                                                                          : ParameterKind::real,
                                          text);

@@ -43,7 +43,7 @@ std::vector<ElementRule> elements() {
         {"System",
          "a brain model: processes and the connections between their groups",
          "Note? Process Connection",
-         {id(), name(), text("author", "who made it"), text("date", "when it was made"),
+         {id(), name(), text("author", "the author"), text("date", "when it was made"),
           required(number("cylesPerSecond", "pace of the simulation, in cycles per second; 0: unthrottled", 0,
                           1e6)),
           flag("syncPlots", "plots follow every cycle"), port()}},

@@ -8,9 +8,9 @@
 
 namespace forage::engine {
 
-/// Work that threads can share is faster for it when it takes long and a processor is free, which nobody can
-/// tell beforehand, and which changes. So it is done both ways for a while, and then in the faster one until
-/// the next trial, which comes at once when sharing has become clearly slower than it was without. The
+/// Sharing makes work faster when the work takes long and a processor is free, which cannot be known
+/// beforehand and which changes. The tuner does the work both ways for a while, and then in the faster way
+/// until the next trial, which comes at once when sharing has become clearly slower than working alone. The
 /// numbers are the same either way.
 template <class Clock = std::chrono::steady_clock>
 class ParallelTuner {

@@ -85,17 +85,17 @@ TEST_CASE("What is not a value of the kind is refused as a whole") {
     CHECK(parse_parameter(ParameterKind::text, ""));
 }
 
-TEST_CASE("What is nearly a value is mended for a hint, and only that") {
-    CHECK(mended(ParameterKind::real, "0,5") == "0.5");
-    CHECK(mended(ParameterKind::real, " 1 ") == "1");
-    CHECK(mended(ParameterKind::real, "+1e-3") == "1e-3");
-    CHECK(mended(ParameterKind::boolean, "TRUE") == "true");
-    CHECK(mended(ParameterKind::boolean, "0") == "false");
-    CHECK(mended(ParameterKind::integer, "1.5") == "");
-    CHECK(mended(ParameterKind::real, "1,000,000") == "");
-    CHECK(mended(ParameterKind::real, "fast") == "");
-    CHECK(mended(ParameterKind::real, "0.5") == "");  // nothing to mend
-    CHECK(mended(ParameterKind::text, " a ") == "");
+TEST_CASE("Text that is nearly a value is corrected for a hint; other text is not") {
+    CHECK(corrected(ParameterKind::real, "0,5") == "0.5");
+    CHECK(corrected(ParameterKind::real, " 1 ") == "1");
+    CHECK(corrected(ParameterKind::real, "+1e-3") == "1e-3");
+    CHECK(corrected(ParameterKind::boolean, "TRUE") == "true");
+    CHECK(corrected(ParameterKind::boolean, "0") == "false");
+    CHECK(corrected(ParameterKind::integer, "1.5") == "");
+    CHECK(corrected(ParameterKind::real, "1,000,000") == "");
+    CHECK(corrected(ParameterKind::real, "fast") == "");
+    CHECK(corrected(ParameterKind::real, "0.5") == "");  // nothing to correct
+    CHECK(corrected(ParameterKind::text, " a ") == "");
 }
 
 TEST_CASE("The range of a parameter holds for numbers of both kinds, its ends included") {
