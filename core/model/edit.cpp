@@ -104,7 +104,7 @@ std::optional<Assignment> parse_assignment(const System& system, const Registry&
                                  : "this process has no module",
                        "");
     const auto it = std::find_if(owner.parameters->begin(), owner.parameters->end(),
-                                 [&](const auto& p) { return p.name == parameter.text; });
+                                 [&name = parameter.text](const auto& p) { return p.name == name; });
     if (it == owner.parameters->end()) {
         std::vector<std::string> known;
         for (const auto& p : *owner.parameters) known.push_back(p.name);

@@ -17,7 +17,7 @@
 namespace forage::observe {
 namespace {
 
-constexpr std::size_t block = 1 << 16;  ///< bytes of rows that are written together
+constexpr std::size_t rows_block = 1 << 16;  ///< bytes of rows that are written together
 constexpr std::uint64_t index_space =
     1 << 18;  ///< bytes that HDF5 writes at most in addition to the rows, until the file is closed
 
@@ -128,7 +128,7 @@ class Hdf5File final : public RowFile {
         for (const auto& [name, text] : header.attributes) attribute(file_, name, text);
         std::size_t row = 1;
         for (const auto& s : header.sources) row += s.size();
-        chunk_ = std::max<std::size_t>(1, block / (8 * row));
+        chunk_ = std::max<std::size_t>(1, rows_block / (8 * row));
         cycle_.emplace(file_, "/cycle", H5T_STD_U64LE, H5T_NATIVE_UINT64, std::vector<hsize_t>{}, chunk_);
         H5DSset_scale(cycle_->id(), "cycle");
         attribute(cycle_->id(), "unit", "cycle");

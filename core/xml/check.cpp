@@ -33,9 +33,9 @@ struct Subject {
     std::string hint(std::string_view text) const {
         if (text.ends_with(',')) return description();  // of a list
         const std::string meant = corrected(rule.kind == ValueKind::boolean ? ParameterKind::boolean
-                                         : rule.kind == ValueKind::whole ? ParameterKind::integer
-                                                                         : ParameterKind::real,
-                                         text);
+                                            : rule.kind == ValueKind::whole ? ParameterKind::integer
+                                                                            : ParameterKind::real,
+                                            text);
         return meant.empty() ? description() : fmt::format("did you mean '{}'?", meant);
     }
 };
@@ -55,11 +55,10 @@ class Checker {
 
     void element(const Element& e, const ChildRule& rule) {
         if (!rule.value) {
-            for (const Value& text : e.texts())
-                ignored(text.where(),
-                        format_.open ? fmt::format("a text in <{}> has no effect", e.name())
-                                     : fmt::format("<{}> holds no text", e.name()),
-                        format_.where_texts_stand);
+            if (!format_.open)  // the robot's own files have a stray character
+                for (const Value& text : e.texts())
+                    ignored(text.where(), fmt::format("<{}> holds no text", e.name()),
+                            format_.where_texts_stand);
             return contents(e, *rule.rule);
         }
         const auto& exception = rule.value->exception;
@@ -255,10 +254,11 @@ class Checker {
 /// What a file is whose outermost element has this name; empty when it is nothing known.
 std::string_view what_begins_with(std::string_view root) {
     static constexpr std::array<std::array<std::string_view, 2>, 4> known = {
-        {{"System", "this is a system file, which 'forage run' runs; it is no part of another file"},
+        {{"System", "this is a system file: 'forage run' runs it, other files do not contain it"},
          {"iqrEntity", "this is a process file: a part of a system, not a system"},
          {"experiment", "this is an experiment file; 'forage experiment' runs it"},
-         {"sdf", "this looks like a world file; --world names it, or <world> in an experiment"}}};
+         {"sdf",
+          "this looks like a world file: pass it with --world, or name it in <world> of an experiment"}}};
     for (const auto& [name, what] : known)
         if (name == root) return what;
     return {};

@@ -29,7 +29,7 @@ Format make_format() {
         .name = "an experiment file",
         .beginning = "<experiment>",
         .roots = {"experiment"},
-        .where_texts_stand = "a text for people stands in the <note>, a remark in <!-- -->",
+        .where_texts_stand = "write a text in the <note>, and a remark in <!-- -->",
         .values = {{"text", {}}},
         .elements =
             {{"experiment", "a system, run many times",

@@ -166,7 +166,7 @@ Format format(std::string_view name, std::string_view beginning, std::string_vie
     return Format{.name = name,
                   .beginning = beginning,
                   .roots = {root},
-                  .where_texts_stand = "a text for people stands in a <Note>, a remark in <!-- -->",
+                  .where_texts_stand = "write a text in a <Note>, and a remark in <!-- -->",
                   .values = {{"text", {}}},
                   .elements = elements()}
         .link();

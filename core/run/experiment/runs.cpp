@@ -189,12 +189,11 @@ std::optional<std::vector<RunResult>> run_experiment(const model::Experiment& ex
                                                      std::span<const PlannedRun> runs,
                                                      const std::string& digests, int jobs, bool fresh,
                                                      const ExperimentCallbacks& callbacks) {
-    using Clock = std::chrono::steady_clock;
     Work work(experiment, prepare, runs, digests, fresh, callbacks);
     std::vector<std::atomic<double>> parts(std::min(static_cast<std::size_t>(jobs), work.open()));
     std::atomic<std::size_t> busy = parts.size();
     std::vector<std::thread> threads;
-    const auto begun = Clock::now();
+    const auto begun = std::chrono::steady_clock::now();
     for (auto& part : parts)
         threads.emplace_back([&work, &part, &busy] {
             work.take_part(part);
@@ -205,7 +204,8 @@ std::optional<std::vector<RunResult>> run_experiment(const model::Experiment& ex
         if (!callbacks.progress) continue;
         double sum = 0;
         for (const auto& part : parts) sum += part;
-        callbacks.progress(work.progress(sum, std::chrono::duration<double>(Clock::now() - begun).count()));
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begun;
+        callbacks.progress(work.progress(sum, elapsed.count()));
     }
     for (auto& thread : threads) thread.join();
     return work.results();

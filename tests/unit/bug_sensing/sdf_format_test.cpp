@@ -46,7 +46,6 @@ TEST_CASE("All mistakes of a world are told at once, those without effect as war
           "103 error <physics> needs the attribute 'type' | <physics type=\"...\">\n");
     CHECK(
         said_of("<sdf version='1.4'><world name='w'>text<modell/><geometry/></world></sdf>") ==
-        "36 warning a text in <world> has no effect | a remark is written <!-- -->\n"
         "40 warning <modell> is not known in <world> and has no effect | did you mean 'model'?\n"
         "49 warning <geometry> is not known in <world> and has no effect | there are 'actor', 'atmosphere', "
         "'audio', 'frame', 'gravity', 'gui', 'include', 'light', 'magnetic_field', 'model', 'physics', "

@@ -191,7 +191,7 @@ TEST_CASE("Unknown attributes and elements are warnings when reading leniently, 
 
 TEST_CASE("A remark outside of a note is not read as anything") {
     CHECK(mistake(replaced(small_system, "<Topology>", "<Topology>\r\n  three cells")) ==
-          "15:3: <Topology> holds no text | a text for people stands in a <Note>, a remark in <!-- -->");
+          "15:3: <Topology> holds no text | write a text in a <Note>, and a remark in <!-- -->");
 }
 
 TEST_CASE("Each piece of text where none may stand is reported, also in the outermost element") {

@@ -164,7 +164,7 @@ TEST_CASE("What is wrong with a linked process is said with the file where it is
     CHECK(say(folder.write("system.iqr", linking_system("self.iqrProcess"))).find("is linked itself") !=
           std::string::npos);
     CHECK(say(folder.write("system.iqr", linking_system("system.iqr")))
-              .find("it is no part of another file") != std::string::npos);
+              .find("other files do not contain it") != std::string::npos);
 }
 
 TEST_CASE("A process file is read, written and read again") {
