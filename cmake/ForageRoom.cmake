@@ -31,3 +31,10 @@ endfunction()
 function(forage_apart)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
+
+# forage_cold(TARGET...): targets that work before and after the cycles of a run. They are compiled for a short build, not for speed.
+function(forage_cold)
+  foreach(target ${ARGN})
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endforeach()
+endfunction()
