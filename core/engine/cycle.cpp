@@ -187,7 +187,7 @@ void Cycle::note_changes(int module) {
         if (same_bits(m.last[i].data(), out.data(), out.size()))
             m.changed[i] = 0;
         else
-            m.last[i] = out;
+            std::copy_n(out.data(), out.size(), m.last[i].data());
     }
 }
 
