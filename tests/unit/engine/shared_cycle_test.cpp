@@ -252,7 +252,7 @@ TEST_CASE("Deliveries to whole groups are shared") {
     Registry registry = types();
     registry.add(synapse_type<Slow>());
     auto simulation =
-        run(s, registry, {.threads = 2, .parallel_threshold_ns = 0, .min_task_ns = GENERATE(0, 1e9)});
+        run(s, registry, {.threads = 2, .parallel_threshold_ns = 0, .min_task_ns = GENERATE(0.0, 1e9)});
     deliverers.clear();
     for (int cycle = 0; cycle < 3; ++cycle) simulation.step();
     CHECK(deliverers.size() == 2);
