@@ -4,8 +4,8 @@
 //
 //     void checkpoint(Archive& archive) { archive(weights_, step_, open_); }
 //
-// and this list serves both to write and to read them. Members that start() computes from the ports and the
-// parameters need not be in it. modules/adaptive_layer/module.h is an example.
+// and this one list serves both to write and to read them. It need not name members that start() computes
+// from the ports and the parameters. modules/adaptive_layer/module.h is an example.
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ class __attribute__((visibility("default"))) ArchiveError : public std::runtime_
 /// `checkpoint(Archive&)`. The bytes are those of little-endian memory; equal values give equal bytes.
 class Archive {
   public:
-    /// How NaN is written. Its sign and payload may depend on the processor.
+    /// How NaN values are written. Their sign and payload may depend on the processor.
     enum class Nan { as_it_is, all_the_same };
 
     /// An archive that writes.

@@ -18,21 +18,21 @@ struct SourceFile {
     std::string text;  ///< may end early, as it is used for excerpts only
 };
 
-/// A place in a file. `line` and `column` (in bytes) count from 1; 0 means the file as a whole. Without a
-/// file it is the command line.
+/// A place in a file. `line` and `column` (in bytes) count from 1; 0 means the file as a whole. A location
+/// without a file is on the command line.
 struct Location {
     std::shared_ptr<const SourceFile> file;
     int line = 0;
     int column = 0;
 
-    /// Always true: models with the same content are equal, wherever the content is.
+    /// Always true: models with the same content are equal, whatever their locations are.
     friend bool operator==(const Location&, const Location&) { return true; }
 };
 
 enum class Severity { error, warning };
 
-/// The parameter or port that the check() of a type reports. Types know names but not places in a file, which
-/// validation finds.
+/// The parameter or port about which the check() of a type reports a mistake. Types know names but not places
+/// in a file; validation finds the places.
 struct Subject {
     Subject(std::string parameter_name, std::string port_name)
         : parameter(std::move(parameter_name)), port(std::move(port_name)) {}
@@ -51,7 +51,7 @@ struct Diagnostic {
     std::string parameter, port;  ///< as in Subject, until validation has found the place
 };
 
-/// An error in a file that the caller names later. `line` and `column` as in Location.
+/// An error in a file that the caller names later. `line` and `column` count as in Location.
 inline Diagnostic error_at(int line, int column, std::string message, std::string hint = {}) {
     return {Severity::error, {nullptr, line, column}, std::move(message), std::move(hint), {}, {}};
 }
@@ -65,7 +65,7 @@ class Diagnostics {
     void warning(Location where, std::string message, std::string hint = {}) {
         add({Severity::warning, std::move(where), std::move(message), std::move(hint), {}, {}});
     }
-    /// Does the same for the check() of a type.
+    /// Adds an error that the check() of a type has found.
     void error(Subject about, std::string message, std::string hint = {}) {
         add({Severity::error,
              {},
@@ -114,8 +114,8 @@ class Diagnostics {
 /// The location of the byte `offset` of a file.
 Location location_of(std::shared_ptr<const SourceFile> file, std::size_t offset);
 
-/// A diagnostic as text: `file:line:column: error: message`, the line with a caret under the column, `hint:
-/// ...`.
+/// A diagnostic as text: `file:line:column: error: message`, then the line with a caret under the column,
+/// then `hint: ...`.
 std::string format(const Diagnostic& diagnostic);
 /// All diagnostics as text, in order of their places; at most the first fifty.
 std::string format(const Diagnostics& diagnostics);

@@ -22,7 +22,7 @@ class DriveTable {
         std::int64_t cycle = 0;
         std::string process, target;
         std::vector<double> values;
-        int line = 0, column = 0;  ///< of the process' name in the file, from 1
+        int line = 0, column = 0;  ///< position of the process's name in the file, from 1
     };
 
     DriveTable() = default;
@@ -34,7 +34,8 @@ class DriveTable {
     /// The error for a row whose number of values differs from the number of cells of its group.
     static Diagnostic misfit(const Row& row, std::string_view group, const GroupShape& shape);
 
-    const std::shared_ptr<const SourceFile>& file() const { return file_; }  ///< with its first mebibyte
+    /// The file, with the first mebibyte of its text.
+    const std::shared_ptr<const SourceFile>& file() const { return file_; }
     const std::vector<Row>& rows() const { return rows_; }
 
   private:

@@ -1,11 +1,11 @@
 // Random events with a given probability, for many cells at a time.
 //
 // A cell gets 16 random bits, which are compared with the upper 16 of the probability's 53; where these are
-// equal, once in 65536 times, the lower 37 decide. So 8 cells share a block of Philox, while 8 uniform
+// equal, once in 65536 times, the lower 37 decide. Thus 8 cells share one block of Philox, while 8 uniform
 // numbers take 4 blocks.
 //
-// 64 cells are a batch: its 8 blocks are lanes l = 0..7, and half m of word j of block l belongs to cell
-// 8 (2 j + m) + l. So vectors of 8 lanes give 8 neighbouring cells.
+// 64 cells are a batch: its 8 blocks are lanes l = 0..7, and half m of word j of block l belongs to cell 8 (2
+// j + m) + l. Thus each vector of 8 lanes gives 8 neighbouring cells.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -89,7 +89,7 @@ FORAGE_AVX2 void batches_by_lanes(const Draw& d, std::size_t number, std::size_t
     }
 }
 
-/// Does the same for `many` batches.
+/// Computes `many` batches at a time.
 template <int many>
 FORAGE_AVX512 void batches_by_wide_lanes(const Draw& d, const philox::Rounds& rounds, std::size_t number,
                                          const Threshold& t, double value, double* out) {

@@ -10,9 +10,9 @@
 
 namespace forage {
 
-/// Removes the number at the front of `text` and returns it. Numbers are written in C notation, in any
-/// locale, with or without a sign, and include `nan` and `inf`. Empty, with `text` unchanged, when `text`
-/// does not begin with a number or when N cannot hold it.
+/// Removes the number at the front of `text` and returns it. Numbers are in C notation, whatever the locale,
+/// with or without a sign; `nan` and `inf` are numbers, too. Returns nothing and leaves `text` unchanged when
+/// `text` does not begin with a number or when N cannot hold it.
 template <class N>
 std::optional<N> take_number(std::string_view& text) {
     N value{};

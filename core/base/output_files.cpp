@@ -85,7 +85,7 @@ void flush(const std::string& path, int flags) {
     if (!fine) throw std::runtime_error(fmt::format("cannot write '{}' to the disk: {}", path, reason));
 }
 
-/// The names in the directory of `path`.
+/// Makes sure that the names in the directory of `path` survive a power cut.
 void flush_directory(const std::string& path) {
     const auto directory = std::filesystem::path(path).parent_path().string();
     flush(directory.empty() ? "." : directory, O_RDONLY | O_DIRECTORY);

@@ -19,12 +19,12 @@ void check_output(const std::string& path, const std::string& example, Diagnosti
 std::string partial(const std::string& path);
 /// Renames partial(path) to `path`. Throws std::runtime_error.
 void finish(const std::string& path);
-/// Removes the files of a killed program with names of partial() from a directory. Returns these names.
+/// Removes the files with names of partial() that a killed program left in a directory. Returns their names.
 std::vector<std::string> remove_unfinished(const std::string& directory);
 /// Writes `text` to partial(path) and renames it to `path`. Throws std::runtime_error.
 void write_file(const std::string& path, std::string_view text);
-/// Does the same, and makes sure that the file survives a power cut. An existing file is renamed to `keep`,
-/// unless that is empty.
+/// Writes `text` to `path` as write_file() does, and makes sure that the file survives a power cut. An
+/// existing file is renamed to `keep`, unless that is empty.
 void write_durably(const std::string& path, std::string_view text, const std::string& keep = {});
 /// Makes sure that the content and the name of a file survive a power cut. Throws std::runtime_error.
 void flush_to_disk(const std::string& path);

@@ -33,13 +33,13 @@ enum class Way { one_by_one, avx2, avx512 };
 /// The fastest implementation that this processor supports.
 Way fastest_way();
 
-/// RandomStream::bits() for any draw, from number `first` on, which must be even.
+/// Computes RandomStream::bits() for any draw, beginning with number `first`, which must be even.
 void bits(Way way, const Draw& draw, std::span<std::uint64_t> out, std::size_t first = 0);
-/// RandomStream::events().
+/// Computes RandomStream::events() for any draw.
 void events(Way way, const Draw& draw, double probability, std::span<double> out, double value,
             std::size_t first);
 
-/// One block. `stream` separates different uses of one draw.
+/// Computes one block. `stream` separates different uses of one draw.
 inline r123::Philox4x32::ctr_type block(const Draw& d, std::uint32_t index, std::uint32_t stream) {
     return r123::Philox4x32{}({{index, d.cycle[0], d.cycle[1], d.draw | stream}}, {{d.key[0], d.key[1]}});
 }
@@ -75,9 +75,9 @@ struct Rounds {
 
 FORAGE_AVX2 inline __m256i all(std::uint64_t v) { return _mm256_set1_epi64x(static_cast<long long>(v)); }
 
-/// The low half of lane l of words[i][j] is word j of block `first` + 4 i + l. The high half is undefined, so
-/// that a product of low halves needs no blending. Each round depends on the one before, so several blocks
-/// are computed side by side.
+/// Computes 4 `many` blocks. The low half of lane l of words[i][j] is word j of block `first` + 4 i + l. The
+/// high half is undefined, so that a product of low halves needs no blending. Each round depends on the one
+/// before, so several blocks are computed side by side.
 template <int many>
 FORAGE_AVX2 inline void blocks(const Rounds& rounds, std::uint32_t first, __m256i (&words)[many][4]) {
     const __m256i m0 = all(multipliers[0]), m1 = all(multipliers[1]);
@@ -105,8 +105,8 @@ FORAGE_AVX2 inline void blocks(const Rounds& rounds, std::uint32_t first, __m256
     }
 }
 
-// The intrinsics with a mask of all lanes, because GCC 12 warns about undefined values in those without. The
-// generated code has no mask.
+// These functions use the intrinsics with a mask, and set all lanes in it, because GCC 12 warns about
+// undefined values in the intrinsics without a mask. The generated code has no mask.
 inline constexpr unsigned char all_lanes = 0xff;
 FORAGE_AVX512 inline __m512i wide(std::uint64_t v) { return _mm512_set1_epi64(static_cast<long long>(v)); }
 FORAGE_AVX512 inline __m512i upper(__m512i v) { return _mm512_maskz_srli_epi64(all_lanes, v, 32); }
@@ -114,10 +114,10 @@ FORAGE_AVX512 inline __m512i product(__m512i a, std::uint32_t factor) {
     return _mm512_maskz_mul_epu32(all_lanes, a, wide(factor));
 }
 
-/// The same with eight lanes.
+/// Computes 8 `many` blocks, in vectors with eight lanes.
 template <int many>
 FORAGE_AVX512 inline void blocks(const Rounds& rounds, std::uint32_t first, __m512i (&words)[many][4]) {
-    constexpr int exclusive_or = 0x96;  // of three operands
+    constexpr int exclusive_or = 0x96;  // the exclusive or of three operands
     for (int i = 0; i < many; ++i) {
         const __m512i index = _mm512_add_epi64(wide(first + 8u * static_cast<std::uint32_t>(i)),
                                                _mm512_setr_epi64(0, 1, 2, 3, 4, 5, 6, 7));

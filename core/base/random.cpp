@@ -42,7 +42,8 @@ FORAGE_AVX2 std::size_t words_by_lanes(const Draw& d, std::uint32_t first, std::
         philox::blocks(rounds, first + static_cast<std::uint32_t>(i / 2), words);
         for (int half = 0; half < many; ++half) {
             const auto& w = words[half];
-            const __m256i a = _mm256_blend_epi32(w[1], _mm256_slli_epi64(w[0], 32), 0xaa);  // of 4 blocks
+            const __m256i a =
+                _mm256_blend_epi32(w[1], _mm256_slli_epi64(w[0], 32), 0xaa);  // words of 4 blocks
             const __m256i b = _mm256_blend_epi32(w[3], _mm256_slli_epi64(w[2], 32), 0xaa);
             const __m256i even = _mm256_unpacklo_epi64(a, b), odd = _mm256_unpackhi_epi64(a, b);
             auto* const to = reinterpret_cast<__m256i*>(out + i + 8 * static_cast<std::size_t>(half));
@@ -53,7 +54,7 @@ FORAGE_AVX2 std::size_t words_by_lanes(const Draw& d, std::uint32_t first, std::
     return i;
 }
 
-/// Does the same with AVX-512.
+/// Computes the same words with AVX-512.
 FORAGE_AVX512 std::size_t words_by_wide_lanes(const Draw& d, std::uint32_t first, std::uint64_t* out,
                                               std::size_t count) {
     const __m512i low = _mm512_set1_epi64(0xffffffff);

@@ -19,21 +19,23 @@ class RandomStream {
     /// `item` is the id of a group, connection or robot; `stream` separates several uses by one item.
     RandomStream(std::uint64_t seed, std::string_view item, std::uint32_t stream = 0);
 
-    /// Uniform in [0, 1), 53 bits.
+    /// Returns a number that is uniform in [0, 1), with 53 random bits.
     double uniform(std::uint64_t cycle, std::uint32_t index, std::uint32_t draw = 0) const;
-    /// out[i] = uniform(cycle, first + i, draw), faster. `first` is a multiple of `grain`.
+    /// Sets out[i] = uniform(cycle, first + i, draw), faster than separate calls. `first` is a multiple of
+    /// `grain`.
     void uniform(std::uint64_t cycle, std::span<double> out, std::uint32_t draw = 0,
                  std::size_t first = 0) const;
-    /// out[i] = `value` with this probability (exact to 53 bits; NaN: never), else 0. This is many times
+    /// Sets out[i] = `value` with this probability (exact to 53 bits; NaN: never), else 0. This is many times
     /// faster than a comparison of uniform numbers, and independent of them. `out` is the part of a column
     /// that begins at `first`, a multiple of `grain`.
     void events(std::uint64_t cycle, double probability, std::span<double> out, double value = 1,
                 std::uint32_t draw = 0, std::size_t first = 0) const;
     /// A column may be computed in parts whose sizes are multiples of this.
     static constexpr std::size_t grain = 64;
-    /// Standard normal numbers (Box-Muller on uniforms), mean 0, variance 1.
+    /// Fills `out` with standard normal numbers (mean 0, variance 1; Box-Muller transform of uniform
+    /// numbers).
     void normal(std::uint64_t cycle, std::span<double> out) const;
-    /// Uniform 64-bit words.
+    /// Fills `out` with uniform 64-bit words.
     void bits(std::uint64_t cycle, std::span<std::uint64_t> out) const;
 
   private:

@@ -24,11 +24,11 @@ class TableReader {
         csv,     ///< A line is a row with commas between its fields; empty lines are skipped.
         blocks,  ///< A line is a row with blanks, commas or semicolons between its fields; an empty line is a
                  ///< row without fields.
-        list,    ///< The whole text is one row with commas between its fields; a comma after the last is
-                 ///< allowed; line ends are blanks.
+        list,  ///< The whole text is one row with commas between its fields; a comma after the last field is
+               ///< allowed; line ends are blanks.
     };
 
-    /// Reads `text`, which must live as long as the reader. Throws FileError when it is not a text of lines;
+    /// Reads `text`, which must live as long as the reader. Throws FileError when it is not made of lines;
     /// `refusal` begins the message ("this is no table"), and `hint` belongs to it.
     TableReader(std::string_view text, std::string path, Layout layout, std::string_view refusal,
                 std::string_view hint = {});
@@ -41,13 +41,13 @@ class TableReader {
     /// The index of the column `name`, before the first row. Throws FileError when there is none.
     std::size_t column(std::string_view name);
 
-    /// Goes to the next row. False at the end, and after a hundred faults.
+    /// Goes to the next row. Returns false at the end, and after a hundred faults.
     bool next();
     /// The row without blanks at its ends, and its fields. Both are valid until the next call of next().
     std::string_view row() const { return row_; }
     const std::vector<std::string_view>& fields() const { return fields_; }
 
-    /// Line and column of a piece of the row, from 1; the column in bytes.
+    /// The line and the column (in bytes) of a piece of the row, both from 1.
     std::pair<int, int> place(std::string_view piece) const;
     /// Adds a fault at a piece of the row, or at a line and column.
     void fault(std::string_view piece, std::string message, std::string_view hint = {}) {
@@ -67,7 +67,8 @@ class TableReader {
     bool failed() const { return !faults_.empty(); }
     /// Throws FileError with all faults, if there are any.
     void require_sound() const;
-    /// Does the same at the end of a file. There, an incomplete last line is a fault.
+    /// Throws FileError with all faults of the whole file, if there are any. An incomplete last line is a
+    /// fault, too.
     void require_whole();
     /// Throws FileError with a fault of the file as a whole.
     [[noreturn]] void refuse(std::string message, std::string_view hint = {}) const;
