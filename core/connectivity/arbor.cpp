@@ -12,7 +12,7 @@ Span ellipse_rows(Place c, Span xs, int x, int width, int height) {
     const double a = width / 2.0, b = height / 2.0;
     const double offset = x - (xs.first + xs.last) / 2.0;
     const double squared = b * b - offset * offset * (b * b) / (a * a);
-    // NaN when the ellipse has no width: it covers nothing.
+    // `squared` is NaN when the ellipse has no width; it covers nothing then.
     return squared >= 0 ? cover(c.y, 2 * std::sqrt(squared)) : Span{1, 0};
 }
 

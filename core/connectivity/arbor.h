@@ -18,7 +18,7 @@ class Arbor {
 
     /// Calls `visit(cell, distance)` for each point around `centre` that is a cell of the group. `cell` is
     /// the index of the cell; `distance` is the distance between the point and the centre, in cells, before
-    /// it was wrapped around a cylinder.
+    /// the point is wrapped around a cylinder.
     void spread(Place centre, const std::function<void(int, double)>& visit);
 
     /// An upper bound of the number of cells around any centre, computed without listing them.
@@ -36,7 +36,7 @@ class Arbor {
     std::uint64_t draws_ = 0;
     /// Coordinates at which a point can be a cell, directly or across the seam of a cylinder.
     Span reach_x_, reach_y_;
-    /// Of ArbRandom: all positions, in the order that the draws so far have given them.
+    /// All positions, in the order that the draws so far have given them; used for ArbRandom only.
     std::vector<int> places_;
 };
 

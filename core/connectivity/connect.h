@@ -20,8 +20,8 @@ struct Synapses {
     std::size_t size() const { return pre.size(); }
 };
 
-/// The largest number of synapses that is accepted. It takes up to 2.8 GB during the build (measured: 2.74
-/// GB), and 0.4 to 2 GB afterwards.
+/// The largest number of synapses that is accepted. So many synapses take up to 2.8 GB (measured: 2.74 GB)
+/// while they are built, and 0.4 to 2 GB afterwards.
 inline constexpr double most_synapses = 1e8;
 
 /// Builds the synapses of `connection` between groups of these topologies. `seed` decides everything random.

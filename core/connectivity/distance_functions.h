@@ -11,8 +11,8 @@ namespace forage::connectivity {
 
 struct Attenuation {
     std::vector<double> values;  ///< per synapse
-    /// A synapse passes psp * (reference - value): 1 for Uniform and Random, the larger bound for Linear and
-    /// Block, the largest value that occurs for Gaussian.
+    /// A synapse passes psp * (reference - value). The reference is 1 for Uniform and Random, the larger
+    /// bound for Linear and Block, the largest value that occurs for Gaussian.
     double reference = 1;
 };
 
@@ -23,7 +23,7 @@ Attenuation attenuation(const model::DistanceFunction& function, std::span<const
 
 /// The delays of synapses with these distances, in cycles, at least 0. They are rounded to the nearest whole
 /// number, halves away from 0, as in the recorded cases delay_linear_0_5 (2.5 gives 3) and delay_linear_2_7
-/// (4.5 gives 5); truncated for Uniform and Block.
+/// (4.5 gives 5). Those of Uniform and Block are truncated.
 std::vector<int> delays(const model::DistanceFunction& function, std::span<const double> distances,
                         const RandomStream& random);
 

@@ -28,7 +28,7 @@ class Grid {
   private:
     int left_ = 1, top_ = 1, width_ = 0, height_ = 0, cells_ = 0;
     bool wrap_x_ = false, wrap_y_ = false;
-    std::vector<int> rank_;  ///< of a sparse group: the cell index per position, -1 for none
+    std::vector<int> rank_;  ///< the cell index at each position of a sparse group, -1 for none
 };
 
 }  // namespace forage::connectivity
