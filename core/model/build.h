@@ -31,7 +31,7 @@ Process* find_process(System& system, std::string_view id);
 Group* find_group(System& system, std::string_view id);
 Connection* find_connection(System& system, std::string_view id);
 
-/// Sets a parameter, with the value as a file would have it.
+/// Sets a parameter to a value, which is written as in a file.
 void set_parameter(TypeUse& use, std::string name, std::string value);
 
 /// Removes the process, group or connection with this id and everything in it. Connections from and to

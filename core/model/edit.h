@@ -16,7 +16,7 @@ struct Assignment {
 
     Owner owner = Owner::group;            ///< the kind of the item that has the neuron, module or synapse
     std::string id;                        ///< the id of the group, process or connection
-    const Parameter* parameter = nullptr;  ///< of the owner's type; null: the process's enableModule
+    const Parameter* parameter = nullptr;  ///< of the owner's type; null for the process's enableModule
     ParameterValue value;                  ///< a relative path starts at the working directory
     std::string text;                      ///< "WHERE.parameter=value", as written
     Location at;                           ///< the location of the text; without a file: the command line
@@ -31,10 +31,10 @@ std::optional<Assignment> parse_assignment(const System& system, const Registry&
                                            std::string_view text, std::string_view what,
                                            Diagnostics& diagnostics, Location at = {});
 
-/// Sets the parameter in the system, for which the assignment must have been read.
+/// Sets the parameter in the system, which must be the one that parse_assignment() was given.
 void set(System& system, const Assignment& assignment);
 
-/// Reads an assignment from the command line (--set) or from a file, and makes it.
+/// Reads an assignment from the command line (--set) or from a file, and applies it to the system.
 void set(System& system, const Registry& registry, std::string_view assignment, Diagnostics& diagnostics,
          Location at = {});
 

@@ -15,7 +15,7 @@ struct Measure {
     enum class Kind {
         success,   ///< fraction of the trials that reached the target, 0..1
         duration,  ///< mean length of the trials, s
-        first,     ///< number of cycles until a condition first held
+        first,     ///< number of cycles until a condition first holds
         final,     ///< a quantity at the end of the run
     };
     std::string name;
@@ -38,10 +38,10 @@ struct Sweep {
 
 struct Experiment {
     std::string path;
-    std::string note;           ///< for readers
+    std::string note;           ///< a remark for readers
     std::string system, world;  ///< files, relative to the working directory; no world when empty
     Location system_at, world_at;
-    /// Seconds of the world per second of the clock; empty: the world's own.
+    /// Seconds of the world per second of the clock. Empty for the world's own rate.
     std::optional<double> real_time_factor;
     bool noise = true;
 

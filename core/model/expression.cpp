@@ -18,7 +18,7 @@ constexpr std::string_view blanks = " \t\r\n";
 constexpr const char* condition_hint =
     "for example 'trial >= 50 && Process/Group(1,1) > 0.5', 'cycle 100', '30 s'";
 
-/// All positions of `wanted` outside of double quotes.
+/// All positions of `wanted` outside double quotes.
 std::vector<std::size_t> find_unquoted(std::string_view text, std::string_view wanted) {
     std::vector<std::size_t> out;
     bool paired = true;
@@ -307,7 +307,7 @@ class Parser {
     Condition condition_;
 };
 
-/// Reads the whole text by a member of Parser.
+/// Reads the whole text with a member function of Parser.
 template <class Read>
 auto whole(std::string_view text, Read read) {
     Parser parser(text);

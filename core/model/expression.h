@@ -69,7 +69,7 @@ struct Context {
 
     /// Reports a mistake at the byte `offset` of the text.
     void error(std::size_t offset, std::string message, std::string hint = {}) const;
-    /// Parses the text. Reports a mistake, and is empty then.
+    /// Parses the text. Reports a mistake, and returns nothing then.
     template <class T>
     std::optional<T> parsed(T (*parse)(std::string_view)) const {
         try {
@@ -100,11 +100,11 @@ struct Source {
     std::string text() const { return (mean ? "mean:" : "") + column.text + cells_text; }
 };
 
-/// A number, constant or changing over a run.
+/// A number that is constant or changes during a run.
 struct Quantity {
     enum Kind { number, cycle, trial, seconds, cell, mean, sum, min, max } kind = number;
     double value = 0;    ///< if `kind` is number
-    Source source = {};  ///< if `kind` is cell or later
+    Source source = {};  ///< used if `kind` is cell or a later kind
     std::size_t at = 0;  ///< its first byte in the expression
 };
 
@@ -119,12 +119,12 @@ struct Condition {
     std::vector<Quantity> quantities;
 };
 
-/// "WHERE.parameter=value"
+/// A parameter and its value: "WHERE.parameter=value".
 struct Assignment {
     Piece owner, parameter, value;
 };
 
-/// "(x,y)=value"
+/// A cell and its value: "(x,y)=value".
 struct CellValue {
     Source cell;  ///< with an empty column
     double value;

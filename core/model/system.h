@@ -1,5 +1,5 @@
-// The content of a system file: plain values without behaviour. Everything that can be wrong has its location
-// in the file.
+// The content of a system file: plain values without behaviour. Everything that can be wrong knows its
+// location in the file.
 #pragma once
 
 #include <optional>
@@ -68,8 +68,8 @@ struct SparseTopology {
 
 using Topology = std::variant<RectTopology, SparseTopology>;
 
-/// The largest extent of a group that is accepted: width times height; of a sparse group, those of the
-/// rectangle around its points.
+/// The largest accepted extent of a group, which is width times height. The extent of a sparse group is that
+/// of the rectangle around its points.
 inline constexpr long long most_cells = 10'000'000;
 
 /// The width, height and number of cells of a group with this topology. The number of cells is valid only
@@ -95,9 +95,9 @@ struct Process {
     std::optional<Icon> icon;
     std::vector<std::string> comments;
     std::vector<Group> groups;
-    /// Of a process that is linked to the file `path` (relative to the system's file), whose content is in
-    /// this struct: the process as the system's own file has it, one element, which is what the writer
-    /// writes. Empty for other processes.
+    /// The process as the system's own file has it: one element for a process that is linked to the file
+    /// `path` (relative to the system's file), none for other processes. It is what the writer writes; the
+    /// other members hold the content of the linked file.
     std::vector<Process> placeholder;
     bool linked() const { return !placeholder.empty(); }
     Location at, path_at;

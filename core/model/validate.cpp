@@ -60,7 +60,7 @@ class Validator {
         for (const auto& c : system_.connections) see(c.id, c.at, "connection");
     }
 
-    /// Turns a sentence into a part of another one.
+    /// A sentence without its full stop, for use within another sentence.
     static std::string_view phrase(std::string_view sentence) {
         if (sentence.ends_with('.')) sentence.remove_suffix(1);
         return sentence;
