@@ -32,7 +32,7 @@ inline void declare(const ColumnRef& c, engine::Demand& out) {
     c.state < 0 ? out.read_input(c.group) : out.read_group(c.group);
 }
 
-/// Its values in the running cycle, or the last one between cycles.
+/// The values of the column in the running cycle, or, between cycles, in the last one.
 inline ConstColumn values(const engine::Simulation& simulation, const ColumnRef& c) {
     return c.state >= 0 ? simulation.state(c.group, c.state) : simulation.input(c.group, c.kind);
 }

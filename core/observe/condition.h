@@ -16,7 +16,7 @@ struct Quantity {
     using Kind = expression::Quantity::Kind;
     Kind kind = Kind::number;
     double value = 0;  ///< if `kind` is number
-    Source source;     ///< if `kind` is cell or later
+    Source source;     ///< used if `kind` is cell or a later kind
 
     /// The value between two cycles. Cells have the values of the last completed cycle, and 0 before the
     /// first.

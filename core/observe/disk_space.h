@@ -6,9 +6,9 @@
 
 namespace forage::observe {
 
-/// Reserves space after the end of a file, whose size and content do not change. A format that changes a file
-/// in several places, such as HDF5, would be damaged if the disk ran full between two of them, so space is
-/// reserved before. On file systems that cannot reserve space it has no effect.
+/// Reserves space after the end of a file, whose size and content do not change. Formats such as HDF5 change
+/// a file in several places. A disk that ran full between two such changes would damage the file, so space is
+/// reserved before. On file systems that cannot reserve space this class has no effect.
 class DiskSpace {
   public:
     explicit DiskSpace(const std::string& path);

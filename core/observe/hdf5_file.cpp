@@ -144,7 +144,8 @@ class Hdf5File final : public RowFile {
                           numbers.begin() + static_cast<std::ptrdiff_t>(s.size));
             numbers = numbers.subspan(s.size);
         }
-        // At the end of a chunk, so that the order of chunks in the file does not depend on other flushes.
+        // Rows are flushed at the end of a chunk, so that the order of chunks in the file does not depend on
+        // other flushes.
         if (++rows_ % chunk_ == 0) flush();
     }
 

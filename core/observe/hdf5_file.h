@@ -7,10 +7,10 @@ namespace forage::observe {
 
 /// An HDF5 file with one data set of 64-bit floats per source, `/Process/Group/state` of the shape cycles x
 /// rows x columns (cycles alone for a mean), with the attributes `name`, `label`, `group_id`, `unit`,
-/// `first_column` and `first_row`; and `/cycle`, the cycle of each row, as dimension scale. The header's
-/// attributes are those of the root. The file is written in HDF5's single-writer mode: after a kill, flushed
-/// rows can be read with `h5py.File(name, swmr=True)`, or as usual after `h5clear -s name`. After a full
-/// disk, HDF5 may not be able to open the file.
+/// `first_column` and `first_row`; and `/cycle`, the cycle of each row, as a dimension scale. The root has
+/// the header's attributes. The file is written in HDF5's single-writer mode: after a kill, flushed rows can
+/// be read with `h5py.File(name, swmr=True)`, or as usual after `h5clear -s name`. When the disk ran full,
+/// HDF5 may not be able to open the file.
 ///
 /// To resume, the rows up to `go_on` are copied into a new file, so that its bytes are those of an
 /// uninterrupted recording.

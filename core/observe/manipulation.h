@@ -27,15 +27,15 @@ class Manipulation final : public Observer {
         /// and the last of several equal cycles counts. Empty: the patterns are played one after the other,
         /// as the following members say.
         std::vector<std::int64_t> starts{};
-        std::uint64_t every = 1;                      ///< cycles from one pattern to the next
-        std::uint64_t step = 1;                       ///< every `step`-th pattern of the list is used
-        std::optional<std::uint64_t> times{};         ///< how often the list is played; empty: without end
-        bool backwards = false;                       ///< from the last pattern to the first
-        std::optional<Condition> from{}, until{};     ///< empty: from the first cycle, until the last
+        std::uint64_t every = 1;                   ///< cycles from one pattern to the next
+        std::uint64_t step = 1;                    ///< every `step`-th pattern of the list is used
+        std::optional<std::uint64_t> times{};      ///< how often the list is played; empty: without end
+        bool backwards = false;                    ///< from the last pattern to the first
+        std::optional<Condition> from{}, until{};  ///< empty: from the first cycle, until the last
     };
     explicit Manipulation(Settings settings);
 
-    /// Begins and ends when its conditions first hold.
+    /// Begins and ends the manipulation when its conditions first hold.
     void before_cycle(RunView& run) override;
     void after_groups(RunView& run) override;
     void declare(engine::Demand& demand) const override;
@@ -47,8 +47,8 @@ class Manipulation final : public Observer {
     Settings s_;
     bool begun_ = false, over_ = false;
     std::uint64_t waited_ = 0;  ///< cycles since the last pattern
-    std::size_t next_ = 0;      ///< place in the order of playback; how many patterns have begun to hold
-    std::uint64_t played_ = 0;  ///< times that the list was played to its end
+    std::size_t next_ = 0;  ///< position in playback; with `starts`, the number of patterns that have begun
+    std::uint64_t played_ = 0;  ///< how often the list was played to its end
 };
 
 }  // namespace forage::observe

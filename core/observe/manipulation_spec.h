@@ -9,12 +9,12 @@
 
 namespace forage::observe {
 
-/// The manipulations of a system, in the order in which they are applied: clamps, additions, multiplications,
-/// and of each kind tables before patterns. Specifications of cells of one group with equal settings are
-/// joined to one pattern; the other cells of the group are 0 in a clamp, and unchanged otherwise. `trials`
-/// says whether the run has trials. Reports unknown groups, cells and wrong values.
-std::vector<std::unique_ptr<Manipulation>> make_manipulations(const std::vector<model::ManipulationSpec>& specs,
-                                                              const engine::Layout& layout, bool trials,
-                                                              Diagnostics& diagnostics);
+/// The manipulations of a system, in the order in which they are applied: clamps, additions, multiplications.
+/// Within each kind, tables come before patterns. Specifications of cells of one group with equal settings
+/// are joined to one pattern; the other cells of the group are 0 in a clamp, and unchanged otherwise.
+/// `trials` says whether the run has trials. Reports unknown groups, cells and wrong values.
+std::vector<std::unique_ptr<Manipulation>> make_manipulations(
+    const std::vector<model::ManipulationSpec>& specs, const engine::Layout& layout, bool trials,
+    Diagnostics& diagnostics);
 
 }  // namespace forage::observe

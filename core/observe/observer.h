@@ -20,7 +20,7 @@ class Run;
 struct RunView {
     engine::Simulation& simulation;
     Environment* environment;  ///< null when the run has none
-    SimTime time;  ///< before_cycle() and after_groups(): the cycle that runs; after_cycle(): the one to come
+    SimTime time;  ///< the running cycle in before_cycle() and after_groups(), the next one in after_cycle()
     Run& run;
 };
 

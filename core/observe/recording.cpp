@@ -22,7 +22,7 @@ std::filesystem::path final_name(const std::string& path) {
     throw FileError(path, {}, {error_at(0, 0, "this is no recording: " + why)});
 }
 
-/// The largest number of cells that is accepted; a damaged file may have any number.
+/// The largest accepted number of cells. A damaged file may contain any number.
 constexpr std::int64_t most_cells = 1 << 24;
 
 /// The column and row of a cell with the name "x3_y1".

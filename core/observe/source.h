@@ -1,4 +1,4 @@
-// Sources: what users select of a running system or of a recording.
+// Sources: what users select from a running system or a recording.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace forage::observe {
 
-/// The description of the numbers of a row: which state they are, and of which cells.
+/// The description of the numbers in a row: the state and the cells that they belong to.
 struct Recorded {
     std::string name;                    ///< the source: "Process/Group:state(1..3,2)"
     std::string label;                   ///< of the state: "Membrane potential"
@@ -31,7 +31,7 @@ struct Recorded {
 
 /// Some numbers of a row, or their mean.
 struct Part {
-    std::vector<std::size_t> numbers;  ///< indices into the row; of a mean, all that it is computed from
+    std::vector<std::size_t> numbers;  ///< indices into the row; for a mean, of all numbers in it
     Recorded what;
     /// Copies the numbers of the part from a row; `out` has what.size() numbers.
     void take(std::span<const double> row, std::span<double> out) const;
