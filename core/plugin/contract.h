@@ -1,4 +1,4 @@
-// Checks that a type does what it declares, before it gets near a system.
+// Checks that a type does what it declares, before a system uses it.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace forage::plugin {
 
-/// Updates an object of `type` a few times. Returns what the type does against its declaration, with the
-/// numbers; empty when nothing was seen. Other exceptions of an update are left to the run.
+/// Updates an object of `type` a few times. Returns how the type breaks its declaration, with the numbers;
+/// empty when no violation was seen. Other exceptions of an update are left to the run.
 ///
-/// A neuron type without a Cell must use the states that it declares, and write inside of its columns. A
-/// synapse type that is event driven must be so with all numbers and with parameters anywhere in their
+/// A neuron type without a Cell must use the states that it declares, and write inside its columns. A synapse
+/// type that is declared event driven must be so for all numbers, and for parameters anywhere in their
 /// ranges.
 std::string contract_violation(const NeuronType& type);
 std::string contract_violation(const SynapseType& type);

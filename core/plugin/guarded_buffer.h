@@ -1,4 +1,4 @@
-// A buffer that notices writes beside it.
+// A buffer that detects writes beyond its ends.
 #pragma once
 
 #include <algorithm>

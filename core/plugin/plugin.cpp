@@ -97,7 +97,7 @@ class Loader {
         types.push_back(std::move(type));
     }
 
-    /// The mistake that shows when a type is created and updated; empty when there is none.
+    /// The mistake that is found when a type is created and updated; empty when there is none.
     template <class Type>
     static std::string fault(const Type& type) {
         try {

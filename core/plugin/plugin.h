@@ -17,7 +17,7 @@ struct Plugin {
 };
 
 /// Loads the shared objects at `paths`. Reports a wrong version of the SDK or of the ABI, names that
-/// `shipped` or another plugin has already, types that throw when they are described or created, and updates
+/// `shipped` or another plugin already has, types that throw when they are described or created, and updates
 /// that break their declaration. The result holds the plugins without mistakes, which can be added to
 /// `shipped`.
 std::vector<Plugin> load(const std::vector<std::string>& paths, const Registry& shipped,

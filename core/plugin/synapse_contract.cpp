@@ -38,7 +38,8 @@ Index first_difference(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) {
     return -1;
 }
 
-/// Whether synapses of silent sources stay as they are and put out 0, with random states and feedback.
+/// Checks with random states and feedback that synapses of silent sources keep their states and have output
+/// 0.
 std::string check_event_driven(const SynapseType& type, int draw) {
     const RandomStream random(1, "contract");
     const auto number = static_cast<std::uint64_t>(draw);
@@ -85,7 +86,7 @@ std::string contract_violation(const SynapseType& type) try {
         for (int draw = 0; draw < draws && out.empty(); ++draw) out = check_event_driven(type, draw);
     return out;
 } catch (...) {
-    return {};  // a run will say so
+    return {};  // the run reports the exception
 }
 
 }  // namespace forage::plugin
