@@ -14,7 +14,7 @@ namespace forage {
 /// points, the distance is doubled. Writes trajectory.csv.
 class PathRecorder final : public Observer {
   public:
-    /// `file`: the name of the table.
+    /// `file` is the name of the table.
     PathRecorder(const Environment& environment, std::size_t robot, std::string file);
 
     struct Point {

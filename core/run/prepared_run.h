@@ -42,7 +42,7 @@ struct RunOutcome {
     double clock_seconds = 0;           ///< wall-clock time of the cycles
 };
 
-/// Functions that run_to_end() calls meanwhile. Each of them may be empty.
+/// Functions that run_to_end() calls while it works. Each of them may be empty.
 struct RunCallbacks {
     std::function<void()> after_cycle = {};         ///< called after each cycle, for progress and pace
     std::function<std::string()> interrupted = {};  ///< returns the reason to stop now; empty to continue

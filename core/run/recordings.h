@@ -40,9 +40,9 @@ class Recordings final : public Observer {
     }
     /// Opens the files. When one cannot be opened, removes the others and throws std::runtime_error.
     void begin_files(ResultFiles&) override;
-    /// Writing: flushes all rows to the disk and stores the positions in the files. Reading: continues at
-    /// these positions, instead of begin_files(), also in files that were renamed already. Throws
-    /// std::runtime_error.
+    /// When it writes a checkpoint, flushes all rows to the disk and stores the positions in the files. When
+    /// it reads one, continues at these positions, which replaces begin_files(), also in files that have been
+    /// renamed. Throws std::runtime_error.
     void checkpoint(Archive& archive) override;
 
     void after_cycle(RunView& run) override {

@@ -70,10 +70,10 @@ class Run {
     engine::Demand& demand() { return demand_; }
 
     /// Compiles the system for what the observers demand, lets the observers check it, and starts the
-    /// modules. Does not start, and returns false, when `diagnostics` has an error, also from before.
+    /// modules. Returns false without starting when `diagnostics` has an error, even an earlier one.
     bool start(Diagnostics& diagnostics);
-    /// Does the same, and throws InputError for errors, and engine::RunError when a module cannot start. Does
-    /// nothing when the run has started.
+    /// Starts the run as start(Diagnostics&) does, but throws InputError for errors, and engine::RunError
+    /// when a module cannot start. Does nothing when the run has started.
     void start();
     bool started() const { return simulation_.has_value(); }
 

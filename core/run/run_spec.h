@@ -20,7 +20,7 @@ struct RunInput {
     std::vector<std::string> plugins;
     bool lenient = false;    ///< unknown parameters and attributes are warnings, not errors
     std::uint64_t seed = 1;  ///< decides everything random
-    /// Seconds of the world per second of the clock; empty: the world's own.
+    /// Seconds of the world per second of the clock. Empty for the world's own rate.
     std::optional<double> real_time_factor;
     bool noise = true;          ///< of motors and sensors
     bool sensor_rates = false;  ///< scans and pictures at the rates of the world's files

@@ -26,7 +26,7 @@ class StopCondition {
     static Origin begin(const Run& run);
 
     bool reached(const Run& run, const Origin& origin) const;
-    /// Counted from the start of the run.
+    /// Whether the run has reached its length, counted from the start of the run.
     bool reached(const Run& run) const { return reached(run, Origin()); }
     /// Whether the condition holds.
     bool holds(const Run& run) const;

@@ -19,11 +19,11 @@ struct Pose2 {
 struct Trial {
     int number = 1;  ///< counts from 1
     Pose2 start;
-    Pose2 end;                      ///< where the robot is now, while the trial runs
+    Pose2 end;                      ///< the robot's current pose while the trial runs
     std::uint64_t first_cycle = 0;  ///< the first cycle in which the robot is driven
     std::uint64_t cycles = 0;       ///< up to and including the cycle in which the trial ends
-    /// From the robot's centre to the centre of the nearest target over the whole trial, m; infinite in a
-    /// world without targets.
+    /// The smallest distance between the centres of the robot and of a target during the trial, m; infinite
+    /// in a world without targets.
     double smallest_distance = std::numeric_limits<double>::infinity();
     bool reached_target = false;
 

@@ -16,20 +16,20 @@ struct RunResult {
     std::string diverged;  ///< where the first number that is not finite occurred; empty when all are finite
     std::uint64_t cycles = 0;
     double seconds = 0;                            ///< of the world
-    std::optional<std::uint64_t> trials, reached;  ///< of the first robot: finished ones, and at the target
+    std::optional<std::uint64_t> trials, reached;  ///< the first robot's finished trials; those at the target
     std::vector<std::optional<double>> measures;   ///< in the experiment's order
 };
 
-/// A text of everything that decides the numbers of a run. A result belongs to a run when it has the same
-/// key. `digests` are those of the files of system and world.
+/// A text that holds everything that decides the numbers of a run. A result belongs to a run when it has the
+/// same key. `digests` are those of the files of system and world.
 std::string key_of(const PlannedRun& run, const model::Experiment& experiment, const std::string& digests);
 
 /// The result in a run's directory; empty when there is none with this key.
 std::optional<RunResult> read_result(const PlannedRun& run, const std::string& key);
 /// Removes the files that an earlier run left in the directory, its result first.
 void forget_result(const PlannedRun& run);
-/// Writes the result as a whole. `files`, which were written before, are flushed to the disk first. Throws
-/// std::runtime_error.
+/// Writes the result, as a whole or not at all. `files`, which were written before, are flushed to the disk
+/// first. Throws std::runtime_error.
 void write_result(const PlannedRun& run, const std::string& key, const RunResult& result,
                   const std::vector<std::string>& files);
 

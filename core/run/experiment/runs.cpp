@@ -63,8 +63,8 @@ class Work {
 
     std::size_t open() const { return open_.size(); }
 
-    /// Executes runs until none is left, or the experiment is interrupted. `part`: the completed fraction of
-    /// the current run.
+    /// Executes runs until none is left, or the experiment is interrupted. `part` is the completed fraction
+    /// of the current run.
     void take_part(std::atomic<double>& part) {
         for (std::size_t i; (i = next_++) < open_.size() && !interrupted();) {
             auto result = make(open_[i], part);
@@ -100,7 +100,7 @@ class Work {
     std::string key(std::size_t run) const { return key_of(runs_[run], experiment_, digests_); }
     bool interrupted() const { return callbacks_.interrupted && callbacks_.interrupted(); }
 
-    /// The results; empty when the experiment was interrupted.
+    /// The results, or nothing when the experiment was interrupted.
     std::optional<RunResult> make(std::size_t index, std::atomic<double>& part) {
         const PlannedRun& run = runs_[index];
         try {
@@ -158,7 +158,7 @@ class Work {
     std::string digests_;
     const ExperimentCallbacks& callbacks_;
     std::vector<std::size_t> open_;  ///< runs that have no result yet
-    std::size_t earlier_ = 0;        ///< runs that had one
+    std::size_t earlier_ = 0;        ///< runs that had one at the start
     std::atomic<std::size_t> next_ = 0, done_ = 0, failed_ = 0;
     /// Libraries that read files or draw must not be used by two threads at the same time.
     std::mutex libraries_;

@@ -13,16 +13,16 @@
 
 namespace forage {
 
-/// Creates a run from its description; empty when the diagnostics got an error. Called by one thread at a
-/// time.
+/// Creates a run from its description; returns nothing when the diagnostics got an error. Called by one
+/// thread at a time.
 using PrepareRun = std::function<std::optional<PreparedRun>(const RunSpec&, Diagnostics&)>;
 
-/// Reports all mistakes that the file makes about its system and world, for every swept value, before the
+/// Reports all mistakes in what the file says about its system and world, for every swept value, before the
 /// first run.
 void check_experiment(const model::Experiment& experiment, const PrepareRun& prepare,
                       std::span<const PlannedRun> runs, Diagnostics& diagnostics);
 
-/// Functions that run_experiment() calls meanwhile. Each of them may be empty.
+/// Functions that run_experiment() calls while it works. Each of them may be empty.
 struct ExperimentCallbacks {
     /// The argument of `progress`, which is called every 20 ms: the completed fraction of the work, 0..1; the
     /// numbers of finished, failed and all runs; the estimated time left, s, if it is known.
