@@ -1,5 +1,5 @@
-// The update of one cell, which a neuron type writes, and the loop over the cells of a group, which the SDK
-// owns. Included by neuron.h.
+// The loop over the cells of a group, which calls the update of one cell that a neuron type defines. neuron.h
+// includes this header.
 #pragma once
 
 #include <array>
@@ -16,18 +16,18 @@ namespace forage {
 
 /// What one cell receives in one cycle.
 struct Input {
-    /// Recorded as update() leaves them: a type may apply a gain in place.
+    /// The inputs of the cell. A type may apply a gain in place; recordings show the result.
     double excitation = 0, inhibition = 0;
     const double modulation = 0;
-    const double event = 1;  ///< 1 with the type's event_probability() in each cell and cycle, else 0
-    /// The type's `random_numbers`: uniform in [0, 1), independent of each other, new in each cell and cycle.
+    const double event = 1;  ///< 1 with the type's event_probability(), else 0; drawn in each cell and cycle
+    /// As many numbers as the type's `random_numbers` says: uniform in [0, 1), independent of each other, and
+    /// new in each cell and cycle.
     const std::array<double, NeuronColumns::draws_kept> random{};
 };
 
 namespace detail {
 
-/// A neuron type that is written as the update of one cell. (A class of the name Cell has itself as a
-/// member.)
+/// A neuron type with a struct Cell. (A class named Cell is a member of itself, which does not count.)
 template <class T>
 concept HasCell = requires {
     typename T::Cell;
@@ -37,7 +37,7 @@ template <class T>
 concept UpdatesCell = requires(const T t, typename T::Cell& cell, Input& in) {
     t.update(cell, in);
 };
-/// ... and that leaves the input as it is.
+/// A neuron type whose update() does not change the input.
 template <class T>
 concept KeepsInput = requires(const T t, typename T::Cell& cell, const Input& in) {
     t.update(cell, in);
@@ -59,29 +59,29 @@ inline constexpr std::uint32_t random_numbers = [] {
         return 0u;
 }();
 
-/// A state of a type: its number in the order of declaration, for each member of the type's Cell.
+/// The state that a member of the type's Cell stands for.
 struct CellState {
     int index;
-    bool oldest;  ///< see NeuronSpec
+    bool oldest;  ///< see NeuronSpec::oldest()
 };
 template <class T>
 using CellStates = std::array<CellState, numbers_in<typename T::Cell>>;
 
-/// Where the numbers of the cells of a group are in one cycle.
+/// The rows with the numbers of a group's cells in one cycle.
 template <std::size_t states>
 struct CellRows {
     Index cells;
-    std::array<const double*, states> before;  ///< what update() finds ...
-    std::array<double*, states> now;           ///< ... and where it leaves it; the same row, or another one
-    double *excitation, *inhibition;           ///< null: silent
-    const double *modulation, *event;          ///< null: no event is drawn
+    std::array<const double*, states> before;  ///< what update() reads
+    std::array<double*, states> now;           ///< where update() writes; may be the same row
+    double *excitation, *inhibition;           ///< may be null when nothing delivers this input
+    const double *modulation, *event;          ///< `event` is null when no events are drawn
     std::array<const double*, NeuronColumns::draws_kept> random;
 };
 
 template <class T, bool exc, bool inh, bool events, std::size_t... s, std::size_t... r>
 [[gnu::always_inline]] inline void update_cells(const T& type, const CellRows<sizeof...(s)>& given,
                                                 std::index_sequence<s...>, std::index_sequence<r...>) {
-    const Own<T> own = type;  // what is stored into the rows cannot change it
+    const Own<T> own = type;  // stores into the rows cannot change a copy
     const auto rows = given;
 #ifndef __clang__
 #pragma GCC ivdep
@@ -103,8 +103,7 @@ template <class T, bool exc, bool inh, bool events, std::size_t... s, std::size_
     }
 }
 
-/// Updates all cells. An input that is silent and may not be written is neither read nor written; otherwise
-/// it is a row of zeros.
+/// Updates all cells. An input without a row counts as 0 and is not written.
 template <class T, bool events>
 [[gnu::always_inline]] inline void update_cells(const T& type,
                                                 const CellRows<numbers_in<typename T::Cell>>& rows) {

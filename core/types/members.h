@@ -14,7 +14,7 @@ namespace detail {
 
 struct Anything {
     template <class T>
-    operator T() const;  // NOLINT: it stands for any member's value
+    operator T() const;  // NOLINT: a value for a member of any type
 };
 template <std::size_t>
 using AnythingFor = Anything;
@@ -23,7 +23,7 @@ template <class T, std::size_t... I>
 constexpr bool takes(std::index_sequence<I...>) {
     return requires { T{AnythingFor<I>{}...}; };
 }
-/// How many values an aggregate can be initialised with: one per member.
+/// The number of values that an aggregate can be initialised with, one per member.
 template <class T, std::size_t N = 0>
 constexpr std::size_t members() {
     if constexpr (takes<T>(std::make_index_sequence<N + 1>()))
@@ -34,14 +34,16 @@ constexpr std::size_t members() {
 
 }  // namespace detail
 
-/// Whether `parameters` are all members that T has: then they are all there is to save of it. It cannot be
-/// seen of a type with a constructor or private members, which has to say what is to be saved.
+/// Whether T has no members beside `parameters`, so that nothing else needs to be saved. Returns false for a
+/// type with a constructor or private members, whose members cannot be counted; such a type declares what is
+/// saved.
 template <class T>
 bool only_parameters(std::vector<Parameter> parameters) {
     if constexpr (std::is_empty_v<T>) return true;
     if constexpr (std::is_aggregate_v<T>) {
         if (detail::members<T>() > parameters.size()) return false;
-        // No holes between them but those of alignment, in which members may be that nothing can initialise.
+        // Between the parameters there may be only gaps of alignment. Larger gaps may hold members that
+        // cannot be initialised.
         std::sort(parameters.begin(), parameters.end(),
                   [](const auto& a, const auto& b) { return a.offset < b.offset; });
         std::size_t end = 0;

@@ -1,4 +1,4 @@
-// What the neuron types of the original have in common: a membrane that sums and leaks, and chance.
+// What the neuron types of the original have in common: a membrane that sums and leaks, and events at random.
 #pragma once
 
 #include <limits>
@@ -39,15 +39,15 @@ struct Membrane {
             .range(0, 1)
             .doc("Highest vm when it is clipped.");
     }
-    /// Warns of bounds that are the wrong way round: vm would always be the maximum.
+    /// Warns when the minimum is above the maximum, because vm would always be the maximum.
     void check(Diagnostics& diagnostics) const {
         if (clip && minimum > maximum)
             diagnostics.warning(at_parameter("vmMin"), "vmMin is above vmMax: the potential is always vmMax",
                                 "exchange them");
     }
 
-    /// vm * vmPrs + excGain * excitation - inhGain * inhibition, clipped if asked. Applies the gains to `in`,
-    /// which is recorded so. NaN passes.
+    /// Returns vm * vmPrs + excGain * excitation - inhGain * inhibition, clipped if `clip` is set; a NaN
+    /// stays a NaN. Applies the gains to `in` in place, so that recordings show the inputs with their gains.
     double integrate(double vm, Input& in) const {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         const double low = clip ? minimum : -infinity, high = clip ? maximum : infinity;
@@ -59,8 +59,8 @@ struct Membrane {
     }
 };
 
-/// The event probability of a type with the parameter `probability`: the original compares u * 0.99999999,
-/// u uniform in [0, 1], with 1 - probability.
+/// The event probability of a type with the parameter `probability`. The original compares u * 0.99999999
+/// with 1 - probability, where u is uniform in [0, 1].
 inline double chance(double probability) { return 1 - (1 - probability) / 0.99999999; }
 
 }  // namespace forage

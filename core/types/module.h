@@ -1,16 +1,16 @@
-// Module types: what ties groups to the outside world (a robot, a file, an algorithm).
+// Module types: what connects groups to something else (a robot, a file, an algorithm).
 //
-// A module type is a plain struct whose members are its parameters, with
+// A module type is a plain struct whose members are its parameters. It has these functions, too:
 //
-//     static void describe(ModuleSpec<T>&);          // name, parameters, inputs, outputs
-//     void check(const ModulePorts&, Diagnostics&);  // optional: sizes that belong together
-//     void start(const ModulePorts&);                // optional: once, before the first cycle; or
-//     void start(const ModulePorts&, ModuleFrame&);  // ... what it writes is received in cycle 0
+//     static void describe(ModuleSpec<T>&);          // declares name, parameters, inputs and outputs
+//     void check(const ModulePorts&, Diagnostics&);  // optional: reports sizes that do not fit together
+//     void start(const ModulePorts&);                // optional: called once, before the first cycle
+//     void start(const ModulePorts&, ModuleFrame&);  // instead of it: what it writes is received in cycle 0
 //     void update(ModuleFrame&);                     // once per cycle, between groups and connections
-//     void checkpoint(Archive&);                     // for a type with members beside its parameters:
-//     archive.h
+//     void checkpoint(Archive&);                     // required for members beside the parameters
+//     (archive.h)
 //
-// A module reads the output activity of its input groups of this cycle. What it writes into an output is
+// A module reads the activity of its input groups in the same cycle. What it writes into an output is
 // excitatory input of that group in the next cycle. An output keeps its values until it is written again.
 #pragma once
 
@@ -32,35 +32,36 @@ namespace forage {
 
 class Environment;
 
-/// A cross reference that a module declares: a named place for one group.
+/// A cross reference that a module declares, to which a file connects one group.
 struct ModulePort {
     std::string name;           ///< as in the file's `<XRef name="..">`
-    std::string label;          ///< as shown to people
+    std::string label;          ///< as shown to users
     bool is_output = false;     ///< written by the module (`<XRefHolder name="OutputToGroup">`)
     bool optional = false;      ///< may be absent or unset; the original refuses a system with an unset one
-    int width = 0, height = 0;  ///< required size of the group, 0: any
-    int cells = 0;              ///< required number of cells, 0: any
+    int width = 0, height = 0;  ///< required size of the group; 0 for any size
+    int cells = 0;              ///< required number of cells; 0 for any number
 };
 
-/// The groups behind a module's ports, in order of declaration. An unset optional port has 0 cells.
+/// The groups that are connected to a module's ports, in order of declaration. An unset optional port has 0
+/// cells.
 struct ModulePorts {
     struct Group {
         std::string port;  ///< the cross reference's name
-        std::string path;  ///< "Process/Group", empty when unset
+        std::string path;  ///< "Process/Group"; empty when unset
         GroupShape shape;
     };
     std::string process;        ///< name of the process that holds the module
-    std::vector<Group> inputs;  ///< in order of declaration (of the file, for a type that takes any)
+    std::vector<Group> inputs;  ///< in order of declaration, or of the file for a type with any_ports
     std::vector<Group> outputs;
-    RandomStream random;                 ///< the module's own stream
+    RandomStream random;                 ///< the module's own random stream
     Environment* environment = nullptr;  ///< core/run/environment.h; null in a run, or a check, without one
 };
 
-/// What a module sees in one cycle.
+/// The inputs and outputs of a module in one cycle.
 class ModuleFrame {
   public:
-    /// `written[port]` becomes true when output `port` is taken. `read[port]` says whether that output is
-    /// read in this run; without the list, every output is.
+    /// `written[port]` becomes true when output() is called for `port`. `read[port]` says whether that output
+    /// is read in this run; without the list, every output is.
     ModuleFrame(std::uint64_t cycle, const std::vector<ConstColumn>& in, const std::vector<Column>& out,
                 std::vector<char>* written = nullptr, const std::vector<char>* read = nullptr)
         : cycle_(cycle), in_(in), out_(out), written_(written), read_(read) {}
@@ -68,19 +69,19 @@ class ModuleFrame {
     const ConstColumn& input(std::size_t port) const {  ///< activity of this cycle
         return in_[declared("input", port, in_.size())];
     }
-    /// The excitation that the port's group receives in the next cycle. An output that a module does not take
-    /// in a cycle keeps its values, so take an output only in the cycles in which it changes.
+    /// The excitation that the port's group receives in the next cycle. An output keeps its values until
+    /// output() is called for it again, so call output() only in cycles in which the values change.
     Column output(std::size_t port) const {
         declared("output", port, out_.size());
         if (written_) (*written_)[port] = 1;
         return out_[port];
     }
-    Index output_size(std::size_t port) const {  ///< 0: unset
+    Index output_size(std::size_t port) const {  ///< number of cells; 0 for an unset port
         return out_[declared("output", port, out_.size())].size();
     }
     /// Whether an output is read in this run: false for a port that is unset or whose group is pruned. The
-    /// answer is the same from start() to the last update. A module may ask to save the cost of an output;
-    /// to write an output that is not read is harmless.
+    /// answer is the same from start() to the last update. With it a module can save the cost of an output
+    /// that is not read; writing such an output is harmless.
     bool is_read(std::size_t port) const { return output_size(port) > 0 && (!read_ || (*read_)[port]); }
     std::size_t inputs() const { return in_.size(); }
     std::size_t outputs() const { return out_.size(); }
@@ -106,7 +107,7 @@ class ModuleInstance {
     virtual void check(const ModulePorts&, Diagnostics&) = 0;
     virtual void start(const ModulePorts&, ModuleFrame&) = 0;
     virtual void update(ModuleFrame&) = 0;
-    /// Members beside the parameters, which change while the system runs.
+    /// Reads or writes the members beside the parameters that change while the system runs.
     virtual void checkpoint(Archive&) = 0;
 };
 
@@ -114,8 +115,8 @@ struct ModuleType {
     std::string name, label, doc;
     std::vector<Parameter> parameters;
     std::vector<ModulePort> ports;
-    bool any_ports = false;   ///< takes whatever cross references the file gives it, in file order
-    bool checkpoints = true;  ///< it has a checkpoint(Archive&), or nothing but parameters
+    bool any_ports = false;   ///< whether the ports are those that the file names, in file order
+    bool checkpoints = true;  ///< whether it has a checkpoint(Archive&), or no members beside its parameters
     std::function<std::unique_ptr<ModuleInstance>()> make;
 };
 
@@ -194,8 +195,8 @@ class ModuleModel final : public ModuleInstance {
 
 }  // namespace detail
 
-/// The descriptor of module type T. `prototype` carries what is not a parameter (the world, a file's
-/// content): every module of a system starts as a copy of it.
+/// The descriptor of module type T. Every module of a system starts as a copy of `prototype`, which holds
+/// values that are not parameters, such as a world or the content of a file.
 template <class T>
 ModuleType module_type(T prototype = {}) {
     static_assert(

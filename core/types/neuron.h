@@ -1,21 +1,20 @@
 // Neuron types: what the cells of a group are. A neuron type is a plain struct whose members are its
-// parameters, with
+// parameters. It has these members, too:
 //
-//     struct Cell { double vm = 0, act = 0; };      // the states of a cell, with their initial values
-//     static void describe(NeuronSpec<T>&);         // name, parameters, states
-//     void update(Cell&, Input&) const;             // one cycle of one cell; const Input& without gains
-//     double event_probability() const;             // optional: of Input::event
-//     double event_value() const;                   // in place of update(): the activity of a cell with an
-//     event static constexpr int random_numbers = 1;      // optional: how many of Input::random are drawn,
-//     up to 4 void check(Diagnostics&) const;               // optional: warns of parameters that do not fit
-//     together
+//     struct Cell { double vm = 0, act = 0; };    // the states of a cell, with their initial values
+//     static void describe(NeuronSpec<T>&);       // declares name, parameters and states
+//     void update(Cell&, Input&) const;           // one cycle of one cell; const Input& without gains
+//     double event_probability() const;           // optional: the probability of Input::event
+//     double event_value() const;                 // instead of update(): the activity of a cell with an
+//     event static constexpr int random_numbers = 1;    // optional: the number of Input::random, up to 4
+//     void check(Diagnostics&) const;             // optional: warns of parameters that contradict each other
 //
-// The cells of such a type do not see each other, so that the SDK may update them in any order and by several
-// threads. A type whose cells do has no Cell, and
+// The cells of such a type do not see each other, so the SDK may update them in any order and on several
+// threads. A type whose cells see each other has no Cell, and this update instead:
 //
-//     void update(NeuronColumns&) const;            // one cycle of all cells of a group
+//     void update(NeuronColumns&) const;          // one cycle of all cells of a group
 //
-// neurons/linear_threshold.h is the example to copy, neurons/td_value.h one of the second kind.
+// neurons/linear_threshold.h is an example of the first kind, neurons/td_value.h of the second.
 #pragma once
 
 #include <array>
@@ -32,14 +31,14 @@
 
 namespace forage {
 
-/// A column that every cell of a type has, kept for `history` cycles.
+/// A state of a neuron type: one number per cell, kept for `history` cycles.
 struct StateInfo {
     std::string name;
     std::string label;
     int history = 1;        ///< cycles for which past values are kept, 1 or more
-    bool output = false;    ///< what connections and modules read; exactly one per type
-    bool feedback = false;  ///< offered to synapses that learn from their target
-    double initial = 0;     ///< of all cells and past cycles, before the first update
+    bool output = false;    ///< whether connections and modules read this state; exactly one per type
+    bool feedback = false;  ///< whether synapses can read this state of their target
+    double initial = 0;     ///< the value of all cells in all past cycles before the first update
 };
 
 struct NeuronType {
@@ -47,9 +46,9 @@ struct NeuronType {
     std::vector<Parameter> parameters;
     std::vector<StateInfo> states;
     std::array<bool, input_kinds> reads{};  ///< which kinds of input the type uses; the others stay 0
-    bool elementwise = false;  ///< cells do not see each other: threads may share the update of a group
+    bool elementwise = false;  ///< whether cells do not see each other; threads may share such an update
     std::function<std::unique_ptr<NeuronInstance>()> make;
-    std::function<void(const void*, Diagnostics&)> check;  ///< of an object's parameters; may be empty
+    std::function<void(const void*, Diagnostics&)> check;  ///< checks an object's parameters; may be empty
 
     int output() const {  ///< index of the output state
         for (int i = 0; i < static_cast<int>(states.size()); ++i)
@@ -80,20 +79,21 @@ class NeuronSpec {
         return type_.name = std::move(name), type_.label = std::move(label), *this;
     }
     NeuronSpec& doc(std::string text) { return type_.doc = std::move(text), *this; }
-    /// The kinds of input that update() reads.
+    /// Declares the kinds of input that update() reads.
     template <class... Kinds>
     NeuronSpec& reads(Kinds... kinds) {
         return ((type_.reads[static_cast<std::size_t>(kinds)] = true), ..., *this);
     }
-    /// A parameter: `&T::member`, or `&T::membrane, &Membrane::member` for a member of a member.
+    /// Declares a parameter. `path` is `&T::member`, or `&T::membrane, &Membrane::member` for a member of a
+    /// member.
     template <class... Path>
     ParameterBuilder param(std::string name, Path... path) {
         type_.parameters.push_back(detail::make_parameter<T>(std::move(name), path...));
         return {type_.parameters, type_.parameters.size() - 1};
     }
 
-    /// States of a type with a Cell: a member of it, which has the state's initial value. update() finds in
-    /// it what it left there in the last cycle.
+    /// Declares a state of a type with a Cell. The initial value is that of `member`. update() receives the
+    /// value that it wrote in the last cycle.
     NeuronSpec& state(std::string name, double Cell::*member, std::string label, int history = 1) {
         return add(member, {std::move(name), std::move(label), history, false, false});
     }
@@ -103,12 +103,13 @@ class NeuronSpec {
     NeuronSpec& feedback(std::string name, double Cell::*member, std::string label, int history = 1) {
         return add(member, {std::move(name), std::move(label), history, false, true});
     }
-    /// In the state declared last, update() finds what it left there as many cycles ago as the state's
-    /// history is long. This is a property of the original's types: a synapse that reads the state with a
-    /// delay makes the history longer, and so changes what the cell does.
+    /// In the state that was declared last, update() receives the oldest value of the state's history instead
+    /// of the last one. The types of the original do this: a synapse that reads the state with a delay makes
+    /// the history longer, and thereby changes what the cell does.
     NeuronSpec& oldest() { return oldest_.resize(type_.states.size()), oldest_.back() = true, *this; }
 
-    /// States of a type without a Cell, in the order in which NeuronColumns has them.
+    /// Declares a state of a type without a Cell. NeuronColumns has the states in the order of their
+    /// declaration.
     NeuronSpec& state(std::string name, std::string label, int history = 1, double initial = 0) {
         return add({std::move(name), std::move(label), history, false, false, initial});
     }
@@ -119,7 +120,7 @@ class NeuronSpec {
         return add({std::move(name), std::move(label), history, false, true, initial});
     }
 
-    /// The states as the SDK's loop needs them. Throws TypeError when a member of Cell is not declared.
+    /// The state for each member of Cell. Throws TypeError when a member of Cell is not declared.
     auto cell_states() const {
         std::array<detail::CellState, detail::numbers_in<Cell>> out;
         const auto& indices = numbers_.indices();

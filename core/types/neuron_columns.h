@@ -1,4 +1,4 @@
-// What an update of all cells of a group at once sees: the columns of the group.
+// The columns of a group, for an update of all its cells at once.
 #pragma once
 
 #include <array>
@@ -12,10 +12,11 @@
 
 namespace forage {
 
-/// The columns of one group in one cycle: what an update of all its cells at once sees.
+/// The columns of one group in one cycle, for an update of all its cells at once.
 ///
-/// A state's rows form a ring. `state(i)` is the row to be written in this cycle; before it is written it
-/// holds the value of `history` cycles ago, which is the previous cycle's for the usual history of 1.
+/// A state's rows form a ring. `state(i)` is the row to be written in this cycle; before the update writes
+/// it, it holds the values of `history` cycles ago. With the usual history of 1 these are the values of the
+/// previous cycle.
 class NeuronColumns {
   public:
     struct State {
@@ -23,13 +24,14 @@ class NeuronColumns {
         std::int64_t depth;  ///< rows in the ring
     };
 
-    /// How many draws of numbers, and how many of events, have a column of their own.
+    /// The number of draws of uniform numbers that have columns of their own. It holds for draws of events,
+    /// too.
     static constexpr std::uint32_t draws_kept = 4;
-    /// Columns of `stride` cells that `scratch` must hold.
+    /// The number of columns, of `stride` cells each, that `scratch` must hold.
     static constexpr Index scratch_columns = 2 * draws_kept;
 
-    /// The cells from `first`, a multiple of RandomStream::grain, to `first` + `size` - 1 of a group whose
-    /// rows are `stride` apart. `inputs` and `states` are those of cell 0.
+    /// Covers the cells from `first`, a multiple of RandomStream::grain, to `first` + `size` - 1 of a group
+    /// whose rows are `stride` apart. `inputs` and `states` point to cell 0.
     NeuronColumns(Index size, Index stride, std::uint64_t cycle, std::array<double*, input_kinds> inputs,
                   std::span<const State> states, const RandomStream* random, double* scratch,
                   std::array<bool, input_kinds> silent = {}, Index first = 0)
@@ -46,17 +48,17 @@ class NeuronColumns {
     Index size() const { return size_; }  ///< number of cells
     std::uint64_t cycle() const { return time_invariant_ = false, cycle_; }
 
-    /// What was delivered at the end of the last cycle, per cell. A type applies its gain in place.
+    /// The input of each cell, delivered at the end of the last cycle. A type applies its gain in place.
     Column excitation() const { return input(InputKind::excitatory); }
     Column inhibition() const { return input(InputKind::inhibitory); }
     Column modulation() const { return input(InputKind::modulatory); }
 
-    /// Nothing ever delivers this kind of input: it is 0 in all cells, and a type need neither scale nor read
-    /// it.
+    /// Whether nothing ever delivers this kind of input. It is 0 in all cells then, and a type need neither
+    /// scale nor read it.
     bool silent(InputKind kind) const { return silent_[static_cast<std::size_t>(kind)]; }
 
     Column state(int i) const { return {row(i, 0), size_}; }
-    /// State i as it was `ago` cycles ago; 0 < ago < the state's history.
+    /// The values of state i `ago` cycles ago; 0 < ago < the state's history.
     ConstColumn past(int i, int ago) const { return {row(i, ago), size_}; }
 
     /// All states in order of declaration: `auto [vm, act] = c.states<2>();` Throws TypeError when the type
@@ -70,9 +72,9 @@ class NeuronColumns {
         (std::make_integer_sequence<int, N>{});
     }
 
-    /// One number per cell, uniform in [0, 1), new in each cycle. Another `draw` of the same cycle gives
-    /// other, independent numbers, the same one the same numbers. The columns of draws 0 to 3 stay as they
-    /// are during the update; draw 4 takes that of draw 0, and so on.
+    /// One random number per cell, uniform in [0, 1), new in each cycle. In one cycle, the same `draw` gives
+    /// the same numbers, and another `draw` gives other, independent numbers. The columns of draws 0 to 3
+    /// remain valid during the update; draw 4 overwrites the column of draw 0, and so on.
     Column uniform(std::uint32_t draw = 0) const {
         time_invariant_ = false;
         double* out = scratch_ + draw % draws_kept * stride_;
@@ -80,31 +82,32 @@ class NeuronColumns {
                          static_cast<std::size_t>(first_));
         return {out, size_};
     }
-    /// out[i] = `value` with this probability, independent in each cell and cycle, else 0. Many times faster
-    /// than to compare uniform().
+    /// Sets out[i] = `value` with this probability, independently in each cell and cycle, else 0. This is
+    /// many times faster than a comparison with uniform().
     void events(double probability, Column out, double value = 1, std::uint32_t draw = 0) const {
         time_invariant_ = false;
         random_->events(cycle_, probability, {out.data(), static_cast<std::size_t>(out.size())}, value, draw,
                         static_cast<std::size_t>(first_));
     }
-    /// The same in a column of the draw's own, as for uniform().
+    /// Returns a column that is 1 in cells with an event, else 0. Each draw has its own column, as in
+    /// uniform().
     Column events(double probability, std::uint32_t draw = 0) const {
         const Column out(scratch_ + (draws_kept + draw % draws_kept) * stride_, size_);
         return events(probability, out, 1, draw), out;
     }
 
-    /// Whether the update has asked neither for the cycle nor for random numbers: then the same inputs and
-    /// states give the same again, which the engine makes use of.
+    /// Whether the update has used neither the cycle nor random numbers. The same inputs and states then give
+    /// the same result, so the engine can skip the update.
     bool time_invariant() const { return time_invariant_; }
 
   private:
     Column input(InputKind kind) const { return {inputs_[static_cast<std::size_t>(kind)] + first_, size_}; }
     double* row(int i, int ago) const {
-        const auto index = static_cast<std::size_t>(i);  // of a negative one: very large
+        const auto index = static_cast<std::size_t>(i);  // a negative index becomes very large
         if (index >= states_.size()) detail::not_declared("state", i, states_.size());
         const State& s = states_[index];
         if (ago < 0 || ago > s.depth) detail::not_kept(i, ago, s.depth);
-        if (s.depth == 1) return s.ring + first_;  // two divisions less, of every small group's update
+        if (s.depth == 1) return s.ring + first_;  // saves two divisions, which count in small groups
         const auto now = static_cast<std::int64_t>(cycle_ % static_cast<std::uint64_t>(s.depth));
         return s.ring + ((now - ago + s.depth) % s.depth) * stride_ + first_;
     }

@@ -1,5 +1,5 @@
-// Structs of numbers, as an author declares them: the states of a cell, those of a synapse, what it reads of
-// its target.
+// Structs of numbers that authors of types declare: the states of a cell, the states of a synapse, and what a
+// synapse reads from its target.
 #pragma once
 
 #include <algorithm>
@@ -12,24 +12,24 @@
 
 namespace forage::detail {
 
-/// In place of a struct that a type does not have.
+/// Stands for a struct that a type does not have.
 struct NoNumbers {};
 
 template <class S>
 inline constexpr std::size_t numbers_in = std::is_empty_v<S> ? 0 : sizeof(S) / sizeof(double);
 
-/// The i-th number.
+/// The i-th number of a struct.
 template <std::size_t i, class S>
 [[gnu::always_inline]] inline double& number(S& s) {
     return *reinterpret_cast<double*>(reinterpret_cast<std::byte*>(&s) + i * sizeof(double));
 }
 
-/// A copy of a type's object, which loops over columns keep in registers; of one with texts, the object
-/// itself.
+/// A copy of a type's object, which loops over columns keep in registers. For a type with texts it is a
+/// reference to the object.
 template <class T>
 using Own = std::conditional_t<std::is_trivially_copyable_v<T>, T, const T&>;
 
-/// Which of a type's declarations stands for which number of S.
+/// Maps each number of S to the declaration that stands for it.
 template <class S>
 class NumberMap {
     static_assert(
@@ -37,7 +37,7 @@ class NumberMap {
         "the struct of a type's states, or of what it reads of its target, has members of type double only");
 
   public:
-    /// `name`: of the struct, for messages.
+    /// `name` is the name of the struct in messages.
     explicit NumberMap(const char* name) : name_(name) { index_.fill(undeclared); }
     /// Throws TypeError when the member is declared already.
     void declare(double S::*member, std::size_t index) {
@@ -47,7 +47,7 @@ class NumberMap {
         if (place != undeclared) throw TypeError("describe() declares a number of its " + name_ + " twice");
         place = index;
     }
-    /// The index of each number. Throws TypeError when one is not declared.
+    /// The index of the declaration of each number. Throws TypeError when one is not declared.
     const std::array<std::size_t, numbers_in<S>>& indices() const {
         if (std::count(index_.begin(), index_.end(), undeclared) > 0)
             throw TypeError("its " + name_ + " holds a number that describe() does not declare");

@@ -1,4 +1,5 @@
-// Parameters of a type: declared once, used by the XML check, --set, `forage types` and the docs.
+// Parameters of a type. They are declared once, for the XML check, --set, `forage types` and the
+// documentation.
 #pragma once
 
 #include <cstddef>
@@ -17,47 +18,47 @@ enum class ParameterKind { boolean, real, integer, text };
 
 using ParameterValue = std::variant<bool, double, int, std::string>;
 
-/// Closed interval that the type's author recommends. Values outside are legal in a file (the original
-/// applies no range when it loads one) and give a warning.
+/// The closed interval that the type's author recommends. Values outside it are legal in a file (the original
+/// does not check ranges when it loads one) and give a warning.
 struct ParameterRange {
     double low;
     double high;
 };
 
-/// One parameter of a type: what it means and how to reach it in an object of that type.
+/// One parameter of a type: its meaning, and access to it in an object of that type.
 struct Parameter {
     std::string name;   ///< as written in files
-    std::string label;  ///< as shown to people
+    std::string label;  ///< as shown to users
     std::string doc;    ///< one sentence
     std::string unit;   ///< empty when dimensionless
     ParameterKind kind;
     ParameterValue default_value;
     std::optional<ParameterRange> range;
-    bool is_path = false;   ///< a file's name: relative to the file in which it is written
-    bool at_start = false;  ///< read when the run starts and never again; all others anew in each update
+    bool is_path = false;   ///< whether it names a file, relative to the file that sets the parameter
+    bool at_start = false;  ///< whether it is read only when the run starts, instead of in each update
     std::function<void(void*, const ParameterValue&)> set;
     std::function<ParameterValue(const void*)> get;
-    std::size_t offset = 0, size = 0;  ///< of the member, bytes
+    std::size_t offset = 0, size = 0;  ///< of the member, in bytes
 };
 
-/// Reads `text` as a value of `kind` ("true"/"false", a number in C notation whatever the locale, any text).
-/// Empty when `text` is not one; NaN and infinities are not numbers here.
+/// Reads `text` as a value of `kind`: "true" or "false", a number in C notation whatever the locale, or any
+/// text. Empty when `text` is not such a value; NaN and infinities do not count as numbers.
 std::optional<ParameterValue> parse_parameter(ParameterKind kind, std::string_view text);
 
-/// The value of `kind` that `text` was probably meant to be ("True", " 1", "0,5"); empty when it is a value
-/// already, or not nearly one.
+/// The value of `kind` that `text` was probably meant to be ("True", " 1", "0,5"); empty when it already is a
+/// value, or is not similar to one.
 std::string corrected(ParameterKind kind, std::string_view text);
 
-/// Whether `value` is a number outside of `range`.
+/// Whether `value` is a number outside `range`.
 bool outside(const ParameterValue& value, const std::optional<ParameterRange>& range);
 
-/// The shortest text that reads back as the same value.
+/// The shortest text that is read back as the same value.
 std::string to_text(const ParameterValue& value);
 
-/// "a number", "true or false", ...
+/// The words for a kind in messages: "a number", "true or false", ...
 std::string_view describe(ParameterKind kind);
 
-/// Fluent completion of a parameter declared by a Spec: `.label(..).range(..).doc(..)`.
+/// Completes the declaration of a parameter: `.label(..).range(..).doc(..)`.
 class ParameterBuilder {
   public:
     ParameterBuilder(std::vector<Parameter>& all, std::size_t index) : all_(all), index_(index) {}
@@ -91,8 +92,9 @@ constexpr ParameterKind kind_of() {
     }
 }
 
-/// The parameter of T that `path` leads to: a member pointer, or several when the member is part of a member.
-/// The default is the member's initializer: read from a default-constructed object, written nowhere else.
+/// The parameter of T to which `path` leads: a member pointer, or several when the member is part of a
+/// member. Its default is the value in a default-constructed object, so that it is written only in the
+/// member's initializer.
 template <class T, class... Path>
 Parameter make_parameter(std::string name, Path... path) {
     const auto member = [path...](auto& object) -> auto& { return (object.*....*path); };

@@ -1,8 +1,9 @@
-// Types in a shared object of their own. A plugin is one source file or more, of which one says
+// Plugins: types in a shared object. A plugin consists of one or more source files. One of them has
 //
 //     FORAGE_PLUGIN(MyNeuron, MySynapse)
 //
-// at its end, with all types that the plugin holds. docs/how-to/write-a-neuron.md shows the way.
+// at its end, with all types that the plugin contains. docs/how-to/write-a-neuron.md explains it step by
+// step.
 #pragma once
 
 #include <string>
@@ -20,11 +21,11 @@
 
 namespace forage {
 
-/// Grows whenever a plugin that was built before can no longer be used: when a declaration that types see
-/// has changed.
+/// The version of the SDK. It grows whenever a declaration that types see changes, so that plugins that were
+/// built before can no longer be used.
 inline constexpr int sdk_version = 7;
 
-/// What a plugin declares.
+/// The types that a plugin declares.
 struct PluginTypes {
     std::vector<NeuronType> neurons;
     std::vector<SynapseType> synapses;
@@ -52,11 +53,11 @@ namespace detail {
 #define FORAGE_ABI_PROCESSOR "another processor"
 #endif
 
-/// What a program and its plugins must have in common to understand each other's objects, as people read it.
+/// What a program and its plugins must have in common to use each other's objects, in words.
 inline constexpr const char* abi = FORAGE_ABI_PROCESSOR
     ", " FORAGE_ABI_LIBRARY ", Eigen " FORAGE_TEXT(EIGEN_WORLD_VERSION) "." FORAGE_TEXT(EIGEN_MAJOR_VERSION);
 
-/// The same in numbers: the sizes of what is handed over.
+/// A hash of the sizes of all types that a program and its plugins exchange.
 inline constexpr unsigned long long layout = [] {
     unsigned long long hash = 0xcbf29ce484222325u;
     for (const std::size_t size :
@@ -89,7 +90,7 @@ void declare(PluginTypes& out) {
 }
 
 struct PluginEntry {
-    const char* (*name)();  ///< of the C++ type, mangled
+    const char* (*name)();  ///< the mangled name of the C++ type
     void (*declare)(PluginTypes&);
 };
 
@@ -99,8 +100,8 @@ inline constexpr PluginEntry plugin_entries[] = {
 
 }  // namespace detail
 
-/// The only symbol of a plugin. The first three members never change, so that plugins of any version can say
-/// what they are; the others are looked at when these fit.
+/// The only symbol of a plugin. The first three members never change, so that plugins of any version can be
+/// identified. The others are read only when the first three fit.
 struct PluginHeader {
     int sdk_version;
     const char* abi;
@@ -120,7 +121,7 @@ constexpr PluginHeader plugin_header() {
 }  // namespace detail
 }  // namespace forage
 
-/// Once in a plugin, outside of any namespace, with all types that it holds.
+/// Declares all types of a plugin. It is used once in a plugin, outside any namespace.
 #define FORAGE_PLUGIN(...)                                                                        \
     extern "C" __attribute__((visibility("default"))) const ::forage::PluginHeader forage_plugin; \
     constinit const ::forage::PluginHeader forage_plugin = ::forage::detail::plugin_header<__VA_ARGS__>()

@@ -15,7 +15,7 @@ auto find(const Map& map, std::string_view name) -> const typename Map::mapped_t
     return it == map.end() ? nullptr : &it->second;
 }
 
-/// Throws when two of `items` have the same name; `what` they are.
+/// Throws when two of `items` have the same name. `what` names the kind of the items in the message.
 template <class Items, class Type>
 void require_distinct(const Items& items, const Type& type, std::string_view kind, std::string_view what) {
     for (std::size_t i = 0; i < items.size(); ++i)

@@ -1,4 +1,5 @@
-// The types that a system may name. A value that is passed in: there is no global list.
+// The types that a system may name. A registry is a value that is passed to functions; there is no global
+// list.
 #pragma once
 
 #include <map>
@@ -14,13 +15,13 @@ namespace forage {
 
 class Registry {
   public:
-    /// Adds a type. Throws std::invalid_argument when its name is taken or its declaration does not hold
-    /// together (no name, not exactly one output, a parameter, state, feedback or port declared twice).
+    /// Adds a type. Throws std::invalid_argument when its name is taken or its declaration is inconsistent:
+    /// it has no name or not exactly one output, or declares a parameter, state, feedback or port twice.
     void add(NeuronType type);
     void add(SynapseType type);
     void add(ModuleType type);
 
-    /// Null when there is none of that name.
+    /// The type with this name; null when there is none.
     const NeuronType* neuron(std::string_view name) const;
     const SynapseType* synapse(std::string_view name) const;
     const ModuleType* module(std::string_view name) const;
@@ -37,7 +38,7 @@ class Registry {
     Map<ModuleType> modules_;
 };
 
-/// The names of a registry's map, for hints.
+/// The names in a map of a registry, for hints.
 template <class Map>
 std::vector<std::string> names(const Map& map) {
     std::vector<std::string> out;

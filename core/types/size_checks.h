@@ -1,6 +1,6 @@
-// Included before everything else in plugins: Eigen says when columns of different sizes are combined,
-// instead of writing past their ends. One comparison per expression and group; access to single cells is
-// checked in debug builds only.
+// Plugins include this header before everything else. It makes Eigen report an error when columns of
+// different sizes are combined, instead of writing past their ends. This costs one comparison per expression
+// and group. Access to single cells is checked in debug builds only.
 #pragma once
 
 #include <string_view>
@@ -9,7 +9,7 @@
 
 namespace forage::detail {
 
-/// Whether a condition of Eigen's is about the sizes of whole arrays.
+/// Whether a condition that Eigen checks compares the sizes of whole arrays.
 constexpr bool compares_sizes(std::string_view condition) {
     return condition.find("==") != std::string_view::npos;
 }

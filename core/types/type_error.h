@@ -1,4 +1,4 @@
-// What types do that they have not declared.
+// Errors for types that break their declarations.
 #pragma once
 
 #include <stdexcept>
@@ -7,14 +7,15 @@
 namespace forage {
 
 /// A type uses a state, feedback or port that it does not declare, or computes with columns of different
-/// sizes: a mistake of the type's author. Visible from outside of a plugin.
+/// sizes: a mistake of the type's author. The class is visible outside a plugin.
 class __attribute__((visibility("default"))) TypeError : public std::logic_error {
     using std::logic_error::logic_error;
 };
 
 namespace detail {
 
-/// Out of the way of the fast path. `what`: "state", "feedback", "input", "output".
+/// Throws TypeError. It is a function of its own to keep the fast path short. `what` is "state", "feedback",
+/// "input" or "output".
 [[noreturn, gnu::cold, gnu::noinline]] inline void not_declared(const char* what, long long index,
                                                                 std::size_t declared) {
     throw TypeError("it uses " + std::string(what) + " " + std::to_string(index) + ", but declares " +
