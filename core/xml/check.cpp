@@ -29,9 +29,9 @@ struct Subject {
                            : low       ? fmt::format(", at least {:.15g}", rule.low)
                                        : "");
     }
-    /// What `text`, which is of another kind, was probably meant to be.
+    /// A hint for `text`, which is not of this kind: what was probably meant.
     std::string hint(std::string_view text) const {
-        if (text.ends_with(',')) return description();  // of a list
+        if (text.ends_with(',')) return description();  // an element of a list
         const std::string meant = corrected(rule.kind == ValueKind::boolean ? ParameterKind::boolean
                                             : rule.kind == ValueKind::whole ? ParameterKind::integer
                                                                             : ParameterKind::real,
@@ -78,7 +78,7 @@ class Checker {
         children(e, rule);
     }
 
-    /// An error that leaves open what the rest of the file means.
+    /// Reports an error after which the meaning of the rest of the file is not clear.
     void structural(const Location& where, std::string message, std::string hint) {
         out_.error(where, std::move(message), std::move(hint));
         sound_ = false;
@@ -110,7 +110,7 @@ class Checker {
                            "keep one of them");
             element(child, *known);
         }
-        if (strangers) return;  // what is missing is probably what was misspelt
+        if (strangers) return;  // a missing element is probably the misspelt one
         if (chosen < rule.choose)
             structural(e.where(),
                        fmt::format("<{}> holds {}, it needs {}", e.name(),
@@ -134,14 +134,15 @@ class Checker {
             out_.unknown(where, std::move(message), std::string(hint));
     }
 
-    /// Returns whether what is missing may be the unknown element.
+    /// Reports an unknown element. Returns whether it may be a missing element with a misspelt name.
     bool unknown(const Element& e, const ElementRule& parent) {
-        if (format_.open && e.name().find(':') != std::string_view::npos) return false;  // of another program
+        if (format_.open && e.name().find(':') != std::string_view::npos) return false;  // another program's
         const auto message =
             format_.open && !parent.choose
                 ? fmt::format("<{}> is not known in <{}> and has no effect", e.name(), e.parent().name())
                 : fmt::format("<{}> cannot hold <{}>", e.parent().name(), e.name());
-        // Where one of several is chosen, nothing says what the unknown one might have meant: no leniency.
+        // Where an element is chosen from several, the meaning of an unknown one is not clear, so leniency
+        // does not apply.
         if (parent.choose) return structural(e.where(), message, place_hint(parent, e)), true;
         ignored(e.where(), message, place_hint(parent, e));
         const bool error = !format_.open && !out_.lenient;
@@ -164,7 +165,7 @@ class Checker {
     // ---- attributes and values ----
 
     void attributes(const Element& e, const ElementRule& rule) {
-        std::vector<std::string> meant;  // by attributes that are misspelt: they are not missing as well
+        std::vector<std::string> meant;  // misspelt attributes mean these, so they are not missing, too
         for (const Attribute& a : e.attributes()) {
             if (const AttributeRule* r = rule.attribute(a.name)) {
                 value(a.value, a.name, r->value);
@@ -186,7 +187,7 @@ class Checker {
             }
     }
 
-    /// A value of the attribute `attribute`, or of an element when that is empty.
+    /// Checks the value of the attribute `attribute`, or of an element when the name is empty.
     void value(const Value& v, std::string_view attribute, const ValueRule& rule) {
         if (rule.kind == ValueKind::text || rule.kind == ValueKind::any) return;
         const Subject subject{attribute.empty() ? v.element.name() : attribute, attribute.empty(), rule};
@@ -222,7 +223,7 @@ class Checker {
                        subject.description());
     }
 
-    /// Whether a word is a number that the rule allows.
+    /// Checks that a word is a number that the rule allows.
     bool number(const Value& v, const Subject& subject) {
         const std::string_view word = v.view;
         const ValueRule& rule = subject.rule;
@@ -244,14 +245,14 @@ class Checker {
         return true;
     }
 
-    static constexpr int most_errors = 100'000;  // of more, none is printed
+    static constexpr int most_errors = 100'000;  // further ones would not be printed
 
     const Format& format_;
     Diagnostics& out_;
     bool sound_ = true;
 };
 
-/// What a file is whose outermost element has this name; empty when it is nothing known.
+/// The kind of a file whose outermost element has this name; empty when the kind is unknown.
 std::string_view what_begins_with(std::string_view root) {
     static constexpr std::array<std::array<std::string_view, 2>, 4> known = {
         {{"System", "this is a system file: 'forage run' runs it, other files do not contain it"},

@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view blanks = " \t\r\n";
 
 void collect_comments(const tinyxml2::XMLNode& parent, std::vector<Comment>& out) {
-    std::size_t waiting = out.size();  // for the element before which they stand
+    std::size_t waiting = out.size();  // comments that wait for the element before which they stand
     for (const auto* node = parent.FirstChild(); node; node = node->NextSibling()) {
         if (node->ToComment()) out.push_back({node->Value(), {}, Element(parent.ToElement())});
         if (const auto* element = node->ToElement()) {
@@ -131,7 +131,8 @@ std::vector<Value> Element::texts() const {
         const std::string_view piece = node->Value();
         const auto first = piece.find_first_not_of(blanks);
         if (first == piece.npos) continue;
-        // Looked up in the text as it was read: tinyxml2 has shortened its copy after the first line end.
+        // The piece is looked up in the original text, because tinyxml2 has shortened its copy after the
+        // first line end.
         const char* at = d.in_source(piece.data());
         while (blanks.find(*at) != blanks.npos) ++at;
         out.push_back({piece.substr(first, piece.find_last_not_of(blanks) + 1 - first), at, *this});

@@ -1,4 +1,4 @@
-// An XML file as a tree of elements, each of which knows its place in the file.
+// An XML file as a tree of elements, each with its location in the file.
 #pragma once
 
 #include <compare>
@@ -32,7 +32,7 @@ class Element {
     auto operator<=>(const Element&) const = default;
 
     std::string_view name() const;
-    Location where() const;  ///< of the '<'
+    Location where() const;  ///< the location of the '<'
     Element parent() const;  ///< false for the outermost element
     const Document& document() const;
 
@@ -40,13 +40,13 @@ class Element {
     /// The value of an attribute.
     Value operator[](std::string_view attribute) const;
 
-    /// The elements directly in this one, in file order; with a name, only those of this name.
+    /// The elements directly in this one, in file order; only those with this name if it is given.
     std::vector<Element> children(std::string_view name = {}) const;
     /// The first element to which a path of names leads ("inertia/izz").
     Element child(std::string_view path) const;
 
-    /// The pieces of text directly in the element, without the blanks round each. Comments, elements and
-    /// CDATA sections divide a text into pieces; those of blanks alone do not count.
+    /// The pieces of text directly in the element, without the blanks around them. Comments, elements and
+    /// CDATA sections divide a text into pieces. Pieces of blanks are left out.
     std::vector<Value> texts() const;
     /// All text directly in the element, with its blanks; empty when there are only blanks.
     std::string text() const;
@@ -58,8 +58,8 @@ class Element {
     const tinyxml2::XMLElement* xml_ = nullptr;
 };
 
-/// The value of an attribute, or a text. It is false when the file has no such attribute or element. A getter
-/// returns nothing, or `otherwise`, when the value is absent or of another kind, which check() reports.
+/// The value of an attribute, or a text. It is false when the file has no such attribute or element. When the
+/// value is absent or of another kind, a getter returns nothing or `otherwise`, and check() reports it.
 struct Value {
     std::string_view view;     ///< empty when absent
     const char* at = nullptr;  ///< first character in the file's text; null when absent
@@ -69,17 +69,17 @@ struct Value {
     std::string text() const { return std::string(view); }
     std::optional<double> number() const;
     double number(double otherwise) const { return number().value_or(otherwise); }
-    /// The number without its fraction; `otherwise` also for a number that no int holds.
+    /// The number without its fraction; `otherwise` also for a number that does not fit into an int.
     int whole(int otherwise) const;
-    /// true, false, 1 or 0, in upper or lower case.
+    /// The value of true, false, 1 or 0, in upper or lower case.
     std::optional<bool> flag() const;
     bool flag(bool otherwise) const { return flag().value_or(otherwise); }
-    /// The parts of a list with blanks between them, each with its place.
+    /// The words of a list with blanks between them, each with its location.
     std::vector<Value> words() const;
-    /// Numbers with blanks between them, up to the first word that is none.
+    /// The numbers of a list with blanks between them, up to the first word that is not a number.
     std::vector<double> numbers() const;
 
-    /// The place of the first character; that of the element when the value is absent.
+    /// The location of the first character; that of the element when the value is absent.
     Location where() const;
 };
 
@@ -89,14 +89,14 @@ struct Attribute {
     Value value;
 };
 
-/// A comment, and the element before which it stands; false at the end of `parent`, the element that holds
-/// it.
+/// A comment in the element `parent`. It stands before the element `before`, which is false for a comment at
+/// the end of `parent`.
 struct Comment {
     std::string_view text;
     Element before, parent;
 };
 
-/// A file that is well-formed XML. Elements point to it: it stays where it is.
+/// A file that is well-formed XML. It must not be moved, as elements point to it.
 struct Document {
     std::shared_ptr<const SourceFile> source;
     std::vector<std::size_t> line_starts;  ///< offset of the first byte of each line
@@ -104,7 +104,7 @@ struct Document {
     const char* buffer = nullptr;  ///< where tinyxml2 keeps its copy of the text
 
     /// Parses `text`, which users know as the file `path`: XML 1.0 in UTF-8, without entities of its own,
-    /// elements nested at most 64 deep. Reports the first fault, if there is one, and returns null.
+    /// with elements nested at most 64 deep. Reports the first fault, if there is one, and returns null then.
     /// `beginning` is the start tag of such a file, for hints ("<System ...>"); `most_nodes` limits its
     /// elements, attributes and comments.
     static std::unique_ptr<const Document> parse(std::string path, std::string text,
@@ -112,18 +112,16 @@ struct Document {
                                                  Diagnostics& diagnostics);
 
     Element root() const;
-    std::vector<Comment> comments() const;  ///< in file order
-    std::vector<std::string> instructions()
-        const;  ///< processing instructions, without the declaration of XML
+    std::vector<Comment> comments() const;          ///< in file order
+    std::vector<std::string> instructions() const;  ///< processing instructions, without the XML declaration
 
-    /// What tinyxml2 points to, in the file's text.
+    /// The position in the file's text that corresponds to a position in tinyxml2's copy.
     const char* in_source(const char* in_buffer) const;
-    /// The place of a character of the file's text.
+    /// The location of a character of the file's text.
     Location place(const char* at) const;
 };
 
-/// The parts of a list with blanks between them: at most 1,048,576, as a longer list is wrong wherever it
-/// stands.
+/// The words of a list with blanks between them, at most 1,048,576. A longer list is wrong in every place.
 std::vector<std::string_view> words(std::string_view list);
 
 }  // namespace forage::xml

@@ -14,7 +14,7 @@
 namespace forage::xml {
 namespace {
 
-/// Builds the model from a document in spite of what check() found, to report what else is wrong with it.
+/// Builds the model from a document in spite of errors that check() has found, to report further mistakes.
 class ExperimentReader {
   public:
     ExperimentReader(const Document& document, Diagnostics& out) : document_(document), out_(out) {}
@@ -45,7 +45,7 @@ class ExperimentReader {
     }
 
   private:
-    /// Empty also where the check has refused the value.
+    /// The value as a whole number; empty when there is none or when check() has refused it.
     static std::optional<std::uint64_t> whole(const Value& v) {
         const auto n = v.number();
         if (!n || !(*n >= 0 && *n <= 2e9)) return std::nullopt;
@@ -53,7 +53,7 @@ class ExperimentReader {
     }
     static model::Expression written(const Value& v) { return {v.text(), v.where()}; }
 
-    /// A path as seen from the working directory.
+    /// A path relative to the working directory.
     std::string file(const Value& v) const {
         return (std::filesystem::path(experiment_.path).parent_path() / v.view).string();
     }
@@ -61,7 +61,8 @@ class ExperimentReader {
         return {e["parameter"].text() + "=" + e["value"].text(), e["parameter"].where()};
     }
 
-    /// Whether an element has an attribute that the check has refused: it may have meant any other.
+    /// Whether an element has an attribute that check() has refused, which may be any other one with a
+    /// misspelt name.
     static bool misspelt(const Element& e) {
         const ElementRule* rule = experiment_format().find(e.name());
         const auto all = e.attributes();
@@ -69,7 +70,7 @@ class ExperimentReader {
                            [&](const Attribute& a) { return !rule->attribute(a.name); });
     }
 
-    /// The one of these attributes that an element has; reports none or several.
+    /// The one of these attributes that an element has. Reports an error when it has none or several.
     const char* one_of(const Element& e, std::span<const char* const> names) {
         const char* found = nullptr;
         for (const char* name : names)
@@ -125,7 +126,7 @@ class ExperimentReader {
         }
     }
 
-    /// <clamp>, <add> and <multiply>.
+    /// Reads <clamp>, <add> or <multiply>.
     void manipulation(const Element& e) {
         static constexpr std::array modes = {"clamp", "add", "multiply"};
         static constexpr std::array sources = {"cells", "patterns"};
@@ -188,14 +189,14 @@ class ExperimentReader {
         experiment_.sweeps.push_back(std::move(s));
     }
 
-    /// The parts of a list with blanks between them.
+    /// The words of a list with blanks between them.
     static std::vector<model::Expression> expressions(const Value& list) {
         std::vector<model::Expression> out;
         for (const Value& word : list.words()) out.push_back(written(word));
         return out;
     }
 
-    /// At most `most_runs` + 1.
+    /// The number of runs, at most `most_runs` + 1.
     std::uint64_t count_runs() const {
         std::uint64_t out = experiment_.seeds.size();
         for (const auto& s : experiment_.sweeps) out = std::min(out * s.values.size(), most_runs + 1);

@@ -1,4 +1,4 @@
-// Experiment files -> model.
+// Reads experiment files into models.
 #pragma once
 
 #include <optional>

@@ -19,7 +19,7 @@ class Printer {
     struct Attribute {
         const char* name;
         ParameterValue value;
-        bool absent = false;  ///< it is not written
+        bool absent = false;  ///< whether it is not written
     };
     using Attributes = std::initializer_list<Attribute>;
 
@@ -29,9 +29,9 @@ class Printer {
             if (!a.absent) out_.PushAttribute(a.name, hidden(to_text(a.value), "\r\n\t").c_str());
     }
     void close() { out_.CloseElement(); }
-    /// An element without content.
+    /// Writes an element without content.
     void leaf(const char* name, Attributes attributes = {}) { open(name, attributes), close(); }
-    /// The text of the element that was opened last; such an element holds no others.
+    /// Writes the text of the element that was opened last; an element with a text has no elements in it.
     void text(const std::string& content) { out_.PushText(hidden(content, "\r").c_str()); }
     void comment(const std::string& content) { out_.PushComment(content.c_str()); }
 
@@ -50,8 +50,8 @@ class Printer {
     }
 
   private:
-    /// tinyxml2 writes these characters as they are, and a reader would take them for blanks: they pass it as
-    /// characters that no XML holds.
+    /// Replaces special characters, which tinyxml2 would write as they are and a reader would take for
+    /// blanks, by characters that cannot occur in XML. result() replaces these by character references.
     static std::string hidden(std::string text, std::string_view special) {
         for (char& c : text)
             if (special.find(c) != special.npos) c = c == '\r' ? 1 : c == '\n' ? 2 : 3;

@@ -12,8 +12,8 @@
 namespace forage::xml {
 namespace {
 
-/// Comments by the process, group or connection that they stand before. Others belong to the one that they
-/// stand in, or to the file's root.
+/// Comments by the process, group or connection before which they stand. Other comments belong to the item
+/// that they stand in, or to the file's root.
 std::map<Element, std::vector<std::string>> comments_by_owner(const Document& document) {
     const auto is_owner = [](Element e) {
         return e.name() == "Process" || e.name() == "Group" || e.name() == "Connection";
@@ -27,7 +27,7 @@ std::map<Element, std::vector<std::string>> comments_by_owner(const Document& do
     return out;
 }
 
-/// Builds the model from a document that check() found sound: no element is missing.
+/// Builds the model from a document in which check() has found no missing element.
 class Reader {
   public:
     Reader(const Document& document, Diagnostics& out)
@@ -99,7 +99,7 @@ class Reader {
                 {p["name"].text(), p["value"].text(), p["name"].where(), p["value"].where()});
     }
 
-    /// Only holders of these names mean something in this element.
+    /// Reports holders in this element whose names are not in `meaningful`.
     void only_holders(const Element& e, const std::vector<std::string>& meaningful) {
         for (const Element& h : e.children("XRefHolder")) {
             const Value name = h["name"];
@@ -258,7 +258,7 @@ class Reader {
     const std::map<Element, std::vector<std::string>> comments_;
 };
 
-/// Reads the files of linked processes, which stand in for what the system itself says of them.
+/// Reads the files of linked processes, which replace the processes in the system's own file.
 class Linker {
   public:
     Linker(model::System& system, const std::string& system_path, Diagnostics& out)
@@ -305,8 +305,8 @@ class Linker {
     Diagnostics& out_;
 };
 
-/// The model that `read` makes of a document; nothing when it has errors that leave open what the file means,
-/// or when reading it found others.
+/// The model that `read` makes from a document. Empty when the document has errors after which its meaning is
+/// not clear, or when `read` has found further errors.
 template <class Read>
 auto build(const Document* document, const Format& format, Diagnostics& diagnostics, Read read) {
     std::optional<decltype(read(*document))> out;

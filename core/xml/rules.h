@@ -1,5 +1,5 @@
-// File formats as tables: which elements and attributes there are, where they stand and what they mean. The
-// check, its hints and the schemas come from these tables.
+// File formats as tables: the elements and attributes, their places and their meaning. The check, its hints
+// and the schemas come from these tables.
 #pragma once
 
 #include <cstddef>
@@ -18,24 +18,24 @@ enum class ValueKind {
     boolean,  ///< true or false; in an open format also 1, 0 and capitals
     number,   ///< one number or several
     whole,    ///< a whole number
-    any,      ///< texts and elements that only their reader knows
+    any,      ///< texts and elements that are checked only by their reader
 };
 
-/// What an attribute or an element may say.
+/// The values that an attribute or an element may have.
 struct ValueRule {
     ValueKind kind = ValueKind::text;
     std::string doc = {};
-    double low = -std::numeric_limits<double>::infinity();  ///< numbers outside of `low` to `high` are errors
+    double low = -std::numeric_limits<double>::infinity();  ///< numbers outside `low` to `high` are errors
     double high = std::numeric_limits<double>::infinity();
     std::vector<std::string> choices = {};
-    std::size_t least = 1, most = 1;  ///< how many numbers
-    bool may_be_empty = false;        ///< the same as if the element were not there
-    bool decisive = false;            ///< when it is wrong, nothing can be said of what depends on it
+    std::size_t least = 1, most = 1;  ///< limits of the number of numbers
+    bool may_be_empty = false;        ///< whether an empty element counts as absent
+    bool decisive = false;  ///< whether what depends on the value cannot be checked when it is wrong
 
-    /// Another rule holds in an element whose `attribute` has the value `says`.
+    /// Another rule, which holds in an element whose `attribute` has the value `says`.
     struct Exception {
         std::string_view attribute, says;
-        std::string_view rule;  ///< in Format::values
+        std::string_view rule;  ///< a key of Format::values
     };
     Exception exception = {};
 };
@@ -52,20 +52,20 @@ struct ElementRule;
 struct ChildRule {
     std::string name;
     int least = 0, most = 1;
-    const ValueRule* value = nullptr;   ///< what it says; null when it holds no text
+    const ValueRule* value = nullptr;   ///< the rule for its text; null when it has no text
     const ElementRule* rule = nullptr;  ///< its attributes and elements
 };
 
 struct ElementRule {
     std::string name, doc;
-    /// The elements that may stand in it, with blanks between them: "Note?:text Process". After a name:
-    /// ? at most once, ! once, + at least once, nothing for any number; and :KIND when the element says a
-    /// value, of a kind in Format::values. A kind without a name is that of the element itself.
+    /// The elements that may stand in it, with blanks between them: "Note?:text Process". After a name stands
+    /// ? for at most once, ! for once, + for at least once, and nothing for any number; then :KIND, a key of
+    /// Format::values, when the element has a value. A :KIND without a name is that of the element itself.
     std::string_view content = {};
     std::vector<AttributeRule> attributes = {};
-    int choose = 0;  ///< how many elements it holds in all, when they are alternatives; else 0
+    int choose = 0;  ///< the number of elements in it when they are alternatives, else 0
 
-    std::vector<ChildRule> children = {};  ///< `content`, as Format::link() reads it
+    std::vector<ChildRule> children = {};  ///< made from `content` by Format::link()
     const ValueRule* value = nullptr;
 
     const AttributeRule* attribute(std::string_view name) const;
@@ -77,16 +77,16 @@ struct Format {
     std::string_view beginning;           ///< the start tag of such a file: "<System ...>"
     std::vector<std::string_view> roots;  ///< names of the outermost element; the first one is in the table
     std::size_t most_nodes = std::size_t{1} << 20;  ///< elements, attributes and comments of a file
-    /// Whether other programs extend the format: unknown elements have no effect and are warnings, unknown
-    /// attributes are not looked at.
+    /// Whether other programs extend the format. Unknown elements then have no effect and give warnings, and
+    /// unknown attributes are ignored.
     bool open = false;
     std::string_view where_texts_stand = "a remark is written <!-- -->";  ///< hint for a text elsewhere
-    std::map<std::string, ValueRule, std::less<>> values = {};            ///< by kind
+    std::map<std::string, ValueRule, std::less<>> values = {};            ///< rules by name of a kind
     std::vector<ElementRule> elements = {};
 
-    /// Null when the format has no element of that name.
+    /// The rule for an element; null when the format has no element with this name.
     const ElementRule* find(std::string_view element) const;
-    /// Makes the children of all elements. Nothing may be added to the tables afterwards.
+    /// Makes the children of all elements from their contents. Nothing may be added to the tables afterwards.
     Format&& link() &&;
 };
 

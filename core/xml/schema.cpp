@@ -14,7 +14,7 @@ class Schema : Printer {
   public:
     explicit Schema(const Registry& registry) : registry_(registry) {}
 
-    /// `roots` are the elements with which a file may begin.
+    /// A schema of the format. `roots` are the elements with which a file may begin.
     std::string grammar(const Format& format, const std::vector<std::string>& roots) {
         open("grammar", {{"xmlns", "http://relaxng.org/ns/structure/1.0"},
                          {"xmlns:a", "http://relaxng.org/ns/compatibility/annotations/1.0"},
@@ -106,7 +106,7 @@ class Schema : Printer {
             interleaved(rule.children);
     }
 
-    /// The children in any order, each as often as its rule says.
+    /// Writes the children in any order, each as often as its rule allows.
     void interleaved(const std::vector<ChildRule>& children) {
         open("interleave");
         for (const auto& c : children) {
@@ -120,7 +120,7 @@ class Schema : Printer {
         close();
     }
 
-    // Neurons, synapses and modules: what they hold depends on the type that they name.
+    // The content of neurons, synapses and modules depends on the type that they name.
 
     template <class Map>
     void of_types(const Map& types) {

@@ -1,4 +1,4 @@
-// The formats as schemas, with which editors complete and check files.
+// Schemas of the formats, with which editors complete and check files.
 #pragma once
 
 #include <string>

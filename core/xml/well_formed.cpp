@@ -13,7 +13,7 @@
 namespace forage::xml {
 namespace {
 
-/// A function that finds a fault reports it and returns false.
+/// Scans a text. A function that finds a fault reports it and returns false.
 class Scanner {
   public:
     Scanner(const Document& document, std::string_view beginning, std::size_t most_nodes,
@@ -119,9 +119,9 @@ class Scanner {
         return references(from, to);
     }
 
-    /// Every '&' begins one of the five entities that XML has, or a character by its number.
+    /// Checks that every '&' begins one of the five entities of XML or a numeric character reference.
     bool references(std::size_t from, std::size_t to) {
-        const std::string_view text = text_.substr(0, to);  // to search no farther
+        const std::string_view text = text_.substr(0, to);  // limits the search
         for (std::size_t i = text.find('&', from); i < to; i = text.find('&', i + 1)) {
             const std::size_t end = text.find(';', i);
             const auto what = end < to ? text.substr(i + 1, end - i - 1) : std::string_view();
@@ -237,8 +237,8 @@ class Scanner {
     bool attribute(std::string_view tag, std::size_t gap) {
         const std::size_t start = pos_;
         const std::string_view attribute = name();
-        // After a forgotten quote the first quote of the next value closes, and its text stands where a name
-        // should.
+        // When a closing quote is missing, the first quote of the next value closes instead, and the text of
+        // that value stands where a name should be.
         if ((attribute.empty() || gap == 0) && last_value_.find('=') != std::string_view::npos)
             return fail(offset(last_value_) - 1,
                         fmt::format("the value of '{}' has no closing quote", seen_.back()),
@@ -252,7 +252,7 @@ class Scanner {
         if (std::find(seen_.begin(), seen_.end(), attribute) != seen_.end())
             return fail(start, fmt::format("<{}> has the attribute '{}' twice", tag, attribute),
                         "remove one of them");
-        constexpr std::size_t most = 1000;  // each is compared with all before it
+        constexpr std::size_t most = 1000;  // each is compared with all previous ones
         if (seen_.size() >= most)
             return fail(start, fmt::format("<{}> has more than {} attributes", tag, most));
         if (!counted(start)) return false;
@@ -288,9 +288,10 @@ class Scanner {
     std::size_t most_nodes_;
     Diagnostics& diagnostics_;
     std::size_t pos_ = 0, nodes_ = 0;
-    bool only_instructions_ = true;       ///< nothing else came so far: tinyxml2 reads them nowhere else
-    std::string_view root_, last_value_;  ///< the value is that of the attribute before this one
-    std::vector<std::string_view> open_, seen_;  ///< elements, and attributes of this tag
+    bool only_instructions_ =
+        true;  ///< whether nothing else has come so far; tinyxml2 reads instructions only there
+    std::string_view root_, last_value_;         ///< the value of the previous attribute
+    std::vector<std::string_view> open_, seen_;  ///< open elements, and the attributes of this tag
 };
 
 }  // namespace

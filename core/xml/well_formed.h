@@ -1,6 +1,5 @@
-// Well-formed XML, or what keeps a text from being it. tinyxml2 tells only the line of the element that it
-// was in when it gave up, and reads on where a text is cut by a NUL, has two outermost elements or names
-// entities that do not exist.
+// Checks whether a text is well-formed XML. For an error, tinyxml2 gives only the line of the element that it
+// was in. It also accepts texts that have a NUL byte, two outermost elements, or entities that do not exist.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +10,9 @@
 
 namespace forage::xml {
 
-/// Returns the name of the outermost element where it stands in the document's text; reports the first fault
-/// of a text that is not what Document::parse() reads, and returns nothing then. Of the document, only
-/// `source` and `line_starts` are used.
+/// Returns the name of the outermost element, as a part of the document's text. Reports the first fault and
+/// returns nothing when the text is not what Document::parse() accepts. Only `source` and `line_starts` of
+/// the document are used.
 std::optional<std::string_view> find_root(const Document& document, std::string_view beginning,
                                           std::size_t most_nodes, Diagnostics& diagnostics);
 

@@ -1,4 +1,4 @@
-// model -> .iqr and .iqrProcess files.
+// Writes models as .iqr and .iqrProcess files.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace forage::xml {
 
-/// The text of a system file. Reading it gives an equal system; writing that gives the same text. Of a linked
-/// process only the link is written: its content lives in its own file.
+/// The text of a system file. Reading it gives an equal system, and writing that system gives the same text.
+/// For a linked process only the link is written, as its content has a file of its own.
 std::string write_system(const model::System& system);
 
 /// The text of a process file: a process and the connections among its groups.
