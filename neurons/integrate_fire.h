@@ -4,8 +4,8 @@
 
 namespace forage {
 
-/// A cell spikes (act = 1) where vm reaches the threshold, with the given probability, and a spike lowers vm
-/// by vmReset / spkAmpl. The amplitude does not scale the spike, as in the original.
+/// A cell whose vm reaches the threshold spikes (act = 1) with the given probability. A spike lowers vm by
+/// vmReset / spkAmpl. The amplitude does not scale the spike, as in the original.
 struct IntegrateFire {
     Membrane membrane;
     double probability = 1, threshold = 0, amplitude = 1, reset = 0;
@@ -50,7 +50,7 @@ struct IntegrateFire {
     void update(Cell& c, Input& in) const {
         const double loss = amplitude == 0 ? 0 : reset / amplitude;
         c.vm = membrane.integrate(c.vm, in);
-        c.act = c.vm >= threshold ? in.event : 0;  // NaN is silent
+        c.act = c.vm >= threshold ? in.event : 0;  // a NaN does not spike
         c.vm -= c.act != 0 ? loss : 0;
     }
 };

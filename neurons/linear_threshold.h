@@ -4,8 +4,8 @@
 
 namespace forage {
 
-/// act = vm where it reaches the threshold, and 0 elsewhere. With a probability below 1 each cell is silent
-/// in a random part of the cycles.
+/// A cell whose vm reaches the threshold has act = vm, and other cells have act = 0. With a probability below
+/// 1, each cell is silent in a random part of the cycles.
 struct LinearThreshold {
     Membrane membrane;
     double probability = 1, threshold = 0;

@@ -4,7 +4,7 @@
 
 namespace forage {
 
-/// act = exc - inh: passes numbers on as they are.
+/// Passes numbers on as they are: act = exc - inh.
 struct Numeric {
     struct Cell {
         double pot = 0, act = 0;

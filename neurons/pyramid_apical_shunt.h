@@ -4,9 +4,9 @@
 
 namespace forage {
 
-/// vm = vm * vmPrs + exc - inh; spikes (act = 1) where vm reaches the threshold, and a spike lowers vm by
-/// vmReset. Offers two states to its synapses: `backprop`, the spikes of the cycle before, and `shunt` = 1 /
-/// (1 - mod), infinite where the modulatory input is 1.
+/// A cell whose vm = vm * vmPrs + exc - inh reaches the threshold spikes (act = 1), and the spike lowers vm
+/// by vmReset. Synapses can read two states: `backprop`, the spikes of the previous cycle, and `shunt` = 1 /
+/// (1 - mod), which is infinite when the modulatory input is 1.
 struct PyramidApicalShunt {
     double persistence = 0, threshold = 0, reset = 0;
 
@@ -39,7 +39,7 @@ struct PyramidApicalShunt {
     void update(Cell& c, const Input& in) const {
         c.backprop = c.act;
         c.vm = c.vm * persistence + in.excitation - in.inhibition;
-        c.act = c.vm >= threshold ? 1 : 0;  // NaN is silent
+        c.act = c.vm >= threshold ? 1 : 0;  // a NaN does not spike
         c.vm -= c.act * reset;
         c.shunt = 1 / (1 - in.modulation);
     }

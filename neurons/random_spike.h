@@ -4,7 +4,8 @@
 
 namespace forage {
 
-/// Spikes of a fixed amplitude, independent in each cell and cycle. Takes no input.
+/// Cells spike at random, with a fixed amplitude, independently in each cell and cycle. They receive no
+/// input.
 struct RandomSpike {
     double probability = 0.3, amplitude = 1;
 

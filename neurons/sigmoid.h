@@ -6,7 +6,7 @@
 
 namespace forage {
 
-/// act = (1 + tanh(2 * slope * (vm - midpoint))) / 2.
+/// A cell has the activity act = (1 + tanh(2 * slope * (vm - midpoint))) / 2.
 struct Sigmoid {
     Membrane membrane;
     double midpoint = 0, slope = 1;

@@ -6,10 +6,10 @@
 
 namespace forage {
 
-/// Learns the value of the cells of its input by temporal differences: when the input changes, each cell that
-/// was active before moves by alpha * delta, delta = reward + gamma * V(now) - V(before), V = sum of value *
-/// input. The modulatory input is reward, that of cell 0 counts. All cells act on each other: one group is
-/// one critic.
+/// Learns the values of its input cells by temporal differences. When the input changes, the value of each
+/// cell changes by alpha * delta * its previous input, where delta = reward + gamma * V(now) - V(before), and
+/// V is the sum of value * input. The reward is the modulatory input of cell 0. All cells act on each other:
+/// one group is one critic.
 struct TDValue {
     double alpha_plus = 0.5, alpha_minus = 0.1, gamma = 1;
 
@@ -44,7 +44,7 @@ struct TDValue {
     }
 
   private:
-    // Plain sums from the first cell to the last: Eigen's sum() adds in an order of its own.
+    // These are plain sums from the first cell to the last, because Eigen's sum() adds in another order.
     static double dot(const Column& a, const Column& b) {
         double sum = 0;
         for (Index i = 0; i < a.size(); ++i) sum += a[i] * b[i];
