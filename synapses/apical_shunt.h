@@ -4,7 +4,7 @@
 
 namespace forage {
 
-/// psp = pre * shunt of the target cell.
+/// Multiplies the input by the shunt of the target cell: psp = pre * shunt.
 struct ApicalShunt {
     struct Target {
         double shunt = 0;

@@ -4,7 +4,8 @@
 
 namespace forage {
 
-/// psp = weight * pre, the same weight for all synapses of the connection.
+/// Multiplies the input by a constant: psp = weight * pre, with the same weight for all synapses of the
+/// connection.
 struct FixedWeight {
     double weight = 1;
 

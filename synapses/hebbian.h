@@ -4,9 +4,9 @@
 
 namespace forage {
 
-/// Hebbian learning: weight += (postact * pre) * lrate from 0, then synpot = weight * pre. postact is the
-/// state of the target that the file names, as old as the synapse's delay. Weights do not decay, as in the
-/// original.
+/// Hebbian learning: weight += (postact * pre) * lrate, beginning with 0; then synpot = weight * pre. postact
+/// is the state of the target that the file names, taken as many cycles ago as the synapse's delay. Weights
+/// do not decay, as in the original.
 struct Hebbian {
     double rate = 0.1, decay = 0.1;
 

@@ -4,8 +4,8 @@
 
 namespace forage {
 
-/// psp = pre. The original ships this type to try out feedback: it declares two feedback inputs and uses
-/// neither.
+/// Passes the input on as it is: psp = pre. The original has this type to test feedback: it declares two
+/// feedback inputs and uses neither.
 struct TestSynapse {
     static void describe(SynapseSpec<TestSynapse>& s) {
         s.name("synapseTest", "Test").doc("Passes its input on as it is.");

@@ -4,7 +4,8 @@
 
 namespace forage {
 
-/// psp = weight * pre: the fixed weight type under the name that older files use.
+/// Multiplies the input by a constant: psp = weight * pre. Older files use this name for the fixed weight
+/// type.
 struct UniformFixedWeight {
     double weight = 1;
 
