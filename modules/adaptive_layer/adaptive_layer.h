@@ -44,8 +44,9 @@ class AdaptiveLayer {
     /// Sets the weights to `weights` (N x K), rounded to single precision.
     void set_weights(const Eigen::Ref<const Eigen::MatrixXd>& weights);
 
-    /// One step. `stimulus` has N values, `response` has K values, of any sign. Does not allocate memory.
-    /// Returns false when no weight has changed: without a stimulus, y = e = 0 and nothing is learned.
+    /// Computes one step. `stimulus` has N values, `response` has K values, of any sign. Does not allocate
+    /// memory. Returns false when no weight has changed: without a stimulus, y = e = 0 and nothing is
+    /// learned.
     bool update(const Values& stimulus, const Values& response, const Rates& rates);
 
     const Eigen::ArrayXd& response() const { return y_; }   ///< y of the last step, K

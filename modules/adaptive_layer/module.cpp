@@ -130,7 +130,7 @@ void AdaptiveLayerModule::update(ModuleFrame& frame) {
         show_weights(frame.output(display));
         display_outdated_ = false;
     }
-    // Weights that are read have an effect, and are displayed, from the next cycle on.
+    // Weights from a file take effect, and are displayed, from the next cycle on.
     if (read) {
         read = false;
         layer_.set_weights(read_weights(file_name, layer_.weights().rows(), layer_.weights().cols()));

@@ -35,14 +35,14 @@ class ContextualLayer {
     };
 
     ContextualLayer() = default;
-    /// Makes a closed layer with empty memories. `sequences` and `segments`: height and width of the
-    /// long-term memory, at least 1.
+    /// Makes a closed layer with empty memories. `sequences` and `segments` are the height and the width of
+    /// the long-term memory, at least 1.
     ContextualLayer(Index sequences, Index segments, Index prototype_cells, Index action_cells);
 
-    /// Which distances and collectors are exact: all, or only those of the segments that can be selected,
+    /// The distances and collectors that are exact: all, or only those of segments that can be selected,
     /// which is faster.
     enum class Exact { all, selectable };
-    /// One step. Does not allocate memory. Returns false while the layer is closed.
+    /// Computes one step. Does not allocate memory. Returns false while the layer is closed.
     bool update(const Inputs& in, const Settings& settings, Exact exact = Exact::all);
 
     const Eigen::ArrayXf& action() const { return action_; }  ///< of the last step, M values

@@ -36,8 +36,8 @@ class LongTermMemory {
 
     /// Computes the distance d of the present prototype to that of each used segment (see PrototypeStore).
     void compare(const Eigen::Ref<const Eigen::ArrayXd>& prototype);
-    /// The same, but the distances are estimates, and so are the collectors, until refine_candidates() is
-    /// called.
+    /// Estimates the distances that compare() computes exactly. The distances and the collectors are
+    /// estimates until refine_candidates() is called.
     void estimate(const Eigen::Ref<const Eigen::ArrayXd>& prototype);
     /// Updates the triggers and collectors of all used segments: t <- (1 - decay) t + decay if t is above 1,
     /// else t <- 1; then c = (1 - d) t.

@@ -33,7 +33,7 @@ namespace forage::contextual {
 class PrototypeStore {
   public:
     PrototypeStore() = default;
-    /// Room for at most `capacity` prototypes at a time.
+    /// Makes a store with room for `capacity` prototypes.
     PrototypeStore(Index keys, Index capacity, Index cells);
 
     void add(Index key, const Eigen::Ref<const Eigen::ArrayXf>& prototype);

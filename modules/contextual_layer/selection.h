@@ -5,10 +5,10 @@
 
 namespace forage::contextual {
 
-/// Selects the used segments whose collector c is > `threshold` and >= `share` times the largest collector
-/// (or 0 if none is above 0). The triggers of selected segments become 1. Then the trigger of each segment
-/// that follows a selected one, which is one step nearer to the goal, becomes `trigger_reset`, which favours
-/// it from the next update on.
+/// Selects the used segments whose collector c is above `threshold` and at least `share` times the largest
+/// collector (or 0 if no collector is above 0). The triggers of selected segments become 1. Then the trigger
+/// of each segment that follows a selected one, which is one step nearer to the goal, becomes
+/// `trigger_reset`, which favours it from the next update on.
 void select(LongTermMemory& memory, float threshold, float share, float trigger_reset);
 
 /// out_m = sum of a_m c / (j + 1) over the selected segments in column j, added row by row in single

@@ -11,9 +11,9 @@ namespace forage::replay {
 /// Whether a row is played into an output of the module of process `process`.
 bool plays(const DriveTable::Row& row, std::string_view process, const ModulePorts::Group& output);
 
-/// Takes any cross references. In cycle t it writes the row of cycle t into the output that the row names (by
-/// cross reference or group), so the group receives it in cycle t + 1; a row of cycle -1 is received in cycle
-/// 0. Outputs hold their last row.
+/// The module accepts any cross references. In cycle t it writes the row of cycle t into the output that the
+/// row names (by cross reference or group), so the group receives it in cycle t + 1; a row of cycle -1 is
+/// received in cycle 0. Outputs keep the values of their last row.
 struct Replay {
     std::string file;
 
@@ -34,7 +34,7 @@ struct Replay {
 
   private:
     struct Cursor {
-        std::vector<const DriveTable::Row*> rows;  ///< of one output, in order
+        std::vector<const DriveTable::Row*> rows;  ///< the rows of one output, in order
         std::size_t next = 0;
     };
     void play(std::int64_t until, ModuleFrame& frame);
