@@ -1,4 +1,4 @@
-// The part of Physics that calls Bullet: which velocities the contacts leave.
+// The part of Physics that calls Bullet, which computes the velocities after the contacts.
 #pragma once
 
 #include <memory>

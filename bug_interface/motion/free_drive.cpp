@@ -19,7 +19,8 @@ Pose2 free_drive(const Pose2& from, const MotorCommand& command, std::uint64_t s
         std::array<double, 4> normal{};
         random.normal(index, normal);
         const double deviation = noise / std::sqrt(3.0);  // standard deviation of the uniform noise
-        // The noise of the speed acts along the middle heading, and across it because headings vary.
+        // The noise of the speed acts along the middle heading; because the headings vary, it acts across it,
+        // too.
         const double spread = turned * turned / 12, speed = deviation * step * std::sqrt(n);
         along += speed * std::sqrt(1 - spread) * normal[0];
         across += speed * std::sqrt(spread) * normal[1];

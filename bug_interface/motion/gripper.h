@@ -27,9 +27,9 @@ class Hinges {
   public:
     struct Hinge {
         std::string name;
-        int parent = -1;      ///< number of the hinge that carries this one; -1 for the body
-        double x = 0, y = 0;  ///< of the axis in the frame of the robot, with all hinges at angle 0, m
-        double sense = 1;     ///< 1 when the angle grows to the left (counter-clockwise), else -1
+        int parent = -1;              ///< number of the hinge that carries this one; -1 for the body
+        double x = 0, y = 0;          ///< the axis in the frame of the robot, with all hinges at angle 0, m
+        double sense = 1;             ///< 1 when the angle grows to the left (counter-clockwise), else -1
         double lower = 0, upper = 0;  ///< limits of the angle, rad
         double inertia = 0;           ///< of all links that turn with the hinge, kg m^2
         double angle = 0;             ///< rad; at 0 the links are where the file puts them
@@ -39,8 +39,8 @@ class Hinges {
     std::size_t size() const { return all_.size(); }
     const Hinge& operator[](std::size_t i) const { return all_[i]; }
 
-    /// Called once per cycle. As in the original, a command to close has no effect before the first command
-    /// to open.
+    /// Closes or opens the gripper; called once per cycle. As in the original, a command to close has no
+    /// effect before the first command to open.
     void command(bool close);
     bool closing() const { return torque_ > 0; }
 

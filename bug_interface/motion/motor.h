@@ -15,10 +15,10 @@ struct MotorCommand {
     friend bool operator==(const MotorCommand&, const MotorCommand&) = default;
 };
 
-/// Winner takes all: the most active cell of a `width` x `height` group (row by row from the top) is the
-/// command, whatever its activity. The middle cell means standing still, the top row +`forward_speed` (m/s),
-/// the bottom row -`forward_speed`, the left column +`turn_speed` (rad/s), the right column -`turn_speed`;
-/// cells between them mean proportional speeds.
+/// Decodes the command by winner-takes-all: the most active cell of a `width` x `height` group (row by row
+/// from the top) is the command, whatever its activity. The middle cell means standing still, the top row
+/// +`forward_speed` (m/s), the bottom row -`forward_speed`, the left column +`turn_speed` (rad/s), the right
+/// column -`turn_speed`; cells between them mean proportional speeds.
 ///
 /// Both speeds are 0 when no cell is above 0, when all cells are equal, and for groups that are less than 2
 /// cells wide or high. The original keeps the highest activity in single precision. Therefore the first of

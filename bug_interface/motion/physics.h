@@ -98,7 +98,7 @@ class Physics {
     /// Whether a body could be placed at `pose` without an overlap with any other shape.
     bool is_collision_free(std::size_t body, const Pose2& pose) const;
 
-    /// Number of pairs of shapes, of this movable object and of robots, that touched in the last step.
+    /// The number of contacts between shapes of this movable object and shapes of robots in the last step.
     int robot_contacts(std::size_t body) const { return states_[body].robot_contacts; }
     double speed(std::size_t body) const;              ///< in the last step, m/s
     double angular_velocity(std::size_t body) const {  ///< in the last step, rad/s
@@ -122,8 +122,8 @@ class Physics {
         Pose2 pose;
         bool present = false;
         bool active = false;         ///< whether Bullet has to consider the body in this step
-        double clearance = 0;        ///< m that every point of the body can move without touching anything
-        double bounding_radius = 0;  ///< of all that the body has ever covered, in its frame, m
+        double clearance = 0;        ///< how far every point of the body can move without a contact, m
+        double bounding_radius = 0;  ///< radius of what the body has ever covered, in its frame, m
         LayerMask layers = 0;        ///< of the central disc and the parts
         int robot_contacts = 0;
         double cached_yaw = 0, cos_yaw = 1, sin_yaw = 0;

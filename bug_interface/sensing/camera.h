@@ -64,9 +64,9 @@ class Camera {
     };
     struct Tile {
         int row = 0, column = 0, pixels = 0;
-        std::size_t first = 0;  ///< of its samples: sample s of pixel p has the number first + s * pixels + p
-        Bounds all;             ///< of everything that the samples can see
-        Bounds low;             ///< of what they can see below z = low_height
+        std::size_t first = 0;  ///< its first sample; sample s of pixel p is first + s * pixels + p
+        Bounds all;             ///< bounds of everything that the samples can see
+        Bounds low;             ///< bounds of what they can see below z = low_height
         Extent extent;          ///< of all samples
         std::array<Extent, tile_width / segment_width> segments;  ///< of segment_width pixels each
         bool reaches_floor = true;  ///< whether all rays would meet all floors if the floors were infinite

@@ -11,7 +11,7 @@
 namespace forage::bug {
 namespace {
 
-constexpr std::size_t tile_samples = 32 * 16;  ///< the most that a tile has
+constexpr std::size_t tile_samples = 32 * 16;  ///< the largest number in a tile
 
 /// The samples of one tile while it is rendered.
 struct Samples {
@@ -23,8 +23,8 @@ struct Samples {
 }  // namespace
 
 struct Camera::View {
-    /// The map from points of a floor in the frame of the robot, m, to texels: u = ux x + uy y + u0, and the
-    /// same for v.
+    /// The map from points of a floor in the frame of the robot, m, to texels: u = ux x + uy y + u0, and
+    /// likewise for v.
     struct ToTexels {
         float ux, uy, u0, vx, vy, v0;
 

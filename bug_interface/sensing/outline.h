@@ -10,7 +10,7 @@
 
 namespace forage::bug {
 
-/// A box, an upright cylinder or a sphere. Never a plane.
+/// A box, an upright cylinder or a sphere, but never a plane.
 struct Solid {
     ShapeKind kind = ShapeKind::box;
     Pose pose = Pose::Identity();  ///< in the world; only the yaw turns the solid

@@ -64,7 +64,7 @@ void RangeScanner::scan_circle(double x, double y, double radius, std::span<doub
 void RangeScanner::scan_box(double x, double y, double cos_yaw, double sin_yaw, double half_x, double half_y,
                             std::span<double> ranges) const {
     const double origin[2] = {-(cos_yaw * x + sin_yaw * y),
-                              sin_yaw * x - cos_yaw * y};  // of the rays in the frame of the box
+                              sin_yaw * x - cos_yaw * y};  // direction of the ray in the frame of the box
     const double half[2] = {half_x, half_y};
     for (std::size_t i = 0; i < ranges.size(); ++i) {
         const double direction[2] = {cos_yaw * direction_x_[i] + sin_yaw * direction_y_[i],

@@ -13,8 +13,8 @@ namespace forage::bug {
 /// Bodies are numbered: the robots of the world, then its movable objects.
 struct BodyPoses {
     std::vector<Pose2> bodies;
-    std::vector<char> present;  ///< per body; one that has been removed is neither seen nor touched
-    std::vector<std::vector<Pose2>> hinges;  ///< per body: the displacement of what turns with each hinge
+    std::vector<char> present;               ///< per body; a removed body is neither seen nor touched
+    std::vector<std::vector<Pose2>> hinges;  ///< per body and hinge: the displacement of the turned links
 
     void checkpoint(Archive& archive) { archive(bodies, present, hinges); }
 };

@@ -1,4 +1,4 @@
-// Checks of a world description: what is most likely a mistake, or has no effect.
+// Checks a world description for likely mistakes and for elements without effect.
 #pragma once
 
 #include <optional>

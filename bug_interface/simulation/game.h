@@ -1,4 +1,4 @@
-// The game of the robotics challenge: two teams collect resources; its score and its clock.
+// The game of the robotics challenge, in which two teams collect resources: its score and its clock.
 #pragma once
 
 #include <array>
@@ -22,19 +22,20 @@ struct Delivery {
     void checkpoint(Archive& archive) { archive(time, team, good, points); }
 };
 
-/// Resources are movable objects with the target plugin. In every 101st substep each resource is checked.
-/// When its centre is within 3 m of a home it counts for that team (for B when it is at both homes) and
-/// returns to its start pose. It is held when it had more than 100 contacts with robots since the last check.
+/// The state of a game. Resources are movable objects with the target plugin. In every 101st substep each
+/// resource is checked. When its centre is within 3 m of a home it counts for that team (for B when it is at
+/// both homes) and returns to its start pose. It is held when it had more than 100 contacts with robots since
+/// the last check.
 ///
-/// With rules there is a clock. Once per second every resource that is not held ages; old ones turn bad
-/// (yellow) and dissolve, and new good ones (blue) appear at the sites. Resources that are not in play, and
-/// all resources when the time is over, are removed from the physics; the original hid them in the central
-/// pillar.
+/// With rules there is a clock. Once per second every resource that is not held ages. Old resources turn bad
+/// (yellow) and later dissolve, and new good resources (blue) appear at the sites. Resources that are not in
+/// play, and all resources when the time is over, are removed from the physics; the original hid them in the
+/// central pillar.
 class Game {
   public:
     struct Resource {
         std::size_t body = 0;  ///< number among the bodies
-        Pose2 start;           ///< where it returns to without rules
+        Pose2 start;           ///< the pose to which it returns without rules
         bool removed = false, good = true, held = false;
         int age = 0;       ///< s
         int contacts = 0;  ///< with robots, since the last check
@@ -58,7 +59,7 @@ class Game {
     const std::vector<Resource>& resources() const { return resources_; }
     const std::vector<Delivery>& deliveries() const { return deliveries_; }
     const std::array<Pose2, 2>& homes() const { return homes_; }
-    /// "A" or "B".
+    /// The name of a team: "A" or "B".
     static std::string team_name(int team) { return team == 0 ? "A" : "B"; }
     int points(int team) const;
     int delivered(int team, bool good) const;  ///< number of resources

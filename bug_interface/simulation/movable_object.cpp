@@ -57,7 +57,7 @@ Body body_of(const Model& model, const MovableObject& object, Heights& heights, 
             if (c.shape.kind != ShapeKind::plane) locations.push_back(c.where);
         }
     });
-    double radius = 0;  // of the largest shape, m
+    double radius = 0;  // radius of the largest shape, m
     for (std::size_t i = 0; i < object.solids.size(); ++i) {
         const Solid& solid = object.solids[i];
         const double centre = solid.pose.translation().z(), half = solid.size.z() / 2;

@@ -28,7 +28,7 @@ class Robot {
     Robot(const Model& model, std::size_t number, std::uint64_t seed, bool noise, Heights& heights,
           Diagnostics& diagnostics);
 
-    /// Turns the hinges for a substep of `step` s. A hinge whose way is blocked keeps its angle.
+    /// Turns the hinges for a substep of `step` s. A hinge keeps its angle when its way is blocked.
     void move_gripper(Physics& physics, double step);
 
     void checkpoint(Archive& archive);

@@ -35,7 +35,8 @@ struct BugSnapshot {
     void checkpoint(Archive& archive) { archive(pose, proximity, target, gripper, received); }
 };
 
-/// The uses of random numbers of a robot. Each is a stream of its own, so that they do not affect each other.
+/// The purposes for which a robot uses random numbers. Each has its own stream, so that they do not affect
+/// each other.
 enum class RobotStream : std::uint32_t {
     motor_noise,
     proximity_noise,
@@ -137,7 +138,7 @@ class RobotSensors {
 
     std::vector<float> picture_;  ///< height x width x 3, 0..1
     std::vector<std::uint8_t> view_;
-    std::vector<const VisualSolid*> visible_;  ///< what moves and may be in the picture
+    std::vector<const VisualSolid*> visible_;  ///< the moving solids that may be in the picture
 };
 
 }  // namespace forage::bug

@@ -24,7 +24,7 @@ namespace forage::bug {
 struct WorldOptions {
     std::uint64_t seed = 1;
     double cycles_per_second = 25;  ///< of the neural system, per second of wall-clock time
-    /// Simulated time per wall-clock time. Without a value, that of the world file.
+    /// Simulated time per wall-clock time. Empty for the factor in the world file.
     std::optional<double> real_time_factor;
     bool noise = true;          ///< of motors, scanners and cameras; resets are random in any case
     bool sensor_rates = false;  ///< whether sensors have the rates of the world file, instead of every cycle
@@ -72,9 +72,10 @@ class World final : public Environment {
     std::optional<std::size_t> find(std::string_view bug) const;
     /// Claims a robot for one module, until the returned object is destroyed. Null when the robot is claimed.
     std::shared_ptr<void> claim(std::size_t bug);
-    /// The velocity command of a robot. It holds until the next one; the first one is to stand still.
+    /// Sets the velocity command of a robot, which holds until the next call. Before the first call the robot
+    /// stands still.
     void command(std::size_t bug, const MotorCommand& command) { robots_[bug].command = command; }
-    /// Closes or opens the gripper; it closes only after it was opened. Holds until the next call.
+    /// Closes or opens the gripper, until the next call. It closes only after it has been opened once.
     void grip(std::size_t bug, bool close) { robots_[bug].hinges.command(close); }
     bool has_gripper(std::size_t bug) const { return !robots_[bug].hinges.empty(); }
     /// The angle of a hinge of the gripper, rad.
@@ -86,7 +87,8 @@ class World final : public Environment {
     void transmit(std::size_t bug, std::string_view key, std::span<const double> cells) {
         robots_[bug].transceiver.transmit(key, cells, robots_[bug].sensors.snapshot().pose);
     }
-    /// What modules receive: the snapshot of the last cycle, or of an earlier one with a latency.
+    /// The snapshot that modules receive: that of the last cycle, or of an earlier cycle when there is a
+    /// latency.
     const BugSnapshot& snapshot(std::size_t bug) const { return robots_[bug].sensors.delayed(cycle_); }
     /// Requests that the snapshots of a robot have the gripper's scan, or an image.
     void request_gripper_scan(std::size_t bug, bool requested);
@@ -125,7 +127,7 @@ class World final : public Environment {
 
     std::size_t movable_objects() const { return movable_objects_.size(); }
     const MovableObject& movable_object(std::size_t i) const { return movable_objects_[i]; }
-    /// Empty when the object is removed.
+    /// The pose of a movable object; empty when the object is removed.
     std::optional<Pose2> movable_object_pose(std::size_t i) const;
 
     const std::vector<Eigen::Vector2d>& targets() const { return targets_; }  ///< centres, m

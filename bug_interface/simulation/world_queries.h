@@ -36,8 +36,8 @@ bool has_plugin(const Model& model, std::string_view filename);
 /// The collision shapes of a model in world coordinates, without planes.
 std::vector<Solid> solids_of(const Model& model);
 
-/// The height of the middle of the range that a solid shares with the heights `low` to `high`, m. Empty when
-/// they share less than 1 mm.
+/// The middle of the heights that a solid shares with the range from `low` to `high`, m. Empty when they
+/// share less than 1 mm.
 std::optional<double> common_height(const Solid& solid, double low, double high);
 
 /// The obstacles of the static models. For each layer of `heights`, a solid is cut in the middle of the

@@ -1,6 +1,7 @@
-// What a world file says: plain values, no behaviour, every value knows its file and line.
+// The content of a world file: plain values without behaviour, with their locations in the file.
 //
-// World frame: x to the right (east), y up on every map (north), z up; metres, radians, seconds, kilograms.
+// In the world frame, x is to the right (east) and y is up (north) on every map, and z points upwards. Units
+// are metres, radians, seconds and kilograms.
 #pragma once
 
 #include <optional>
@@ -18,7 +19,8 @@ namespace forage::bug {
 
 using forage::Pose2;
 
-using Pose = Eigen::Isometry3d;  ///< relative to the parent: model in world, link in model, the rest in link
+using Pose = Eigen::Isometry3d;  ///< relative to the parent: of a model in the world, of a link in its model,
+                                 ///< of others in their link
 using Colour = Eigen::Array3f;   ///< red, green, blue in 0..1
 
 enum class ShapeKind { plane, box, cylinder, sphere };
@@ -26,7 +28,7 @@ enum class ShapeKind { plane, box, cylinder, sphere };
 struct Shape {
     ShapeKind kind = ShapeKind::box;
     Eigen::Vector3d size =
-        Eigen::Vector3d::Zero();  ///< box, plane: full extents (plane: z unused); others: diameters
+        Eigen::Vector3d::Zero();  ///< full extents of a box or plane (whose z is unused), else diameters
 };
 
 /// How a surface reflects light: shade = ambient * scene ambient + diffuse * max(0, normal . light).
@@ -60,9 +62,9 @@ struct RangeSensor {
     Pose pose = Pose::Identity();
     int rays = 1;
     double first_angle = 0, last_angle = 0;  ///< rad
-    double min_range = 0, max_range = 1;     ///< m; nearer things are invisible
+    double min_range = 0, max_range = 1;     ///< m; nearer surfaces are invisible
     double noise = 0;                        ///< standard deviation, m
-    double rate = 0;                         ///< scans per second of the world; 0: whenever asked
+    double rate = 0;  ///< scans per second of the world; 0 for a scan whenever it is requested
 };
 
 /// A pinhole camera that looks along its x axis.
@@ -72,9 +74,9 @@ struct CameraSensor {
     Pose pose = Pose::Identity();
     double horizontal_fov = 1;    ///< full opening angle, rad
     int width = 32, height = 28;  ///< pixels
-    double far = 20;              ///< nothing is drawn beyond, m
-    double noise = 0;             ///< standard deviation, of a channel in 0..1
-    double rate = 0;              ///< pictures per second of the world; 0: whenever asked
+    double far = 20;              ///< distance beyond which nothing is drawn, m
+    double noise = 0;             ///< standard deviation of a channel in 0..1
+    double rate = 0;  ///< pictures per second of the world; 0 for a picture whenever it is requested
 };
 
 struct Link {
@@ -98,9 +100,9 @@ struct Plugin {
 struct Hinge {
     Location where;
     std::string name, parent,
-        child;                     ///< names of links; "MODEL::LINK" of a link in a model that is fixed here
-    Pose pose = Pose::Identity();  ///< in the child link: the axis stands at its origin
-    double sense = 1;              ///< 1: the child turns to the left as the angle grows; -1: to the right
+        child;                     ///< names of links; "MODEL::LINK" for a link of a model in this one
+    Pose pose = Pose::Identity();  ///< of the axis in the child link
+    double sense = 1;              ///< 1 when the child turns to the left as the angle grows, else -1
     double lower = 0, upper = 0;   ///< limits of the angle, rad
 };
 
@@ -112,37 +114,37 @@ struct Model {
     std::vector<Link> links;
     std::vector<Plugin> plugins;
     std::vector<Hinge> hinges;
-    std::vector<Model> models;  ///< fixed to this one
+    std::vector<Model> models;  ///< models that are fixed to this one
 };
 
-/// Where resources of a game appear.
+/// A place where resources of a game appear.
 struct GameSite {
     double x = 0, y = 0;  ///< m
-    double chance = 0;    ///< that one appears in a second, 0..1
+    double chance = 0;    ///< probability that a resource appears in a second, 0..1
     Location where = {};
 };
 
-/// A game of two teams that collect resources; the defaults are the robotics challenge's.
+/// The rules of a game of two teams that collect resources. The defaults are those of the robotics challenge.
 struct GameRules {
     Location where;
     double duration = 300;        ///< s
-    double stale_after = 30;      ///< s after which a resource that is not held is bad, and yellow
-    double dissolves_after = 50;  ///< s after which it is taken away
-    int points = 2;               ///< for a good resource at a home
-    int penalty = -1;             ///< for a bad one
-    int most = 16;                ///< resources at a time
-    std::vector<GameSite> sites;  ///< none: drawn from the challenge's table
+    double stale_after = 30;      ///< age at which a resource that is not held turns bad (yellow), s
+    double dissolves_after = 50;  ///< age at which it is removed, s
+    int points = 2;               ///< points for a good resource at a home
+    int penalty = -1;             ///< points for a bad resource
+    int most = 16;                ///< largest number of resources at a time
+    std::vector<GameSite> sites;  ///< when empty, they are drawn from the challenge's table
 };
 
-/// Everything of a world file that Forage uses.
+/// Everything in a world file that Forage uses.
 struct WorldDescription {
     std::string path;
-    double step = 0.001;                 ///< physics step, s
-    double update_rate = 1000;           ///< physics steps per second of wall clock that the file asks for
-    float ambient = 0.4f;                ///< light from everywhere, 0..1
+    double step = 0.001;        ///< physics step, s
+    double update_rate = 1000;  ///< physics steps per second of wall-clock time, as given in the file
+    float ambient = 0.4f;       ///< ambient light, 0..1
     std::optional<Eigen::Vector3d> sun;  ///< unit vector towards a directional light
     std::vector<Model> models;
-    std::optional<GameRules> game;  ///< of the plugin libforage_game.so
+    std::optional<GameRules> game;  ///< the rules in the plugin libforage_game.so
 };
 
 /// The first model named `name`, or null.

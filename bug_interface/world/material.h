@@ -1,4 +1,4 @@
-// Colours: what the named materials look like, and how light falls on them.
+// Colours: the named materials, and their look in the light of a scene.
 #pragma once
 
 #include <optional>
@@ -19,12 +19,12 @@ std::vector<std::string> material_names();
 /// The file name that `script_text` gives to the texture of material `name`; empty when there is none.
 std::string texture_in_script(std::string_view script_text, std::string_view name);
 
-/// Light of a scene.
+/// The light of a scene.
 struct Lighting {
     float ambient = 0.4f;
     std::optional<Eigen::Vector3d> sun;  ///< unit vector towards the sun
 
-    /// What the camera sees of a face with unit normal `normal` (world frame), clamped to 0..1.
+    /// The colour in which a camera sees a face with the unit normal `normal` (world frame), clamped to 0..1.
     Colour shade(const Material& material, const Eigen::Vector3d& normal) const;
 };
 

@@ -27,7 +27,8 @@ std::string lower(std::string_view text) {
 
 constexpr const char* what_to_write = "<sdf version=\"1.4\">model.sdf</sdf>";
 
-/// The <sdf> of the newest version; false when there is none. Those without a version are the oldest.
+/// The <sdf> element with the newest version; false when there is none. Elements without a version count as
+/// the oldest.
 xml::Element newest(const xml::Element& model) {
     xml::Element out;
     int newest = -1;

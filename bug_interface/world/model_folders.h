@@ -1,4 +1,4 @@
-// Where the models are that a world includes, and which file of a folder holds the model.
+// Finds the models that a world includes: their folders, and the file of the model in a folder.
 #pragma once
 
 #include <filesystem>
@@ -11,29 +11,28 @@
 
 namespace forage::bug {
 
-/// The folders in which `model://NAME` is looked up, in this order: `extra`, `models` beside the world
-/// file, one and two folders above, and those listed in FORAGE_MODEL_PATH and GAZEBO_MODEL_PATH (separated by
+/// The folders in which `model://NAME` is looked up, in this order: `extra`; `models` beside the world file
+/// and in the two folders above it; and those listed in FORAGE_MODEL_PATH and GAZEBO_MODEL_PATH (separated by
 /// colons).
 class ModelFolders {
   public:
     ModelFolders(const std::string& world_file, const std::vector<std::string>& extra);
 
-    /// The path of what `uri` stands for (`model://NAME`, `model://NAME/FOLDER`, or a path); empty when there
-    /// is none.
+    /// The path that `uri` stands for (`model://NAME`, `model://NAME/FOLDER`, or a path); empty when nothing
+    /// exists there.
     std::string find(const std::string& uri) const;
     /// The names of all models, sorted.
     std::vector<std::string> names() const;
-    /// What to write instead of `uri`, for which there is nothing. Not to be called when there are no
-    /// names().
+    /// A hint: what to write instead of `uri`, for which find() has found nothing. `names` must not be empty.
     static std::string hint(std::string_view uri, const std::vector<std::string>& names);
 
   private:
     std::vector<std::string> folders_;
 };
 
-/// The path of the file that model.config in `folder` (or manifest.xml, as it was once called) names for the
-/// newest version of SDF. Reports an error at `where`, which asks for the model, and returns nothing when
-/// there is none.
+/// The path of the file with the newest version of SDF that model.config in `folder` names (or manifest.xml,
+/// its older name). When there is none, reports an error at `where`, the location that includes the model,
+/// and returns nothing.
 std::optional<std::string> file_of_model(const std::filesystem::path& folder, const Location& where,
                                          Diagnostics& diagnostics);
 

@@ -15,11 +15,11 @@ namespace forage::bug {
 namespace {
 
 constexpr std::uint64_t most_pixels = 4096 * 4096;  // a floor takes 4 bytes for each
-// Texts and profiles are packed up to a thousandfold, and libpng unpacks them all.
+// Texts and profiles may be compressed a thousandfold, and libpng expands all of them.
 constexpr std::uint64_t most_before_pixels = 64 << 10;
 
 /// Whether more than `most_before_pixels` bytes precede the first pixels. A chunk is its length, its name,
-/// its content and a checksum. Files that are no PNG files or end too early are left to libpng.
+/// its content and a checksum. libpng refuses files that are not PNG files or end too early.
 bool begins_late(std::istream& file) {
     constexpr std::uint64_t signature_size = 8, around_content = 12;
     char head[8];  // the signature, and then the length and the name of each chunk
@@ -41,7 +41,7 @@ bool begins_late(std::istream& file) {
 /// A PNG file, read up to its pixels.
 struct PngFile {
     png_image png{};
-    std::string problem;  ///< what is wrong with the file so far
+    std::string problem;  ///< the first mistake in the file; empty when none was found
 
     explicit PngFile(const std::string& path) {
         png.version = PNG_IMAGE_VERSION;
@@ -117,7 +117,8 @@ Image read_png(const std::string& path, int border) {
 }
 
 std::string png_problem(const std::string& path) {
-    if (!std::filesystem::is_regular_file(path)) return "it is no file";  // a pipe would be waited for
+    if (!std::filesystem::is_regular_file(path))
+        return "it is no file";  // reading a pipe would wait for its writer
     if (PngFile png(path); !png.problem.empty()) return png.problem;
     std::ifstream file(path, std::ios::binary);
     file.seekg(-8, std::ios::end);

@@ -11,11 +11,11 @@ namespace forage::bug {
 
 using Pixels = HugeVector<std::uint32_t>;
 
-/// A picture with a border round it.
+/// A picture with a border around it.
 struct Image {
     int width = 0, height = 0;  ///< without the border
-    int border = 0;             ///< pixels on every side, which repeat the nearest ones of the picture
-    Pixels pixels;              ///< in rows from the top: red, green, blue, 255, from the low byte
+    int border = 0;             ///< pixels on every side; they repeat the nearest pixels of the picture
+    Pixels pixels;              ///< rows from the top; a pixel is red, green, blue and 255, from the low byte
 
     std::size_t stride() const { return static_cast<std::size_t>(width + 2 * border); }
     /// The first pixel of a row, from the left; negative rows belong to the border.
@@ -29,8 +29,8 @@ struct Image {
 /// or has more than 64 KiB of texts and profiles before its pixels.
 Image read_png(const std::string& path, int border);
 
-/// Returns what keeps read_png() from reading a file, as far as the file's beginning and end tell; empty when
-/// nothing does.
+/// Returns the reason why read_png() cannot read a file, as far as the file's beginning and end show it;
+/// empty when they show none.
 std::string png_problem(const std::string& path);
 
 /// Writes `rgb`, which holds three bytes per pixel in rows from the top. Throws std::runtime_error with the

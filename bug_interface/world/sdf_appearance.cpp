@@ -48,7 +48,7 @@ std::string texture_of(SdfSource& in, const xml::Element& script, const std::str
     return {};
 }
 
-/// Contacts are found in single precision: what is very small cannot be right in it.
+/// Reports very small shapes, for which the single precision of contacts does not suffice.
 void check_size(SdfSource& in, const Shape& shape, const Location& where) {
     constexpr double smallest = 1e-6;  // m
     const auto size = shape.size.array();

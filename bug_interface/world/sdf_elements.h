@@ -1,24 +1,24 @@
-// The elements of a world file that hold no models: one function for each.
+// Reads the elements of a world file that contain no models, with one function for each.
 #pragma once
 
 #include "bug_interface/world/sdf_source.h"
 
 namespace forage::bug {
 
-/// The <geometry> in `parent`.
+/// Reads the <geometry> in `parent`.
 Shape read_shape(SdfSource& in, const xml::Element& parent);
-/// The <material> in `visual`, with its texture.
+/// Reads the <material> in `visual`, with its texture.
 Material read_material(SdfSource& in, const xml::Element& visual);
-/// A <link> with all that stands in it.
+/// Reads a <link> with everything in it.
 Link read_link(SdfSource& in, const xml::Element& e);
-/// A <joint>: a hinge of `model` when it turns. Others fix their links, as everything in a model is fixed
-/// here.
+/// Reads a <joint>. A joint that turns becomes a hinge of `model`; other joints have no effect, as the links
+/// of a model are fixed to each other anyway.
 void read_joint(SdfSource& in, const xml::Element& e, Model& model);
-/// That the hinges of `model` name links that it has.
+/// Reports hinges of `model` that name links which the model does not have.
 void check_joints(SdfSource& in, const Model& model);
-/// A <sensor>: scanners and cameras; others have no effect here.
+/// Reads a <sensor>: a range scanner or a camera. Other sensors have no effect.
 void read_sensor(SdfSource& in, const xml::Element& e, Link& link);
-/// The <plugin> with the rules of the game.
+/// Reads the <plugin> with the rules of the game.
 GameRules read_game(SdfSource& in, const xml::Element& e);
 
 }  // namespace forage::bug

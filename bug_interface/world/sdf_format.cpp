@@ -9,7 +9,7 @@ using xml::ValueKind;
 using Values = std::map<std::string, xml::ValueRule, std::less<>>;
 
 constexpr double any = std::numeric_limits<double>::infinity();
-constexpr double smallest = 1e-12;  // of what must be above 0
+constexpr double smallest = 1e-12;  // lower limit of values that must be above 0
 constexpr double largest = 1e4;     // m; contacts are found in single precision
 
 xml::ValueRule number(std::string doc, double low = -any, double high = any, std::size_t count = 1) {
@@ -69,9 +69,10 @@ Values values() {
     return out;
 }
 
-/// An element, what may stand in it (ElementRule::content), and the attributes without which it means
-/// nothing. Kinds of values: s text, b true or false, 1 number, i whole number, 2 and 3 numbers, c colour, p
-/// pose, * anything: it has no effect here, and is not looked into. Others have their own line in values().
+/// An element, its content (ElementRule::content), and its required attributes. Kinds of values are s for
+/// text, b for true or false, 1 for a number, i for a whole number, 2 and 3 for as many numbers, c for a
+/// colour, p for a pose, and * for anything, which has no effect and is not checked. Other kinds have their
+/// own line in values().
 struct Row {
     std::string_view element, content, attributes = {};
     int choose = 0;
@@ -158,8 +159,8 @@ constexpr Row rows[] = {
 xml::Format make_format() {
     xml::Format out{.name = "a world or model file",
                     .beginning = "<sdf version=\"1.4\">",
-                    .roots = {"sdf", "gazebo"},  // as it was called until version 1.2
-                    .most_nodes = 10'000,        // any world of ours has fewer
+                    .roots = {"sdf", "gazebo"},  // the name until version 1.2
+                    .most_nodes = 10'000,        // all worlds that ship have fewer
                     .open = true,
                     .values = values()};
     for (const Row& row : rows) {

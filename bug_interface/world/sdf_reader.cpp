@@ -38,15 +38,15 @@ class Reader {
   private:
     // ---- includes ----
 
-    /// What a model's file holds: a model or a light.
+    /// The content of a model's file: a model or a light.
     struct Content {
         std::optional<Model> model;
-        std::size_t links = 0;  ///< of the model and those within it
+        std::size_t links = 0;  ///< in the model and in the models within it
         xml::Element light;
     };
 
-    /// What an <include> stands for. A file that is included many times is read once; what is wrong in it is
-    /// said once.
+    /// The content that an <include> stands for. A file that is included many times is read once, and its
+    /// mistakes are reported once.
     Content included(const xml::Element& include) {
         const std::string file = model_file(include);
         if (file.empty()) return {};
@@ -91,7 +91,7 @@ class Reader {
             return {};
         }
         const std::string found = in_.folders.find(uri);
-        // A bare name that happens to be a folder here would not be one elsewhere.
+        // A bare name that is a folder in this working directory may not be one elsewhere.
         const bool bare = uri.find('/') == std::string::npos;
         if (found.empty() || (bare && fs::is_directory(found))) {
             const auto known = in_.folders.names();
@@ -111,7 +111,7 @@ class Reader {
         return file_of_model(found, where, diagnostics_).value_or("");
     }
 
-    /// `model`, with the name and the place that an <include> gives it.
+    /// Returns `model` with the name and the pose that an <include> gives it.
     Model placed(Model model, const xml::Element& include) {
         model.where = include.where();
         if (const auto name = include.value("name"); !name.view.empty()) model.name = name.view;
@@ -130,8 +130,8 @@ class Reader {
         return out;
     }
 
-    /// Whether a copy of so many links can be afforded: a few files that include each other many times make
-    /// any number.
+    /// Whether a copy of so many links is allowed. A few files that include each other many times could make
+    /// any number. Reports an error when there are too many.
     bool fits(std::size_t links, const xml::Element& include) {
         links_ += links;
         if (links_ > most_links && !too_many_) {
@@ -164,7 +164,8 @@ class Reader {
             model.plugins.push_back({p.where(), p["name"].text(), p["filename"].text()});
     }
 
-    /// The models and includes in `parent`, in file order; visit_light(element) for an included light.
+    /// Reads the models and includes in `parent`, in file order. Calls visit_light(element) for an included
+    /// light.
     template <class F>
     void each_model(const xml::Element& parent, std::vector<Model>& models, F visit_light) {
         for (const xml::Element& e : parent.children()) {
@@ -180,7 +181,7 @@ class Reader {
         WorldDescription world;
         world.path = path_;
         if (const xml::Element physics = e.child("physics")) {
-            // Until version 1.3 they were called otherwise.
+            // They had other names until version 1.3.
             world.step =
                 physics.value("max_step_size").number(physics.value("ode/solver/dt").number(world.step));
             world.update_rate = physics.value("real_time_update_rate")
@@ -223,13 +224,13 @@ class Reader {
     Diagnostics& diagnostics_;
     SdfSource in_;
     std::map<std::string, Content> contents_;  ///< of the model files that were read
-    std::set<std::string> open_;               ///< those that are being read
+    std::set<std::string> open_;               ///< model files that are being read
     static constexpr std::size_t most_links = 10'000;
     std::size_t links_ = 0;  ///< in all models that were included so far
     bool no_models_ = false, too_many_ = false;
 };
 
-/// Reports a path that names a folder, with the worlds in it.
+/// Whether a path names a folder. Reports it as an error, with the worlds in the folder.
 bool is_a_folder(const std::string& path, Diagnostics& diagnostics) {
     std::error_code ignored;
     if (!fs::is_directory(path, ignored)) return false;

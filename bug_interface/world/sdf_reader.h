@@ -10,12 +10,12 @@
 
 namespace forage::bug {
 
-/// The world in file `path`. Empty when it could not be read; `diagnostics` then says why.
+/// Reads the world in the file `path`. When it cannot be read, reports the errors and returns nothing.
 ///
 /// `model://NAME` is looked up in `extra_model_dirs`, in `models` and `../models` beside the world file, and
 /// in the directories listed in the environment variables FORAGE_MODEL_PATH and GAZEBO_MODEL_PATH (separated
-/// by colons). What strict readers of the format refuse is read as the original did: names may repeat,
-/// everything is kept in file order, and only the first model of an included file counts.
+/// by colons). Files that strict readers of the format refuse are read as in the original: names may be
+/// repeated, the order of the file is kept, and only the first model of an included file counts.
 std::optional<WorldDescription> read_world(const std::string& path, Diagnostics& diagnostics,
                                            const std::vector<std::string>& extra_model_dirs = {});
 

@@ -9,7 +9,7 @@
 namespace forage::bug {
 namespace {
 
-/// Groups get what these see.
+/// The range sensors whose scans groups can receive.
 const std::array<std::string, 3> known_rays = {"laser", "laser_target", "laser_gripper"};
 
 }  // namespace

@@ -15,7 +15,7 @@ bool is_quaternion(const xml::Element& pose) { return pose["rotation_format"].vi
 bool in_degrees(const xml::Element& pose) { return pose["degrees"].flag(false); }
 
 /// The quaternion of three angles about the fixed axes x, y, z, in this order. The products are multiplied as
-/// in other simulators of this format: worlds stand where they stand there, to the last bit.
+/// in other simulators of this format, so that poses are equal to the last bit.
 Eigen::Quaterniond rotation(double roll, double pitch, double yaw) {
     const double phi = roll / 2, the = pitch / 2, psi = yaw / 2;
     const double w = std::cos(phi) * std::cos(the) * std::cos(psi) +
@@ -40,7 +40,7 @@ xml::Element SdfSource::open(const std::string& path) {
     return files_.emplace_back(std::move(document))->root();
 }
 
-/// Angles of more than a turn are likely degrees.
+/// Warns about angles of more than a turn, which are probably degrees.
 void SdfSource::check_angles(const xml::Element& pose, const std::vector<double>& numbers) {
     if (in_degrees(pose) || is_quaternion(pose)) return;
     for (std::size_t i = 3; i < numbers.size(); ++i)

@@ -1,4 +1,4 @@
-// The files of a world while they are read, and what is wrong with them.
+// The files of a world while they are read, and the mistakes in them.
 #pragma once
 
 #include <memory>
@@ -12,17 +12,17 @@
 
 namespace forage::bug {
 
-/// What all readers of elements need. Their functions get it as `in`.
+/// What all functions that read elements need; their parameter is called `in`.
 class SdfSource {
   public:
     SdfSource(const std::string& world, Diagnostics& diagnostics_, const std::vector<std::string>& extra)
         : diagnostics(diagnostics_), folders(world, extra) {}
 
-    /// The outermost element of the SDF file `path`; it lives as long as this object. It is false when the
-    /// file cannot be read or does not hold what the format says: `diagnostics` then have more errors.
+    /// The outermost element of the SDF file `path`; it is valid as long as this object lives. When the file
+    /// cannot be read or breaks the format, reports errors and returns an element that is false.
     xml::Element open(const std::string& path);
 
-    /// The <pose> in `parent`.
+    /// Reads the <pose> in `parent`.
     Pose pose_of(const xml::Element& parent);
 
     Diagnostics& diagnostics;
@@ -34,9 +34,9 @@ class SdfSource {
     std::vector<std::unique_ptr<const xml::Document>> files_;
 };
 
-/// Three numbers; `otherwise` when the file does not say them.
+/// Reads three numbers; returns `otherwise` when the file does not contain them.
 Eigen::Vector3d read_vector(const xml::Value& value, const Eigen::Vector3d& otherwise);
-/// Red, green and blue; `otherwise` when the file does not say them.
+/// Reads red, green and blue; returns `otherwise` when the file does not contain them.
 Colour read_colour(const xml::Value& value, const Colour& otherwise);
 
 }  // namespace forage::bug
