@@ -34,7 +34,7 @@ std::vector<std::string> usual_plots(const Results& results) {
     return out;
 }
 
-/// The recording that a plot means, and which part of it; null when there is none.
+/// The recording that a plot refers to, and the part of it; null when there is none.
 const Results::Entry* find_recording(const Results& results, const PlotSpec& spec,
                                      const expression::Source& wanted, std::optional<observe::Part>& part) {
     const auto matches = [](std::string_view text, const std::string& name) {
@@ -53,7 +53,7 @@ const Results::Entry* find_recording(const Results& results, const PlotSpec& spe
     return nullptr;
 }
 
-/// A picture of recorded rows; empty when there is no such recording, which is reported.
+/// A picture of recorded rows; reports an error and returns nothing when there is no such recording.
 std::string draw_rows(const Results& results, const PlotSpec& spec, plot::Format format,
                       Diagnostics& diagnostics) {
     const auto wanted =
@@ -79,8 +79,8 @@ std::string draw_rows(const Results& results, const PlotSpec& spec, plot::Format
     return drawn.draw(format, results.context);
 }
 
-/// What the pictures of a system and of its world need. Reports what is missing; empty then, and when no
-/// picture needs it.
+/// Loads what the pictures of a system and of its world need. Empty when no picture needs it, and when
+/// something is missing, which is reported.
 std::optional<Loaded> load_for(const std::vector<PlotSpec>& specs, const Results& results,
                                Diagnostics& diagnostics) {
     const auto any = [&](auto... kinds) {

@@ -133,8 +133,8 @@ std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given,
         const std::vector<std::pair<std::string, std::string>> libraries = bug::library_versions();
         DirectoryHold hold;
         if (world) add_world_observers(run, *world, spec, trajectory, format, title);
-        // Recordings are read from a checkpoint last, so that no file is changed when something else does not
-        // fit.
+        // The state of recordings is read last from a checkpoint, so that no file is changed when something
+        // else does not fit.
         if (!spec.directory.empty())
             run.add(std::make_unique<Recordings>(std::move(recorded), spec.record, spec.directory,
                                                  run_attributes(spec, run, loaded->plugins, libraries)));

@@ -8,9 +8,9 @@
 
 namespace forage {
 
-/// Creates and starts a run with its world and all observers that the spec names. Recordings have not begun:
-/// the caller then calls begin() or reads a checkpoint. All mistakes in the spec are reported here, before
-/// the first cycle and before any file is written. Empty when `diagnostics` got an error.
+/// Creates and starts a run with its world and all observers that the spec names. The caller then begins the
+/// recordings with begin(), or reads a checkpoint. All mistakes in the spec are reported here, before the
+/// first cycle and before any file is written. Empty when `diagnostics` got an error.
 std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& spec, Diagnostics& diagnostics);
 
 /// Removes the unfinished files of a killed run from spec.directory, with a warning. Reports an error instead

@@ -21,7 +21,8 @@ TableReader open_table(const std::string& path) {
     return out;
 }
 
-/// What run.json and trials.csv in `directory` say of the run. Returns the recordings that they name.
+/// Reads what run.json and trials.csv in `directory` say about the run. Returns the recordings that they
+/// name.
 std::vector<ResultFiles::Recording> read_run(const std::string& directory, Results& out) {
     auto run = read_run_json(directory);
     if (!run) return {};
@@ -37,8 +38,8 @@ std::vector<ResultFiles::Recording> read_run(const std::string& directory, Resul
     return std::move(run->recordings);
 }
 
-/// Opens a recording. One that holds a single source gets the name and label that run.json gives, which its
-/// own format may not have room for.
+/// Opens a recording. A recording of a single source gets its name and label from run.json, as its own format
+/// may not store them.
 void add_recording(const fs::path& path, const std::vector<ResultFiles::Recording>& known, Results& out) {
     std::vector<const ResultFiles::Recording*> named;
     for (const auto& k : known)

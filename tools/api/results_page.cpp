@@ -53,8 +53,8 @@ std::string picture(const std::string& name) {
         at, text);
 }
 
-/// A small table as a whole, the first rows of a larger one, and a link to recordings and paths, which are
-/// long.
+/// A table as HTML: all rows of a small table, and the first rows of a larger one. Recordings and paths,
+/// which are long, become a link.
 std::string table(const fs::path& path) {
     const std::string name = path.filename().string();
     TableReader in(open_file(path.string()), path.string());

@@ -29,7 +29,7 @@ std::optional<Sdk> find_sdk() {
         return Sdk{installed / "forage",
                    prefix / FORAGE_LIBRARY_DIR / "forage/libforage_random.a",
                    {installed.string(), (installed / "forage").string()}};
-    // Not installed: the program is where it was built.
+    // The program is not installed, but where it was built.
     const fs::path source = FORAGE_SOURCE_DIR;
     if (fs::exists(source / "tools/api/forage/plugin.h"))
         return Sdk{source,

@@ -16,7 +16,7 @@ std::string counted(std::size_t n, std::string_view one, std::string_view many =
     return fmt::format("{} {}{}", n, n == 1 || many.empty() ? one : many, n == 1 || !many.empty() ? "" : "s");
 }
 
-/// Notes on what is valid, but perhaps not meant: disabled modules, and groups without input or without
+/// Notes about valid content that may be a mistake: disabled modules, and groups without input or without
 /// outgoing connections.
 std::vector<std::string> notes(const model::System& system) {
     std::vector<std::string> out;

@@ -17,13 +17,13 @@ enum ExitStatus { fine = 0, run_failed = 1, bad_input = 2 };
 struct RunOptions {
     RunOptions() { spec.directory = "forage-out"; }
     RunSpec spec;
-    bool real_time = false;  ///< whether the run is not faster than the clock
+    bool real_time = false;  ///< whether the run is slowed down to the clock
     bool quiet = false;
 };
 
 struct ResumeOptions {
     std::string path;  ///< a directory of results, or a checkpoint in it
-    int threads = 0;   ///< 0: as many as before the stop
+    int threads = 0;   ///< 0 for as many as before the stop
     bool quiet = false;
 };
 /// Parses the arguments of `forage run`.
@@ -67,7 +67,7 @@ struct TutorialOptions {
 
 struct BuildPluginOptions {
     std::string source;
-    std::string output;  ///< empty: in the folder plugins beside the source
+    std::string output;  ///< empty: the folder plugins beside the source
 };
 
 int run(const RunOptions& options);

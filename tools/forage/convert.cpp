@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 bool is_process_file(const std::string& path) { return fs::path(path).extension() == ".iqrProcess"; }
 
-/// Notes the connections of a process to groups outside, which are not extracted.
+/// Warns about the connections of a process to groups outside it, which are not extracted.
 void warn_of_loss(const model::System& system, const model::ProcessFile& file, Diagnostics& diagnostics) {
     std::set<std::string> groups;
     for (const auto& g : file.process.groups) groups.insert(g.id);

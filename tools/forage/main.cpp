@@ -19,8 +19,7 @@ namespace {
 
 using namespace forage::tool;
 
-/// The word that is probably meant by the first unknown word of the command line; empty when all words are
-/// known.
+/// The word that the first unknown word of the command line probably means; empty when all words are known.
 std::string suggestion(const CLI::App& app, int argc, char** argv) {
     std::vector<std::string> commands, options;
     for (const auto* c : app.get_subcommands([](const CLI::App*) { return true; }))

@@ -10,7 +10,7 @@
 
 namespace forage::tool {
 
-// Parts that several commands use.
+// Checks of values that several commands use.
 CLI::Validator positive();  ///< a number above 0, at most 1e9
 CLI::Validator count();     ///< a whole number, at least 1
 CLI::Validator seed();      ///< a whole number, at least 0
@@ -28,7 +28,7 @@ void add_input(CLI::App& command, RunInput& input);
 
 void add_run(CLI::App& app, RunOptions& o);
 void add_resume(CLI::App& app, ResumeOptions& o);
-/// The options of `forage run`. `arguments` are the words after the program's name.
+/// Parses the options of `forage run`. `arguments` are the words after the program's name.
 RunOptions parse_run(std::vector<std::string> arguments);
 void add_tutorial(CLI::App& app, TutorialOptions& o);
 void add_experiment(CLI::App& app, ExperimentOptions& o);

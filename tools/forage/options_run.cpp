@@ -29,7 +29,7 @@ CheckpointInterval parse_interval(const std::string& text) {
     return out;
 }
 
-/// What `parse` makes of the text of an option.
+/// The result of `parse` for the text of an option.
 template <class Parse>
 auto parsed(const char* option, const std::string& text, Parse parse) {
     try {
@@ -49,7 +49,7 @@ void add_manipulations(CLI::App& run, RunSpec& o) {
                              model::ManipulationSpec spec;
                              spec.mode = mode, spec.table = {each}, spec.text = each;
                              std::error_code none;
-                             if (!exists(std::filesystem::symlink_status(each, none)))  // may hold '='
+                             if (!exists(std::filesystem::symlink_status(each, none)))  // may have '='
                                  spec = parsed(option, each,
                                                [&] { return expression::parse_manipulation(mode, each); });
                              o.manipulations.push_back(std::move(spec));

@@ -5,7 +5,7 @@
 
 namespace forage::tool {
 
-/// From now on the first SIGINT or SIGTERM is only noted; the second one ends the program.
+/// Makes the program only note the first SIGINT or SIGTERM. The second one ends it.
 void note_signals();
 /// The signal that was noted; 0 for none.
 int noted_signal();

@@ -56,8 +56,9 @@ struct AxisStyle {
 /// Draws the frame, the ticks with labels, and the titles.
 void draw_axes(Canvas& canvas, const Axes& axes, const AxisStyle& x, const AxisStyle& y);
 
-/// Maps values to colours. If all values are at least 0: from blue to yellow between 0 and the largest value.
-/// Else: from blue over white to red, with white at 0. Values that are not finite are grey.
+/// Maps values to colours. If all values are at least 0, the colours go from blue to yellow between 0 and the
+/// largest value. Otherwise they go from blue over white to red, with white at 0. Values that are not finite
+/// are grey.
 class ColourScale {
   public:
     /// Extends the scale to a value.

@@ -40,9 +40,10 @@ void draw(const Picture& picture, cairo_surface_t* surface, double scale) {
     check(cairo_status(context.get()));
 }
 
-/// Cairo numbers what an SVG file refers to ("surface7", and from 1.18 on "source-7") by a count that goes on
-/// from picture to picture. Here ids are numbered by their first place, so that a picture's bytes do not
-/// depend on what was drawn before it. Glyphs, which have two numbers, are counted anew in each file.
+/// Numbers the ids in an SVG file anew. Cairo numbers them ("surface7", and from 1.18 on "source-7") with a
+/// counter that continues from picture to picture. Here they are numbered in the order of their first
+/// occurrence, so that a picture's bytes do not depend on earlier pictures. Glyphs, which have two numbers,
+/// are counted anew in each file.
 std::string renumbered(const std::string& svg) {
     static const std::regex reference("(id=\"|#)([a-z-]+)([0-9]+)(?=[\")])");
     std::map<std::string, std::size_t> numbers;

@@ -33,8 +33,8 @@ class Canvas {
     void dashes(double on, double off);
     void fill(double x, double y, double width, double height, const Colour& c);
     void line(double x0, double y0, double x1, double y1, const Colour& c, double width = 1);
-    /// `anchor`: 0 when the text starts at x, 0.5 when it is centred at x, 1 when it ends at x. y is the base
-    /// line.
+    /// Draws a text. `anchor` is 0 when the text starts at x, 0.5 when it is centred at x, 1 when it ends at
+    /// x. y is the base line.
     void text(double x, double y, const std::string& what, double size, double anchor = 0,
               const Colour& c = black, bool bold = false);
     /// Draws text that runs upwards, centred at (x, y).

@@ -25,7 +25,7 @@ struct SpaceFrame {
 
 struct SpacePlot {
     std::string title, subtitle;
-    std::string quantity;  ///< what the values are; shown beside the colour bar
+    std::string quantity;  ///< name of the values; shown beside the colour bar
     CellGrid grid;
     int blocks_across = 1, blocks_down = 1;  ///< lines divide the group into these blocks
     std::vector<SpaceFrame> frames;

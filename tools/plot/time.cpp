@@ -127,7 +127,7 @@ Picture lines(const TimePlot& plot) {
             }};
 }
 
-/// For each pixel of a row, the value in the bins there that is the furthest from zero.
+/// The value of each pixel of a row: the one farthest from zero in the bins of that pixel.
 std::vector<double> row_values(const Curve& curve, const Interval& cycles) {
     std::vector<double> out;
     const auto& bins = curve.bins();

@@ -22,7 +22,7 @@ class Curve {
 
     struct Bin {
         double first, last;  ///< cycles
-        double begin, end;   ///< values there
+        double begin, end;   ///< values in these cycles
         double low, high;
         double count;
         void checkpoint(Archive& archive) { archive(first, last, begin, end, low, high, count); }
@@ -48,10 +48,10 @@ inline constexpr std::size_t row_bins = 1520;
 
 struct TimePlot {
     std::string title, subtitle;
-    std::string quantity;           ///< what the values are
-    std::string cells = "cell";     ///< what a curve belongs to
+    std::string quantity;           ///< name of the values
+    std::string cells = "cell";     ///< name of what a curve shows
     std::span<const Curve> curves;  ///< all for the same cycles
-    std::size_t cells_per_row = 1;  ///< how many cells each curve stands for
+    std::size_t cells_per_row = 1;  ///< number of cells that each curve stands for
     std::vector<double> marks;      ///< cycles at which a line is drawn, such as the starts of trials
     std::string mark_name;
     double seconds_per_cycle = 0;  ///< 0 if unknown

@@ -13,7 +13,7 @@ namespace forage::plot {
 struct Path {
     std::vector<Eigen::Vector2d> points;  ///< m
     bool reached = false;                 ///< whether the robot reached a target
-    bool finished = true;                 ///< false for the trial that the end of the run interrupted
+    bool finished = true;                 ///< false for a trial that was interrupted by the end of the run
 };
 
 /// A map of the floor, walls, start poses and targets with the paths. Paths that reached a target and paths

@@ -19,7 +19,8 @@ using bug::ShapeKind;
 
 double top_of(const bug::DrawnSolid& d) { return d.solid.pose.translation().z() + d.solid.size.z() / 2; }
 
-/// A floor's picture, reduced by averaging n x n pixels; fewer at the right and lower edges.
+/// A floor's picture, reduced by averaging blocks of n x n pixels. Blocks at the right and lower edges may be
+/// smaller.
 CairoSurface picture_of(const bug::FloorTexture& floor, int n) {
     const int width = (floor.width() + n - 1) / n, height = (floor.height() + n - 1) / n;
     CairoSurface out(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));

@@ -33,7 +33,7 @@ struct OpenOptions {
     int threads = 1;                         ///< at most; the numbers do not depend on it
     bool lenient = false;  ///< whether unknown parameters and attributes of files are warnings, not errors
     bool noise = true;     ///< of motors and sensors
-    /// Seconds of the world per second of the clock; empty: the world's own.
+    /// Seconds of the world per second of the clock. Empty for the world's own rate.
     std::optional<double> real_time_factor = {};
     /// Whether all groups are computed, so that everything can be read and changed at any time. Otherwise the
     /// run computes only what modules and the observers that are added before the first cycle read: faster,
