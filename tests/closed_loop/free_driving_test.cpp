@@ -94,7 +94,7 @@ TEST_CASE("Driving along an arc has the radius and the rate of the original") {
     CHECK(std::abs(d.y.mean() - 0.5 / 0.7 * (1 - std::cos(2.8))) < bias);
 }
 
-TEST_CASE("The noise acts also backwards and when the robot stands still") {
+TEST_CASE("The noise also acts when the robot drives backwards or stands still") {
     const double speed = GENERATE(-0.5, 0.0);
     const Drives d({speed, 0});
     d.x.check(4 * speed, root);

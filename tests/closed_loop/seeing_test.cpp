@@ -34,7 +34,7 @@ double row_of(double ahead) {
 
 }  // namespace
 
-TEST_CASE("A patch ahead appears in the top row and moves down as the geometry gives") {
+TEST_CASE("A patch ahead appears in the top row and moves down as the geometry predicts") {
     // Up the middle: the blue patch lies at (0, -0.497) and has a radius of 0.2013 m.
     constexpr double near_edge = -0.4966 - 0.2013, far_edge = -0.4966 + 0.2013;
     ClosedLoop loop({.noise = false});

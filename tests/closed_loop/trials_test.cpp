@@ -8,7 +8,7 @@
 using namespace forage;
 using namespace forage::test;
 
-TEST_CASE("The reactive system reaches the target in the large majority of trials") {
+TEST_CASE("The reactive system reaches the target in most trials") {
     const std::string world = GENERATE("worlds/basic_arena.world", "worlds/ambiguous_arena.world");
     int reached = 0;
     constexpr int trials = 60, seeds = 3;
@@ -49,7 +49,7 @@ TEST_CASE("A trial ends at the edge of the arena and the next one starts at one 
     CHECK(chi2 < 13.8);
 }
 
-TEST_CASE("The same seed gives the same run, another seed another one") {
+TEST_CASE("The same seed gives the same run, and another seed gives another run") {
     const auto run = [](std::uint64_t seed) {
         ClosedLoop loop({.seed = seed});
         for (int i = 0; i < 400; ++i) loop.step();

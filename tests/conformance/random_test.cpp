@@ -22,7 +22,7 @@ struct Activity {
 
 }  // namespace
 
-TEST_CASE("Cells that fire at random do so as often, and as strongly, as recorded") {
+TEST_CASE("Cells that fire at random do so as often and as strongly as in the recordings") {
     std::vector<Case> random;  // of random neurons; random connections: topology_test.cpp
     for (const auto& c : cases())
         if (c.name.starts_with("neuron_") && c.name.ends_with("_RANDOM")) random.push_back(c);
@@ -32,8 +32,7 @@ TEST_CASE("Cells that fire at random do so as often, and as strongly, as recorde
     add_neurons(registry);
     add_synapses(registry);
     replay::Replay player;
-    if (std::filesystem::exists(path / "drive.csv"))
-        player.file = path / "drive.csv";
+    if (std::filesystem::exists(path / "drive.csv")) player.file = path / "drive.csv";
     registry.add(module_type(player));
     Diagnostics diagnostics;
     const auto system = xml::read_system(path / "input.iqr", diagnostics);

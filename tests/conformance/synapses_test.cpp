@@ -78,7 +78,7 @@ int state_index(const SynapseType& type, std::string_view name) {
 
 }  // namespace
 
-TEST_CASE("Weights and potentials of synapses are those recorded") {
+TEST_CASE("Synapses have the recorded weights and potentials") {
     std::size_t kept = 0, computed = 0, copies = 0;
     for (const auto& c : cases()) {
         const auto file = c.path / "expected_synapses.csv";

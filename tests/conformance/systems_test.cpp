@@ -93,7 +93,7 @@ TEST_CASE("The adaptive system of the tutorial, driven by recorded input, gives 
                   rows_of({recorded / "expected.csv"})) > 1000);
 }
 
-TEST_CASE("The adaptive system learns what it learned when it was recorded") {
+TEST_CASE("The adaptive system learns as in the recording") {
     const auto recorded = shared_dir() / "golden" / "systems" / "DACBugBasicArena_learning";
     const auto file = shared_dir() / "original" / "DAC_files" / "DACBugBasicArena.iqr";
     if (absent(recorded) || absent(file)) return;

@@ -131,7 +131,7 @@ std::string repeated(std::string_view text, std::size_t times) {
 
 }  // namespace
 
-TEST_CASE("Every mistake gets the answer that is expected of it, within a second") {
+TEST_CASE("Every mistake gives the expected message within a second") {
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(corpus()))
         if (entry.path().extension() == ".iqr") files.push_back(entry.path());
@@ -173,7 +173,7 @@ TEST_CASE("Files made to exhaust the reader are refused or read within a second"
     }
 }
 
-TEST_CASE("A file that does not exist is answered with the one that was probably meant") {
+TEST_CASE("The message about a missing file names the file that was probably meant") {
     compare("no_such_file", answer(corpus() / "no_such_flie.iqr"));
     compare("misspelt_file", answer(corpus() / "missing_qoute.iqr"));
 }

@@ -9,8 +9,8 @@
 #include "tests/fuzz/whole_way.h"
 #include "tests/support/catch.h"
 #include "tests/support/golden.h"
-#include "tests/support/paths.h"
 #include "tests/support/model_text.h"
+#include "tests/support/paths.h"
 
 using namespace forage;
 namespace fs = std::filesystem;
@@ -191,7 +191,7 @@ std::vector<std::string> sound_files() {
 
 }  // namespace
 
-TEST_CASE("No damage to a file crashes what reads, checks and connects it") {
+TEST_CASE("No damaged file crashes the reader, the checks or the connections") {
     const auto sound = sound_files(),
                broken = files_in(test::source_dir() / "tests" / "diagnostics" / "bad_systems");
     const Registry registry = test::shipped_types();

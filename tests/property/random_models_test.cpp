@@ -59,7 +59,7 @@ std::string trace(const model::System& system, const Registry& registry, int thr
 
 }  // namespace
 
-TEST_CASE("What is written and read again is equal, and writing it again changes no byte") {
+TEST_CASE("A written model is read back as an equal one, and writing it again changes no byte") {
     std::size_t connections = 0;
     for (std::uint64_t seed = 1; seed <= models(); ++seed) {
         const model::System system = test::RandomModel(seed).make();
@@ -91,7 +91,7 @@ TEST_CASE("Neither the number of threads nor the form of the connections changes
     }
 }
 
-TEST_CASE("Groups that nothing reads can be pruned, and those that are read have the same bits") {
+TEST_CASE("Unread groups can be pruned, and the remaining groups have the same bits") {
     Registry registry;
     add_neurons(registry);
     add_synapses(registry);
@@ -122,7 +122,7 @@ TEST_CASE("Groups that nothing reads can be pruned, and those that are read have
     CHECK(delivered > models() / 20);  // and some are computed only because another group is demanded
 }
 
-TEST_CASE("A simulation stopped in any cycle and resumed is the one that ran through, to the last bit") {
+TEST_CASE("A simulation that is stopped in any cycle and resumed has the bits of an uninterrupted one") {
     Registry registry;
     add_neurons(registry);
     add_synapses(registry);

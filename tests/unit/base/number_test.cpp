@@ -19,7 +19,7 @@ TEST_CASE("A number is read from the whole text, in C notation, with or without 
     CHECK_FALSE(parse_number<std::uint64_t>("-1"));
 }
 
-TEST_CASE("A number is taken off the front of a text, NaN and infinities too") {
+TEST_CASE("Numbers are removed from the front of a text, including NaN and infinities") {
     std::string_view text = "3_y-4";
     CHECK(take_number<int>(text) == 3);
     CHECK(text == "_y-4");
@@ -31,7 +31,7 @@ TEST_CASE("A number is taken off the front of a text, NaN and infinities too") {
     CHECK(std::isnan(*take_number<double>(text)));
 }
 
-TEST_CASE("What is no number is told with its reason") {
+TEST_CASE("A word that is not a number is reported with the reason") {
     CHECK(no_number("") == "there is no number here");
     CHECK(no_number("x") == "'x' is not a number");
     CHECK(no_number("1x") == "'1x' is not a number");

@@ -67,7 +67,7 @@ TEST_CASE("A list is one row, whatever its lines are") {
     CHECK(rows("", Layout::list) == Texts{""});
 }
 
-TEST_CASE("All faults are told at once, each with its line and column") {
+TEST_CASE("All faults are reported at once, each with its line and column") {
     const auto read = [](Layout layout, const std::string& text) {
         TableReader in(text, "t", layout, "this is no table");
         while (in.next())
@@ -87,7 +87,7 @@ TEST_CASE("All faults are told at once, each with its line and column") {
           Texts{"1:3 the byte 0x00 does not occur in a text"});
 }
 
-TEST_CASE("Columns are found by the names in the first row, and later rows have as many fields") {
+TEST_CASE("Columns are found by the names in the first row, and later rows must have as many fields") {
     const File file("a,b\n1,2\n3\n4,5,6\n7,8\n");
     TableReader in(open_file(file.path), file.path);
     REQUIRE(in.read_header());
@@ -102,7 +102,7 @@ TEST_CASE("Columns are found by the names in the first row, and later rows have 
     CHECK(faults([&] { again.column("c"); }) == Texts{"1:1 there is no column 'c'"});
 }
 
-TEST_CASE("A file is read block by block; an incomplete last line is no row") {
+TEST_CASE("A file is read block by block; an incomplete last line is not a row") {
     std::string text;
     for (int i = 0; i < 50000; ++i) text += std::to_string(i) + "," + std::to_string(2 * i) + "\n";
     const File file(text + "50000,1");
@@ -117,7 +117,7 @@ TEST_CASE("A file is read block by block; an incomplete last line is no row") {
     CHECK(faults([&] { in.require_whole(); }) == Texts{"50001:1 the file ends within this row"});
 }
 
-TEST_CASE("A folder is no file to read rows from") {
+TEST_CASE("Rows cannot be read from a folder") {
     CHECK_THROWS_AS(open_file(std::filesystem::temp_directory_path().string()), FileError);
     CHECK_THROWS_AS(open_file("/dev/null"), FileError);
 }

@@ -89,7 +89,7 @@ TEST_CASE("Where homes overlap, a resource counts for B") {
     CHECK((table.game.points(0) == 0 && table.game.points(1) == 1));
 }
 
-TEST_CASE("A resource is good for 30 seconds, bad for 20 more, then gone, and can appear again") {
+TEST_CASE("A resource is good for 30 seconds, bad for 20 more, then disappears, and can appear again") {
     GameRules rules = rules_of({{0, 0, 1}});
     rules.most = 1, rules.duration = 1000;
     Table table(1, rules);

@@ -109,7 +109,7 @@ TEST_CASE("A reset takes 1001 substeps, and its bounds are strict") {
     }
 }
 
-TEST_CASE("Start poses are drawn evenly, up to 0.01 m and 0.01 rad off") {
+TEST_CASE("Start poses are drawn evenly, with deviations up to 0.01 m and 0.01 rad") {
     Reset reset(plan_of(test::description("basic_arena")), RandomStream(1, "reset"));
     constexpr int n = 30000;
     std::array<int, 3> drawn{};

@@ -145,7 +145,7 @@ TEST_CASE("Trials end at the bounds and the next one starts 1001 substeps later,
     CHECK(now.number == static_cast<int>(trials.size()) + 1);
 }
 
-TEST_CASE("The same seed gives the same bits, another seed others, and images have no effect") {
+TEST_CASE("The same seed gives the same bits, another seed gives others, and images have no effect") {
     const auto a = make_world(description("basic_arena"), options(25, 7)),
                b = make_world(description("basic_arena"), options(25, 7)),
                other = make_world(description("basic_arena"), options(25, 8));

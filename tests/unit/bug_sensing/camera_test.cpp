@@ -30,7 +30,7 @@ Count count(const std::vector<float>& rgb, bool red, bool green, bool blue) {
 
 }  // namespace
 
-TEST_CASE("A patch ahead fills the number of pixels that the geometry gives") {
+TEST_CASE("A patch ahead fills the number of pixels that the geometry predicts") {
     const Arena& arena = Arena::get();
     const Camera camera = arena.camera(1);
     const auto seen = [&](const Pose2& body, bool r, bool g, bool b) {
@@ -82,7 +82,7 @@ TEST_CASE("A patch far ahead enters the picture from the top row down") {
     CHECK(rgb[3 * 16] > 0.5f);
 }
 
-TEST_CASE("Pixels show the floor points that the projection gives") {
+TEST_CASE("Pixels show the floor points that the projection predicts") {
     const Arena& arena = Arena::get();
     const Camera camera = arena.camera();
     const auto world = [&](int column, int row) -> Eigen::Vector2d {

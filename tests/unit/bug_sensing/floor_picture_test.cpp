@@ -10,7 +10,7 @@
 
 using namespace forage::bug;
 
-TEST_CASE("What is no picture is told before it is read") {
+TEST_CASE("A file that is not a picture is reported before its pixels are read") {
     const auto folder = std::filesystem::temp_directory_path() / "forage_floor_picture";
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
@@ -46,7 +46,7 @@ Image picture(const std::string& hex, int border) {
 
 }  // namespace
 
-TEST_CASE("Pictures of all kinds become red, green and blue; what is transparent stands before black") {
+TEST_CASE("Pictures of all kinds become red, green and blue; transparent pixels are drawn on black") {
     using Colours = std::vector<std::uint32_t>;
     const auto pixels = [](const Image& image) { return Colours(image.pixels.begin(), image.pixels.end()); };
     const std::string coloured =  // red, and green that cannot be seen
@@ -68,7 +68,7 @@ TEST_CASE("Pictures of all kinds become red, green and blue; what is transparent
     CHECK(pixels(picture(transparent, 0)) == Colours{0xff3c3228, 0xff000000});
 }
 
-TEST_CASE("Pixels of any size, in rows of any kind; what a picture says of its own brightness is heeded") {
+TEST_CASE("Pixels of any size and rows of any kind are read, and the brightness in the file is respected") {
     using Colours = std::vector<std::uint32_t>;
     const auto pixels = [](const Image& image) { return Colours(image.pixels.begin(), image.pixels.end()); };
     const std::string four_bits =  // three pixels of 4 bits; there is no colour 9 in the palette
@@ -105,7 +105,7 @@ TEST_CASE("Pixels of any size, in rows of any kind; what a picture says of its o
     CHECK(pixels(picture(interlaced, 0)) == Colours{0xff070809});
 }
 
-TEST_CASE("What is wrong with a picture is said as libpng says it") {
+TEST_CASE("Mistakes in a picture are reported in the words of libpng") {
     const std::string filter =  // there is no filter 7
         "89504e470d0a1a0a0000000d49484452000000020000000108020000007b40e8dd0000000b4944415478da63"
         "67000300003800087d0cc8030000000049454e44ae426082";

@@ -49,7 +49,7 @@ TEST_CASE("Place cells far away from the robot stay finite and keep their maximu
     for (const double c : cells) CHECK(std::isfinite(c));
 }
 
-TEST_CASE("Head direction cells go round: -x, -y, +x, +y") {
+TEST_CASE("Head direction cells cover the circle in the order -x, -y, +x, +y") {
     const double pi = std::numbers::pi;
     std::vector<double> cells(36);
     for (const auto& [yaw, cell] : {std::pair{-pi, 0u}, {-pi / 2, 9u}, {0.0, 18u}, {pi / 2, 27u}, {pi, 0u}}) {

@@ -40,7 +40,7 @@ std::vector<std::uint32_t> pixels(Image& image) { return {image.row(0), image.ro
 
 }  // namespace
 
-TEST_CASE("Chunks that say nothing new about colours leave them as they are") {
+TEST_CASE("Chunks without new information about colours do not change them") {
     std::string srgb_white_and_primaries;
     for (const std::uint32_t v : {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000})
         srgb_white_and_primaries += big_endian(v);
@@ -64,7 +64,7 @@ TEST_CASE("Chunks that say nothing new about colours leave them as they are") {
           Colours{0xffc08040, 0xff030201});
 }
 
-TEST_CASE("A gamma is heeded also when libpng finds its colour space wrong") {
+TEST_CASE("A gamma is respected even if libpng finds the colour space wrong") {
     const std::string linear = png_chunk("gAMA", big_endian(100'000));
     const std::vector<std::uint32_t> lighter{0xff888888, 0xffbababa};  // as without the wrong chunk
     for (const std::string& with :
@@ -75,7 +75,7 @@ TEST_CASE("A gamma is heeded also when libpng finds its colour space wrong") {
     }
 }
 
-TEST_CASE("A picture with much before its pixels is refused before that is read") {
+TEST_CASE("A picture with too much data before its pixels is refused before the data are read") {
     const auto colour = GENERATE(PngColour::rgb, PngColour::rgb_alpha);
     const auto with = [&](std::size_t bytes, const char* name) {
         const std::string text = png_chunk(name, "Title" + std::string(2, '\0') + std::string(bytes, 'x'));
@@ -92,7 +92,7 @@ TEST_CASE("A picture with much before its pixels is refused before that is read"
     CHECK_THROWS_WITH(read_png(large, 0), ContainsSubstring(refused));
 }
 
-TEST_CASE("Many small chunks before the pixels are too much as one large is, and many of pixels are not") {
+TEST_CASE("Many small chunks before the pixels count like one large chunk; chunks of pixels do not count") {
     std::string many, pixels_of_many;
     for (int i = 0; i < 12'000; ++i) many += png_chunk("tEXt", ""), pixels_of_many += png_chunk("IDAT", "");
     const File before(png_file(2, 1, PngColour::rgb_alpha, many, std::string(9, '\0')));
@@ -107,7 +107,7 @@ TEST_CASE("Many small chunks before the pixels are too much as one large is, and
     CHECK(png_problem(cut) == "Read Error");
 }
 
-TEST_CASE("A picture that is too large is not read either") {
+TEST_CASE("A picture that is too large is not read") {
     const std::string problem = "it has 16781312 pixels; the most are 16777216";
     const auto colour = GENERATE(PngColour::rgb, PngColour::rgb_alpha);
     const File file(png_file(4096, 4097, colour, "", rgb_rows));
@@ -115,7 +115,7 @@ TEST_CASE("A picture that is too large is not read either") {
     CHECK_THROWS_WITH(read_png(file, 0), ContainsSubstring(problem));
 }
 
-TEST_CASE("A picture that there is no memory for leaves nothing behind") {
+TEST_CASE("A picture that does not fit into memory is refused and leaves nothing behind") {
     const auto colour = GENERATE(PngColour::rgb, PngColour::rgb_alpha);
     const File file(png_file(1, 1, colour, "", std::string(5, '\0')));
     constexpr int border = (1 << 30) - 100;  // more numbers than a vector may have

@@ -37,7 +37,7 @@ double range_of(const RangeSensor& sensor, const Pose& link, const Pose2& body, 
 
 }  // namespace
 
-TEST_CASE("The light sensors measure the target at the distance that the geometry gives") {
+TEST_CASE("The light sensors measure the target at the distance that the geometry predicts") {
     const Arena& arena = Arena::get();
     const auto light = arena.scanner("laser_target");
     const auto solids = arena.solids();
@@ -70,7 +70,7 @@ TEST_CASE("The light is not sensed at the start poses") {
             CHECK(cell == 0);
 }
 
-TEST_CASE("The proximity sensors measure the wall at the distance that the geometry gives") {
+TEST_CASE("The proximity sensors measure the wall at the distance that the geometry predicts") {
     const Arena& arena = Arena::get();
     const auto proximity = arena.scanner("laser");
     const auto solids = arena.solids();

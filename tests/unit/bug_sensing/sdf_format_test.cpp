@@ -22,7 +22,8 @@ std::string said_of(const std::string& inside) {
 
 }  // namespace
 
-TEST_CASE("Every element that holds others has a row in the table of SDF, and every row is held by one") {
+TEST_CASE(
+    "Every element with children has a row in the table of SDF, and every row belongs to such an element") {
     const xml::Format& format = bug::sdf_format();
     for (const auto& e : format.elements) {
         INFO(e.name);
@@ -37,7 +38,7 @@ TEST_CASE("Every element that holds others has a row in the table of SDF, and ev
     }
 }
 
-TEST_CASE("All mistakes of a world are told at once, those without effect as warnings") {
+TEST_CASE("All mistakes in a world are reported at once, those without effect as warnings") {
     CHECK(said_of(
               "<sdf version='1.4'><world name='w'><gravity>0 0 x</gravity><model name='m'><static>on</static>"
               "</model><physics/></world></sdf>") ==
@@ -52,7 +53,7 @@ TEST_CASE("All mistakes of a world are told at once, those without effect as war
         "'plugin' and 6 more\n");
 }
 
-TEST_CASE("Elements of other programs, and those that have no effect here, are not looked into") {
+TEST_CASE("Elements of other programs, and elements without effect, are not checked") {
     CHECK(said_of("<sdf version='1.9' xmlns:x='y'><world name='w'><x:a b='c'>d</x:a><wind>fresh<fog/></wind>"
                   "<model name='m' canonical_link='l'/></world></sdf>")
               .empty());

@@ -80,7 +80,7 @@ std::vector<int> posts(const Cells& cells) {
 
 }  // namespace
 
-TEST_CASE("A rectangle of width w round c covers ceil(c - w/2) to floor(c + w/2)") {
+TEST_CASE("A rectangle of width w around c covers ceil(c - w/2) to floor(c + w/2)") {
     const auto covers = [](double centre, double size) {
         return std::pair(cover(centre, size).first, cover(centre, size).last);
     };
@@ -95,7 +95,7 @@ TEST_CASE("A rectangle of width w round c covers ceil(c - w/2) to floor(c + w/2)
     CHECK(covers(-1.5, 1) == std::pair(-2, -1));
 }
 
-TEST_CASE("A cell's index counts row by row, and there is none outside") {
+TEST_CASE("Cells are numbered row by row, and positions outside the group have no index") {
     const Grid grid(rect(3, 2));
     CHECK(grid.cells() == 6);
     CHECK((grid.index(1, 1) == 0 && grid.index(3, 1) == 2 && grid.index(1, 2) == 3 && grid.index(3, 2) == 5));
@@ -103,7 +103,8 @@ TEST_CASE("A cell's index counts row by row, and there is none outside") {
         CHECK(grid.index(x, y) == -1);
 }
 
-TEST_CASE("A sparse group's cells are ranked row by row, each once, and points below 1 are none") {
+TEST_CASE(
+    "The cells of a sparse group are numbered row by row, each once, and points below 1 are not cells") {
     const model::SparseTopology sparse{{at(5, 4), at(2, 3), at(4, 3), at(2, 3), at(0, 1), at(1, -2)}};
     const Grid grid(sparse);
     CHECK((grid.left() == 2 && grid.top() == 3 && grid.width() == 4 && grid.height() == 2 &&
@@ -123,7 +124,7 @@ TEST_CASE("Groups of equal size are mapped cell to cell") {
     CHECK(all.build().pairs() == expected);
 }
 
-TEST_CASE("The smaller group is laid over the larger one, whichever is the source") {
+TEST_CASE("The smaller group is projected onto the larger one, whichever is the source") {
     Wiring w;
     w.source = rect(4, 1), w.target = rect(2, 1);
     w.pattern = model::MappedPattern{true, {}, {}};
@@ -136,7 +137,7 @@ TEST_CASE("The smaller group is laid over the larger one, whichever is the sourc
     CHECK(posts(w.build().pairs()) == std::vector<int>{1, 3});  // 1.5 -> 2, 3.5 -> 4
 }
 
-TEST_CASE("A region that reaches out of its group is moved back, cut, and reported") {
+TEST_CASE("A region that extends beyond its group is shifted, cut, and reported") {
     Wiring w;
     w.pattern = model::ForeachPattern{model::Region{3, 2, 2, 2, {}}, model::Region{1, 1, 1, 1, {}}};
     const auto built = w.build();
@@ -149,7 +150,7 @@ TEST_CASE("A region that reaches out of its group is moved back, cut, and report
     CHECK(w.build().diagnostics.all().empty());
 }
 
-TEST_CASE("A list is taken in the order of the grid, without its duplicates and without what is no cell") {
+TEST_CASE("A list is read in grid order, without duplicates and without points that are not cells") {
     Wiring w;
     w.pattern = model::ForeachPattern{model::List{{at(3, 2), at(1, 1), at(3, 2), at(4, 1)}, {}},
                                       model::Region{1, 1, 1, 1, {}}};
@@ -158,7 +159,7 @@ TEST_CASE("A list is taken in the order of the grid, without its duplicates and 
     CHECK(built.said() == "there is no cell at x = 4, y = 1: the point is ignored");
 }
 
-TEST_CASE("A point below 1 is an error, or left out under leniency") {
+TEST_CASE("A point below 1 is an error, or is left out when reading leniently") {
     Wiring w;
     for (const model::Pattern& p :
          {model::Pattern(model::TuplesPattern{{{{at(0, 1), at(1, 1)}, {at(1, 1)}}}}),
@@ -212,7 +213,7 @@ TEST_CASE("A window is the outer shape without the inner one") {
               .empty());  // size 0 still covers a whole centre
 }
 
-TEST_CASE("RF spreads round the source, PF round the target") {
+TEST_CASE("RF spreads around the source, PF around the target") {
     Wiring w;
     w.pattern = model::TuplesPattern{{{{at(2, 1)}, {at(1, 1)}}}};
     w.arborization.shape = model::RectArbor{3, 1};
@@ -222,7 +223,7 @@ TEST_CASE("RF spreads round the source, PF round the target") {
     CHECK(w.build().pairs() == Cells{{1, 0}, {1, 1}});
 }
 
-TEST_CASE("A cylinder wraps once, and the distance is that before it wrapped") {
+TEST_CASE("A cylinder wraps once, and distances are measured before it wraps") {
     Wiring w;
     w.pattern = model::TuplesPattern{{{{at(1, 1)}, {at(1, 1)}}}};
     w.target = rect(3, 2, true, false);
@@ -261,7 +262,7 @@ TEST_CASE("Uniform, Linear, Gaussian and Block attenuate as the original does") 
     CHECK(attenuation({model::GaussianFunction{}, {}}, {}, RandomStream(1, "c")).values.empty());
 }
 
-TEST_CASE("Linear over distances of 0 only divides 0 by 0, and says so") {
+TEST_CASE("Linear divides 0 by 0 when all distances are 0, and a warning reports it") {
     Wiring w;
     w.attenuation.form = model::LinearFunction{0, 1};
     const auto built = w.build();
@@ -296,7 +297,7 @@ TEST_CASE("Parameters of functions pass through a text with six digits") {
     CHECK(six_digits(1e300) == 1e300);
 }
 
-TEST_CASE("What is random in a connection depends on the seed and on the connection, and on nothing else") {
+TEST_CASE("Random choices in a connection depend only on the seed and on the connection") {
     Wiring w;
     w.source = rect(10, 10), w.target = rect(10, 10);
     w.arborization = {model::RectArbor{5, 5}, model::Direction::receptive, 0.5, {}};
@@ -312,7 +313,7 @@ TEST_CASE("What is random in a connection depends on the seed and on the connect
     CHECK(one.synapses.attenuation != other.synapses.attenuation);
 }
 
-TEST_CASE("A random arborization takes distinct cells, each as often as the others") {
+TEST_CASE("A random arborization draws distinct cells, each equally often") {
     Wiring w;
     w.source = rect(6, 5), w.target = rect(100, 10);
     w.pattern = model::ForeachPattern{model::Region{1, 1, 1, 1, {}}, {}};
@@ -332,7 +333,7 @@ TEST_CASE("A random arborization takes distinct cells, each as often as the othe
     CHECK(w.build().said() == "connection 'C' has no synapses");
 }
 
-TEST_CASE("A probability keeps its part of the points") {
+TEST_CASE("A probability keeps the corresponding share of the points") {
     Wiring w;
     w.source = rect(30, 30), w.target = rect(30, 30);
     w.pattern = all_to_all;
@@ -366,7 +367,7 @@ TEST_CASE("A connection that could be too large is refused before it is built") 
     CHECK(small.build().synapses.size() == 216);
 }
 
-TEST_CASE("No pattern has more pairs, and no arborization more points, than what the limit counts") {
+TEST_CASE("No pattern has more pairs, and no arborization more points, than the limit assumes") {
     const std::vector<model::Pattern> patterns{
         model::MappedPattern{}, model::MappedPattern{true, {}, {}}, all_to_all,
         model::ForeachPattern{model::Region{2, 1, 9, 1, {}}, model::List{{at(1, 1), at(2, 2)}, {}}},

@@ -60,7 +60,7 @@ struct CountingSystem {
 
 }  // namespace
 
-TEST_CASE("Members of modules and parameters that were changed belong to a checkpoint") {
+TEST_CASE("A checkpoint contains members of modules and changed parameters") {
     const CountingSystem<true> s;
     auto one = run(s.system, s.types), other = run(s.system, s.types);
     for (int t = 0; t < 5; ++t) one.step();
@@ -107,7 +107,7 @@ TEST_CASE("A checkpoint of another seed is refused") {
     CHECK_THROWS_WITH(other.checkpoint(in), ContainsSubstring("the seed differs"));
 }
 
-TEST_CASE("A digest of a state is that of its numbers, whatever sign a NaN has") {
+TEST_CASE("The digest of a state depends on its numbers, but not on the sign of a NaN") {
     model::System system;
     model::add_group(system, model::add_process(system, "P"), "A", 3, 1, "bursting");
     const auto written = [&](double value, Archive::Nan nan) {
@@ -127,7 +127,7 @@ TEST_CASE("A digest of a state is that of its numbers, whatever sign a NaN has")
     CHECK(written(1.5, all_the_same) == written(1.5, as_it_is));
 }
 
-TEST_CASE("The first number that is not finite is found, with any number of threads, when it is looked for") {
+TEST_CASE("The search for numbers that are not finite finds the first one with any number of threads") {
     for (const double value :
          {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
           std::numeric_limits<double>::quiet_NaN()})

@@ -141,7 +141,7 @@ void compare(const Shape& shape, Order order, int delays, bool same, Numbers num
 
 }  // namespace
 
-TEST_CASE("Lists of any shape, order, delays, factors and numbers give those of the plain list") {
+TEST_CASE("Lists of any shape, order, delays and factors give the numbers of the plain list") {
     const auto order = GENERATE(Order::ascending, Order::shuffled);
     const int delays = GENERATE(1, 3);
     const bool same = GENERATE(false, true);

@@ -32,7 +32,7 @@ std::string refusal(const model::System& system) {
 }  // namespace
 
 TEST_CASE(
-    "A system that needs more memory than is allowed is refused before it is taken, and its largest part is "
+    "A system that needs more memory than is allowed is refused before allocation, and its largest part is "
     "named") {
     const std::string wired = refusal(large(300, 100'000));
     CHECK_THAT(wired, ContainsSubstring("the system needs 72.01 GB of memory, the most is 17.18 GB"));
@@ -45,7 +45,7 @@ TEST_CASE(
             "the largest part is connection 'long': (4 numbers + delay 30000) x 40000 synapses = 9.602 GB"));
 }
 
-TEST_CASE("A system for which there is not enough memory is refused with words") {
+TEST_CASE("A system that does not fit into memory is refused with a message") {
     if (!can_limit_memory) {
         WARN("not tested: a sanitizer needs all memory");
         return;

@@ -38,7 +38,7 @@ struct Cells {
 
 }  // namespace
 
-TEST_CASE("NaN passes a graded neuron and does not make a spiking one spike") {
+TEST_CASE("A NaN passes through a graded neuron, and does not make a spiking neuron spike") {
     Registry registry;
     add_neurons(registry);
     const std::map<std::string, bool> passes{{"neuronLinearThreshold", true},
@@ -75,7 +75,7 @@ TEST_CASE(
     CHECK((draws(5, 1) != draws(6, 1)).all());
 }
 
-TEST_CASE("Several draws of one update stand side by side") {
+TEST_CASE("The columns of several draws of one update are valid at the same time") {
     const RandomStream random(1, "group");
     constexpr int cells = 1000;
     Eigen::ArrayXd scratch(cells * NeuronColumns::scratch_columns);
@@ -91,7 +91,7 @@ TEST_CASE("Several draws of one update stand side by side") {
     CHECK((event == events).all());
 }
 
-TEST_CASE("Parameters that say something else than they seem to are warned of") {
+TEST_CASE("Parameters with an unexpected meaning give warnings") {
     model::System system;
     const auto p = model::add_process(system, "P");
     const auto add = [&](const char* type, const char* parameter, const char* value) {

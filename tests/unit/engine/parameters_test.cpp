@@ -79,7 +79,7 @@ TEST_CASE("A changed gain, weight or module parameter acts in exactly the next p
     }
 }
 
-TEST_CASE("A change between phases acts in the phases to come") {
+TEST_CASE("A change between phases acts in the following phases") {
     const Small small;
     auto s = run(small.system, small.types);
     s.step();
@@ -94,7 +94,8 @@ TEST_CASE("A change between phases acts in the phases to come") {
     CHECK(activity(s, "P/B")[0] == 0.25);
 }
 
-TEST_CASE("A system whose weight is changed before the first cycle runs like one that says so") {
+TEST_CASE(
+    "A system whose weight is changed before the first cycle runs like one with this weight in its file") {
     Small other;
     model::set_parameter(*model::find_connection(other.system, "a-b")->synapse, "weight", "0.3");
     auto expected = run(other.system, other.types);
@@ -107,7 +108,7 @@ TEST_CASE("A system whose weight is changed before the first cycle runs like one
     }
 }
 
-TEST_CASE("What cannot change in a run is refused in clear words") {
+TEST_CASE("A change that is impossible in a run is refused with a clear message") {
     Small small;
     CHECK(small.said({"P/B.excGain=0", "a-b.weight=2", "P.value=3"}).empty());
     CHECK(small.said({"P.size=3"}).find("'size' is read at start only") != std::string::npos);
@@ -120,7 +121,7 @@ TEST_CASE("What cannot change in a run is refused in clear words") {
     CHECK(small.said({"P.value=3"}).find("the module is disabled") != std::string::npos);
 }
 
-TEST_CASE("Changes are checked as they will be made, and nothing changes by it") {
+TEST_CASE("Changes are checked as they will be made, and the check changes nothing") {
     const Small small;
     const std::vector<std::string> grow = {"P/B.vmMax=5", "P/B.vmMin=2"},
                                    crossed = {"P/B.clipVm=true", "P/B.vmMin=2"};

@@ -179,7 +179,7 @@ TEST_CASE("An apical synapse passes pre * 1 / (1 - mod) of its target, attenuate
     }
 }
 
-TEST_CASE("Synapses of silent sources are passed over, and all is as if they were not") {
+TEST_CASE("Skipping the synapses of silent sources does not change a result") {
     Registry types = registry();
     types.add(synapse_type<Mute>());
     auto system = window("0.2");

@@ -102,7 +102,9 @@ TEST_CASE("A demand for everything prunes nothing") {
     CHECK(pruned(build(chain.system, chain.types, closed)).empty());
 }
 
-TEST_CASE("A group is computed when it is demanded, or leads to one that is, by way of others too") {
+TEST_CASE(
+    "A group is computed when it is demanded, or when it leads to a demanded group, directly or through "
+    "others") {
     const Chain chain;
     const auto pruned_for = [&](const Demanded& groups) {
         return pruned(build(chain.system, chain.types, groups));
@@ -114,7 +116,7 @@ TEST_CASE("A group is computed when it is demanded, or leads to one that is, by 
     CHECK(pruned_for({"E", "G"}) == "B C D F");
 }
 
-TEST_CASE("Whatever of a group is demanded, the group is computed; only what is named can be read") {
+TEST_CASE("A group is computed when any column of it is demanded; only the demanded columns can be read") {
     const Chain chain;
     const auto layout = layout_of(chain.system, chain.types);
     const int b = group(layout, "P/B"), c = group(layout, "P/C");
@@ -137,7 +139,7 @@ TEST_CASE("Whatever of a group is demanded, the group is computed; only what is 
     CHECK(activity(s, "P/C")[0] == 7);
 }
 
-TEST_CASE("Groups that read each other, and that nothing else reads, are pruned together") {
+TEST_CASE("Groups that are read only by each other are pruned together") {
     Chain chain;
     connect(chain.system, chain.c, chain.b, InputKind::inhibitory, "synapseFixedWeight", "5");
     CHECK(pruned(build(chain.system, chain.types, {"D"})) == "B C E F G");
@@ -151,7 +153,7 @@ TEST_CASE("A connection of a kind that the target's type does not read leads now
     CHECK(pruned(build(chain.system, chain.types, {"F"})) == "A B C D E G");
 }
 
-TEST_CASE("What a module takes as an input is read; its outputs are, when their groups are") {
+TEST_CASE("The inputs of a module count as read; its outputs do when their groups are read") {
     Chain chain;
     chain.use_module(chain.b, chain.f, chain.g);
     auto s = build(chain.system, chain.types, {"G"});
@@ -190,7 +192,7 @@ TEST_CASE("A module is told that all its outputs are read, unless they are unset
     CHECK(*chain.asking.read == std::vector<bool>{true, true, false});
 }
 
-TEST_CASE("Synapses that are demanded learn as ever; others to pruned groups cannot be read") {
+TEST_CASE("Demanded synapses learn as usual; other synapses to pruned groups cannot be read") {
     const Chain chain;
     auto all = run(chain.system, chain.types);
     engine::Demand demand;
@@ -204,10 +206,11 @@ TEST_CASE("Synapses that are demanded learn as ever; others to pruned groups can
     CHECK((activity(s, "P/E") == activity(all, "P/E")).all());
 
     auto without = build(chain.system, chain.types, {"A"});
-    CHECK_THROWS_WITH(without.synapse_state(Chain::learning, 0), ContainsSubstring("Demand::read_synapses()"));
+    CHECK_THROWS_WITH(without.synapse_state(Chain::learning, 0),
+                      ContainsSubstring("Demand::read_synapses()"));
 }
 
-TEST_CASE("Reading what is pruned is an error that names it and says how to demand it") {
+TEST_CASE("Reading something pruned is an error that names it and explains how to demand it") {
     const Chain chain;
     auto s = build(chain.system, chain.types, {"B"});
     s.start();
@@ -224,7 +227,7 @@ TEST_CASE("Reading what is pruned is an error that names it and says how to dema
     CHECK(activity(s, "P/B").size() == 2);
 }
 
-TEST_CASE("A checkpoint is one of a run that prunes the same") {
+TEST_CASE("A checkpoint fits only a run that prunes the same groups") {
     const Chain chain;
     const auto started = [&](const Demanded& groups) {
         auto s = build(chain.system, chain.types, groups);

@@ -156,7 +156,7 @@ TEST_CASE("Groups and connections divided between threads have the bits of whole
     CHECK((one.shared_cycles() == 0 && many.shared_cycles() == 30));
 }
 
-TEST_CASE("A divided group that comes to rest wakes when its input changes") {
+TEST_CASE("A divided group that is quiescent is updated again when its input changes") {
     model::System s;
     const auto p = model::add_process(s, "P");
     const auto a = model::add_group(s, p, "A", 20, 20, "one"),
@@ -175,7 +175,7 @@ TEST_CASE("A divided group that comes to rest wakes when its input changes") {
     CHECK(activity(two, "P/B")[21] == 9);
 }
 
-TEST_CASE("What is not finite is found in every part of a divided group") {
+TEST_CASE("Numbers that are not finite are found in every part of a divided group") {
     model::System s;
     const auto p = model::add_process(s, "P");
     // Another input in every cycle, so that it is updated in parts; the last one ends anywhere.
@@ -195,7 +195,7 @@ TEST_CASE("What is not finite is found in every part of a divided group") {
     CHECK(simulation.not_finite()->cell == cell);
 }
 
-TEST_CASE("When several groups fail, whole ones and parts, the first one is told") {
+TEST_CASE("When several groups fail, divided or not, the first one is reported") {
     model::System s;
     const auto p = model::add_process(s, "Brain");
     const int threads = GENERATE(1, 2, 3);
@@ -221,7 +221,9 @@ TEST_CASE("When several groups fail, whole ones and parts, the first one is told
                                   : "failing in parts of group 'Brain/Large' failed in cycle 3: out of luck");
 }
 
-TEST_CASE("An update that fails is told before a delivery that fails, and of deliveries the first one") {
+TEST_CASE(
+    "A failed update is reported before a failed delivery, and the first of several failed deliveries is "
+    "reported") {
     model::System s;
     const auto p = model::add_process(s, "Brain");
     const auto a = model::add_group(s, p, "A", 2, 2, "total"), b = model::add_group(s, p, "B", 2, 2, "total"),

@@ -35,7 +35,7 @@ struct Machine {
 
 constexpr int period = 4096;
 
-TEST_CASE("What sharing makes faster is shared, but for a few cycles of each trial") {
+TEST_CASE("Cycles that sharing makes faster are shared, except for a few cycles of each trial") {
     Machine m{.without = 1, .with = 0.55, .trial = {}};
     m.run(period);
     CHECK(m.shared >= period - 32);
@@ -43,13 +43,13 @@ TEST_CASE("What sharing makes faster is shared, but for a few cycles of each tri
     CHECK(m.shared >= 100 * (period - 32));
 }
 
-TEST_CASE("What sharing does not clearly make faster stays with one thread") {
+TEST_CASE("Cycles that sharing does not clearly make faster stay on one thread") {
     Machine m{.without = 1, .with = 0.95, .trial = {}};
     m.run(10 * period);
     CHECK(m.shared <= 10 * 32);
 }
 
-TEST_CASE("However slow sharing is, trying it costs next to nothing") {
+TEST_CASE("However slow sharing is, a trial of it costs almost nothing") {
     for (const double with : {1.5, 20.0, 100.0}) {
         Machine m{.without = 1, .with = with, .trial = {}};
         m.run(10 * period);
@@ -58,7 +58,7 @@ TEST_CASE("However slow sharing is, trying it costs next to nothing") {
     }
 }
 
-TEST_CASE("When sharing becomes slow it ends soon, and comes back when it is fast again") {
+TEST_CASE("Sharing ends soon after it becomes slow, and resumes when it is fast again") {
     Machine m{.without = 1, .with = 0.55, .trial = {}};
     m.run(period / 2);
     m.with = 30;  // a processor is taken away
@@ -69,7 +69,7 @@ TEST_CASE("When sharing becomes slow it ends soon, and comes back when it is fas
     CHECK(m.shared > period / 2);
 }
 
-TEST_CASE("Cycles that take long are tried more often, after 512 of them, unless trying costs much") {
+TEST_CASE("Long cycles are tried more often, after 512 of them, unless a trial costs much") {
     Machine m{.without = 1, .with = 1.5, .unit = 0.004, .trial = {}};
     m.run(100);
     m.with = 0.55;
@@ -93,7 +93,7 @@ TEST_CASE("A thread that takes long to wake up does not end a trial") {
     CHECK(m.shared > period / 4);
 }
 
-TEST_CASE("What is not worth a trial is not tried") {
+TEST_CASE("There is no trial when it cannot pay") {
     Machine m{.without = 1, .with = 0.55, .trial = {}};
     m.run(period, false);
     CHECK(m.shared == 0);

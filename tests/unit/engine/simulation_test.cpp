@@ -145,7 +145,7 @@ TEST_CASE("A connection costs one cycle, and its delay more") {
     }
 }
 
-TEST_CASE("Loops are legal: two groups pass a spike to and fro") {
+TEST_CASE("Loops are legal: two groups pass a spike back and forth") {
     model::System s;
     const auto p = model::add_process(s, "P");
     const auto a = model::add_group(s, p, "A", 1, 1, "neuronLinearThreshold"),
@@ -202,7 +202,7 @@ TEST_CASE("Windows of every size give the same bits as the list of synapses") {
     REQUIRE(trace(s, {.threads = 3, .parallel_threshold_ns = 0, .min_task_ns = 0}, 5) == trace(s, {}, 5));
 }
 
-TEST_CASE("What rests is not computed again, and changes no bit") {
+TEST_CASE("Quiescent groups are not computed again, and no bit changes") {
     const Registry types = registry();
     for (unsigned seed = 1; seed <= 20; ++seed) {
         auto system = random_system(seed, 8, 3);
@@ -288,7 +288,7 @@ TEST_CASE("Delivering to a group as soon as its sources are updated is the same 
     }
 }
 
-TEST_CASE("Where nothing is to be overwritten, parameters change between cycles only") {
+TEST_CASE("Without demanded overwriting, parameters change only between cycles") {
     model::System s;
     const auto p = model::add_process(s, "P");
     model::add_group(s, p, "A", 3, 1, "neuronLinearThreshold");
@@ -306,7 +306,7 @@ TEST_CASE("Where nothing is to be overwritten, parameters change between cycles 
     CHECK_NOTHROW(simulation->set(*change));
 }
 
-TEST_CASE("What is changed from outside wakes what rests") {
+TEST_CASE("A change from outside makes quiescent groups compute again") {
     model::System s;
     const auto p = model::add_process(s, "P");
     const auto a = model::add_group(s, p, "A", 3, 1, "one"),
@@ -389,7 +389,7 @@ TEST_CASE("The number of threads changes no bit") {
     REQUIRE(trace(std::move(one), 12) == trace(std::move(four), 12));
 }
 
-TEST_CASE("Two seeds differ, and adding a group changes nobody's noise") {
+TEST_CASE("Two seeds differ, and adding a group does not change the noise of others") {
     auto system = random_system(5, 6, 3);
     const auto a = trace(system, {.seed = 1}, 20);
     CHECK(a != trace(system, {.seed = 2}, 20));

@@ -9,7 +9,7 @@
 
 using forage::engine::ThreadPool;
 
-TEST_CASE("Every item is done once, whatever the number of threads") {
+TEST_CASE("Every item is processed once, with any number of threads") {
     ThreadPool pool(GENERATE(1, 2, 4));
     for (const int items : {0, 1, 2, 3, 1000}) {
         std::vector<std::atomic<int>> done(static_cast<std::size_t>(items));
@@ -24,7 +24,7 @@ TEST_CASE("Every item is done once, whatever the number of threads") {
     }
 }
 
-TEST_CASE("Shares of items, of any size, are all done, whoever takes them") {
+TEST_CASE("Shares of items of any size are all processed, whichever thread takes them") {
     ThreadPool pool(GENERATE(1, 2, 4));
     std::vector<int> shares{0};
     for (int t = 0; t < pool.threads(); ++t) shares.push_back(shares.back() + (t == 1 ? 0 : 7 * t + 1));
@@ -40,7 +40,7 @@ TEST_CASE("Shares of items, of any size, are all done, whoever takes them") {
     for (const auto& n : done) REQUIRE(n == 51);
 }
 
-TEST_CASE("The exception of the lowest item that fails comes out, and the pool goes on") {
+TEST_CASE("The exception of the lowest item that fails is thrown, and the pool can still be used") {
     ThreadPool pool(GENERATE(1, 4));
     auto work = [](int item, int) {
         if (item == 7 || item == 90) throw std::runtime_error(std::to_string(item));
@@ -50,7 +50,7 @@ TEST_CASE("The exception of the lowest item that fails comes out, and the pool g
     pool.run(100, fine);
 }
 
-TEST_CASE("When a thread cannot be started, those that run are ended and the error comes out") {
+TEST_CASE("When a thread cannot be started, the running threads are ended and the error is thrown") {
     if (!forage::test::can_limit_memory) {
         WARN("not tested: a sanitizer needs all memory");
         return;

@@ -26,7 +26,7 @@ System small() {
 
 }  // namespace
 
-TEST_CASE("What is built in code passes the checks") {
+TEST_CASE("A system that is built in code passes the checks") {
     System s = small();
     s.processes[0].module.reset();
     Registry registry;
@@ -38,7 +38,7 @@ TEST_CASE("What is built in code passes the checks") {
     CHECK(diagnostics.all().empty());
 }
 
-TEST_CASE("Ids are made up so that they are unique, and taken ones are refused") {
+TEST_CASE("New ids are unique, and ids that are taken are refused") {
     System s = small();
     const auto p = s.processes[0].id;
     const auto c = add_group(s, p, "C", 1, 1, "neuronNumeric");
@@ -50,7 +50,7 @@ TEST_CASE("Ids are made up so that they are unique, and taken ones are refused")
                     std::invalid_argument);
 }
 
-TEST_CASE("Removing a group takes its connections along and unsets what referred to it") {
+TEST_CASE("Removing a group removes its connections and unsets references to it") {
     System s = small();
     remove(s, s.processes[0].groups[0].id);
     CHECK(s.processes[0].groups.size() == 1);
@@ -59,7 +59,7 @@ TEST_CASE("Removing a group takes its connections along and unsets what referred
     CHECK_THROWS_AS(remove(s, "nowhere"), std::invalid_argument);
 }
 
-TEST_CASE("Removing a process removes its groups and what was connected to them") {
+TEST_CASE("Removing a process removes its groups and their connections") {
     System s = small();
     const auto q = add_process(s, "Q");
     const auto c = add_group(s, q, "C", 3, 2, "neuronLinearThreshold");
@@ -70,7 +70,7 @@ TEST_CASE("Removing a process removes its groups and what was connected to them"
     CHECK(s.connections.empty());
 }
 
-TEST_CASE("A copy is edited without touching the original") {
+TEST_CASE("Editing a copy does not change the original") {
     const System original = small();
     System copy = original;
     rename(copy, copy.processes[0].groups[0].id, "Renamed");

@@ -21,9 +21,10 @@ TEST_CASE("A diagnostic shows its place, its line with a caret, and its hint") {
     CHECK(format(d) == "a.iqr:2:8: warning: what\n      <two three='3'/>\n           ^\n  hint: how\n");
 }
 
-TEST_CASE("A diagnostic leaves out what it does not know") {
+TEST_CASE("A diagnostic omits what it does not know") {
     CHECK(format(Diagnostic{Severity::error, {}, "what", "", {}, {}}) == "error: what\n");
-    CHECK(format(Diagnostic{Severity::error, place("x", 0, 0), "what", "", {}, {}}) == "a.iqr: error: what\n");
+    CHECK(format(Diagnostic{Severity::error, place("x", 0, 0), "what", "", {}, {}}) ==
+          "a.iqr: error: what\n");
     CHECK(escaped("x\ny", 2, 0) == "a.iqr:2: error: m\n      y\n");  // a line without a column has no caret
     CHECK(escaped("x", 7, 3) == "a.iqr:7:3: error: m\n");            // a line that the file does not have
 }
@@ -37,7 +38,7 @@ TEST_CASE(
           "a.iqr:1:7: error: m\n      \xc3\xa9\xe2\x82\xac x\n         ^\n");
 }
 
-TEST_CASE("A long line is cut round the place, and never inside of a character") {
+TEST_CASE("A long line is cut around the place, and never within a character") {
     std::string text(300, '.');
     text[199] = 'X';
     const std::string said = escaped(text, 1, 200);
@@ -52,7 +53,8 @@ TEST_CASE("A long line is cut round the place, and never inside of a character")
 }
 
 TEST_CASE("A file cannot send commands to the terminal that shows its mistakes") {
-    const Diagnostic d{Severity::error, place("a\x1b[31mb\x07", 1, 1), "id '\x1b[2J\n'", "\x1b]0;x\x07", {}, {}};
+    const Diagnostic d{
+        Severity::error, place("a\x1b[31mb\x07", 1, 1), "id '\x1b[2J\n'", "\x1b]0;x\x07", {}, {}};
     const std::string said = format(d);
     CHECK(said.find('\x1b') == std::string::npos);
     CHECK(said.find('\x07') == std::string::npos);
@@ -60,7 +62,7 @@ TEST_CASE("A file cannot send commands to the terminal that shows its mistakes")
     CHECK(escaped("\xff\xfe", 1, 1).find("??") != std::string::npos);
 }
 
-TEST_CASE("A message is cut to a length that people read") {
+TEST_CASE("A message is cut to a readable length") {
     const Diagnostic d{Severity::error, {}, std::string(1'000'000, 'x'), "", {}, {}};
     CHECK(format(d).size() < 500);
 }
@@ -77,14 +79,14 @@ TEST_CASE("Diagnostics are shown in the order of the file, whatever the order in
     CHECK((diagnostics.errors() == 2 && diagnostics.warnings() == 1 && diagnostics.failed()));
 }
 
-TEST_CASE("Of very many diagnostics only the first are shown, and how many more there are") {
+TEST_CASE("When there are very many diagnostics, the first ones and the number of the others are shown") {
     Diagnostics diagnostics;
     for (int i = 0; i < 1000; ++i) diagnostics.error({}, "m");
     const std::string said = format(diagnostics);
     CHECK(said.ends_with("... and 950 more\n"));
 }
 
-TEST_CASE("Something unknown is an error, or under leniency a warning") {
+TEST_CASE("Something unknown is an error, or a warning when reading leniently") {
     Diagnostics strict, lenient;
     lenient.lenient = true;
     strict.unknown({}, "m");
@@ -106,7 +108,7 @@ TEST_CASE("The nearest name is the one with the fewest changed letters, whatever
     CHECK(nearest("th", names) == "");
 }
 
-TEST_CASE("A suggestion is the nearest name, or else the list of what there is") {
+TEST_CASE("A suggestion is the nearest name, or else the list of existing names") {
     const std::vector<std::string> one{"vm"}, two{"vm", "act"};
     CHECK(suggest("vn", one) == "did you mean 'vm'?");
     CHECK(suggest("potential", one) == "there is 'vm'");

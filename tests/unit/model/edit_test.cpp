@@ -45,7 +45,7 @@ TEST_CASE("A parameter of a group, a connection or a module is set by the path o
     CHECK(enabled.diagnostics.all().empty());
 }
 
-TEST_CASE("An edit that cannot be done changes nothing and says what there is") {
+TEST_CASE("An impossible edit changes nothing, and the error lists what exists") {
     CHECK(
         Edit("P/A.treshold=1").said() ==
         "--set 'P/A.treshold=1', column 5: neuronLinearThreshold has no parameter 'treshold' | did you mean "
@@ -68,7 +68,7 @@ TEST_CASE("An edit that cannot be done changes nothing and says what there is") 
     CHECK(value(Edit("P/A.threshold=x").a().neuron, "threshold") == "0.5");
 }
 
-TEST_CASE("An owner that is not one is refused") {
+TEST_CASE("An owner that is ambiguous or has no parameters is refused") {
     const std::string twins = replaced(small_system, "id=\"b\" name=\"B\"", "id=\"b\" name=\"A\"");
     CHECK(Edit("P/A.probability=1", twins).said() ==
           "--set 'P/A.probability=1': 'P/A' names 2 items | use one of 'P/A#a', 'P/A#b'");
@@ -81,7 +81,7 @@ TEST_CASE("An owner that is not one is refused") {
     CHECK(Edit("P.gain=1", strange).said() == "--set 'P.gain=1': the type 'moduleUnknown' is not known | ");
 }
 
-TEST_CASE("A value outside of its range is set, with a warning") {
+TEST_CASE("A value outside its range is set, with a warning") {
     const Edit edit("P/A.threshold=5");
     CHECK(edit.said() == "--set 'P/A.threshold=5': outside the usual range 0 to 1 | ");
     CHECK_FALSE(edit.diagnostics.failed());
@@ -89,7 +89,7 @@ TEST_CASE("A value outside of its range is set, with a warning") {
     CHECK(Edit("P.gain=101").said() == "--set 'P.gain=101': outside the usual range 0 to 100 | ");
 }
 
-TEST_CASE("A name with dots and a value with equals signs are taken apart at the right places") {
+TEST_CASE("Names with dots and values with equals signs are split at the right places") {
     const std::string dotted = replaced(small_system, "name=\"A \"", "name=\"A.1\"");
     CHECK(value(Edit("P/A.1.threshold=0.25", dotted).a().neuron, "threshold") == "0.25");
     CHECK(Edit("P/A.threshold=a=b").said() ==

@@ -141,7 +141,7 @@ TEST_CASE("A source is a column, its mean, and some of its cells") {
         CHECK((parse_source(none).cells->width == 0 || parse_source(none).cells->height == 0));
 }
 
-TEST_CASE("Names may hold blanks, dots, colons, parentheses and quotes") {
+TEST_CASE("Names may contain blanks, dots, colons, parentheses and quotes") {
     for (const char* name : {"Reactive/US (light)", "Reactive/US (a,b)", "P/G (", "P/G ()", "P/a:b", "P/a.b",
                              "P/a=b", "P/a > b", "P/a and b", "P/5\" disk", "\"P/A", "\"P\"/A", "mean",
                              "mean/G", "means(P/A)", "mean(a)/G (b)", "P/US (1,1) x", "P/A(1..,1)", ""}) {
@@ -173,7 +173,7 @@ TEST_CASE("'and' binds before 'or', and parentheses before both") {
     CHECK(condition("30 s&&1<2") == "((seconds >= 30.0) and (1.00 < 2.00))");
 }
 
-TEST_CASE("Mistakes are told with their column") {
+TEST_CASE("Mistakes are reported with their column") {
     CHECK(condition("") == "1: something is missing at its end");
     CHECK(condition("cycle = 5") == "7: '=' is not a comparison");
     CHECK(condition("cycle 5 and trial") == "18: a comparison is missing behind 'trial'");
@@ -208,13 +208,13 @@ TEST_CASE("Manipulations have cells, patterns or a table, and options") {
     CHECK(manipulation("t.csv; until \"P/A;B\" > 1") == "|t.csv|110||\"P/A;B\" > 1");
 }
 
-TEST_CASE("Plots have a kind, what they show, cycles and blocks") {
+TEST_CASE("Plots have a kind, a subject, cycles and blocks") {
     CHECK(plot("space:P/A(1..2,1)@0..100/10,7;blocks=3x2") == "space|P/A(1..2,1)|0-100/10 7-7/1 |3x2");
     CHECK(plot("diagram") == "diagram|||1x1");
     CHECK(plot("connection:A @ B") == "connection|A @ B||1x1");
 }
 
-TEST_CASE("A mistake in a file is told at its place, on the command line with its column") {
+TEST_CASE("A mistake in a file is reported at its place, and one on the command line with its column") {
     const auto file = std::make_shared<SourceFile>(SourceFile{"e.xml", "<e>\n  <at when=\"1 &lt; 2 x\"/>\n"});
     Diagnostics diagnostics;
     Context{"1 < 2 x", "at", diagnostics, {file, 2, 13}}.parsed(&parse_condition);

@@ -7,7 +7,7 @@ using test::replaced;
 using test::small_system;
 using test::system_of;
 
-TEST_CASE("A path leaves out the blanks at the ends of names") {
+TEST_CASE("A path omits the blanks at the ends of names") {
     const auto system = system_of(small_system);
     CHECK(model::group_paths(system) == std::vector<std::string>{"P/A", "P/B"});
     REQUIRE(model::find_groups(system, "P/A").size() == 1);
@@ -15,7 +15,7 @@ TEST_CASE("A path leaves out the blanks at the ends of names") {
     CHECK(model::path(system, system.processes[0], system.processes[0].groups[0]) == "P/A");
 }
 
-TEST_CASE("Groups that share a path are told apart by their ids") {
+TEST_CASE("Groups that share a path are distinguished by their ids") {
     const auto system = system_of(replaced(small_system, "id=\"b\" name=\"B\"", "id=\"b\" name=\"A\""));
     CHECK(model::group_paths(system) == std::vector<std::string>{"P/A#a", "P/A#b"});
     CHECK(model::find_groups(system, "P/A").size() == 2);
@@ -25,7 +25,7 @@ TEST_CASE("Groups that share a path are told apart by their ids") {
     CHECK(model::path(system, system.processes[0], system.processes[0].groups[1]) == "P/A#b");
 }
 
-TEST_CASE("A group is found by its id alone, and a name may hold the sign that begins one") {
+TEST_CASE("A group is found by its id alone, and a name may contain '#'") {
     const auto system = system_of(replaced(small_system, "name=\"A \"", "name=\"A#1\""));
     CHECK(model::find_groups(system, "#b").at(0).group->id == "b");
     CHECK(model::find_groups(system, "P/A#1").at(0).group->id == "a");

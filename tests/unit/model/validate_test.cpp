@@ -44,7 +44,7 @@ std::string learning(const std::string& holder) {
 
 }  // namespace
 
-TEST_CASE("A system without mistakes gets no diagnostics but that random spikes read no input") {
+TEST_CASE("A system without mistakes gives only one warning, that random spikes read no input") {
     CHECK(mistake(good()) ==
           "28:3: warning: connection 'A to B' has no effect: neuronRandomSpike reads no inhibitory input");
     CHECK(validated(replaced(good(), "source=\"a\" target=\"b\"", to_a)).all().empty());
@@ -80,7 +80,7 @@ TEST_CASE("A type that does not exist is reported with the nearest one") {
           "6:19: error: there is no module type 'moduleTets' | did you mean 'moduleTest'?");
 }
 
-TEST_CASE("A parameter that does not exist is reported with the one that was meant, found by its label too") {
+TEST_CASE("An unknown parameter is reported with the one that was meant, which is also found by its label") {
     CHECK(one("\"threshold\"", "\"treshold\"") ==
           "16:26: error: neuronLinearThreshold has no parameter 'treshold' | did you mean 'threshold' "
           "(Potential below which act is 0)?");
@@ -96,7 +96,7 @@ TEST_CASE("A parameter that does not exist is reported with the one that was mea
     CHECK(one("\"threshold\"", "\"treshold\"", false, true).substr(0, 14) == "16:26: warning");
 }
 
-TEST_CASE("A value that is none is reported with what it should be, or with what was probably meant") {
+TEST_CASE("An invalid value is reported with the expected kind, or with the value that was probably meant") {
     CHECK(one("\"0.5\"/>\n        <P", "\"half\"/>\n        <P") ==
           "16:44: error: threshold = 'half' is not a number | threshold (Potential below which act is 0) is "
           "a number, 0 by default");
@@ -107,7 +107,7 @@ TEST_CASE("A value that is none is reported with what it should be, or with what
           "by default");
 }
 
-TEST_CASE("A value outside of its range is used, with a warning, for numbers of both kinds") {
+TEST_CASE("A value outside its range is used, with a warning, for numbers of both kinds") {
     CHECK(one("\"-0.25\"", "\"-2.5\"") ==
           "33:72: warning: weight = -2.5 is outside its usual range | weight (Weight) is meant for -1 to 1; "
           "the value is used as it is");
@@ -121,7 +121,7 @@ TEST_CASE("A parameter that is given twice is an error") {
           "17:26: error: parameter 'threshold' is given twice, first on line 16 | remove one of them");
 }
 
-TEST_CASE("Groups without cells, and groups that no memory holds, are refused") {
+TEST_CASE("Groups without cells, and groups that are too large for any memory, are refused") {
     model::System system = system_of(replaced(good(), "source=\"a\" target=\"b\"", to_a));
     std::get<model::RectTopology>(system.processes[0].groups[0].topology).width = 0;
     std::get<model::SparseTopology>(system.processes[0].groups[1].topology).points.clear();
@@ -141,14 +141,14 @@ TEST_CASE("Groups without cells, and groups that no memory holds, are refused") 
           "most 10000000 cells");
 }
 
-TEST_CASE("A point of a sparse group that is no cell is an error, or left out under leniency") {
+TEST_CASE("An impossible point of a sparse group is an error, or is left out when reading leniently") {
     CHECK(one("<Point x=\"5\" y=\"4\"/>", "<Point x=\"5\" y=\"0\"/>") ==
           "22:53: error: there is no cell at x = 5, y = 0 | cells count from 1");
     CHECK(one("<Point x=\"5\" y=\"4\"/>", "<Point x=\"5\" y=\"0\"/>", false, true).substr(0, 14) ==
           "22:53: warning");
 }
 
-TEST_CASE("Ends of a connection that are no groups are reported with the id that was meant") {
+TEST_CASE("Unknown groups at the ends of a connection are reported with the id that was meant") {
     CHECK(
         one("source=\"a\"", "source=\"aa\"") ==
         "28:44: error: the source 'aa' of connection 'A to B' is not the id of a group | did you mean 'a'?");
@@ -195,7 +195,7 @@ TEST_CASE("A group of a size that a module cannot use is reported with the size 
               .empty());
 }
 
-TEST_CASE("What a module finds wrong itself points at its parameter or its cross reference") {
+TEST_CASE("Mistakes that a module finds are reported at its parameter or its cross reference") {
     CHECK(one("name=\"gain\" value=\"3\"", "name=\"gain\" value=\"13\"", true) ==
           "7:37: error: unlucky gain in P | choose another");
     CHECK(one("name=\"gain\" value=\"3\"", "name=\"gain\" value=\"14\"", true) ==
@@ -219,7 +219,7 @@ TEST_CASE("A feedback input must be known and lead to a state of the target") {
           "33:69: error: synapseFixedWeight has no feedback input 'x' | synapseFixedWeight has none");
 }
 
-TEST_CASE("Functions of the distance that mean something else than they say get a warning") {
+TEST_CASE("Functions of the distance with an unexpected meaning give a warning") {
     const std::string attenuation = "<FunGaussian min=\"0.1\" max=\"0.9\" sigma=\"1.5\"/>",
                       delay = "<FunBlock min=\"1\" max=\"4\" width=\"3\" height=\"7\"/>";
     CHECK(one(attenuation, "<FunUniform value=\"-1\"/>") ==
@@ -239,7 +239,7 @@ TEST_CASE("Functions of the distance that mean something else than they say get 
               .empty());
 }
 
-TEST_CASE("Settings are applied to an object, and what is not set keeps its default") {
+TEST_CASE("Settings are applied to an object, and other parameters keep their defaults") {
     const NeuronType type = neuron_type<LinearThreshold>();
     const auto object = type.make();
     const auto system = system_of(good());

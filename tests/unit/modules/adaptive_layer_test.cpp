@@ -49,8 +49,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "The response is what the weights make of the stimulus, and the prototype what they make of the "
-    "response") {
+    "The response is the stimulus times the weights, and the prototype is the response times the weights") {
     auto l = layer();
     const MatrixXd w = l.weights();
     const ArrayXd x = ArrayXd::LinSpaced(stimuli, -1, 2);

@@ -117,7 +117,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "directionModule goes straight on when the orientation is the bearing, and says which group is wrong") {
+    "directionModule goes straight on when the orientation is the bearing, and reports which group is "
+    "wrong") {
     ModuleBench b(module_type<DirectionModule>());
     b.in("_location", 3, 3).in("_ori", 5, 1).in("_goal", 3, 3).out("_dir", 9, 1).out("_dist", 1, 1).start();
     b.inputs[0] = one_hot(9, 3), b.inputs[2] = one_hot(9, 5),

@@ -110,7 +110,7 @@ TEST_CASE("Conditions see the cells of the last completed cycle") {
     CHECK_FALSE(s.holds("P/A(1,1) > 5"));
 }
 
-TEST_CASE("Mistakes in conditions are told with what there is") {
+TEST_CASE("Mistakes in conditions are reported with the names that exist") {
     Counting s;
     CHECK(contains(s.said("P/Aa(1,1) > 1"), "there is no group 'P/Aa'"));
     CHECK(contains(s.said("A(1,1) > 1"), "did you mean 'P/A'"));

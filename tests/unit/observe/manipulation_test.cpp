@@ -45,7 +45,7 @@ TEST_CASE("A pattern replaces, is added to, or multiplies the activity") {
     CHECK(played({.mode = Manipulation::Mode::multiply, .patterns = {{0, 1}}}, 2) == V{1, 1});
 }
 
-TEST_CASE("A list is played in order, backwards, in steps, with pauses, and as often as wanted") {
+TEST_CASE("A list is played in order, backwards, in steps, with pauses, and a given number of times") {
     using V = std::vector<double>;
     CHECK(played({.patterns = list}, 7) == V{23, 45, 67, 89, 1, 23, 45});
     CHECK(played({.patterns = list, .backwards = true}, 7) == V{1, 89, 67, 45, 23, 1, 89});
@@ -56,7 +56,7 @@ TEST_CASE("A list is played in order, backwards, in steps, with pauses, and as o
     CHECK(played({.patterns = {{2, 3}}, .every = 2, .times = 2}, 6) == V{23, 11, 23, 11, 11, 11});
 }
 
-TEST_CASE("It begins and ends when conditions first hold") {
+TEST_CASE("A manipulation begins and ends when its conditions first hold") {
     using V = std::vector<double>;
     CHECK(played({.patterns = list, .from = from_cycle(2)}, 5) == V{11, 11, 23, 45, 67});
     CHECK(played({.patterns = list, .from = from_cycle(1), .until = from_cycle(3)}, 5) ==
@@ -64,7 +64,7 @@ TEST_CASE("It begins and ends when conditions first hold") {
     CHECK(played({.patterns = list, .every = 2, .until = from_cycle(3)}, 5) == V{23, 11, 45, 11, 11});
 }
 
-TEST_CASE("Patterns of a table hold from their cycles on, each until the next one does") {
+TEST_CASE("Each pattern of a table is valid from its cycle until that of the next pattern") {
     using V = std::vector<double>;
     const Manipulation::Settings table{.patterns = {{2, 3}, {4, 5}, {6, 7}, {8, 9}}, .starts = {1, 1, 3, 4}};
     CHECK(played(table, 6) == V{11, 45, 45, 67, 89, 89});

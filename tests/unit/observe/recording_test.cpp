@@ -75,7 +75,7 @@ void record(const std::string& path, RecordingFormat format, const std::vector<s
 
 }  // namespace
 
-TEST_CASE("What is recorded in any format reads back as the same numbers") {
+TEST_CASE("A recording in any format is read back as the same numbers") {
     const Directory directory;
     for (const auto& [name, format] : {std::pair{"r.csv", RecordingFormat::csv},
                                        {"r.npy", RecordingFormat::npy},
@@ -100,7 +100,7 @@ TEST_CASE("What is recorded in any format reads back as the same numbers") {
     }
 }
 
-TEST_CASE("CSV and HDF5 know which cells they hold, HDF5 of several sources") {
+TEST_CASE("CSV and HDF5 files know their cells, HDF5 files for several sources") {
     const Directory directory;
     record(directory / "r.csv", RecordingFormat::csv, {"P/A(2..3,2)"}, {}, 2);
     const auto csv = open_recording(directory / "r.csv");
@@ -116,7 +116,7 @@ TEST_CASE("CSV and HDF5 know which cells they hold, HDF5 of several sources") {
         if (r->what().name == "P/A:act(2..3,2)") CHECK(r->what().cell_name(1) == "x3_y2");
 }
 
-TEST_CASE("A sampling has a first and a last cycle, and may take means over cycles") {
+TEST_CASE("A sampling has a first and a last cycle, and may average over cycles") {
     const Directory directory;
     const auto read = [&](Sampling sampling) {
         record(directory / "r.csv", RecordingFormat::csv, {"P/B(1,1)"}, sampling, 30);
@@ -151,7 +151,7 @@ TEST_CASE("The sampler's format is the original's to the byte") {
     CHECK_FALSE(std::getline(text, line));
 }
 
-TEST_CASE("A file that was left behind reads up to its last complete row") {
+TEST_CASE("A file of a killed run can be read up to its last complete row") {
     const Directory directory;
     record(directory / "r.csv", RecordingFormat::csv, {"P/B"}, {}, 3);
     std::string text = text_of(directory / "r.csv");
@@ -163,7 +163,7 @@ TEST_CASE("A file that was left behind reads up to its last complete row") {
     CHECK(rows_of(*open_recording(directory / "r.npy")[0]).cycles.size() == 3);
 }
 
-TEST_CASE("What is no recording is refused by name") {
+TEST_CASE("A file that is not a recording is refused by name") {
     const Directory directory;
     for (const auto& [name, text] : {std::pair{"a.csv", "time,x1_y1\n0,1\n"},
                                      {"b.csv", "cycle,x1_y1,x3_y1\n"},
@@ -185,7 +185,8 @@ TEST_CASE("What is no recording is refused by name") {
     CHECK_THROWS_WITH(rows_of(*recording[0]), EndsWith("g.csv:3:3: 'x' is not a number"));
 }
 
-TEST_CASE("Writing an archive touches nothing beside it but what a killed program left of the same archive") {
+TEST_CASE(
+    "Writing an archive changes no other file, except remains of the same archive from a killed program") {
     const Directory directory;
     const auto write = [&](const std::string& name) { std::ofstream(directory / name) << name; };
     const std::vector<std::string> neighbours = {"a.npz.backup", "a.npz.part.backup", "a.npz.abcdef"};

@@ -15,7 +15,7 @@ Recorded recorded(int width, int height) {
 
 }  // namespace
 
-TEST_CASE("A part of a recording takes its cells row by row") {
+TEST_CASE("A part of a recording has its cells row by row") {
     const auto part = part_of(recorded(4, 3), expression::parse_source("P/G(2..3,2..3)"));
     REQUIRE(part);
     CHECK(part->numbers == std::vector<std::size_t>{5, 6, 9, 10});

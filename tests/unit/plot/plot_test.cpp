@@ -65,7 +65,7 @@ TEST_CASE("Even steps of a value are even steps of brightness") {
         CHECK(lightness(diverging(v)) == Approx(lightness(diverging(-v))).margin(9));
 }
 
-TEST_CASE("No two lines of a time plot have the same colour") {
+TEST_CASE("All lines of a time plot have different colours") {
     for (std::size_t a = 0; a < 10; ++a)
         for (std::size_t b = 0; b < a; ++b) {
             const Colour x = category(a), y = category(b);
@@ -97,7 +97,7 @@ TEST_CASE("A curve of any length stays small and loses no peak") {
     CHECK((low == -7 && high == 9 && count == 1'000'000 && last == 999'999));
 }
 
-TEST_CASE("A picture of rows outlives its curves and says how many cells share a row") {
+TEST_CASE("A picture of rows outlives its curves and shows how many cells share a row") {
     const auto drawn = [](std::size_t cells_per_row) {
         std::vector<Curve> curves(30, Curve("", row_bins));
         for (auto& c : curves)
@@ -129,7 +129,7 @@ TEST_CASE("A picture is the same in all formats, and the same bytes whatever was
     CHECK(format_of("a.b") == std::nullopt);
 }
 
-TEST_CASE("An animation has its frames in order, and is a PNG of the first") {
+TEST_CASE("An animation has its frames in order, and is also a PNG file of the first one") {
     const auto frames = space_animation(small_group(3));
     const std::string text = render_animation(frames, 0.5);
     std::vector<std::string> chunks;

@@ -76,7 +76,7 @@ TEST_CASE("A run ends when a condition holds") {
     CHECK_THROWS_AS(run.until({.trials = 1}), InputError);
 }
 
-TEST_CASE("States are read and written, parameters changed") {
+TEST_CASE("States can be read and written, and parameters can be changed") {
     Run run = tidal();
     run.step(), run.step(), run.step();
     CHECK(run.read("P/A") == std::vector<double>{1, 1});
@@ -90,7 +90,7 @@ TEST_CASE("States are read and written, parameters changed") {
     CHECK_THROWS_AS(run.set("P/A.vmPrs=x"), InputError);
 }
 
-TEST_CASE("A run that computes only what is read says so when something else is asked for") {
+TEST_CASE("A run that computes only what is read reports when something else is requested") {
     Run run = tidal({.compute_everything = false});
     run.record("P/A");
     run.step();
@@ -103,7 +103,7 @@ TEST_CASE("A run that computes only what is read says so when something else is 
     CHECK(all.read("P/Alone") == std::vector<double>{2});
 }
 
-TEST_CASE("A checkpoint holds all that changes in a run") {
+TEST_CASE("A checkpoint contains everything that changes in a run") {
     const auto numbers = [](Run& run) { return run.read("P/A"); };
     Run first = tidal();
     const auto& recorded = first.record("P/A");

@@ -125,7 +125,7 @@ struct Declared {
 
 }  // namespace
 
-TEST_CASE("What is written is read back, of every kind") {
+TEST_CASE("Values of every kind are read back as they were written") {
     All all = filled();
     Archive out;
     out(all);
@@ -147,7 +147,7 @@ TEST_CASE("What is written is read back, of every kind") {
     CHECK(again.bytes() == out.bytes());
 }
 
-TEST_CASE("Every NaN is written the same way when that is asked for, and nothing else is changed") {
+TEST_CASE("On request every NaN is written in the same way, and nothing else changes") {
     const double nan = std::numeric_limits<double>::quiet_NaN(),
                  infinity = std::numeric_limits<double>::infinity();
     const All random = filled();
@@ -167,7 +167,7 @@ TEST_CASE("Every NaN is written the same way when that is asked for, and nothing
         CHECK(written(each, all_the_same) == written(each, as_it_is));
 }
 
-TEST_CASE("Bytes that end anywhere are refused, and so are sizes that there is no memory for") {
+TEST_CASE("Bytes that end too early are refused, and so are sizes beyond the memory") {
     All all = filled();
     Archive out;
     out(all);
@@ -183,14 +183,14 @@ TEST_CASE("Bytes that end anywhere are refused, and so are sizes that there is n
     CHECK_THROWS_AS(Archive(std::string_view(huge))(matrix), ArchiveError);
 }
 
-TEST_CASE("Something else is refused by name") {
+TEST_CASE("A wrong value is refused by name") {
     Archive out;
     out.same(3, "the size");
     Archive in{std::string_view(out.bytes())};
     CHECK_THROWS_WITH(in.same(4, "the size"), "the checkpoint is of something else: the size differs");
 }
 
-TEST_CASE("A module type with members that it does not declare is known") {
+TEST_CASE("A module type with undeclared members is detected") {
     CHECK(module_type<Parameters>().checkpoints);
     CHECK(module_type<Declared>().checkpoints);
     CHECK_FALSE(module_type<SmallSecret>().checkpoints);

@@ -98,7 +98,7 @@ struct Learner {
 
 }  // namespace
 
-TEST_CASE("A cell finds its states by name, its inputs, its events and its random numbers") {
+TEST_CASE("A cell receives its states by name, its inputs, its events and its random numbers") {
     Group group(neuron_type<Everything>());
     CHECK(group.type.elementwise);
     CHECK(group.type.states[Everything::last].initial == 7);
@@ -125,7 +125,7 @@ TEST_CASE("A longer history changes the states that are declared oldest(), and n
     }
 }
 
-TEST_CASE("Without events and random numbers an update is time-invariant, and parts make up the whole") {
+TEST_CASE("An update without events and random numbers is time-invariant, and can be made in parts") {
     Group whole(neuron_type<Gained>()), parts(neuron_type<Gained>());
     for (auto* g : {&whole, &parts}) {
         static_cast<Gained*>(g->neuron->parameters())->membrane.persistence = 0.5;
@@ -136,7 +136,7 @@ TEST_CASE("Without events and random numbers an update is time-invariant, and pa
     CHECK((whole.state(0, 0) == parts.state(0, 0)).all());
 }
 
-TEST_CASE("Gains are recorded in the inputs that are delivered, and silent ones are left alone") {
+TEST_CASE("Gains appear in inputs that are delivered, and silent inputs are not changed") {
     for (const bool exc : {false, true})
         for (const bool inh : {false, true}) {
             Group group(neuron_type<Gained>());
@@ -157,7 +157,9 @@ TEST_CASE("Events of a probability of 1 are not drawn") {
     CHECK((group.state(Everything::event, 0) == 1).all());
 }
 
-TEST_CASE("A synapse learns, then puts out; the output is told again, or added to the sums of one source") {
+TEST_CASE(
+    "A synapse learns before its output is computed; the output can be computed again, or added to the "
+    "sums") {
     const SynapseType type = synapse_type<Learner>();
     CHECK((type.tells_output && type.adds_output && !type.has_gain));
     CHECK(type.output() == 1);

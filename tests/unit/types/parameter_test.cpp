@@ -41,7 +41,7 @@ class ForeignLocale {
 
 }  // namespace
 
-TEST_CASE("A number that is printed reads back as the same number, whatever the locale") {
+TEST_CASE("A printed number is read back as the same number, whatever the locale") {
     const ForeignLocale locale;
     const auto number = GENERATE(0.0, -0.0, 0.1, 1.0 / 3, 1234567.891, -2.5, 1e-300, 1e300, 5e-324,
                                  std::numeric_limits<double>::max());
@@ -53,7 +53,7 @@ TEST_CASE("A number that is printed reads back as the same number, whatever the 
     CHECK(std::signbit(std::get<double>(*read)) == std::signbit(number));
 }
 
-TEST_CASE("Texts, whole numbers and booleans read back as they were printed") {
+TEST_CASE("Texts, whole numbers and booleans are read back as they were printed") {
     const ForeignLocale locale;
     const auto value =
         GENERATE(ParameterValue(true), ParameterValue(false), ParameterValue(0), ParameterValue(-1234567),
@@ -63,14 +63,14 @@ TEST_CASE("Texts, whole numbers and booleans read back as they were printed") {
     CHECK(parse_parameter(kind, to_text(value)) == std::optional(value));
 }
 
-TEST_CASE("A decimal comma is not read as a number even where people write one") {
+TEST_CASE("A decimal comma is not accepted, whatever the locale") {
     const ForeignLocale locale;
     CHECK_FALSE(parse_parameter(ParameterKind::real, "0,5"));
     CHECK(std::get<double>(*parse_parameter(ParameterKind::real, "0.5")) == 0.5);
     CHECK_FALSE(parse_parameter(ParameterKind::integer, "1.000"));
 }
 
-TEST_CASE("What is not a value of the kind is refused as a whole") {
+TEST_CASE("A text that is not a value of its kind is refused as a whole") {
     CHECK_FALSE(parse_parameter(ParameterKind::real, ""));
     CHECK_FALSE(parse_parameter(ParameterKind::real, " 1"));
     CHECK_FALSE(parse_parameter(ParameterKind::real, "1 "));

@@ -21,7 +21,7 @@ TEST_CASE("A random number depends only on seed, item, stream, cycle and index")
     CHECK(stream.uniform(7, 0) != stream.uniform(8, 0));
 }
 
-TEST_CASE("Two draws of one cycle are independent, and the first is what no draw gives") {
+TEST_CASE("Two draws of one cycle are independent, and the first draw is the default") {
     const RandomStream stream(3, "group");
     std::vector<double> plain(100001), first(plain.size()), second(plain.size());
     stream.uniform(7, plain);
@@ -67,7 +67,7 @@ TEST_CASE("Uniform numbers are the upper 53 of the raw bits, whatever their numb
     }
 }
 
-TEST_CASE("Events come as often as they should, and a cell's do not depend on how many cells there are") {
+TEST_CASE("Events have the given probability, and those of a cell do not depend on the number of cells") {
     const RandomStream stream(3, "group");
     const double probability = GENERATE(0.0, 1e-3, 0.3, 0.5, 1 - 1e-3, 1.0);
     std::vector<double> all(200'001), few(77), other(all.size());
@@ -86,7 +86,7 @@ TEST_CASE("Events come as often as they should, and a cell's do not depend on ho
     CHECK(std::abs(both / n - probability * probability) <= off(probability * probability));
 }
 
-TEST_CASE("Events of no probability never come, and those of more than 1 always") {
+TEST_CASE("Events of probability 0 never occur, and those of a probability above 1 always do") {
     const RandomStream stream(3, "group");
     const auto active = [&](double probability) {
         std::vector<double> all(70'000);  // some have ties
@@ -116,7 +116,7 @@ TEST_CASE("A cell that is active at a probability is active at every higher one"
     CHECK(switched == 64);
 }
 
-TEST_CASE("A column of random numbers made in parts is the one made whole") {
+TEST_CASE("A column of random numbers has the same numbers when it is computed in parts") {
     const RandomStream stream(9, "group");
     constexpr std::size_t size = 333;
     std::vector<double> uniform(size), events(size), part(size);
@@ -131,7 +131,7 @@ TEST_CASE("A column of random numbers made in parts is the one made whole") {
     }
 }
 
-TEST_CASE("Every way to compute random numbers gives the same") {
+TEST_CASE("Every implementation gives the same random numbers") {
     using namespace forage::philox;
     const auto ways = {Way::avx2, Way::avx512};
     const Draw draw = draw_of(0x123456789abcdef0u, 77, 2);

@@ -34,7 +34,7 @@ NeuronType neuron(const std::string& name, int outputs, int parameters = 0) {
 
 }  // namespace
 
-TEST_CASE("A type is what its declaration says, with the members' initializers as defaults") {
+TEST_CASE("A type has what its declaration lists, with the members' initializers as defaults") {
     Registry registry;
     registry.add(neuron_type<Cell>());
     const NeuronType* type = registry.neuron("cell");
@@ -65,7 +65,7 @@ TEST_CASE("A parameter is set and read in one object of its type and in no other
     CHECK(type.parameters[0].get(other->parameters()) == ParameterValue(2.0));
 }
 
-TEST_CASE("A registry refuses types whose declaration does not hold together") {
+TEST_CASE("A registry refuses types with inconsistent declarations") {
     Registry registry;
     registry.add(neuron("a", 1));
     CHECK_THROWS_WITH(registry.add(neuron("a", 1)), "there is already a neuron type 'a'");

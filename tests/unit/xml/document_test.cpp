@@ -32,7 +32,7 @@ TEST_CASE("Well-formed texts have no fault") {
     CHECK(parsed.diagnostics.all().empty());
 }
 
-TEST_CASE("A fault is where it begins, and says what it is") {
+TEST_CASE("A fault is reported where it begins, with its kind") {
     struct Example {
         std::string text;
         std::size_t offset;
@@ -73,7 +73,7 @@ TEST_CASE("A fault is where it begins, and says what it is") {
     CHECK(parsed.fault().where.column == static_cast<int>(e.offset) + 1);
 }
 
-TEST_CASE("A text without anything to point at is a fault of the whole") {
+TEST_CASE("A text without any element is a fault of the whole text") {
     for (const std::string text : {"", " \n", "\xef\xbb\xbf", "<!-- x -->"}) {
         const Parsed parsed(text);
         REQUIRE(parsed.diagnostics.errors() == 1);
@@ -81,7 +81,7 @@ TEST_CASE("A text without anything to point at is a fault of the whole") {
     }
 }
 
-TEST_CASE("References become characters, and line ends of any system become one line feed") {
+TEST_CASE("References become characters, and the line ends of any system become line feeds") {
     const Parsed parsed(
         "<a b='&lt;&amp;&#65;&#xe9;&#x20AC;&#x1f41b;&quot;&apos;&#13;'>1 &gt; "
         "0\r\n2\r3<![CDATA[&amp;\r\n<]]></a>");
@@ -110,7 +110,7 @@ TEST_CASE("Elements are found by name and path, in file order") {
     CHECK(a.text().empty());
 }
 
-TEST_CASE("A value is a text, a number, a list of numbers or a truth; others leave the default") {
+TEST_CASE("A value is a text, a number, a list of numbers or a boolean; other values give the default") {
     const Parsed parsed("<a i=' 1' x='1e3' y='-0.5' n='nan' h='1e999' t='TRUE' f='0'> 1 -2.5\t+3\n4x 5 </a>");
     const xml::Element a = parsed.root();
     CHECK(a["x"].number(0) == 1000);
@@ -123,7 +123,7 @@ TEST_CASE("A value is a text, a number, a list of numbers or a truth; others lea
     CHECK(a.value().numbers() == std::vector<double>{1, -2.5, 3});
 }
 
-TEST_CASE("Comments know what they stand before and in, processing instructions are kept") {
+TEST_CASE("Comments know the elements before and in which they stand, and processing instructions are kept") {
     const Parsed parsed(
         "<?xml version='1.0'?><?style x?><!--1--><a><!--2--><!--3--><b/><c><!--4--></c></a><!--5-->");
     const xml::Element a = parsed.root();

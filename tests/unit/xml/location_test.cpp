@@ -50,7 +50,7 @@ const std::string plain = "<A>\n  <B one=\"11\" two='22'/>\n</A>\n";
 
 TEST_CASE("Elements, attribute names and values know their line and column") { check_places(plain); }
 
-TEST_CASE("Places do not depend on what stands before the first element") {
+TEST_CASE("Locations do not depend on the text before the first element") {
     const std::string before =
         GENERATE("<?xml version=\"1.0\"?>\n",
                  "<?xml version=\"1.0\"?><!DOCTYPE System PUBLIC '-//INI/iqr421' 'iqrSystem.dtd'>\n",
@@ -64,15 +64,15 @@ TEST_CASE("Places do not depend on what stands before the first element") {
     CHECK(pair(document->place(two.at)) == place_of(text, "two"));
 }
 
-TEST_CASE("Places hold in tags over several lines, with tabs and blanks round the equals sign") {
+TEST_CASE("Locations are correct in tags over several lines, with tabs and blanks around the equals sign") {
     check_places("<A>\n\t\t<B\n\t\t\tone\t=\t\"11\"\n   two = '22'\n  />\n</A>");
 }
 
-TEST_CASE("Places hold with the line ends of Windows") {
+TEST_CASE("Locations are correct with the line ends of Windows") {
     check_places("<A>\r\n  <B one=\"11\"\r\n two='22'/>\r\n</A>\r\n");
 }
 
-TEST_CASE("Entities and characters of several bytes before a place do not shift it") {
+TEST_CASE("Entities and characters of several bytes do not shift the locations after them") {
     check_places(
         "<A note=\"&lt;&gt;&amp;&quot;&#246;&#x20AC;\">&amp; text &lt;\r\n &#10; <B zero=\"&amp;&amp;\" "
         "one=\"11\" two=\"22\"/></A>");
@@ -83,7 +83,9 @@ TEST_CASE("Entities and characters of several bytes before a place do not shift 
         "<A><!-- &amp; \xe2\x82\xac\r\n\r\n --><![CDATA[ <b & ]]><C/>&amp;<B one=\"11\" two=\"22\"/></A>");
 }
 
-TEST_CASE("A value is at its first character as it stands in the file, an empty one at its closing quote") {
+TEST_CASE(
+    "The location of a value is that of its first character in the file, or of its closing quote when it is "
+    "empty") {
     const std::string text = "<A x=\"\" y=\"\" z=\"&amp;&amp;\"/>";
     const auto document = parsed(text);
     CHECK(document->root()["z"].text() == "&&");
@@ -92,13 +94,15 @@ TEST_CASE("A value is at its first character as it stands in the file, an empty 
     CHECK(document->root()["y"].where().column == 12);
 }
 
-TEST_CASE("An absent value is at its element") {
+TEST_CASE("The location of an absent value is that of its element") {
     const auto document = parsed("<A>\n <B/></A>");
     CHECK(pair(document->root().child("B")["x"].where()) == std::pair(2, 2));
     CHECK(pair(document->root().value("C").where()) == std::pair(1, 1));
 }
 
-TEST_CASE("A text is at its first character that is no blank, and a word of a list at its own") {
+TEST_CASE(
+    "The location of a text is that of its first character that is not blank, and each word of a list has "
+    "its own") {
     const std::string text = "<A>\r\n\r\n\t  1 two\r\n three<B/></A>";
     const auto document = parsed(text);
     const xml::Value value = document->root().value();
@@ -107,7 +111,7 @@ TEST_CASE("A text is at its first character that is no blank, and a word of a li
     for (const xml::Value& word : value.words()) CHECK(pair(word.where()) == place_of(text, word.text()));
 }
 
-TEST_CASE("A place outlives its document") {
+TEST_CASE("A location outlives its document") {
     Location at;
     { at = parsed(plain)->root().where(); }
     CHECK(at.file->text == plain);

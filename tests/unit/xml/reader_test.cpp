@@ -138,7 +138,7 @@ TEST_CASE("Each form of pattern, arborization and function is read as itself") {
           0.75);
 }
 
-TEST_CASE("What the format leaves open has its default") {
+TEST_CASE("Optional content that is missing has its default") {
     const auto s = system_of(
         "<System id=\"s\" name=\"S\" author=\"\" date=\"\" cylesPerSecond=\"0\"><Process id=\"p\" "
         "name=\"P\"/></System>");
@@ -169,12 +169,12 @@ TEST_CASE("Every problem of a file is reported, in the order of the file") {
     CHECK(diagnostics.all()[2].where.line == 28);
 }
 
-TEST_CASE("A misspelt attribute is not reported as missing as well") {
+TEST_CASE("A misspelt attribute is not also reported as missing") {
     CHECK(mistake(replaced(small_system, "vcount", "vcont")) ==
           "14:42: <TopologyRect> has no attribute 'vcont' | did you mean 'vcount'?");
 }
 
-TEST_CASE("An unknown element where one is chosen of several is an error even when reading leniently") {
+TEST_CASE("An unknown element among alternatives is an error even when reading leniently") {
     CHECK(mistake(replaced(small_system, "<FunGaussian min=\"0.1\" max=\"0.9\" sigma=\"1.5\"/>",
                            "<FunGauss min=\"0.1\" max=\"0.9\" sigma=\"1.5\"/>"),
                   true) ==
@@ -189,12 +189,12 @@ TEST_CASE("Unknown attributes and elements are warnings when reading leniently, 
           "11:5: <Process> cannot hold <Remark> | there are 'Module', 'Note', 'DiagramIcon', 'Group'");
 }
 
-TEST_CASE("A remark outside of a note is not read as anything") {
+TEST_CASE("A remark outside a note is not read") {
     CHECK(mistake(replaced(small_system, "<Topology>", "<Topology>\r\n  three cells")) ==
           "15:3: <Topology> holds no text | write a text in a <Note>, and a remark in <!-- -->");
 }
 
-TEST_CASE("Each piece of text where none may stand is reported, also in the outermost element") {
+TEST_CASE("Each piece of text in a wrong place is reported, also in the outermost element") {
     Diagnostics diagnostics;
     const std::string text = replaced(replaced(small_system, "<Topology>", "<Topology>one<!-- -->two"),
                                       "</System>", "three</System>");
@@ -202,7 +202,7 @@ TEST_CASE("Each piece of text where none may stand is reported, also in the oute
     CHECK(diagnostics.errors() == 3);
 }
 
-TEST_CASE("Cross references of a module do not pass for those of a synapse, nor the other way round") {
+TEST_CASE("Cross references of a module are not accepted for a synapse, or the other way round") {
     CHECK(
         mistake(replaced(small_system, "OutputToGroup", "Freedback")) ==
         "9:25: a <Module> has no cross references 'Freedback' | there are 'InputFromGroup', 'OutputToGroup'");
@@ -211,7 +211,7 @@ TEST_CASE("Cross references of a module do not pass for those of a synapse, nor 
           "33:58: a <Synapse> has no cross references 'InputFromGroup' | there is 'Freedback'");
 }
 
-TEST_CASE("Whole numbers beyond what an int holds are refused and never cast") {
+TEST_CASE("Whole numbers that do not fit into an int are refused and never cast") {
     for (const std::string n : {"2147483648", "99999999999999999999", "1e300", "-1e300"}) {
         INFO(n);
         CHECK(mistake(replaced(small_system, "hcount=\"3\"", "hcount=\"" + n + "\"")) ==

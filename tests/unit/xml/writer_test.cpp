@@ -9,8 +9,8 @@
 #include "core/model/validate.h"
 #include "tests/support/catch.h"
 #include "tests/support/golden.h"
-#include "tests/support/paths.h"
 #include "tests/support/model_text.h"
+#include "tests/support/paths.h"
 
 using namespace forage;
 using test::replaced;
@@ -68,7 +68,7 @@ TEST_CASE("Two systems that differ anywhere are not equal") {
     CHECK_FALSE(differs("<Note>n</Note>", "<Note>n</Note>\n\n"));  // where something stands does not matter
 }
 
-TEST_CASE("Comments stay with the process, group or connection that they stand before or in") {
+TEST_CASE("Comments stay with the process, group or connection before or in which they stand") {
     std::string text = replaced(small_system, "<System", "<!-- of the file -->\n<System");
     text = replaced(text, "<Group id=\"b\"", "<!-- of b --><Group id=\"b\"");
     text = replaced(text, "<Topology><TopologySparse>", "<Topology><!-- in b --><TopologySparse>");
@@ -95,7 +95,7 @@ TEST_CASE(
     CHECK(system_of(written) == s);
 }
 
-TEST_CASE("A process leaves and enters a system without references to groups that are not its own") {
+TEST_CASE("A process is extracted and imported without references to groups outside it") {
     model::System s = system_of(small_system);
     const auto q = model::add_process(s, "Q");
     const auto g = model::add_group(s, q, "G", 3, 2, "neuronLinearThreshold", "g");
@@ -108,7 +108,7 @@ TEST_CASE("A process leaves and enters a system without references to groups tha
     CHECK_THROWS_AS(model::import_process(s, file), std::invalid_argument);
 }
 
-TEST_CASE("A note that a comment or CDATA divides is read whole") {
+TEST_CASE("A note that a comment or CDATA section divides is read as a whole") {
     const auto s =
         system_of(replaced(small_system, "Line 1\nLine 2", "one <!-- x -->two <![CDATA[<three>]]>"));
     CHECK(s.processes[0].groups[1].note == "one two <three>");
@@ -146,7 +146,7 @@ TEST_CASE("A linked process is read from its file, with its connections, and wri
     CHECK(xml::write_system(embedded).find("<Connection") != std::string::npos);
 }
 
-TEST_CASE("What is wrong with a linked process is said with the file where it is wrong") {
+TEST_CASE("Mistakes in a linked process are reported with its file") {
     const Folder folder;
     const auto say = [&](const std::string& file) {
         Diagnostics diagnostics;
@@ -163,8 +163,9 @@ TEST_CASE("What is wrong with a linked process is said with the file where it is
                                              "enableModule=\"false\" path=\"self.iqrProcess\""));
     CHECK(say(folder.write("system.iqr", linking_system("self.iqrProcess"))).find("is linked itself") !=
           std::string::npos);
-    CHECK(say(folder.write("system.iqr", linking_system("system.iqr")))
-              .find("other files do not contain it") != std::string::npos);
+    CHECK(
+        say(folder.write("system.iqr", linking_system("system.iqr"))).find("other files do not contain it") !=
+        std::string::npos);
 }
 
 TEST_CASE("A process file is read, written and read again") {
