@@ -2,11 +2,11 @@
 //
 //     bench_closed_loop [SYSTEM.iqr WORLD.world [SETTING...]]
 //
-// Without arguments: the shipped systems, also in the open arena, where the robot ends up at a wall, and
-// the tutorial's own if $FORAGE_SHARED is set. They run as `forage run -o ''` does, with pruning (the camera
-// of the reactive systems, for example), and then with everything updated. A run is repeated, and each block
-// of cycles counts with its fastest repetition; the figure is the median over blocks. Parts are measured
-// apart from the whole. Last result: docs/design/performance.md.
+// Without arguments it runs the shipped systems, also in the open arena, where the robot ends at a wall, and
+// the tutorial's own system if $FORAGE_SHARED is set. They run as `forage run -o ''` does, with pruning (the
+// camera of the reactive systems, for example), and then with everything updated. A run is repeated, and each
+// block of cycles counts with its fastest repetition; the figure is the median over blocks. Parts are
+// measured apart from the whole. Last result: docs/design/performance.md.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -21,13 +21,13 @@
 #include "bug_interface/world/sdf_reader.h"
 #include "core/engine/simulation.h"
 #include "core/model/edit.h"
+#include "core/run/layers.h"
 #include "core/xml/reader.h"
 #include "modules/modules.h"
 #include "neurons/neurons.h"
 #include "synapses/synapses.h"
 #include "tests/bench/report.h"
 #include "tests/support/golden.h"
-#include "core/run/layers.h"
 #include "tests/support/paths.h"
 
 namespace {
@@ -47,11 +47,11 @@ struct Case {
     Update update = Update::what_is_read;
 };
 
-/// The robot, its world and what drives it, ready to run.
+/// The robot, its world and the system that drives it, ready to run.
 struct Loop {
     Registry registry;
     std::unique_ptr<bug::World> world;
-    std::optional<engine::Simulation> simulation;  ///< none: `diagnostics` says why
+    std::optional<engine::Simulation> simulation;  ///< empty when `diagnostics` has errors
     Diagnostics diagnostics;
 
     explicit Loop(const Case& c) {
@@ -83,13 +83,13 @@ struct Loop {
     }
 };
 
-/// Seconds per cycle.
+/// Time per cycle, s.
 struct Times {
     double whole = 0;
     std::array<double, parts.size()> by_part{};
 };
 
-/// Whole cycles, without looking at the clock in between; then as many again, part by part.
+/// Measures whole cycles, without reading the clock between them, and then as many cycles part by part.
 Times run_block(Loop& loop) {
     auto& simulation = *loop.simulation;
     auto& world = *loop.world;
@@ -132,8 +132,9 @@ double median_of(const std::vector<Times>& times, Of of) {
     return bench::median(out);
 }
 
-/// Prints what it measured; returns whether it could. A run does the same in every repetition: of each block
-/// the shortest time counts, as what a neighbour takes from one repetition it does not take from all.
+/// Measures a system and prints the result. Returns whether that was possible. A run does the same work in
+/// every repetition, so the shortest time of each block counts: other load on the machine rarely slows the
+/// same block in all repetitions.
 bool measure(const Case& c) {
     std::vector<Times> best, all;
     int pruned = 0, groups = 0;
@@ -179,7 +180,7 @@ bool measure(const Case& c) {
     return true;
 }
 
-/// As `forage run` runs it, and with everything updated.
+/// Measures a system as `forage run` runs it, and with everything updated.
 bool measure_both(Case c) {
     if (!measure(c)) return false;
     c.subject += ", everything updated";

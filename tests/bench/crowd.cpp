@@ -1,8 +1,9 @@
-// What does company cost? Eight robots in an arena, and each of them alone, driven alike, with all senses.
+// How much do several robots cost? Eight robots run in an arena, and each of them runs alone with the same
+// commands and all sensors.
 //
 //     bench_crowd
 //
-// They wander, meet walls and each other, open and close their grippers. Last result: see
+// The robots wander, meet walls and each other, and open and close their grippers. The last result is in
 // docs/design/performance.md.
 #include <algorithm>
 #include <array>
@@ -24,7 +25,7 @@ namespace {
 using namespace forage;
 using Clock = std::chrono::steady_clock;
 
-/// The team arena with these of eight robots in a ring.
+/// The team arena with some of eight robots in a ring.
 std::unique_ptr<bug::World> arena(const bug::WorldDescription& read, std::vector<int> robots,
                                   Diagnostics& diagnostics) {
     bug::WorldDescription world = read;
@@ -46,7 +47,7 @@ std::unique_ptr<bug::World> arena(const bug::WorldDescription& read, std::vector
 /// A world that is driven in blocks of cycles, so that two of them can take turns.
 class Course {
   public:
-    /// `first`: number of the first robot; each drives as it does anywhere.
+    /// `first` is the number of the first robot. Each robot gets the same commands in every world.
     Course(std::unique_ptr<bug::World> world, std::uint32_t first) : world_(std::move(world)), first_(first) {
         for (std::size_t i = 0; i < world_->bugs(); ++i)
             world_->request_image(i, true), world_->request_gripper_scan(i, true);
@@ -75,7 +76,7 @@ class Course {
         }
         return times;
     }
-    /// Part of the substeps in which Bullet was called.
+    /// The share of the substeps in which Bullet was called.
     double contacts() const {
         return static_cast<double>(world_->physics().contact_steps()) /
                static_cast<double>(world_->substeps());
@@ -115,7 +116,7 @@ int main() {
         auto& courses = robots.size() == 1 ? alone : crowd;
         courses.emplace_back(std::move(world), static_cast<std::uint32_t>(robots.front()));
     }
-    // In turns, as a busy machine changes its pace.
+    // The worlds take turns, as the speed of a busy machine changes.
     constexpr int rounds = 20;
     Course::Parts mean_alone{}, mean_crowd{};
     std::vector<double> ratios;

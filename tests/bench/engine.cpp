@@ -1,4 +1,4 @@
-// How fast is the engine alone, beside the original's, and what memory does it take?
+// How fast is the engine alone, compared with the original's, and how much memory does it take?
 //
 //     bench_engine [CASE...]
 //
@@ -6,8 +6,8 @@
 // sharing, on two) and prints cycles per second (the best of three runs of a second or two, which is what
 // results.tsv has of the original, and their median), the ratio of the best to the original's, the time to
 // load and build, and the peak of memory. The two systems of the tutorial get their recorded input again and
-// again, so that their senses never stand still. All groups are updated; their inputs are not kept between
-// cycles, as in a run that does not record them. Last result: docs/design/performance.md.
+// again, so that their inputs never become constant. All groups are updated; their inputs are not kept
+// between cycles, as in a run that does not record them. Last result: docs/design/performance.md.
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -34,7 +34,7 @@ namespace {
 using namespace forage;
 using Path = std::filesystem::path;
 
-/// Plays a recording from the beginning again when it is over.
+/// Plays a recording, again and again from its beginning.
 struct Loop {
     std::shared_ptr<const DriveTable> table;
     std::vector<std::vector<std::pair<std::size_t, const DriveTable::Row*>>> by_cycle;
@@ -88,13 +88,13 @@ int measure(const Original& original) {
         registry.add(module_type(Loop{table, {}}));
     }
     Diagnostics diagnostics;
-    diagnostics.lenient = true;  // the player has none of the robot's parameters
+    diagnostics.lenient = true;  // the player does not have the robot's parameters
     const double begin = bench::wall_seconds();
     const auto system = xml::read_system(file, diagnostics);
     const auto built = [&](int threads) -> std::optional<engine::Simulation> {
         auto layout = engine::make_layout(*system, registry, diagnostics);
         if (!layout) return std::nullopt;
-        engine::Demand demand;  // for everything but inputs, as of a run that records all activities
+        engine::Demand demand;  // for everything except inputs, as in a run that records all activities
         for (int g = 0; g < std::ssize(layout->groups); ++g) demand.read_group(g);
         return engine::Simulation::build(*system, std::move(*layout), demand, {.threads = threads},
                                          diagnostics);
@@ -111,7 +111,8 @@ int measure(const Original& original) {
             for (int i = 0; i < cycles; ++i) s.step();
         };
     };
-    // Three runs of a second, two now and one after the turns with threads: neighbours come and go.
+    // There are three runs of a second, two now and one after the turns with threads, as the load of the
+    // machine changes.
     bench::Rates one;
     const auto add_runs = [&](int count) {
         bench::add_rates(one, bench::thread_seconds, count, run(*simulation), 1.0);

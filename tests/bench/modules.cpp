@@ -13,7 +13,7 @@ using namespace forage::test;
 
 namespace {
 
-/// Prints and notes the microseconds per call.
+/// Prints and reports the microseconds per call.
 template <class F>
 void time_of(const std::string& what, int calls, F&& call) {
     const double begin = bench::thread_seconds();

@@ -18,7 +18,7 @@ using namespace forage;
 
 namespace {
 
-/// Spikes into `cells` cells of a type, one to one.
+/// A system of random spikes that excite `cells` cells of a type, one to one.
 model::System system_of(const std::string& neuron, int cells) {
     model::System system;
     const auto process = model::add_process(system, "P");

@@ -7,8 +7,8 @@
 
 namespace forage::bench {
 
-/// `cells` random spikes (probability 0.3) to as many linear threshold cells, each of which has synapses from
-/// `each` random source cells, all of different strength.
+/// A system of `cells` random spikes (probability 0.3) and as many linear threshold cells. Each of these has
+/// synapses of different strengths from `each` random source cells.
 inline model::System random_lists(int cells, int each) {
     model::System system;
     const auto process = model::add_process(system, "P");

@@ -3,7 +3,7 @@
 //     bench_scaling [MOST_SYNAPSES]
 //
 // Groups of linear threshold cells, 10^3 to 10^6, each fed by its own source of random spikes, and random
-// lists of 10^3 to 10^8 synapses (or as many as the argument says); each system in a process of its own. The
+// lists of 10^3 to 10^8 synapses (or as many as the argument says). Each system runs in its own process. The
 // exponent is that of the cost against the size, fitted over the sizes from 10^4 on. Last result:
 // docs/design/performance.md.
 #include <cmath>
@@ -26,11 +26,11 @@ namespace {
 
 struct Cost {
     double seconds = 0;  ///< per cycle
-    double bytes = 0;    ///< that the engine keeps, or 0 when it could not be built
+    double bytes = 0;    ///< memory of the engine; 0 when the system could not be built
     double build = 0;    ///< s
 };
 
-/// What this process has in memory, bytes.
+/// The memory of this process, bytes.
 double resident() {
     std::ifstream file("/proc/self/statm");
     double pages = 0;
@@ -56,7 +56,7 @@ Cost measure(const model::System& system) {
     return cost;
 }
 
-/// measure() in a process of its own.
+/// Calls measure() in its own process.
 Cost measure_apart(const model::System& system) {
     Cost cost;
     int ends[2];
@@ -74,7 +74,7 @@ Cost measure_apart(const model::System& system) {
     return cost;
 }
 
-/// The b of cost = a size^b that fits best, by least squares of the logarithms.
+/// The exponent b of the best fit of cost = a size^b, by least squares of the logarithms.
 double exponent(const std::vector<std::pair<double, double>>& points) {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (const auto& [size, cost] : points) {

@@ -1,8 +1,8 @@
 // How much faster is a simulation on two threads, and how much faster are two simulations side by side?
 //
-// Processors of a virtual machine are often halves of one core, or shared with neighbours: two threads that
-// share nothing then gain less than twice, too. Their gain is measured in the same turns for comparison. As
-// they need twice the cache, sharing may gain more.
+// Processors of a virtual machine are often halves of one core, or shared with other guests. Two threads that
+// share nothing then gain less than a factor of two, too. Their gain is measured in the same turns for
+// comparison. As they need twice the cache, sharing may gain more.
 #pragma once
 
 #include <algorithm>
@@ -16,11 +16,12 @@ namespace forage::bench {
 /// The gain of two threads.
 struct Gain {
     double shared;  ///< of a simulation that shares each cycle: ratio of the best blocks
-    double usual;   ///< the same, of the medians, which include trials and wake-ups
+    double usual;   ///< ratio of the medians, which include trials and wake-ups
     double apart;   ///< of two simulations that share nothing: ratio of the best blocks
 };
 
-/// `cycles` belong together. `one`, `other`: alike, on one thread each; `two`: on two.
+/// Measures blocks of `cycles` cycles. `one` and `other` are equal simulations on one thread each; `two` is
+/// the same on two threads.
 inline Gain gain_of_two_threads(engine::Simulation& one, engine::Simulation& other, engine::Simulation& two,
                                 int cycles = 1) {
     const auto steps = [](engine::Simulation& s, int n) {

@@ -1,9 +1,9 @@
 // Free driving compared with the original's rule: mean and standard deviation of the final pose.
 //
 // In each of N steps of dt = 1 ms the velocity plugin drives a robot with (v + a) along its heading and turns
-// it with (w + b), a and b uniform in +-0.005 (m/s, rad/s), drawn anew in every step, also when it stands. A
-// uniform number of half width h has variance h^2 / 3, so s = 0.005 / sqrt(3) = 0.0028868. With the noise
-// independent from step to step:
+// it with (w + b), a and b uniform in +-0.005 (m/s, rad/s), drawn anew in every step, also when the robot
+// stands still. A uniform number of half width h has variance h^2 / 3, so s = 0.005 / sqrt(3) = 0.0028868.
+// With the noise independent from step to step:
 //
 //   heading          mean w N dt                                spread s dt sqrt(N)
 //   along a straight mean v N dt                                spread s dt sqrt(N)
@@ -12,8 +12,8 @@
 //   along an arc     x = v / w sin(w T), y = v / w (1 - cos(w T)), T = N dt, off by the steps' v w dt T / 2
 //   at most
 //
-// N = 4000, v = 0.5: heading and way spread by 1.826e-4, across by 2.108e-4. With n runs a mean is off by 4
-// spreads / sqrt(n) in 1 of 16 000, a spread by 4 / sqrt(2 n) of itself.
+// N = 4000, v = 0.5: the heading and the distance have a spread of 1.826e-4, the position across of 2.108e-4.
+// With n runs a mean is off by 4 spreads / sqrt(n) in 1 of 16 000, a spread by 4 / sqrt(2 n) of itself.
 #include <array>
 #include <cmath>
 #include <vector>

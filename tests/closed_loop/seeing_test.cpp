@@ -44,8 +44,8 @@ TEST_CASE("A patch ahead appears in the top row and moves down as the geometry p
         loop.step();
         y.push_back(loop.pose().y);
         if (y.size() < 3) continue;
-        // What the camera saw at the end of cycle t, the module reads in t + 1 and the group receives in t
-        // + 2.
+        // The module reads the camera's picture of the end of cycle t in t + 1, and the group receives it in
+        // t + 2.
         const double robot = y[y.size() - 3];
         const double top = row_of(far_edge - robot), bottom = row_of(near_edge - robot);
         const auto rows = lit_rows(loop.activity("Bug/Blue - Value"), 32);
@@ -60,7 +60,7 @@ TEST_CASE("A patch ahead appears in the top row and moves down as the geometry p
         }
     }
     CHECK(seen >= 5);
-    // Yellow, further up, has no blue; it shows in red and green alike.
+    // The yellow patch further up has no blue; it appears equally in red and green.
     while (loop.pose().y < 0.65) loop.step();
     CHECK(loop.activity("Bug/Red - Hue").maxCoeff() > 0.9);
     CHECK(loop.activity("Bug/Green - Saturation").maxCoeff() > 0.9);

@@ -1,4 +1,4 @@
-// The complete DAC system before learning. What it learns is tested by learning_test.py.
+// The complete DAC system before learning. learning_test.py tests what the system learns.
 #include <cmath>
 
 #include "tests/support/catch.h"

@@ -161,7 +161,7 @@ TEST_CASE("Resources are blue balls that only the gripper's rays and the camera 
     const auto world = with_robot_at("SDIC_challenge/SDIC_two_robot_arena", {-0.58, 3, 0});
     world->request_gripper_scan(0, true);
     world->scan();                                       // target_4 at (-0.2, 3), 0.38 m ahead
-    for (std::size_t ahead = 10; ahead < 22; ++ahead) {  // to the right stands the pillar
+    for (std::size_t ahead = 10; ahead < 22; ++ahead) {  // the pillar stands to the right
         CHECK(world->snapshot(0).proximity[ahead] == 0);
         CHECK(world->snapshot(0).target[ahead] == 0);
     }
@@ -222,7 +222,9 @@ TEST_CASE("Light and shade: grey floor with and without a sun, black homes") {
     CHECK(std::count(picture.begin(), picture.end(), 0) > static_cast<std::ptrdiff_t>(picture.size() / 3));
 }
 
-TEST_CASE("Teams have green robots (team A) and red robots (team B) with the names and poses of the specification") {
+TEST_CASE(
+    "Teams have green robots (team A) and red robots (team B) with the names and poses of the "
+    "specification") {
     if (absent(shared_dir() / "original")) return;
     const std::map<std::string, Pose2> places = {
         {"TeamA_Bug_01", {-9.5, 7, -1.57079}},   {"TeamA_Bug_02", {-7, 9.5, 0}},

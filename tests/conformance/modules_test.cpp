@@ -1,4 +1,4 @@
-// Each module on its own, driven by recorded input: the recorded output, to the last bit.
+// Each module alone, driven by recorded input, gives the recorded output to the last bit.
 #include <algorithm>
 #include <functional>
 #include <iostream>
@@ -67,7 +67,7 @@ class Recorded {
                 shared_.push_back(values.get());
         }
     }
-    /// Goes on to the next step.
+    /// Goes to the next step.
     void next(int step) {
         if (!all_.next(shared_)) throw std::runtime_error("outputs.csv ends early");
         for (auto& [table, values] : tables_)
@@ -118,7 +118,7 @@ Eigen::MatrixXd matrix(const Path& path) {
     return out;
 }
 
-/// A folder that goes with the test.
+/// A folder that is removed at the end of the test.
 struct Scratch {
     Path path =
         std::filesystem::temp_directory_path() / ("forage_modules_" + std::to_string(std::random_device{}()));

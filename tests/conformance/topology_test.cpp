@@ -1,4 +1,4 @@
-// Every synapse of every recorded case: which cells, in which order, how far, how late, how attenuated.
+// Compares every synapse of every recorded case: its cells, order, distance, delay and attenuation.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -23,12 +23,12 @@ struct Synapse {
 
 using List = std::vector<Synapse>;
 
-/// What was recorded, by the connection's id.
+/// The recorded synapses, by the connection's id.
 std::map<std::string, List> recorded_synapses(const std::filesystem::path& path) {
     std::map<std::string, List> out;
     test::Rows rows(path);
     for (std::vector<std::string_view> f; rows.next(f);) {
-        // A name may hold commas: what follows it is counted from the end.
+        // A name may contain commas, so the fields after it are counted from the end.
         const auto n = f.size();
         out[std::string(f[0])].push_back({test::number<int>(f[n - 5]), test::number<int>(f[n - 4]),
                                           test::number(f[n - 3]), test::number<int>(f[n - 2]),
@@ -44,7 +44,7 @@ List as_list(const connectivity::Synapses& s) {
     return out;
 }
 
-/// Which parts of a connection depend on random numbers: the rest of it is compared exactly.
+/// The parts of a connection that depend on random numbers. All other parts are compared exactly.
 struct Random {
     bool choice, thinned, attenuation, delay;
     explicit Random(const model::Connection& c)
@@ -61,7 +61,7 @@ std::string describe(const Synapse& s) {
            std::to_string(s.attenuation);
 }
 
-/// The first difference of what does not depend on random numbers; empty when there is none.
+/// The first difference in the parts that do not depend on random numbers; empty when there is none.
 std::string first_difference(const List& ours, const List& recorded, const Random& random) {
     if (ours.size() != recorded.size())
         return std::to_string(ours.size()) + " synapses, recorded were " + std::to_string(recorded.size());
@@ -110,7 +110,8 @@ class Comparison {
         return out;
     }
 
-    /// Compares what a random connection's seed does not decide, and the statistics of what it does.
+    /// Compares the parts of a random connection that do not depend on the seed, and the statistics of the
+    /// others.
     void statistics(const model::Connection& c, const List& recorded, const Random& random) {
         const List ours = connect(c), other_seed = connect(c, 2);
         if (random.thinned) {

@@ -1,4 +1,4 @@
-// Every recorded case of the original: the same numbers in every state of every group and cycle.
+// Compares every recorded case of the original: the numbers in every state of every group and cycle.
 #include <iostream>
 
 #include "core/xml/reader.h"
@@ -20,8 +20,7 @@ Registry registry_for(const Case& c) {
     add_neurons(registry);
     add_synapses(registry);
     replay::Replay player;
-    if (std::filesystem::exists(c.path / "drive.csv"))
-        player.file = c.path / "drive.csv";
+    if (std::filesystem::exists(c.path / "drive.csv")) player.file = c.path / "drive.csv";
     registry.add(module_type(player));
     registry.add(module_type<Echo>());
     add_modules(registry);
@@ -52,7 +51,7 @@ class Clamp {
     std::map<int, const DriveTable::Row*> held_;
 };
 
-/// What differs from the recording, or is wrong with the case; empty when all is well.
+/// The first difference from the recording, or the mistake in the case; empty when there is none.
 std::string run(const Case& c, bool general_forms) {
     Diagnostics diagnostics;
     const auto system = xml::read_system(c.path / "input.iqr", diagnostics);

@@ -1,5 +1,5 @@
-// The original's worlds, read where they are: they load, and their robots run in them with the original's
-// systems.
+// The original's worlds, which are read from the original's folder, load, and their robots run in them with
+// the original's systems.
 #include <cmath>
 #include <map>
 #include <set>
@@ -158,7 +158,7 @@ TEST_CASE("The original's systems run in the original's worlds") {
             registry.add(bug::gazebo_bug_type());
             auto simulation = engine::Simulation::build(*system, registry, engine::Demand::everything(),
                                                         {.environment = world.get()}, diagnostics);
-            if (!simulation) {  // it wants a robot of another name
+            if (!simulation) {  // the system needs a robot with another name
                 CHECK(format(diagnostics).find("there is no robot '") != std::string::npos);
                 continue;
             }

@@ -1,6 +1,6 @@
-// What a person sees who made a mistake. Each file of bad_systems/ holds one, and NAME.expect the whole
-// answer to it. FORAGE_REWRITE_EXPECTATIONS=1 writes the answers anew: read them as their reader would before
-// keeping them.
+// The messages for mistakes in systems. Each file of bad_systems/ contains one mistake, and NAME.expect is
+// the complete output for it. FORAGE_REWRITE_EXPECTATIONS=1 writes the expected outputs anew; read them as a
+// user would before you keep them.
 #include <algorithm>
 #include <cstdlib>
 #include <ctime>
@@ -51,7 +51,7 @@ struct ProbeSynapse {
     double output(double) const { return 0; }
 };
 
-/// Few and fixed: a type that is added later must not change the answers.
+/// A small and fixed set of types, so that types that are added later do not change the messages.
 Registry types() {
     Registry registry;
     registry.add(neuron_type<LinearThreshold>());
@@ -62,7 +62,7 @@ Registry types() {
     return registry;
 }
 
-/// All that is said of the file before a first cycle, in the order in which a run finds it.
+/// All diagnostics of the file before the first cycle, in the order in which a run finds them.
 std::string answer(const fs::path& path, bool lenient = false) {
     Diagnostics diagnostics;
     diagnostics.lenient = lenient;
@@ -91,7 +91,7 @@ void compare(const std::string& name, const std::string& said) {
     CHECK(said != "");
 }
 
-/// Writes `text` to a file that is gone at the end of the scope.
+/// Writes `text` to a file that is removed at the end of the scope.
 class TemporaryFile {
   public:
     TemporaryFile(const std::string& name, const std::string& text)
@@ -108,7 +108,7 @@ class TemporaryFile {
     fs::path folder_, path_;
 };
 
-/// Processor time: what else the machine does is not the reader's fault.
+/// The processor time, which does not depend on other load of the machine.
 double seconds_of(const std::function<void()>& work) {
     const std::clock_t start = std::clock();
     work();
@@ -116,7 +116,7 @@ double seconds_of(const std::function<void()>& work) {
 }
 
 #ifdef FORAGE_SANITIZED
-constexpr double patience = 10;  // instrumented programs are that much slower
+constexpr double patience = 10;  // factor by which instrumented programs may be slower
 #else
 constexpr double patience = 1;
 #endif
@@ -145,7 +145,7 @@ TEST_CASE("Every mistake gives the expected message within a second") {
     }
 }
 
-// Not kept as files because they are large.
+// These inputs are not kept as files because they are large.
 TEST_CASE("Files made to exhaust the reader are refused or read within a second") {
     const std::vector<std::pair<std::string, std::string>> hostile{
         {"nested_very_deeply", begin + repeated("<Process>", 300'000)},
@@ -184,7 +184,7 @@ TEST_CASE("Lenient reading turns what the original ignores into warnings, and no
         compare(name + ".lenient", answer(corpus() / (name + ".iqr"), true));
 }
 
-// Sanitizers keep freed memory back.
+// Sanitizers delay the release of memory.
 #ifndef FORAGE_SANITIZED
 TEST_CASE("No mistake costs much memory") {
     for (const auto& entry : fs::directory_iterator(corpus()))

@@ -1,5 +1,5 @@
-// Everything that is written in a language of its own on the command line and in experiments: the first byte
-// chooses which. A small system knows the names.
+// Tries all expressions of command lines and experiments. The first byte chooses the kind, and the names are
+// those of a small system.
 #include <cstdint>
 
 #include "core/engine/simulation.h"

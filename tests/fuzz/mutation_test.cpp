@@ -1,5 +1,5 @@
-// Two thousand damaged files: reading, checking and connecting never crash, never throw, and never make a
-// synapse between cells that do not exist. The same two thousand in every run.
+// Tries two thousand damaged files, the same in every run: reading, checking and connecting never crash,
+// never throw, and never make a synapse between cells that do not exist.
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -26,7 +26,7 @@ class Mutator {
     std::string next() {
         const bool whole = below(4) > 0;
         std::string text = pick(whole ? sound_ : broken_);
-        // One damage that is no XML ends the way at the parser; other values go the farthest.
+        // A text that is not XML does not get past the parser; changed values get farthest.
         if (whole && below(2)) {
             for (std::size_t n = 1 + below(3); n > 0; --n) value(text, below(text.size()));
         } else {
@@ -38,7 +38,7 @@ class Mutator {
   private:
     std::size_t below(std::size_t n) {
         return n ? static_cast<std::size_t>(random_() % n) : 0;
-    }  // the bias does no harm here
+    }  // the bias does not matter here
     const std::string& pick(const std::vector<std::string>& from) { return from[below(from.size())]; }
 
     void damage(std::string& text) {
@@ -205,7 +205,7 @@ TEST_CASE("No damaged file crashes the reader, the checks or the connections") {
         REQUIRE_NOTHROW(way = test::whole_way(text, registry, i % 2 == 1));
         read += way.read, checked += way.checked, synapses += way.synapses;
     }
-    // Damage that never gets past the parser would prove little.
+    // Damage that never gets past the parser would test little.
     CHECK(read > 200);
     CHECK(checked > 100);
     CHECK(synapses > 1000);

@@ -9,7 +9,7 @@
 
 namespace forage::test {
 
-/// The same file for every input, with `ending` at the end of its name.
+/// Writes every input to the same file, whose name ends with `ending`.
 class ScratchFile {
   public:
     explicit ScratchFile(const std::string& ending)

@@ -1,4 +1,4 @@
-// The whole way from a text to synapses.
+// Tries all steps from a text to synapses.
 #include <cstdint>
 
 #include "tests/fuzz/whole_way.h"

@@ -1,4 +1,4 @@
-// Tables that drive and clamp groups, and lists of patterns: the same text as both.
+// Tries a text both as a table that drives or clamps groups and as a list of patterns.
 #include <cstdint>
 
 #include "core/base/drive_table.h"

@@ -1,4 +1,5 @@
-// Tries a fuzzing target on the files of folders, where there is no libFuzzer. Options are its business.
+// Tries a fuzzing target on the files in folders, where libFuzzer is not available. Options of libFuzzer are
+// ignored.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -22,7 +23,7 @@ int main(int count, char** arguments) {
     for (const auto& file : files) {
         std::ifstream in(file, std::ios::binary);
         const std::string text(std::istreambuf_iterator<char>(in), {});
-        std::fprintf(stderr, "%s\n", file.c_str());  // the last one is it, after a crash
+        std::fprintf(stderr, "%s\n", file.c_str());  // after a crash, the last name is that of the cause
         LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
     }
     std::printf("%zu inputs\n", files.size());

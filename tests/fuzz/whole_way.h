@@ -1,4 +1,4 @@
-// From any text to synapses: what the mutation test and the fuzzer do with each input.
+// All steps from a text to synapses, which the mutation test and the fuzzer do with each input.
 #pragma once
 
 #include <algorithm>

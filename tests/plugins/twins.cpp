@@ -1,4 +1,4 @@
-// The same types as Forage ships, to compare bits and speed.
+// The types that ship with Forage, to compare bits and speed.
 #include <forage/plugin.h>
 
 #include "modules/difference/difference.h"

@@ -1,4 +1,4 @@
-// What holds for every valid model. $FORAGE_RANDOM_MODELS says how many are tried.
+// Properties of every valid model. $FORAGE_RANDOM_MODELS is the number of models that are tried.
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
@@ -21,8 +21,8 @@ std::uint64_t models() {
     return given ? std::strtoull(given, nullptr, 10) : 300;
 }
 
-/// Every state of every group over some cycles, as bytes; one NaN is like another. With `observed`, of these
-/// groups; they are then all that is demanded, with `prune`.
+/// Every state of every group over some cycles, as bytes; all NaNs are equal. With `observed`, only these
+/// groups are read; with `prune`, only they are demanded.
 std::string trace(const model::System& system, const Registry& registry, int threads,
                   bool general_forms = false, const std::vector<int>* observed = nullptr,
                   bool prune = false) {

@@ -63,7 +63,7 @@ class ClosedLoop {
         simulation->step();
         world->step();
     }
-    /// Runs until this many trials are over. Throws when a trial takes more than 1000 cycles on average.
+    /// Runs until this many trials have ended. Throws when a trial takes more than 1000 cycles on average.
     void run_trials(std::size_t count) {
         while (world->trials(0).size() < count) {
             if (simulation->cycle() > 1000 * count) throw std::runtime_error("the trials do not end");
@@ -102,7 +102,7 @@ inline auto keep_connections(std::vector<std::string> ids) {
     };
 }
 
-/// Moves the robot to another first pose.
+/// Moves the robot to another start pose.
 inline auto start_at(double x, double y, double yaw) {
     return [=](bug::WorldDescription& world) {
         for (auto& model : world.models)

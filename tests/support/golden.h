@@ -58,7 +58,7 @@ class Rows {
     std::size_t at_ = 0;
 };
 
-/// A whole field as a number, "nan" and "inf" included; anything else is a fault of the recording.
+/// A whole field as a number, which may be "nan" or "inf". Anything else is a mistake in the recording.
 template <class N = double>
 N number(std::string_view field) {
     std::string_view rest = field;
@@ -67,7 +67,7 @@ N number(std::string_view field) {
     return *value;
 }
 
-/// The tolerance of the recordings; NaN equals NaN, an infinity only itself.
+/// Compares with the tolerance of the recordings. A NaN equals a NaN, and an infinity equals only itself.
 inline bool same(double ours, double recorded, double tolerance = 1e-12) {
     if (std::isnan(recorded) || std::isnan(ours)) return std::isnan(recorded) && std::isnan(ours);
     if (std::isinf(recorded) || std::isinf(ours)) return ours == recorded;

@@ -13,7 +13,8 @@
 
 namespace forage::test {
 
-/// Two groups of 3 x 2 cells and a connection, every element and attribute of the format that is often used.
+/// A system of two groups of 3 x 2 cells and a connection, with every element and attribute that is often
+/// used.
 inline const std::string small_system = R"(<?xml version="1.0" encoding="UTF-8"?>
 <!DOCTYPE System PUBLIC '-//INI/iqr421' 'iqrSystem.dtd'>
 <System id="s" name="Small" author="me" date="today" cylesPerSecond="12.5" syncPlots="true" port="54923">
@@ -98,7 +99,7 @@ struct TestLearningSynapse {
     double output(double) const { return 0; }
 };
 
-/// Few types, and always the same: later ones must not change what a test sees.
+/// A small and fixed set of types, so that types that are added later do not change the tests.
 inline Registry few_types() {
     Registry registry;
     registry.add(neuron_type<LinearThreshold>());

@@ -1,4 +1,4 @@
-// One module on its own: groups are arrays, and the test is the engine.
+// Runs one module alone: arrays stand for groups, and the test stands for the engine.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,8 @@ class ModuleBench {
     ModuleBench(const ModuleBench&) = delete;
     ModuleBench& operator=(const ModuleBench&) = delete;
 
-    /// Binds a group of width x height cells to a port; `cells` fewer for a sparse one, 0 for an unset port.
+    /// Binds a group of width x height cells to a port; `cells` is smaller for a sparse group, and 0 for an
+    /// unset port.
     ModuleBench& bind(const std::string& port, bool is_output, int width, int height, int cells = -1) {
         for (const auto& p : type_.ports)
             if (p.name == port && p.is_output == is_output) {
@@ -55,7 +56,8 @@ class ModuleBench {
         module_->check(ports_, diagnostics);
         return diagnostics.all();
     }
-    /// Outputs 0, as at the start of a run. Groups are bound, in order of declaration, before.
+    /// Starts the module with outputs of 0, as in a run. The groups must have been bound before, in order of
+    /// declaration.
     void start() {
         inputs.clear(), outputs.clear();
         for (const auto& g : ports_.inputs) inputs.emplace_back(Eigen::ArrayXd::Zero(g.shape.cells));

@@ -1,4 +1,4 @@
-// Where tests find files.
+// The folders in which tests find files.
 #pragma once
 
 #include <cstdio>
@@ -17,7 +17,7 @@ inline std::filesystem::path shared_dir() {
     return source_dir().parent_path() / "shared";
 }
 
-/// Says that a test has nothing to read, and returns true, when `path` is absent.
+/// When `path` is absent, prints that a test has nothing to read, and returns true.
 inline bool absent(const std::filesystem::path& path) {
     if (std::filesystem::exists(path)) return false;
     std::fprintf(stderr, "SKIPPED: '%s' is absent (recorded data of the original; see docs/design.md)\n",

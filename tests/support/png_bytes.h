@@ -7,7 +7,7 @@
 
 namespace forage::test {
 
-/// The four bytes of a number, the highest first.
+/// The four bytes of a number, with the highest first.
 inline std::string big_endian(std::uint32_t v) {
     std::string out;
     for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>(v >> shift & 0xff);

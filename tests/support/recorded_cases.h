@@ -21,8 +21,8 @@ struct Case {
 /// The recorded traces that come with the project, unpacked (tests/data/README.md).
 inline std::filesystem::path traces_dir() { return FORAGE_TRACES_DIR; }
 
-/// Where cases of a kind lie, such as "conformance" or "modules/moduleAL": in the project's archive, and
-/// further ones in the folder `golden` of shared_dir(), if that is there.
+/// The folders with the cases of a kind, such as "conformance" or "modules/moduleAL": one in the project's
+/// archive, and one in the folder `golden` of shared_dir(), if it exists.
 inline std::vector<std::filesystem::path> trace_folders(const std::string& kind) {
     std::vector<std::filesystem::path> out = {traces_dir() / kind};
     if (const auto more = shared_dir() / "golden" / kind; std::filesystem::exists(more)) out.push_back(more);

@@ -63,7 +63,7 @@ inline ConstColumn find_column(const engine::Simulation& s, const ExpectedRow& r
     return {nullptr, 0};
 }
 
-/// Empty when the column holds what was recorded, else where and how it first differs.
+/// The first difference of the column from the recording, with its place; empty when there is none.
 inline std::string difference(ConstColumn ours, const ExpectedRow& row, double tolerance = 1e-12) {
     const std::string where = fmt::format("cycle {}, {}/{} {}", row.cycle, row.process, row.group, row.state);
     if (ours.size() != static_cast<Index>(row.values.size()))

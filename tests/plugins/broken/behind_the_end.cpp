@@ -1,4 +1,4 @@
-// Writes behind the end of its columns.
+// Writes beyond the end of its columns.
 #include <forage/plugin.h>
 
 struct BehindTheEnd {

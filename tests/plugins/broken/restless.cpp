@@ -1,4 +1,4 @@
-// A synapse that promises to be event driven, and fades while its source is silent.
+// A synapse that promises to be event driven, but fades while its source is silent.
 #include <forage/plugin.h>
 
 struct Restless {

@@ -1,4 +1,4 @@
-// A synapse that promises to be event driven, and puts out its weight while its source is silent.
+// A synapse that promises to be event driven, but whose output is its weight while its source is silent.
 #include <forage/plugin.h>
 
 struct RestlessOutput {

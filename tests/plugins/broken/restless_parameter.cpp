@@ -1,4 +1,4 @@
-// A synapse that is event driven with its default parameter, and not with others.
+// A synapse that is event driven with its default parameter, but not with other values.
 #include <forage/plugin.h>
 
 struct RestlessParameter {

@@ -1,4 +1,4 @@
-// describe() throws what is not even an exception.
+// describe() throws a value that is not a std::exception.
 #include <forage/plugin.h>
 
 struct ThrowingDescribe {

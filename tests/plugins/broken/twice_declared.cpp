@@ -1,4 +1,4 @@
-// One number of a cell that is two states.
+// One number of a cell that is declared as two states.
 #include <forage/plugin.h>
 
 struct TwiceDeclared {

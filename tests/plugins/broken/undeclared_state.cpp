@@ -1,4 +1,4 @@
-// A cell with a number that is no state.
+// A cell with a number that is not declared as a state.
 #include <forage/plugin.h>
 
 struct UndeclaredState {

@@ -58,7 +58,7 @@ void drive(World& world, MotorCommand command, int cycles) {
 
 TEST_CASE(
     "A wall of 40 pieces with 40 heights stops a robot everywhere, and is sensed where it is high enough") {
-    // A ring of radius 1.2 m round the robot; piece i is 0.11 m high, and 0.005 m more than the one before.
+    // A ring of radius 1.2 m around the robot; piece i is 0.11 m high, and 0.005 m more than the one before.
     std::vector<Collision> pieces;
     for (int i = 0; i < many; ++i) {
         const double at = 2 * std::numbers::pi * (i + 0.5) / many;

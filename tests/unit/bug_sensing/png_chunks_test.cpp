@@ -1,4 +1,4 @@
-// Chunks before the pixels of a picture: how colours are meant, and too much of anything.
+// Chunks before the pixels of a picture: the meaning of colours, and too much data.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -17,7 +17,7 @@ using namespace forage::test;
 
 namespace {
 
-/// A file while it lives.
+/// A file that exists as long as this object.
 class File {
   public:
     File() = default;
@@ -121,7 +121,8 @@ TEST_CASE("A picture that does not fit into memory is refused and leaves nothing
     constexpr int border = (1 << 30) - 100;  // more numbers than a vector may have
     const auto fail = [&] { CHECK_THROWS_AS(read_png(file, border), std::length_error); };
     fail();
-    const auto before = mallinfo2().uordblks;  // 0 with the address sanitizer, which looks for itself
+    const auto before =
+        mallinfo2().uordblks;  // 0 with the address sanitizer, which searches for leaks itself
     for (int i = 0; i < 100; ++i) fail();
     CHECK(mallinfo2().uordblks < before + 10'000);
 }

@@ -1,4 +1,4 @@
-// The table of SDF's elements, and what the check makes of it.
+// The table of SDF's elements, and the check that uses it.
 #include "bug_interface/world/sdf_format.h"
 
 #include "core/xml/check.h"
@@ -8,7 +8,7 @@ using namespace forage;
 
 namespace {
 
-/// All that is said of a world with this inside, one "column severity message | hint" a line.
+/// All diagnostics of a world with this content, one "column severity message | hint" per line.
 std::string said_of(const std::string& inside) {
     Diagnostics diagnostics;
     const auto document = xml::open("test.world", inside, bug::sdf_format(), diagnostics);

@@ -71,7 +71,7 @@ Cells spread(decltype(model::Arborization::shape) shape, model::Topology grid, m
     return w.build().pairs();
 }
 
-/// The target cells of what was spread, in order.
+/// The target cells of the spread points, in order.
 std::vector<int> posts(const Cells& cells) {
     std::vector<int> out;
     for (const auto& [pre, post] : cells) out.push_back(post);
@@ -112,7 +112,7 @@ TEST_CASE(
     CHECK((grid.index(2, 3) == 0 && grid.index(4, 3) == 1 && grid.index(5, 4) == 2));
     CHECK((grid.index(3, 3) == -1 && grid.index(2, 4) == -1 && grid.index(1, 1) == -1));
     CHECK(model::shape(sparse) ==
-          GroupShape{4, 2, 3});  // as the engine sizes the group: duplicates are no cells
+          GroupShape{4, 2, 3});  // the size of the group in the engine: duplicates are not cells
     CHECK(model::shape(model::SparseTopology{{at(0, 0)}}) == GroupShape{});
 }
 
@@ -185,8 +185,8 @@ TEST_CASE("Tuples keep their order and their duplicates") {
 TEST_CASE("A list in a mapped pattern is refused") {
     Wiring w;
     w.pattern = model::MappedPattern{false, model::List{{at(1, 1)}, {}}, {}};
-    CHECK(w.build().said() ==
-          "a PatternMapped cannot map a List of cells");  // and not, as well, that there are no synapses
+    CHECK(w.build().said() == "a PatternMapped cannot map a List of cells");  // and there is no second error
+                                                                              // that there are no synapses
 }
 
 TEST_CASE("An arborization runs column by column, and stops at the edge") {
@@ -269,7 +269,7 @@ TEST_CASE("Linear divides 0 by 0 when all distances are 0, and a warning reports
     CHECK(std::isnan(built.synapses.attenuation[0]));
     CHECK(built.said() == "the attenuation of connection 'C' is not a number: 0 / 0");
     w.delay.form = model::LinearFunction{0, 5};
-    CHECK(w.build().synapses.delay[0] == 0);  // and not what a cast of NaN gives
+    CHECK(w.build().synapses.delay[0] == 0);  // and not the cast of a NaN
 }
 
 TEST_CASE(

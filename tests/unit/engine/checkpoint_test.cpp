@@ -1,4 +1,5 @@
-// Simulations that are stopped and go on; numbers that are not finite. tests/property has random ones.
+// Simulations that are stopped and continued, and numbers that are not finite. tests/property tries random
+// systems.
 #include <cmath>
 #include <limits>
 
@@ -9,7 +10,7 @@ using namespace forage::test;
 
 namespace {
 
-/// Counts its updates, and says so or not.
+/// Counts its updates, and declares that to checkpoints or not.
 template <bool declared>
 struct Counting {
     double gain = 1;
@@ -122,7 +123,7 @@ TEST_CASE("The digest of a state depends on its numbers, but not on the sign of 
     const double nan = std::numeric_limits<double>::quiet_NaN();
     using enum Archive::Nan;
     CHECK(written(nan, all_the_same) == written(-nan, all_the_same));
-    CHECK(written(nan, as_it_is) != written(-nan, as_it_is));  // a run goes on with what was there
+    CHECK(written(nan, as_it_is) != written(-nan, as_it_is));  // a run continues with the same bits
     CHECK(written(0.0, all_the_same) != written(-0.0, all_the_same));
     CHECK(written(1.5, all_the_same) == written(1.5, as_it_is));
 }

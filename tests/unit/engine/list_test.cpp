@@ -24,8 +24,8 @@ struct Gain final : SynapseInstance {
 enum class Order { ascending, shuffled };
 enum class Numbers { ordinary, extreme };
 
-/// Zeros, denormal numbers, some that overflow, infinities and NaN, of both signs; mostly ordinary ones, so
-/// that not every sum is NaN.
+/// Zeros, denormal numbers, numbers that overflow, infinities and NaNs, of both signs. Most numbers are
+/// ordinary, so that not every sum is a NaN.
 double extreme(std::mt19937& random, double ordinary) {
     using Limits = std::numeric_limits<double>;
     const double sign = random() % 2 ? 1 : -1;
@@ -43,7 +43,7 @@ struct Shape {
     int sources, targets, most;  ///< synapses of a target
 };
 
-/// Targets with none to `most` synapses, some of them from the same source.
+/// Targets with 0 to `most` synapses, some of them from the same source.
 connectivity::Synapses random_list(const Shape& shape, Order order, int delays, bool same,
                                    Numbers numbers = Numbers::ordinary) {
     std::mt19937 random(1);
@@ -83,14 +83,14 @@ struct Activity {
     }
 };
 
-/// What cells that begin with these receive.
+/// The input that cells with these sums receive.
 std::vector<double> begin(int targets) {
     std::vector<double> out(static_cast<std::size_t>(targets), -0.0);
     for (std::size_t i = 0; i < out.size(); i += 3) out[i] = 0.1;
     return out;
 }
 
-/// To the bit; but a NaN is a NaN.
+/// Compares the bits; all NaNs are equal.
 bool same_numbers(const std::vector<double>& a, const std::vector<double>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double one, double other) {
         return std::isnan(one) ? std::isnan(other)

@@ -1,4 +1,4 @@
-// What each neuron type does with an input that is not a number; the random numbers of a group.
+// The reaction of each neuron type to a NaN, and the random numbers of a group.
 #include "neurons/neurons.h"
 
 #include <cmath>

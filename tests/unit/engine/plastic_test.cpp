@@ -57,7 +57,8 @@ model::TuplesPattern two_parts() {
     return {{{lines(3, 3), lines(3, 3)}, {lines(11, 12), lines(12, 14)}}};
 }
 
-/// Learns like a Hebbian synapse; its output cannot be told later, as it seems to depend on the target.
+/// Learns like a Hebbian synapse. Its output cannot be computed again later, as it seems to depend on the
+/// target.
 struct Mute {
     struct Synapse {
         double weight = 0;
@@ -209,7 +210,7 @@ TEST_CASE("Skipping the synapses of silent sources does not change a result") {
         learn.synapse->feedback[0].name = "post";
     if (GENERATE(false, true))  // unheard: a kind that the target does not read
         learn.kind = InputKind::modulatory;
-    // What diverges, the source or the target, spoils the weights of silent sources too: 0 times infinity.
+    // A source or target that diverges changes the weights of silent sources, too: 0 times infinity is a NaN.
     const std::string diverging = GENERATE("P/A", "P/B");
     auto fast = run(system, types), plain = run(system, types, {.general_forms = true});
     // The same when the states of the synapses are not read, so that their outputs are not kept.

@@ -44,7 +44,7 @@ std::string pruned(const engine::Simulation& s) {
     return out;
 }
 
-/// Copies its input, and counts which outputs it was told to be read.
+/// Copies its input, and counts the outputs that is_read() reports as read.
 struct Asking {
     std::shared_ptr<std::vector<bool>> read = std::make_shared<std::vector<bool>>(3);
     static void describe(ModuleSpec<Asking>& s) {
@@ -61,7 +61,8 @@ struct Asking {
     }
 };
 
-/// A -> B -> C, A -> D with a delay, A -> E by a connection that learns; F and G stand alone.
+/// A -> B -> C, A -> D with a delay, and A -> E through a connection that learns. F and G have no
+/// connections.
 struct Chain {
     model::System system;
     Registry types = registry();

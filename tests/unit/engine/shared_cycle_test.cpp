@@ -14,7 +14,7 @@ using namespace forage::test;
 
 namespace {
 
-/// Every state of every group; one NaN is like another.
+/// Every state of every group; all NaNs are equal.
 std::vector<std::uint64_t> states(const engine::Simulation& s) {
     std::vector<std::uint64_t> out;
     for (int g = 0; g < std::ssize(s.layout().groups); ++g)
@@ -24,7 +24,7 @@ std::vector<std::uint64_t> states(const engine::Simulation& s) {
     return out;
 }
 
-/// Sums all cells in the first one: its cells are not independent.
+/// Sums all cells in the first one, so its cells are not independent.
 struct Total {
     static void describe(NeuronSpec<Total>& s) {
         s.name("total", "Total").reads(InputKind::excitatory).output("act", "Activity");
@@ -91,7 +91,7 @@ Registry types() {
     return r;
 }
 
-/// A group of every type, 23 x 19 cells and more, that excite each other in many ways.
+/// Groups of every type with at least 23 x 19 cells, which excite each other in many ways.
 struct Large {
     model::System system;
     std::string process = model::add_process(system, "P");

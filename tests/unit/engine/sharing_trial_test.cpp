@@ -1,4 +1,4 @@
-// Whether threads share a cycle is decided by trying, on a clock that the test sets.
+// Trials decide whether threads share a cycle. The test sets the clock.
 #include "core/engine/parallel/parallel_tuner.h"
 #include "tests/support/catch.h"
 
@@ -13,7 +13,7 @@ struct TestClock {
     static time_point now() { return time_point(passed); }
 };
 
-/// Cycles that take so long without and with sharing, in `unit` seconds.
+/// Cycles with these durations without and with sharing, in units of `unit` seconds.
 struct Machine {
     double without, with;
     double unit = 1e-4;

@@ -20,7 +20,7 @@ struct Failing {
     }
 };
 
-/// Groups of similar sizes with random spikes, wired at random with all that a connection can be.
+/// Groups of similar sizes with random spikes, connected at random in all possible ways.
 class RandomSystem {
   public:
     explicit RandomSystem(unsigned seed) : random_(seed) {}
@@ -97,7 +97,7 @@ model::System random_system(unsigned seed, int groups, int side) {
     return RandomSystem(seed).make(groups, side);
 }
 
-/// Exactly; but one NaN is like another.
+/// Compares the bits; all NaNs are equal.
 std::uint64_t bits(double v) { return std::isnan(v) ? ~0ull : std::bit_cast<std::uint64_t>(v); }
 
 /// All activity over the cycles.
@@ -206,7 +206,7 @@ TEST_CASE("Quiescent groups are not computed again, and no bit changes") {
     const Registry types = registry();
     for (unsigned seed = 1; seed <= 20; ++seed) {
         auto system = random_system(seed, 8, 3);
-        for (auto& g : system.processes[0].groups)  // else nothing would ever stand still
+        for (auto& g : system.processes[0].groups)  // otherwise no group would ever be quiescent
             if (g.neuron.type == "neuronRandomSpike") model::set_parameter(g.neuron, "probability", "1");
         auto rests = run(system, types), works = run(system, types);
         for (int t = 0; t < 60; ++t) {

@@ -13,7 +13,7 @@ using Mode = model::ManipulationSpec::Mode;
 
 namespace {
 
-/// What a text means, in one line; "column: reason" of what is no expression.
+/// The meaning of a text in one line, or "column: reason" for a text that is not an expression.
 template <class Parse>
 std::string said(Parse parse, const std::string& text) {
     try {
@@ -136,7 +136,7 @@ TEST_CASE("A source is a column, its mean, and some of its cells") {
     CHECK(source("\"Bug/Light\"") == "Bug/Light");
     CHECK(source("mean(\"Bug/Light\":vm(1,1))") == "mean:Bug/Light:vm(1,1)");
     CHECK(source("mean:\"Bug/Light:vm\"") == "mean:Bug/Light:vm");
-    // Cells that cannot be are none of any group.
+    // Impossible cells belong to no group.
     for (const char* none : {"P/G(3..1,1)", "P/G(0,1)", "P/G(1..2147483647,-2147483648..2147483647)"})
         CHECK((parse_source(none).cells->width == 0 || parse_source(none).cells->height == 0));
 }

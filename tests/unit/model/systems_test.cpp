@@ -24,8 +24,8 @@ std::vector<fs::path> systems_below(const fs::path& folder) {
     return out;
 }
 
-/// Reads and checks a system, and builds its connections. Modules, which come from rooms that this test does
-/// not know, are all that may be unknown.
+/// Reads and checks a system, and builds its connections. Only modules may be unknown, because this test does
+/// not include their rooms.
 void check_system(const fs::path& file) {
     INFO(file.string());
     Diagnostics diagnostics;

@@ -9,8 +9,8 @@ using observe::Manipulation;
 
 namespace {
 
-/// What becomes of two cells that are 1 by themselves in each of `cycles` cycles: 10 x the first + the
-/// second.
+/// The activity of two cells that are 1 without manipulation, in each of `cycles` cycles, as 10 x the first +
+/// the second.
 std::vector<double> played(Manipulation::Settings settings, int cycles) {
     model::System system;
     model::add_group(system, model::add_process(system, "P"), "A", 2, 1, "one");

@@ -11,7 +11,7 @@ using namespace forage;
 
 namespace {
 
-/// Writes down when it is called.
+/// Records the calls of its functions.
 class Witness final : public Observer {
   public:
     explicit Witness(std::vector<std::string>& log) : log_(log) {}
@@ -38,7 +38,8 @@ class Witness final : public Observer {
 
 }  // namespace
 
-TEST_CASE("Observers are called at fixed points of a cycle, may overwrite activities, and write files at the end") {
+TEST_CASE(
+    "Observers are called at fixed points of a cycle, may overwrite activities, and write files at the end") {
     model::System system;
     model::add_group(system, model::add_process(system, "P"), "A", 1, 1, "counter");
     Diagnostics diagnostics;
@@ -46,7 +47,8 @@ TEST_CASE("Observers are called at fixed points of a cycle, may overwrite activi
     std::vector<std::string> log;
     run.add(std::make_unique<Witness>(log));
     run.step(), run.step();
-    CHECK(log == std::vector<std::string>{"before 0 0", "groups 0 1", "after 1 7", "before 1 7", "groups 1 8", "after 2 7"});
+    CHECK(log == std::vector<std::string>{"before 0 0", "groups 0 1", "after 1 7", "before 1 7", "groups 1 8",
+                                          "after 2 7"});
 
     const auto folder = std::filesystem::temp_directory_path() / "forage_observer_test";
     std::filesystem::create_directories(folder);

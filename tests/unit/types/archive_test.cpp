@@ -20,7 +20,7 @@ struct Part {
     friend bool operator==(const Part&, const Part&) = default;
 };
 
-/// One of each kind.
+/// One value of each kind.
 struct All {
     bool flag = false;
     std::int8_t small = 0;

@@ -1,4 +1,4 @@
-// The SDK's loops over cells and synapses: what an update of one of them finds, and what becomes of it.
+// The SDK's loops over cells and synapses: the values that an update receives and writes.
 #include <vector>
 
 #include "core/types/membrane.h"
@@ -9,7 +9,8 @@ using namespace forage;
 
 namespace {
 
-/// Everything that an update can see, declared in another order than that of the members.
+/// A type that uses everything that an update can use. The declarations are in another order than the
+/// members.
 struct Everything {
     enum State { act, second, first, oldest, event, last };  // in order of declaration
     struct Cell {

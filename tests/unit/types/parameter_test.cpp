@@ -18,7 +18,8 @@ struct Commas : std::numpunct<char> {
     std::string do_grouping() const override { return "\3"; }
 };
 
-/// A place where people write 0,5 and 1.000: the C++ locale always, the C locale where one is installed.
+/// A locale in which numbers are written 0,5 and 1.000. The C++ locale is always set, the C locale where one
+/// is installed.
 class ForeignLocale {
   public:
     ForeignLocale()

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A directory of its own that is gone after the test.
+/// A directory that is removed after the test.
 struct Folder {
     fs::path path = fs::temp_directory_path() / ("forage-writer-test-" + std::to_string(::getpid()));
     Folder() { fs::create_directories(path); }
@@ -65,7 +65,7 @@ TEST_CASE("Two systems that differ anywhere are not equal") {
     CHECK(differs("value=\"-0.25\"", "value=\"-0.250\""));  // parameters stay as they were written
     CHECK(differs("APTarget=\"15\"", "APTarget=\"14\""));
     CHECK(differs("#FFFFFF", "#FFFFFE"));
-    CHECK_FALSE(differs("<Note>n</Note>", "<Note>n</Note>\n\n"));  // where something stands does not matter
+    CHECK_FALSE(differs("<Note>n</Note>", "<Note>n</Note>\n\n"));  // locations do not matter
 }
 
 TEST_CASE("Comments stay with the process, group or connection before or in which they stand") {
