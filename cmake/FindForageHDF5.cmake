@@ -8,7 +8,7 @@ find_library(HDF5_HL_LIBRARY NAMES hdf5_hl hdf5_serial_hl HINTS ${HDF5_LIBRARY_D
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(ForageHDF5 REQUIRED_VARS HDF5_HL_LIBRARY)
 
-# Beside the shared one, so that the headers are its own; and what else it needs differs, so it has to be tried.
+# The static library is looked for beside the shared one, so that the headers fit. The other libraries that it needs differ, so it is tried.
 find_library(HDF5_STATIC_LIBRARY NAMES libhdf5.a PATHS ${HDF5_LIBRARY_DIRS} NO_DEFAULT_PATH)
 find_library(HDF5_STATIC_HL_LIBRARY NAMES libhdf5_hl.a PATHS ${HDF5_LIBRARY_DIRS} NO_DEFAULT_PATH)
 find_library(SZ_LIBRARY sz)

@@ -1,4 +1,4 @@
-# What `cmake --install` and `cpack` put where.
+# The files that `cmake --install` and `cpack` install, and their folders.
 include(GNUInstallDirs)
 set(FORAGE_DOC_DIR ${CMAKE_INSTALL_DATAROOTDIR}/doc/forage)
 include(CMakePackageConfigHelpers)
@@ -15,7 +15,7 @@ install(DIRECTORY tools/api/forage/ DESTINATION ${FORAGE_HEADER_DIR} FILES_MATCH
 install(DIRECTORY core/base core/types core/model core/engine core/observe core/run DESTINATION ${FORAGE_HEADER_DIR}/core
         FILES_MATCHING PATTERN "*.h" PATTERN philox.h EXCLUDE)
 
-# Plugins need Eigen alone; programs that run systems need what Forage itself is made with.
+# Plugins need only Eigen. Programs that run systems need the libraries that Forage itself uses.
 set(directories INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${FORAGE_HEADER_DIR})
 install(TARGETS forage_sdk forage_random EXPORT ForageSdk ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/forage ${directories})
 install(TARGETS forage_api forage_base forage_types forage_model forage_connectivity forage_xml forage_engine forage_observe forage_run
@@ -24,7 +24,7 @@ install(TARGETS forage_api forage_base forage_types forage_model forage_connecti
         EXPORT ForageEmbedding ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/forage ${directories})
 install(EXPORT ForageSdk NAMESPACE forage:: DESTINATION ${FORAGE_CMAKE_DIR})
 install(EXPORT ForageEmbedding NAMESPACE forage:: DESTINATION ${FORAGE_CMAKE_DIR})
-# Not beside bin/, where find_package() would find what works only once it is installed.
+# The file is not put beside bin/, where find_package() would find it before it is installed and can work.
 set(package ${PROJECT_BINARY_DIR}/package)
 configure_package_config_file(cmake/ForageConfig.cmake.in ${package}/ForageConfig.cmake INSTALL_DESTINATION ${FORAGE_CMAKE_DIR})
 write_basic_package_version_file(${package}/ForageConfigVersion.cmake COMPATIBILITY SameMinorVersion)

@@ -4,7 +4,7 @@
 function(forage_add_plugin name)
   add_library(${name} MODULE ${ARGN})
   target_link_libraries(${name} PRIVATE forage::sdk)
-  # Plugins do not see each other; nor does a name in one collide with a name elsewhere.
+  # Plugins do not see each other, and a name in a plugin does not collide with a name elsewhere.
   set_target_properties(${name} PROPERTIES PREFIX "" SUFFIX .so CXX_EXTENSIONS OFF
                         CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
                         LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/plugins)

@@ -26,7 +26,7 @@ function(forage_room name)
   set_target_properties(forage_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name})
 endfunction()
 
-# forage_apart(a.cpp...): files that name something as a neighbour does. The presets of the sanitizers compile the other files
+# forage_apart(a.cpp...): files with a name that another file of the target has, too. The presets of the sanitizers compile the other files
 # of a target several at a time.
 function(forage_apart)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

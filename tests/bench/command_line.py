@@ -1,4 +1,4 @@
-"""What a person at the command line waits for: start, loading, recording, a sweep.
+"""The times for which a user at the command line waits: start, loading, recording, a sweep.
 
     command_line.py FORAGE
 
@@ -29,7 +29,7 @@ def result(subject, metric, value, unit):
 
 
 def run(*command):
-    """Seconds on the clock and of the processors that a command took."""
+    """The wall-clock time and the processor time of a command, s."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     begin = time.perf_counter()
     subprocess.run([str(c) for c in command], check=True, stdout=subprocess.DEVNULL)
@@ -70,7 +70,7 @@ def recording(forage, folder):
     motor = ("--record", "Bug/Motor")
 
     def per_cycle(*more):
-        """Processor time of a cycle: of a long run less that of a short one."""
+        """The processor time of a cycle, from the difference between a long and a short run."""
         long, short = 20000, 2000
         return (median(3, *base, *more, "--cycles", long)[1] - median(3, *base, *more, "--cycles", short)[1]) / (long - short)
 

@@ -1,4 +1,4 @@
-"""How many instructions does a cycle take? More than the recorded number is a slow-down, which shows without a clock.
+"""How many instructions does a cycle take? More than the recorded number is a slow-down, found without a clock.
 
     instructions.py FORAGE COMPILER [--record]
 

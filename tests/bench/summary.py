@@ -1,4 +1,4 @@
-"""Puts what the benchmarks measured into one file and says which targets are met.
+"""Collects the results of the benchmarks in one file and reports which targets are met.
 
     summary.py RESULTS.jsonl OUT.json
 """

@@ -1,4 +1,4 @@
-"""What a person sees: the program's output, its files and its exit status.
+"""The program as users see it: its output, its files and its exit status.
 
     cli_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
 """
@@ -61,7 +61,7 @@ class Run(Cli):
             self.assertEqual(int(row["trial"]), number)
             self.assertGreater(int(row["cycles"]), 20)
             self.assertEqual(row["outcome"], "target" if float(row["smallest_distance"]) < 0.45 else "missed")
-            # The middle start is the second of the world's; each way leads over one lower and one upper patch.
+            # The middle start is the world's second one; each path leads over one lower and one upper patch.
             start = round(float(row["start_x"]) / 1.5) + 2
             self.assertEqual((int(row["start"]), row["patches"]),
                              (start, {1: "cyan > red", 2: "blue > yellow", 3: "magenta > green"}[start]))
@@ -81,7 +81,7 @@ class Run(Cli):
         self.assertEqual(sorted(p.name for p in (self.here / "out").iterdir()), ["run.json", "trajectory.csv", "trajectory.png", "trials.csv"])
 
     def test_measures_of_the_learning_layers_are_those_of_their_groups(self):
-        # A group shows what its module wrote a cycle later.
+        # A group shows the values that its module writes one cycle later.
         done = self.forage("run", PROJECT / "systems/dac_foraging.iqr", "--world", WORLD, "--trials", 25, "-o", "out", "--set",
                            "Contextual.enableModule=true", "--set", "Contextual.Discrepancy Threshold=0.5", "--record",
                            "Adaptive/discrepancy", "--record", "Adaptive/prototype", "--record", "Contextual/Empty")
@@ -128,7 +128,7 @@ class Run(Cli):
         rows = self.table("out/Bug_GPS_act.csv")
         self.assertEqual(rows[0], ["cycle", "x1_y1", "x2_y1", "x3_y1"])
         self.assertEqual([int(r[0]) for r in rows[1:]], list(range(0, 100, 10)))
-        # The group reads x + 10, y + 10, heading + pi; what is sensed at the end of cycle t arrives in t + 2.
+        # The group reads x + 10, y + 10, heading + pi; values that are sensed at the end of cycle t arrive in t + 2.
         self.assertAlmostEqual(float(rows[2][1]), 10, delta=0.05)
         self.assertAlmostEqual(float(rows[2][2]), 10 - 2 + 0.08 * 5, delta=0.5)
         self.assertAlmostEqual(float(rows[2][3]), 1.5708 + 3.1416, delta=0.05)
@@ -144,7 +144,7 @@ class Run(Cli):
             self.assertEqual(own[0][2:], [trial["start_x"], trial["start_y"], trial["start_yaw"]])
             self.assertEqual(own[-1][2:], [trial["end_x"], trial["end_y"], trial["end_yaw"]])
             self.assertEqual(own[-1][1], trial["first_cycle"] + trial["cycles"] - 1)
-            # Where the robot is at the end of cycle t, the GPS group shows in t + 2.
+            # The GPS group shows in t + 2 where the robot is at the end of cycle t.
             for _, cycle, x, y, _ in own[1:-1]:
                 if cycle + 2 in gps:
                     self.assertAlmostEqual(gps[cycle + 2][0], x, places=9)

@@ -1,4 +1,4 @@
-"""Experiments: what they find, what is left of them when they are killed, and what is said of mistakes.
+"""Experiments: their results, their files after a kill, and messages for mistakes.
 
     experiment_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
 """
@@ -37,7 +37,7 @@ ROBOT = f"""<experiment>
 </experiment>
 """
 
-# B is what P.file says, A adds up what it gets from B.
+# B has the values in P.file, and A sums its input from B.
 SMALL_SYSTEM = """<System id="s" name="small" cylesPerSecond="25">
   <Process id="p" name="P">
     <Module name="moduleReplay"><XRefHolder name="OutputToGroup"><XRef name="out" target="b"/></XRefHolder></Module>
@@ -105,7 +105,7 @@ class Results(Experiment):
     def test_measures_of_a_system_that_can_be_worked_out(self):
         self.forage("experiment", "small.xml")
         rows = self.rows("forage-out/small/results.csv")
-        # B gets 2 in cycle 0, A gets 2 w in cycle 1 and adds 2 w in each cycle: 2 w t at the end of cycle t.
+        # B receives 2 in cycle 0. A receives 2 w from cycle 1 on and adds it in each cycle: 2 w t at the end of cycle t.
         self.assertEqual([r["B to A.weight"] for r in rows], ["1", "0.5"])
         self.assertEqual([r["five"] for r in rows], ["4", "6"])  # after cycles 3 and 5
         self.assertEqual([r["end"] for r in rows], ["36", "18"])

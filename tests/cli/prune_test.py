@@ -40,7 +40,7 @@ GROWS = 'name="neuronLinearThreshold"><Parameter name="vmPrs" value="1"/><Parame
 STRONG = 'name="synapseFixedWeight"><Parameter name="weight" value="1e307"/>'
 WEAK = 'name="synapseFixedWeight"><Parameter name="weight" value="0.1"/>'
 LEARNS = 'name="synapseHebbian"><XRefHolder name="Freedback"><XRef name="postact" target="act"/></XRefHolder>'
-# G spikes; H becomes infinite soon; M is reached by synapses that learn; nothing reads any of them.
+# G spikes, H soon becomes infinite, and synapses that learn lead to M. Nothing reads any of them.
 SMALL = f"""<?xml version="1.0" encoding="UTF-8"?>
 <System id="s" name="small" author="" date="" cylesPerSecond="25">
   <Process id="p" name="P"><DiagramIcon x="0" y="0"/>
@@ -74,7 +74,7 @@ class Pruning(Stopped):
         self.assertRegex(few.stdout, r"memory +[1-9]\d* of 50 sequences")  # the layer is at work
         for name in ("Bug_Motor_act.csv", "trials.csv", "trajectory.csv"):
             self.assert_equal_files(name, "few", "everything", "shown")
-        # What is read is what it is when everything is computed.
+        # The groups that are read have the same numbers as when everything is computed.
         self.forage(*RUN, *displays, "--cycles", 4000, "--hash", "-o", "all")
         for d in DISPLAYS:
             self.assert_equal_files(f"mean_Contextual_{d}_act.csv", "shown", "all")

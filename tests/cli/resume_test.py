@@ -1,4 +1,4 @@
-"""Runs that are stopped, by signals, kills and faults, and go on: what they leave behind.
+"""Runs that are stopped by signals, kills and faults, and continue: the files that they leave.
 
     resume_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [TestClass...]
 """
@@ -19,7 +19,7 @@ from cli_test import FORAGE, PROJECT, SMALL_SYSTEM, SYSTEM, WORLD, Cli
 DAC = str(PROJECT / "systems/dac_foraging.iqr")
 KILLS = int(os.environ.get("FORAGE_KILLS", "50"))
 
-# All kinds of files, means that are not complete, a change that depends on what happened, a manipulation.
+# All kinds of files, incomplete means, a change whose condition depends on the run, and a manipulation.
 EVERYTHING = ("run", DAC, "--world", WORLD, "--seed", "3", "--hash", "-q",
               "-r", "Selection/Motor In", "-r", "mean:Selection/Approach=mean.csv", "-r", "Adaptive/CS:pot=cs.npy",
               "-r", "Adaptive/Weights Display=all.npz", "-r", "Adaptive/prototype=all.npz",
@@ -46,12 +46,12 @@ class Stopped(Cli):
             out, err = process.communicate(timeout=300)
         if how == signal.SIGKILL and process.returncode == -signal.SIGKILL:
             return None
-        # Before it runs, nothing is to be finished: then the signal ends it.
+        # Before the run begins there is nothing to finish, so the signal ends the program.
         self.assertIn(process.returncode, (0, 128 + how, -how), out + err)
         return process.returncode
 
     def until_there_is(self, name):
-        """Waits for the checkpoint that a run is to write."""
+        """Waits until a run has written its checkpoint."""
         for _ in range(600):
             if (self.here / name).exists():
                 return
@@ -95,7 +95,7 @@ class Resume(Stopped):
             self.assertIn("all.npz", names)
             self.assertIn("run.json", names)
             self.assertFalse([n for n in names if n.endswith(".part")])
-            # As if it had been killed while it took a recording out of the archive again.
+            # As after a kill while a recording was extracted from the archive.
             (self.here / out / "Adaptive_Weights_Display_act.npy.unpacked.part").write_bytes(b"not all of it")
             process = self.start("resume", out)
             self.stop(process, 0.3, how)
@@ -212,18 +212,18 @@ class Resume(Stopped):
         self.assertEqual(self.stop(process, 3, signal.SIGINT), 130)  # in real time: it does not end by itself
 
 
-# What else a run may consist of: robots that play in teams, push balls, carry them and speak; sensors with rates of their own
+# Other kinds of runs: robots that play in teams, push balls, carry them and communicate; sensors with their own rates
 # and a delay.
 TEAMS = ("run", str(PROJECT / "systems/team_a.iqr"), str(PROJECT / "systems/team_b.iqr"),
          "--world", str(PROJECT / "systems/worlds/team_arena.world"), "--seed", 5, "--hash", "-q")
-# One robot that carries a ball about, another one that drives round it; both speak, and listen.
+# One robot carries a ball, and another one drives around it. Both send and receive messages.
 VOICES = ("run", "voices.iqr", "--world", "voices.world", "--seed", 7, "--hash", "-q", "-r", "Carrier/Heard",
           "-r", "Carrier/Between the fingers=rays.npy", "-r", "Speaker/Heard", "--clamp", "Carrier/Gripper(1,1)=1; from cycle 10")
 RATES = ("run", SYSTEM, "--world", WORLD, "--seed", 6, "--sensor-rates", "--latency", 2, "--hash", "-q", "-r", "Bug/Light")
 
 
 def voices(name):
-    """The process of a robot that drives at random and says at random what others hear."""
+    """The process of a robot that drives at random and sends random messages to others."""
 
     def group(short, title, width, height, neuron="neuronNumeric"):
         return (f'<Group id="{name}.{short}" name="{title}"><Topology><TopologyRect hcount="{width}" vcount="{height}"/>'
@@ -281,7 +281,7 @@ class Kinds(Stopped):
             shutil.rmtree(self.here / "through")
 
     def assert_carried_and_heard(self):
-        """The run was one in which there was something to lose."""
+        """Checks that the run was one with something to lose."""
         heard = [[float(v) for v in row[1:]] for row in self.table("through/Carrier_Heard_act.csv")[1:]]
         self.assertGreater(len({tuple(row) for row in heard}), 100)
         rays = (self.here / "through/rays.npy").read_bytes()
@@ -294,7 +294,7 @@ class Kinds(Stopped):
 
 class Faults(Stopped):
     def limited(self, size, *arguments):
-        """A run whose files cannot grow above a size: to a program that is what a full disk is."""
+        """A run whose files cannot grow above a size. For a program this is the same as a full disk."""
         return subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, capture_output=True, text=True, timeout=600,
                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
 
@@ -320,7 +320,7 @@ class Faults(Stopped):
             self.assertFalse(list((self.here / form).glob("*.part")))
 
     def test_on_a_full_disk_an_hdf5_file_stays_whole(self):
-        """HDF5 is asked to write only what there is space for; h5py, which did not write it, reads the rows."""
+        """HDF5 writes only as much as there is space for. h5py, which did not write the file, reads the rows."""
         import h5py
         import numpy
 

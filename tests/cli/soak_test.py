@@ -1,4 +1,4 @@
-"""A long run of the whole DAC system: the same end whatever else happens, and no growth of memory.
+"""A long run of the whole DAC system: the same end with and without results, and no growth of memory.
 
     soak_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [CYCLES]
 """
@@ -22,7 +22,7 @@ VARIANTS = {
 
 
 def memory(process):
-    """MB that a program has in memory."""
+    """The memory of a program, MB."""
     try:
         text = pathlib.Path(f"/proc/{process.pid}/statm").read_text()
         return int(text.split()[1]) * 4096 / 1e6
@@ -45,11 +45,11 @@ def run(name, more, out):
     seen = [m for m in seen if m]
     seen = seen[:-max(len(seen) // 10, min(10, len(seen) // 2))]  # without the pictures at the end
     quarter = len(seen) // 4
-    # Medians: for a moment, a checkpoint that is written is in memory too.
+    # Medians are compared, because a checkpoint is briefly in memory while it is written.
     early, late = statistics.median(seen[quarter:2 * quarter]), statistics.median(seen[-quarter:])
     print(f"{name}: {CYCLES} cycles, {trials} trials, {time.monotonic() - begun:.0f} s, state {state}, "
           f"{early:.1f} MB in the second quarter, {late:.1f} MB in the last, {max(seen):.1f} MB at most", flush=True)
-    # What is known of each trial is kept; where there are results, the path too, up to a million points.
+    # The record of each trial is kept; with results also the path, up to a million points.
     bound = 1 + 1e-3 * trials + (min(100, CYCLES * 100e-6) if out else 0)
     assert late - early < bound, f"{name}: the memory grows by {late - early:.1f} MB, more than {bound:.1f}"
     return state

@@ -1,4 +1,4 @@
-"""Worlds, films, several systems in one run, and the page that tells how to make a world.
+"""Worlds, films, several systems in one run, and the page on how to make a world.
 
     world_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
 """
@@ -19,7 +19,7 @@ TEAMS = [SYSTEMS / "team_a.iqr", SYSTEMS / "team_b.iqr", "--world", SYSTEMS / "w
 
 
 def gif_frames(data):
-    """Counts the pictures of a GIF and checks that it is whole."""
+    """Counts the pictures of a GIF file and checks that it is complete."""
     assert data[:6] == b"GIF89a" and data[-1:] == b";", data[:6]
     at = 13 + (3 << ((data[10] & 7) + 1) if data[10] & 128 else 0)
     frames = 0

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the robot learns: runs the experiments of systems/learning as the README says, and compares with what it promises.
+"""What the robot learns: runs the experiments of systems/learning as in the README, and compares with its numbers.
 
 usage: learning_test.py FORAGE PROJECT
 """

@@ -1,12 +1,12 @@
-"""What a person sees who made a mistake, through the whole program: each case must be refused with exit status 2 and the
+"""The messages for mistakes, tested with the whole program: each case must be refused with exit status 2 and the
 words beside it, within a second and 200 MB.
 
     bad_input_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [CASE...]
 
-A folder bad_KIND holds the cases of a kind. A case is NAME.ending, or a folder NAME that holds NAME.ending and what it
-needs; NAME.expect is all that is said of it. It runs in a copy of the folder `sound`, where everything else is well.
-Files that are too odd to keep are made by made_input.py. FORAGE_REWRITE_EXPECTATIONS=1 writes the answers anew: read
-them as their reader would before keeping them.
+A folder bad_KIND contains the cases of a kind. A case is NAME.ending, or a folder NAME with NAME.ending and the files that it
+needs; NAME.expect is the complete output. It runs in a copy of the folder `sound`, in which everything else is correct.
+made_input.py makes files that cannot be kept. FORAGE_REWRITE_EXPECTATIONS=1 writes the expected outputs anew: read
+them as a user would before you keep them.
 """
 
 import atexit
@@ -30,7 +30,7 @@ REWRITE = bool(os.environ.get("FORAGE_REWRITE_EXPECTATIONS"))
 INSTRUMENTED = bool(os.environ.get("FORAGE_INSTRUMENTED"))  # sanitizers take ten times as long, and all memory
 SECONDS, MEGABYTES = (10, float("inf")) if INSTRUMENTED else (1, 200)
 
-# How a file of an ending is given to the program.
+# The arguments with which files of each ending are given to the program.
 COMMANDS = {
     ("bad_systems", ".iqr"): ["check", "{}"],
     ("bad_processes", ".iqrProcess"): ["convert", "system.iqr", "out.iqr", "--import", "{}"],
@@ -49,7 +49,7 @@ COMMANDS = {
 
 @functools.cache
 def program():
-    """The program where every user may run it: some cases are tried by one who is not root."""
+    """A copy of the program that every user may run, because some cases are tried by a user who is not root."""
     folder = tempfile.TemporaryDirectory()
     atexit.register(folder.cleanup)
     os.chmod(folder.name, 0o755)
@@ -57,7 +57,7 @@ def program():
 
 
 class Answer:
-    """What a command did: its exit status, what it said, and what it took (the processor's seconds, and MB)."""
+    """The result of a command: its exit status, its output, and its cost (processor time in s, and memory in MB)."""
 
     def __init__(self, arguments, directory, **more):
         environment = {k: v for k, v in os.environ.items() if k not in ("FORAGE_MODEL_PATH", "GAZEBO_MODEL_PATH")}
@@ -82,7 +82,7 @@ class Answer:
 
 
 def cases(kind):
-    """(name, ending, the file or folder)"""
+    """The cases as (name, ending, the file or folder)."""
     for path in sorted((HERE / kind).iterdir()):
         if path.suffix == ".expect":
             continue
@@ -119,7 +119,7 @@ class BadInput(unittest.TestCase):
         return answer
 
     def refused(self, kind, name, arguments, status=2, **more):
-        """Runs a command that cannot be carried out, and compares what it says."""
+        """Runs a command that must be refused, and compares its output."""
         before = sorted(p.name for p in self.here.iterdir())
         answer = self.measured(f"{kind}/{name}", arguments, **more)
         self.assertEqual(answer.status, status, answer.said + answer.printed)
@@ -162,7 +162,7 @@ class BadInput(unittest.TestCase):
         self.every_case_of("bad_weights")
 
     def test_command_lines(self):
-        """One argument a line."""
+        """Reads a command line with one argument per line."""
         for name, _, path in cases("bad_command_lines"):
             if WANTED and name not in WANTED:
                 continue
@@ -171,7 +171,7 @@ class BadInput(unittest.TestCase):
                 self.refused("bad_command_lines", name, os.fsdecode(path.read_bytes()).splitlines())
 
     def test_systems(self):
-        """The words are those of bad_systems_test.cpp, which knows a few types only; here is the rest of the way."""
+        """bad_systems_test.cpp checks the messages with a few types only; this test runs the whole program."""
         for name, ending, path in cases("bad_systems"):
             if WANTED and name not in WANTED:
                 continue
@@ -196,7 +196,7 @@ class BadInput(unittest.TestCase):
                 self.refused("bad_made", name, case.arguments, case.status, **case.popen)
 
     def test_what_is_sound_is_not_refused(self):
-        """The cases prove something because without their mistake all is well."""
+        """Checks that the cases without their mistake are accepted; otherwise they would prove nothing."""
         for arguments in (
             "check system.iqr --world world.world",
             "check part.iqrProcess",

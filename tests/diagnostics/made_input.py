@@ -1,4 +1,4 @@
-"""Cases that are too large or too odd to keep as files: each makes its own in the directory it is given.
+"""Cases that are too large or too odd to keep as files: each function makes its files in the given directory.
 
 CASES: name -> function of the directory, which returns what to run there.
 """
@@ -43,8 +43,8 @@ ENDING = {"system": ".iqr", "world": ".world", "experiment": ".xml", "recording"
 
 
 def written(kind, *pieces):
-    """A case with a file of these pieces, each a text or (text, times). Written bit by bit: what this program takes at
-    most, the system counts as memory of the programs it starts."""
+    """A case with a file of these pieces, each a text or (text, times). The file is written piece by piece, because the
+    system counts the peak memory of this program as memory of the programs that it starts."""
 
     def make(here):
         name = "input" + ENDING.get(kind, ".txt")
@@ -106,7 +106,7 @@ def add_kinds():
 
 
 def as_nobody(here):
-    """Root reads everything: another user is needed who does not."""
+    """Runs as another user, because root can read every file."""
     if os.geteuid() != 0:
         return {}
     for path in (here.parent, here):
@@ -207,7 +207,7 @@ def an_answer_that_cannot_be_printed(here):
 
 
 def in_the_way(*names):
-    """Folders that have the names of what is to be written."""
+    """Makes folders with the names of files that will be written."""
 
     def make(here):
         for name in names:

@@ -9,7 +9,7 @@ import re
 import sys
 import tempfile
 
-# Each room and the rooms whose headers it may include, itself apart. Tests may include anything.
+# Each room, and the other rooms whose headers it may include. Tests may include anything.
 ALLOWED = {
     'core/base': set(),
     'core/types': {'core/base'},
@@ -20,7 +20,7 @@ ALLOWED = {
     'core/observe': {'core/base', 'core/engine', 'core/model'},
     'core/run': {'core/base', 'core/types', 'core/model', 'core/engine', 'core/observe'},
     'core/plugin': {'core/base', 'core/types'},
-    # Shipped types use what a plugin can use, and nothing of each other's.
+    # Shipped types use only what a plugin can use, and do not use each other.
     'neurons': {'core/types'},
     'synapses': {'core/types'},
     'modules': {'core/base', 'core/types'},
@@ -34,7 +34,7 @@ ALLOWED = {
 ALLOWED['tools'] = set(ALLOWED) - {'core/connectivity', 'core/plugin', 'core/types', 'modules', 'neurons', 'synapses'}
 ROOMS = set(ALLOWED)
 
-# Libraries that are one room's own: what their headers begin with, and who may include them.
+# Libraries that belong to one room: the beginnings of their headers' names, and the rooms that may include them.
 OWNED = [
     (r'tinyxml2\.h', {'core/xml'}),
     (r'Random123/', {'core/base'}),
@@ -52,7 +52,7 @@ def room_of(path):
 
 
 def check_include(path, bracket, header):
-    """What is wrong with `path` including `header`, or None. Both are paths from the root."""
+    """The reason why `path` must not include `header`, or None. Both are paths from the root."""
     here = room_of(path)
     for pattern, owners in OWNED:
         if re.match(pattern, header) and here not in owners:
@@ -91,7 +91,7 @@ def check(root, used=None):
 
 
 def unused(used):
-    """Permissions that no file needs: they would let an arrow in later without a word."""
+    """Permissions that no file needs. They would later allow a wrong arrow without a message."""
     given = [(room, other) for room, others in ALLOWED.items() for other in others if room != other]
     given += [(room, pattern) for pattern, owners in OWNED for room in owners]
     return [f'tests/layering/layering.py: {room} may include {other}, and no file does' for room, other in sorted(given)

@@ -1,4 +1,4 @@
-"""Plugins: how they are found, and what is said of broken ones.
+"""Plugins: how they are found, and the messages for broken ones.
 
     plugins_test.py FORAGE_PROGRAM DIRECTORY_OF_BUILT_PLUGINS
 """
@@ -17,7 +17,7 @@ import unittest
 FORAGE = str(pathlib.Path(sys.argv[1]).resolve())
 BROKEN = pathlib.Path(sys.argv[2]).resolve() / "broken"
 
-# What a person is told of a broken plugin: the error, and a part of the hint.
+# The message for each broken plugin: the error, and a part of the hint.
 CORPUS = {
     "behind_the_end": (r"has a neuron type 'neuronBehindTheEnd' that does not work: it writes beside its columns", ""),
     "half_good": (r"neuron type 'neuronBad' declares the state 'act' twice", ""),
