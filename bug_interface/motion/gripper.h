@@ -11,7 +11,7 @@ namespace forage::bug {
 /// A link of a robot and its position in the robot.
 struct RobotLink {
     const Link* link = nullptr;
-    Pose home = Pose::Identity();  ///< in the frame of the robot, with all hinges at angle 0
+    Pose home = Pose::Identity();  ///< pose in the frame of the robot, with all hinges at angle 0
     int hinge = -1;  ///< number of the hinge that moves the link; -1 when it is fixed to the body
 };
 
@@ -31,7 +31,7 @@ class Hinges {
         double x = 0, y = 0;          ///< the axis in the frame of the robot, with all hinges at angle 0, m
         double sense = 1;             ///< 1 when the angle grows to the left (counter-clockwise), else -1
         double lower = 0, upper = 0;  ///< limits of the angle, rad
-        double inertia = 0;           ///< of all links that turn with the hinge, kg m^2
+        double inertia = 0;           ///< moment of inertia of all links that turn with the hinge, kg m^2
         double angle = 0;             ///< rad; at 0 the links are where the file puts them
     };
 

@@ -37,15 +37,15 @@ struct Part {
 /// A robot, which is driven, or a movable object, which keeps its velocity until contacts or the friction of
 /// the floor change it.
 struct Body {
-    double radius = 0.2;    ///< of the central disc, m; 0 for a body without one
+    double radius = 0.2;    ///< radius of the central disc, m; 0 for a body without one
     double mass = 5;        ///< kg
     double inertia = 1;     ///< about the vertical axis, kg m^2
     double friction = 0.1;  ///< Coulomb coefficient of the central disc
-    int layer = 0;          ///< of the central disc
+    int layer = 0;          ///< layer of the central disc
     std::vector<Part> parts;
     bool driven = true;               ///< false for a movable object
-    double deceleration = 0;          ///< of a movable object on the floor, m/s^2
-    double angular_deceleration = 0;  ///< of a movable object on the floor, rad/s^2
+    double deceleration = 0;          ///< deceleration of a movable object on the floor, m/s^2
+    double angular_deceleration = 0;  ///< the same for its rotation, rad/s^2
 };
 
 /// Moves bodies in time steps. In every step each driven body gets the velocity of its command; contacts and
@@ -100,8 +100,8 @@ class Physics {
 
     /// The number of contacts between shapes of this movable object and shapes of robots in the last step.
     int robot_contacts(std::size_t body) const { return states_[body].robot_contacts; }
-    double speed(std::size_t body) const;              ///< in the last step, m/s
-    double angular_velocity(std::size_t body) const {  ///< in the last step, rad/s
+    double speed(std::size_t body) const;              ///< speed in the last step, m/s
+    double angular_velocity(std::size_t body) const {  ///< angular velocity in the last step, rad/s
         return velocities_[body].turn;
     }
     std::span<const Part> parts(std::size_t body) const { return bodies_[body].parts; }
@@ -124,7 +124,7 @@ class Physics {
         bool active = false;         ///< whether Bullet has to consider the body in this step
         double clearance = 0;        ///< how far every point of the body can move without a contact, m
         double bounding_radius = 0;  ///< radius of what the body has ever covered, in its frame, m
-        LayerMask layers = 0;        ///< of the central disc and the parts
+        LayerMask layers = 0;        ///< layers of the central disc and the parts
         int robot_contacts = 0;
         double cached_yaw = 0, cos_yaw = 1, sin_yaw = 0;
         void update_rotation() {
@@ -198,7 +198,7 @@ class Physics {
     std::vector<Obstacle> obstacles_;
     std::vector<Body> bodies_;
     std::vector<State> states_;
-    std::vector<Velocity> velocities_;  ///< in the current step
+    std::vector<Velocity> velocities_;  ///< velocities in the current step
     std::vector<ShapeCache> shape_caches_;
     double step_;  ///< s
     Contacts contacts_;
@@ -206,7 +206,7 @@ class Physics {
     std::uint64_t contact_steps_ = 0;
     std::vector<Pose2> poses_before_;                    ///< before the current step
     std::vector<char> reverted_;                         ///< whether a body is put back to its pose before
-    std::vector<Outline> outlines_before_;               ///< of parts, before rotate_parts()
+    std::vector<Outline> outlines_before_;               ///< outlines of parts before rotate_parts()
     std::vector<std::pair<std::size_t, Pose2>> pushed_;  ///< bodies that parts pushed, with the poses before
     std::unique_ptr<ContactSolver> contact_solver_;
 };

@@ -16,8 +16,8 @@ namespace forage::bug {
 /// The start poses of robots, and the bounds that end a trial.
 struct ResetPlan {
     std::vector<Pose2> starts;
-    std::vector<std::string> names;  ///< of the models that give `starts`
-    Eigen::AlignedBox2d bounds;      ///< of the centre of a robot, m
+    std::vector<std::string> names;  ///< names of the models that give `starts`
+    Eigen::AlignedBox2d bounds;      ///< bounds of the centre of a robot, m
 };
 
 /// The start poses are those of the models Reset_0 to Reset_9. The bounds are the bounding box of the last

@@ -15,7 +15,7 @@ namespace {
 constexpr double target_depth = 5e-4;    ///< m; separation reduces the depth to this
 constexpr double max_depth = 8e-4;       ///< m; accepted when separation does not converge
 constexpr double depth_epsilon = 1e-12;  ///< m; smaller excesses are ignored
-constexpr int max_rounds = 20;           ///< of separating all pairs
+constexpr int max_rounds = 20;           ///< largest number of passes over all pairs
 
 }  // namespace
 

@@ -7,8 +7,8 @@
 
 namespace forage::bug {
 
-/// One bit per cell, stored in blocks of 8 x 8 cells, and a summed-area table of the blocks with set bits. A
-/// grid of 2000 x 2000 cells takes 0.75 MB and stays in the cache.
+/// A grid with one bit per cell. The bits are stored in blocks of 8 x 8 cells, with a summed-area table of
+/// the blocks with set bits. A grid of 2000 x 2000 cells takes 0.75 MB and stays in the cache.
 class BitGrid {
   public:
     BitGrid() = default;
@@ -24,7 +24,7 @@ class BitGrid {
     }
 
   private:
-    static constexpr std::size_t side = 8;  ///< of a block, cells
+    static constexpr std::size_t side = 8;  ///< side of a block, cells
 
     bool no_block_in(std::size_t left, std::size_t right, std::size_t top, std::size_t bottom) const {
         const std::uint32_t *above = &sums_[top * (blocks_wide_ + 1)],

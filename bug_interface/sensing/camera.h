@@ -46,7 +46,7 @@ class Camera {
   private:
     static constexpr int tile_width = 32;    ///< pixels of one row that are rendered together
     static constexpr int segment_width = 8;  ///< pixels that are tested together for a uniform colour
-    static constexpr int max_samples = 16;   ///< per pixel
+    static constexpr int max_samples = 16;   ///< largest number of samples per pixel
     static constexpr double low_height =
         0.02;  ///< m; solids below it (paint on the floor) have tighter bounds
 
@@ -67,8 +67,8 @@ class Camera {
         std::size_t first = 0;  ///< its first sample; sample s of pixel p is first + s * pixels + p
         Bounds all;             ///< bounds of everything that the samples can see
         Bounds low;             ///< bounds of what they can see below z = low_height
-        Extent extent;          ///< of all samples
-        std::array<Extent, tile_width / segment_width> segments;  ///< of segment_width pixels each
+        Extent extent;          ///< extent of all samples
+        std::array<Extent, tile_width / segment_width> segments;  ///< extents of segment_width pixels each
         bool reaches_floor = true;  ///< whether all rays would meet all floors if the floors were infinite
     };
     /// The points where all samples meet one floor, in the frame of the robot, m; infinity where they do not.
@@ -76,7 +76,7 @@ class Camera {
         std::vector<float> x, y;
         std::vector<float> depth;  ///< along the optical axis, m
     };
-    struct View;  ///< what is constant in one picture
+    struct View;  ///< values that are constant in one picture
     /// The pixels in which a solid may be visible; the ends are one past the last.
     struct Window {
         const VisualSolid* visual = nullptr;
@@ -108,7 +108,7 @@ class Camera {
     std::vector<float> ray_x_, ray_y_,
         ray_z_;                              ///< per sample, robot's frame; length 1 along the optical axis
     std::vector<FloorPoints> floor_points_;  ///< one per floor of the scene
-    std::vector<Window> windows_;            ///< of the solids in the current picture
+    std::vector<Window> windows_;            ///< windows of the solids in the current picture
 };
 
 }  // namespace forage::bug

@@ -16,8 +16,8 @@ constexpr std::size_t tile_samples = 32 * 16;  ///< the largest number in a tile
 /// The samples of one tile while it is rendered.
 struct Samples {
     std::array<Eigen::Array4f, tile_samples> rgb;  ///< the fourth number is unused
-    std::array<float, tile_samples> depth;         ///< of the nearest surface so far, along the optical axis
-    std::array<double, tile_samples> entry, face;  ///< of one solid, as in Entries
+    std::array<float, tile_samples> depth;  ///< depth of the nearest surface so far, along the optical axis
+    std::array<double, tile_samples> entry, face;  ///< entries into one solid, as in Entries
 };
 
 }  // namespace
@@ -44,9 +44,9 @@ struct Camera::View {
     };
 
     Pose2 robot;
-    Pose pose;                            ///< of the robot in the world, in three dimensions
+    Pose pose;                            ///< pose of the robot in the world, in three dimensions
     const FloorSurface* floor = nullptr;  ///< the only floor, if there is one and it is low
-    std::optional<ToTexels> to_texels;    ///< of that floor
+    std::optional<ToTexels> to_texels;    ///< transform to the texels of that floor
 
     View(const Pose2& r, std::span<const FloorSurface> floors) : robot(r), pose(Pose::Identity()) {
         if (floors.size() == 1 && floors.front().z <= low_height) {

@@ -63,7 +63,7 @@ class FloorTexture {
     int stride_;     ///< width + 2: the picture has a border of one texel
     Pixels texels_;  ///< red, green, blue, flag; from the low byte
     BitGrid not_flat_;
-    Colour gain_;                                    ///< of a value in 0..255
+    Colour gain_;                                    ///< factor from a value in 0..255 to the visible channel
     std::array<std::array<float, 256>, 3> visible_;  ///< [channel][value], 0..1
 };
 

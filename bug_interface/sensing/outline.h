@@ -13,7 +13,7 @@ namespace forage::bug {
 /// A box, an upright cylinder or a sphere, but never a plane.
 struct Solid {
     ShapeKind kind = ShapeKind::box;
-    Pose pose = Pose::Identity();  ///< in the world; only the yaw turns the solid
+    Pose pose = Pose::Identity();  ///< pose in the world; only the yaw turns the solid
     Eigen::Vector3d size =
         Eigen::Vector3d::Zero();  ///< full extents, or diameters and length, as in Shape, m
 };
@@ -24,7 +24,7 @@ struct Outline {
     double x = 0, y = 0;              ///< centre
     double cos_yaw = 1, sin_yaw = 0;  ///< orientation of a rectangle
     double half_x = 0, half_y = 0;    ///< half the extents of a rectangle, along its own axes
-    double radius = 0;                ///< of a circle
+    double radius = 0;                ///< radius of a circle
 };
 
 /// The cross-section of `solid` with the plane z = `height` (m). Empty when the plane misses the solid.

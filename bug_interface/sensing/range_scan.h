@@ -21,7 +21,7 @@ class RangeScanner {
     /// `link_pose`: pose of the sensor's link in the robot.
     RangeScanner(const RangeSensor& sensor, const Pose& link_pose);
 
-    double height() const { return height_; }  ///< of all rays above the floor, m
+    double height() const { return height_; }  ///< height of all rays above the floor, m
     int rays() const { return static_cast<int>(direction_x_.size()); }
     double min_range() const { return min_; }  ///< m
     double max_range() const { return max_; }  ///< m

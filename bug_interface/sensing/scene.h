@@ -22,7 +22,7 @@ struct VisualSolid {
 /// A horizontal rectangle, visible from above only.
 struct FloorSurface {
     double z = 0;                   ///< height, m
-    Pose2 pose;                     ///< of its centre in the world
+    Pose2 pose;                     ///< pose of its centre in the world
     double size_x = 0, size_y = 0;  ///< full extents along its own axes, m
     FloorTexture texture;           ///< its top edge is at +y, its left edge at -x
 };

@@ -36,7 +36,7 @@ struct Transceiver {
     bool transmitting = false;      ///< whether a message is sent in this cycle
     bool audible = false;           ///< whether the last message was not silent
     Message message{};              ///< the last message
-    Pose2 position;                 ///< of the robot when it was transmitted
+    Pose2 position;                 ///< position of the robot when the message was transmitted
     std::vector<Message> received;  ///< the last message of each robot, attenuated
 };
 

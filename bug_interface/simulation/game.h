@@ -38,7 +38,7 @@ class Game {
         Pose2 start;           ///< the pose to which it returns without rules
         bool removed = false, good = true, held = false;
         int age = 0;       ///< s
-        int contacts = 0;  ///< with robots, since the last check
+        int contacts = 0;  ///< number of contacts with robots since the last check
         void checkpoint(Archive& archive) { archive(start, removed, good, held, age, contacts); }
     };
 

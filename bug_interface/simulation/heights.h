@@ -15,7 +15,7 @@ class Heights {
     /// The layer of a shape that extends from `low` to `high` (m); a new one when no layer has this range.
     /// Reports an error at `where` the first time that there are more than max_layers.
     int layer(double low, double high, const Location& where, Diagnostics& diagnostics);
-    /// For each layer, the layers that share at least 1 mm of heights with it.
+    /// The mask of each layer: the layers that share at least 1 mm of heights with it.
     std::vector<LayerMask> collision_masks() const;
     /// The lower and the upper limit of each layer, m.
     const std::vector<std::pair<double, double>>& ranges() const { return ranges_; }

@@ -15,7 +15,7 @@ namespace forage::bug {
 /// A movable object. Its frame is that of its first link, projected onto the floor.
 struct MovableObject {
     std::string name;
-    Pose2 start;                        ///< in the world file
+    Pose2 start;                        ///< pose in the world file
     std::vector<Solid> solids;          ///< collision shapes in the frame of the object
     std::vector<MovingVisual> visuals;  ///< their `body` is 0 here
     bool resource = false;              ///< whether it has the target plugin: robots collect it

@@ -14,8 +14,8 @@ namespace forage::bug {
 /// A coloured region of a floor's picture, surrounded by black, grey or white.
 struct Patch {
     Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< centre of gravity, m
-    double radius = 0;                                 ///< of a disc with the same area, m
-    std::string colour;  ///< at the centre: one of twelve hues, "red", "orange", "yellow", ... "rose"
+    double radius = 0;                                 ///< radius of a disc with the same area, m
+    std::string colour;  ///< hue at the centre, one of twelve: "red", "orange", "yellow", ... "rose"
 };
 
 /// The patches with a radius of at least 0.05 m, row by row from the top of each floor's picture. Their

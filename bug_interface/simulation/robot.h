@@ -42,7 +42,7 @@ class Robot {
     std::vector<MovingOutline> parts;   ///< `body.parts` with the hinges that move them
 
     // ---- state ----
-    Pose2 pose;            ///< at the end of the last cycle; during a reset, a random start pose
+    Pose2 pose;            ///< pose at the end of the last cycle; during a reset, a random start pose
     MotorCommand command;  ///< holds until the next one
     Hinges hinges;
     RandomStream motor_noise;

@@ -23,9 +23,9 @@ namespace forage::bug {
 /// the leftmost ray; they are empty when the robot does not have the sensor.
 struct BugSnapshot {
     Pose2 pose;                     ///< m; yaw in (-pi, pi]
-    std::vector<double> proximity;  ///< of the sensor "laser"
-    std::vector<double> target;     ///< of the sensor "laser_target", which sees the light
-    std::vector<double> gripper;    ///< of the sensor "laser_gripper"; updated only on request
+    std::vector<double> proximity;  ///< scan of the sensor "laser"
+    std::vector<double> target;     ///< scan of the sensor "laser_target", which sees the light
+    std::vector<double> gripper;    ///< scan of the sensor "laser_gripper"; updated only on request
     Message received{};             ///< the sum of the messages of all other robots, attenuated
     /// height x width x 3 bytes (red, green, blue), rows from the top; updated only on request.
     std::vector<std::uint8_t> image;

@@ -23,10 +23,10 @@ namespace forage::bug {
 
 struct WorldOptions {
     std::uint64_t seed = 1;
-    double cycles_per_second = 25;  ///< of the neural system, per second of wall-clock time
+    double cycles_per_second = 25;  ///< cycles of the neural system per second of wall-clock time
     /// Simulated time per wall-clock time. Empty for the factor in the world file.
     std::optional<double> real_time_factor;
-    bool noise = true;          ///< of motors, scanners and cameras; resets are random in any case
+    bool noise = true;          ///< whether motors, scanners and cameras are noisy; resets are always random
     bool sensor_rates = false;  ///< whether sensors have the rates of the world file, instead of every cycle
     int latency = 0;            ///< cycles until modules receive what was sensed
     bool game = false;          ///< whether the challenge's game is played in a world without rules
@@ -134,7 +134,7 @@ class World final : public Environment {
     std::optional<ResetPlan> reset_plan() const { return plan_; }             ///< start poses and bounds
     const Game& game() const { return game_; }
     const Robot& robot(std::size_t bug) const { return robots_[bug]; }
-    const BodyPoses& body_poses() const { return body_poses_; }  ///< at the end of the last cycle
+    const BodyPoses& body_poses() const { return body_poses_; }  ///< poses at the end of the last cycle
     std::span<const MovingVisual> moving_visuals() const { return moving_visuals_; }
     /// The visible solids of static models and of movable objects, for drawing.
     std::vector<DrawnSolid> drawing() const;
@@ -177,12 +177,12 @@ class World final : public Environment {
     Heights heights_;
     std::vector<Robot> robots_;
     std::vector<MovableObject> movable_objects_;
-    std::vector<Body> bodies_;          ///< of the robots, then of the movable objects
+    std::vector<Body> bodies_;          ///< the robots, then the movable objects
     std::vector<std::size_t> by_name_;  ///< the robots in byte order of their names
     std::vector<Transceiver*> transceivers_;
     Game game_;
     BodyPoses body_poses_;
-    std::vector<MovingVisual> moving_visuals_;  ///< of all robots and movable objects
+    std::vector<MovingVisual> moving_visuals_;  ///< visuals of all robots and movable objects
     bool visuals_placed_ = false;               ///< whether moving_visuals_ are at the body poses
     std::vector<MotorCommand> drives_;          ///< the commands of the current substep, with noise
     std::unique_ptr<Physics> physics_;

@@ -101,7 +101,7 @@ struct Hinge {
     Location where;
     std::string name, parent,
         child;                     ///< names of links; "MODEL::LINK" for a link of a model in this one
-    Pose pose = Pose::Identity();  ///< of the axis in the child link
+    Pose pose = Pose::Identity();  ///< pose of the axis in the child link
     double sense = 1;              ///< 1 when the child turns to the left as the angle grows, else -1
     double lower = 0, upper = 0;   ///< limits of the angle, rad
 };

@@ -41,7 +41,7 @@ class Reader {
     /// The content of a model's file: a model or a light.
     struct Content {
         std::optional<Model> model;
-        std::size_t links = 0;  ///< in the model and in the models within it
+        std::size_t links = 0;  ///< number of links in the model and in the models within it
         xml::Element light;
     };
 
@@ -223,10 +223,10 @@ class Reader {
     std::string path_;
     Diagnostics& diagnostics_;
     SdfSource in_;
-    std::map<std::string, Content> contents_;  ///< of the model files that were read
+    std::map<std::string, Content> contents_;  ///< contents of the model files that were read
     std::set<std::string> open_;               ///< model files that are being read
     static constexpr std::size_t most_links = 10'000;
-    std::size_t links_ = 0;  ///< in all models that were included so far
+    std::size_t links_ = 0;  ///< number of links in all models that were included so far
     bool no_models_ = false, too_many_ = false;
 };
 

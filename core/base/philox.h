@@ -49,8 +49,8 @@ inline r123::Philox4x32::ctr_type block(const Draw& d, std::uint32_t index, std:
 inline constexpr std::uint32_t multipliers[] = {0xd2511f53u, 0xcd9e8d57u};
 
 /// The values that the rounds of many blocks share. Their counters differ only in the first word, so half of
-/// the first round and the other half of the second round are the same for all blocks and are computed once,
-/// here.
+/// the first round and the other half of the second round are the same for all blocks. They are computed
+/// here, once.
 struct Rounds {
     static constexpr int left = 8;               ///< number of rounds after the first two
     alignas(32) std::uint64_t keys[left][2][4];  ///< each key four times, as vectors read them

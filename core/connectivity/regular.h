@@ -18,7 +18,7 @@ struct Regular {
         int delay;
     };
     bool all_to_all = false;    ///< every source cell is connected, in order, with the values of the only tap
-    int width = 0, height = 0;  ///< of source and target, cells; not used if all_to_all is set
+    int width = 0, height = 0;  ///< size of source and target, cells; unused if all_to_all is set
     std::vector<Tap> taps;      ///< in the order in which they are summed
     double reference = 1;       ///< a synapse passes psp * (reference - attenuation)
     std::size_t synapses = 0;

@@ -16,7 +16,7 @@ struct Assignment {
 
     Owner owner = Owner::group;            ///< the kind of the item that has the neuron, module or synapse
     std::string id;                        ///< the id of the group, process or connection
-    const Parameter* parameter = nullptr;  ///< of the owner's type; null for the process's enableModule
+    const Parameter* parameter = nullptr;  ///< one of the owner's type; null for a process's enableModule
     ParameterValue value;                  ///< a relative path starts at the working directory
     std::string text;                      ///< "WHERE.parameter=value", as written
     Location at;                           ///< the location of the text; without a file: the command line

@@ -39,7 +39,7 @@ struct ManipulationSpec {
     Expression patterns;  ///< a file of patterns, relative to the working directory
     Expression table;     ///< a file of rows cycle,process,group,v0,v1,... for any groups
     std::uint64_t every = 1, step = 1;  ///< a pattern every `every` cycles; only every `step`-th pattern
-    std::optional<std::uint64_t> times = {};  ///< how often the list is played; empty: without end
+    std::optional<std::uint64_t> times = {};  ///< how often the list is played; empty for endlessly
     bool backwards = false;
     Expression from, until;  ///< conditions; empty: from the first cycle, until the last
     std::string text;        ///< the whole text, as written on the command line
@@ -65,7 +65,7 @@ struct Context {
     std::string_view text;  ///< the whole expression
     std::string_view what;  ///< its purpose, which begins the messages: "--record", "measure"
     Diagnostics& diagnostics;
-    Location at{};  ///< of the first byte; without a file: the command line
+    Location at{};  ///< location of the first byte; without a file, the command line
 
     /// Reports a mistake at the byte `offset` of the text.
     void error(std::size_t offset, std::string message, std::string hint = {}) const;
@@ -130,7 +130,7 @@ struct CellValue {
     double value;
 };
 
-/// One picture.
+/// A picture, as an expression describes it.
 struct Plot {
     enum class Kind { time, space, movie, connection, diagram, trajectory };
     struct Cycles {

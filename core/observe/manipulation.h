@@ -23,13 +23,13 @@ class Manipulation final : public Observer {
         int group = 0;
         Mode mode = Mode::clamp;
         std::vector<std::vector<double>> patterns{};  ///< at least one; each has one value per cell
-        /// For each pattern the cycle from which it is applied, until the next one is; in ascending order,
-        /// and the last of several equal cycles counts. Empty: the patterns are played one after the other,
-        /// as the following members say.
+        /// For each pattern, the cycle from which on it is applied, until the next pattern is; in ascending
+        /// order. Of several equal cycles, the last one counts. When empty, the patterns are played one after
+        /// the other, according to the following members.
         std::vector<std::int64_t> starts{};
         std::uint64_t every = 1;                   ///< cycles from one pattern to the next
         std::uint64_t step = 1;                    ///< every `step`-th pattern of the list is used
-        std::optional<std::uint64_t> times{};      ///< how often the list is played; empty: without end
+        std::optional<std::uint64_t> times{};      ///< how often the list is played; empty for endlessly
         bool backwards = false;                    ///< from the last pattern to the first
         std::optional<Condition> from{}, until{};  ///< empty: from the first cycle, until the last
     };

@@ -18,7 +18,7 @@ class NpyFile final : public RowFile {
 
   private:
     std::string head(std::uint64_t rows) const;
-    std::string type_;  ///< of a record, as NumPy spells it
+    std::string type_;  ///< type of a record, as NumPy spells it
     std::uint64_t rows_ = 0;
     BlockFile file_;
 };

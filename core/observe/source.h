@@ -15,7 +15,7 @@ namespace forage::observe {
 /// The description of the numbers in a row: the state and the cells that they belong to.
 struct Recorded {
     std::string name;                    ///< the source: "Process/Group:state(1..3,2)"
-    std::string label;                   ///< of the state: "Membrane potential"
+    std::string label;                   ///< label of the state: "Membrane potential"
     std::string group_id, group, state;  ///< empty when unknown
     model::Region cells;                 ///< cells without places are one row
     int group_width = 1;                 ///< columns of the whole group

@@ -11,7 +11,7 @@ namespace forage::plugin {
 namespace {
 
 constexpr Index synapses = 64;
-constexpr int draws = 12;  ///< of states, feedback and parameters; the first one has the defaults
+constexpr int draws = 12;  ///< number of draws; the first one has the default parameters
 
 /// Sets parameters to random values in their ranges; returns them as text: ", with rate = 0.3".
 std::string draw_parameters(const SynapseType& type, SynapseInstance& synapse, const RandomStream& random,

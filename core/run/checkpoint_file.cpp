@@ -15,7 +15,7 @@ namespace forage {
 namespace {
 
 constexpr std::string_view magic = "forage checkpoint\n";
-constexpr std::uint32_t format_version = 7;  ///< of everything that a checkpoint contains
+constexpr std::uint32_t format_version = 7;  ///< version of the content of checkpoints
 
 }  // namespace
 

@@ -12,8 +12,8 @@ namespace forage {
 
 /// How a run was started; the first part of a checkpoint.
 struct CheckpointOrigin {
-    std::string version;                 ///< of Forage
-    std::vector<std::string> arguments;  ///< of `forage run`
+    std::string version;                 ///< version of Forage
+    std::vector<std::string> arguments;  ///< arguments of `forage run`
     std::string working_directory;       ///< relative paths start here
     InputFiles files;                    ///< digests when the run began
     InputFiles module_files;             ///< digests in this cycle, as modules may write their files

@@ -34,7 +34,7 @@ class Run {
   public:
     struct Options {
         std::uint64_t seed = 1;
-        int threads = 1;  ///< at most; the numbers do not depend on it
+        int threads = 1;  ///< largest number of threads; the results do not depend on it
         /// Whether all groups are computed, so that everything may be read and overwritten at any time.
         /// Otherwise only what observers and modules demand is computed, with the same numbers.
         bool compute_everything = true;
@@ -130,10 +130,10 @@ class Run {
     model::System system_;
     Registry registry_;
     std::unique_ptr<Environment> environment_;
-    engine::Layout layout_;  ///< until the system is compiled
+    engine::Layout layout_;  ///< used until the system is compiled
     Options options_;
     double seconds_per_cycle_;
-    engine::Demand demand_;  ///< of the compiled system
+    engine::Demand demand_;  ///< the demand for which the system is compiled
     std::optional<engine::Simulation> simulation_;
     std::vector<std::unique_ptr<Observer>> observers_;
     std::string divergence_;

@@ -22,7 +22,7 @@ struct RunInput {
     std::uint64_t seed = 1;  ///< decides everything random
     /// Seconds of the world per second of the clock. Empty for the world's own rate.
     std::optional<double> real_time_factor;
-    bool noise = true;          ///< of motors and sensors
+    bool noise = true;          ///< whether motors and sensors are noisy
     bool sensor_rates = false;  ///< scans and pictures at the rates of the world's files
     int latency = 0;            ///< cycles by which sensed values arrive later
     bool game = false;          ///< play the challenge's game
@@ -40,17 +40,17 @@ struct RecordOptions {
 /// end it earlier.
 struct RunLength {
     std::optional<std::uint64_t> cycles = {};
-    std::optional<double> seconds = {};        ///< of the world
-    std::optional<std::uint64_t> trials = {};  ///< of the first robot
+    std::optional<double> seconds = {};        ///< length in seconds of the world
+    std::optional<std::uint64_t> trials = {};  ///< length in trials of the first robot
     double trial_timeout = 300;                ///< the run stops when a trial takes longer, s of the world
     model::Expression until = {};              ///< a condition; none when empty
-    Location at = {};  ///< where the length is given; without a file: the command line
+    Location at = {};  ///< where the length is given; without a file, the command line
 };
 
 /// The interval between checkpoints.
 struct CheckpointInterval {
     double amount = 0;        ///< above 0
-    bool in_seconds = false;  ///< of the world, instead of cycles
+    bool in_seconds = false;  ///< whether `amount` is in seconds of the world instead of cycles
 };
 
 /// What a run does when a number becomes NaN or infinite. The search covers every group that the run
@@ -65,19 +65,19 @@ struct RunSpec {
     std::vector<model::RecordingSpec> recordings;
     std::vector<model::Expression> plots;
     std::string plot_format = "png";              ///< png, svg or pdf
-    std::vector<model::ScheduledChange> changes;  ///< of parameters during the run
+    std::vector<model::ScheduledChange> changes;  ///< changes of parameters during the run
     std::vector<model::ManipulationSpec> manipulations;
     std::vector<model::Measure> measures;
     bool paths = true;  ///< whether the robots' paths are recorded
     std::string video;  ///< .gif or .png file of a film; none when empty
-    int threads = 1;    ///< at most; the numbers do not depend on it
+    int threads = 1;    ///< largest number of threads; the results do not depend on it
     OnNan on_nan = OnNan::warn;
     bool digest = false;    ///< whether everything is computed, for a digest of the final state
-    std::string directory;  ///< of the results; none when empty
+    std::string directory;  ///< directory of the results; none when empty
     /// Whether to start even if the directory holds the checkpoint of an unfinished run.
     bool discard_checkpoint = false;
     std::optional<CheckpointInterval> checkpoint_every;
-    std::vector<std::string> arguments;  ///< of the command line, kept in checkpoints
+    std::vector<std::string> arguments;  ///< arguments of the command line, which checkpoints keep
 };
 
 }  // namespace forage

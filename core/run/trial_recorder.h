@@ -25,15 +25,15 @@ struct TrialMeasures {
     /// The start pose, counted from 1 in the order of the world's Reset_0, Reset_1, ...; 0: unknown.
     int start = 0;
     std::vector<Sighting> patches;      ///< in the order in which they came into view
-    std::optional<double> discrepancy;  ///< of the adaptive layer, at the end
-    std::optional<MemoryFill> memory;   ///< of the contextual layer, at the end
+    std::optional<double> discrepancy;  ///< output of the adaptive layer at the end
+    std::optional<MemoryFill> memory;   ///< the contextual layer's memory at the end
 
     /// The peaks of the prototype at the last patch (the cue, where the right action leads to the target),
     /// and at the strongest of the earlier patches (distractors).
     struct Peaks {
         double cue, distractor;
     };
-    /// Empty with fewer than two patches or without an adaptive layer.
+    /// The peaks of the trial; empty with fewer than two patches or without an adaptive layer.
     std::optional<Peaks> peaks() const;
 
     void checkpoint(Archive& archive) { archive(start, patches, discrepancy, memory); }
@@ -88,10 +88,10 @@ class TrialRecorder final : public Observer {
     std::size_t robot_;
     std::string file_;
     std::vector<Pose2> starts_;
-    std::vector<std::string> colours_;  ///< of the patches
+    std::vector<std::string> colours_;  ///< colours of the patches
     std::optional<Layers> layers_;
     std::vector<TrialMeasures> finished_;
-    std::vector<Sighting> seen_;  ///< in the running trial
+    std::vector<Sighting> seen_;  ///< the patches seen in the running trial
 };
 
 }  // namespace forage

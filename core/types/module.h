@@ -51,7 +51,7 @@ struct ModulePorts {
         GroupShape shape;
     };
     std::string process;        ///< name of the process that holds the module
-    std::vector<Group> inputs;  ///< in order of declaration, or of the file for a type with any_ports
+    std::vector<Group> inputs;  ///< in the order of declaration; with any_ports, in that of the file
     std::vector<Group> outputs;
     RandomStream random;                 ///< the module's own random stream
     Environment* environment = nullptr;  ///< core/run/environment.h; null in a run, or a check, without one

@@ -38,7 +38,7 @@ struct Parameter {
     bool at_start = false;  ///< whether it is read only when the run starts, instead of in each update
     std::function<void(void*, const ParameterValue&)> set;
     std::function<ParameterValue(const void*)> get;
-    std::size_t offset = 0, size = 0;  ///< of the member, in bytes
+    std::size_t offset = 0, size = 0;  ///< place and size of the member, bytes
 };
 
 /// Reads `text` as a value of `kind`: "true" or "false", a number in C notation whatever the locale, or any

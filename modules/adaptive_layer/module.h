@@ -32,7 +32,7 @@ class AdaptiveLayerModule {
     void show_weights(Column display) const;
 
     AdaptiveLayer layer_;
-    Index width_ = 0;               ///< of the CS group, cells
+    Index width_ = 0;               ///< width of the CS group, cells
     bool display_outdated_ = true;  ///< whether the weights have changed since they were displayed
 };
 

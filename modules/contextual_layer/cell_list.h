@@ -10,7 +10,7 @@ namespace forage::contextual {
 
 using Eigen::Index;
 
-constexpr Index cells_per_word = 64;  ///< in bit sets with one bit per cell
+constexpr Index cells_per_word = 64;  ///< cells per word of a bit set with one bit per cell
 
 /// The cells that contribute to a comparison, in ascending order, and possibly some that do not.
 class CellList {

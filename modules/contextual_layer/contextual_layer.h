@@ -45,7 +45,7 @@ class ContextualLayer {
     /// Computes one step. Does not allocate memory. Returns false while the layer is closed.
     bool update(const Inputs& in, const Settings& settings, Exact exact = Exact::all);
 
-    const Eigen::ArrayXf& action() const { return action_; }  ///< of the last step, M values
+    const Eigen::ArrayXf& action() const { return action_; }  ///< action of the last step, M values
     const LongTermMemory& memory() const { return memory_; }
     const ShortTermMemory& recent() const { return recent_; }
     bool open() const { return open_; }

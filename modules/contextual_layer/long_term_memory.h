@@ -25,7 +25,7 @@ class LongTermMemory {
 
     Index sequences() const { return distance_.rows(); }  ///< NL
     Index segments() const { return distance_.cols(); }   ///< NS
-    Index max_length() const { return max_length_; }      ///< of a sequence: min(NL, NS)
+    Index max_length() const { return max_length_; }      ///< largest length of a sequence: min(NL, NS)
     Index length(Index row) const { return lengths_[static_cast<std::size_t>(row)]; }
 
     /// Stores the couplets of `memory`, at most the newest max_length() of them, as the next sequence. It
@@ -68,13 +68,13 @@ class LongTermMemory {
 
   private:
     Index max_length_ = 0;
-    PrototypeStore prototypes_;  ///< of the used segments; their keys are row NS + column
+    PrototypeStore prototypes_;  ///< prototypes of the used segments; a key is row NS + column
     Eigen::ArrayXXf actions_;    ///< M x (NL max_length)
     std::vector<Index> lengths_;
     SegmentArray distance_, collector_, trigger_, selected_;
-    std::vector<float> peaks_;                 ///< per row
+    std::vector<float> peaks_;                 ///< largest collector per row
     float largest_trigger_ = 0;                ///< largest |t| of a used segment in the last collect()
-    std::vector<std::uint8_t> has_selection_;  ///< per row
+    std::vector<std::uint8_t> has_selection_;  ///< per row: whether a segment is selected
     Index next_ = 0;
 };
 

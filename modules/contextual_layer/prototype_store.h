@@ -75,11 +75,11 @@ class PrototypeStore {
     void write_distances(Index block, const float* found, float* distances) const;
 
     Index cells_ = 0;
-    Index words_ = 0;                    ///< of a bit set with one bit per cell
+    Index words_ = 0;                    ///< number of words in a bit set with one bit per cell
     Eigen::ArrayXd blocks_;              ///< [block][cell][lane]: P / max P in single precision, 0 if unused
     std::vector<std::uint8_t> silent_;   ///< per slot: whether max P is 0
-    std::vector<Index> keys_;            ///< per used slot
-    std::vector<Index> slots_;           ///< per key
+    std::vector<Index> keys_;            ///< key per used slot
+    std::vector<Index> slots_;           ///< slot per key
     Eigen::ArrayXd compared_;            ///< p of the last comparison
     bool current_ = false;               ///< whether the distances are those of compared_
     Eigen::ArrayXd present_;             ///< p / max p

@@ -35,7 +35,7 @@ class DifferenceModule {
     void checkpoint(Archive&) {}  // it has no state
 
   private:
-    GroupShape size_;  ///< of location and goal
+    GroupShape size_;  ///< size of the location and the goal group
 };
 
 }  // namespace forage::goal

@@ -40,7 +40,7 @@ class DirectionModule {
     void checkpoint(Archive&) {}  // it has no state
 
   private:
-    Index width_ = 1;  ///< of the location and the goal group, cells
+    Index width_ = 1;  ///< width of the location and the goal group, cells
 };
 
 }  // namespace forage::goal

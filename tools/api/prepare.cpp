@@ -21,7 +21,7 @@
 namespace forage {
 namespace {
 
-constexpr double default_seconds = 60;  ///< of the world
+constexpr double default_seconds = 60;  ///< length of a run, s of the world
 
 /// The suffix "_name" of files about a robot; empty when there is only one robot.
 std::string robot_suffix(const Environment& environment, std::size_t robot) {

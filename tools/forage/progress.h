@@ -17,7 +17,7 @@ class Progress {
     struct State {
         double done = 0;  ///< fraction of the run, 0..1
         std::uint64_t cycles = 0;
-        double seconds = 0;  ///< of the world
+        double seconds = 0;  ///< seconds of the world
         std::string text;    ///< further text; may be empty
     };
     /// Whether it is time to redraw.

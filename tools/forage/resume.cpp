@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 struct Found {
     std::string path, content;
     CheckpointOrigin origin;
-    std::string_view state;  ///< of `content`
+    std::string_view state;  ///< the part of `content` with the state
 };
 
 std::unique_ptr<Found> open_checkpoint(const std::string& path) {

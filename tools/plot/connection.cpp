@@ -11,7 +11,7 @@
 namespace forage::plot {
 namespace {
 
-constexpr int longest_side = 560;  ///< of a table, in pixels and in bins
+constexpr int longest_side = 560;  ///< longest side of a table, in pixels and in bins
 constexpr double no_synapse = std::numeric_limits<double>::quiet_NaN();
 
 /// A matrix with a row per target cell and a column per source cell. In groups that are larger than the

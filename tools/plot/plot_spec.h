@@ -10,7 +10,7 @@
 
 namespace forage::plot {
 
-/// One picture, as written on the command line (docs/reference/expressions.md).
+/// A picture, as written on the command line (docs/reference/expressions.md).
 struct PlotSpec : expression::Plot {
     std::string text;  ///< the whole text
 

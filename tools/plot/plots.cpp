@@ -14,7 +14,7 @@
 namespace forage::plot {
 namespace {
 
-constexpr std::size_t most_frames = 120;  ///< of an animation without given cycles
+constexpr std::size_t most_frames = 120;  ///< largest number in an animation without given cycles
 constexpr std::size_t most_panels = 400;
 constexpr std::size_t most_marks = 60;
 constexpr double seconds_per_frame = 0.12;

@@ -33,7 +33,7 @@ struct SpacePlot {
 
 /// A sheet with all frames, which share a colour scale. There must be at least one frame.
 Picture space_plot(const SpacePlot& plot);
-/// One picture per frame for render_animation(). They share a colour scale.
+/// The pictures of the frames, for render_animation(). They share a colour scale.
 std::vector<Picture> space_animation(const SpacePlot& plot);
 
 }  // namespace forage::plot

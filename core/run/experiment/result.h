@@ -15,7 +15,7 @@ struct RunResult {
     std::string stopped;   ///< the reason for an early end; empty when there was none
     std::string diverged;  ///< where the first number that is not finite occurred; empty when all are finite
     std::uint64_t cycles = 0;
-    double seconds = 0;                            ///< of the world
+    double seconds = 0;                            ///< seconds of the world
     std::optional<std::uint64_t> trials, reached;  ///< the first robot's finished trials; those at the target
     std::vector<std::optional<double>> measures;   ///< in the experiment's order
 };

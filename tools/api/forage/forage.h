@@ -30,9 +30,9 @@ struct OpenOptions {
     std::uint64_t seed = 1;                  ///< decides everything random
     std::vector<std::string> settings = {};  ///< "Process/Group.parameter=value", as for `forage run --set`
     std::vector<std::string> plugins = {};   ///< shared objects and folders of them; nothing else is searched
-    int threads = 1;                         ///< at most; the numbers do not depend on it
+    int threads = 1;                         ///< largest number of threads; the results do not depend on it
     bool lenient = false;  ///< whether unknown parameters and attributes of files are warnings, not errors
-    bool noise = true;     ///< of motors and sensors
+    bool noise = true;     ///< whether motors and sensors are noisy
     /// Seconds of the world per second of the clock. Empty for the world's own rate.
     std::optional<double> real_time_factor = {};
     /// Whether all groups are computed, so that everything can be read and changed at any time. Otherwise the
