@@ -109,12 +109,12 @@ class Run(Cli):
         self.assertRegex(done.stdout, r"discrepancy +0\.\d+ after the first trial, 0\.\d+ after the last")
         self.assertRegex(done.stdout, r"prototypes +[\d.]+ times as strong at the last patch")
 
-    def test_readme_says_how_many_of_thirty_reach_the_target(self):
+    def test_the_readme_has_the_number_of_trials_that_reach_the_target(self):
         done = self.run_robot("--trials", 30, "--seed", 1)
         reached = re.search(r"at the target +(\d+ of 30)", done.stdout).group(1)
         self.assertIn(f"**{reached}**", (PROJECT / "README.md").read_text())
 
-    def test_same_seed_same_bytes_other_seed_other_bytes(self):
+    def test_the_same_seed_gives_the_same_bytes_and_another_seed_other_bytes(self):
         record = ("--record", "Bug/Light", "--record", "Bug/Motor:vm", "--cycles", 300)
         for out, seed in (("a", 3), ("b", 3), ("c", 4)):
             self.forage("run", SYSTEM, "--world", WORLD, "-o", out, "--seed", seed, *record)
@@ -153,7 +153,7 @@ class Run(Cli):
             self.assertLessEqual(trial["smallest_distance"], nearest + 1e-9)
             self.assertGreater(trial["smallest_distance"], nearest - 0.1)
 
-    def test_recordings_of_an_earlier_run_do_not_stay(self):
+    def test_recordings_of_an_earlier_run_are_removed(self):
         self.run_robot("--cycles", 10, "--record", "Bug/GPS")
         (self.here / "out/mine.txt").write_text("kept")
         self.run_robot("--cycles", 10, "--record", "Bug/Light")
@@ -207,7 +207,7 @@ class Run(Cli):
         result = json.loads((self.here / "out/run.json").read_text())["result"]
         self.assertEqual([c["cycle"] for c in result["changes"]], [2, 6, 7, None])
 
-    def test_patterns_are_laid_over_the_activity(self):
+    def test_patterns_change_the_activity(self):
         (self.here / "small.iqr").write_text(SMALL_SYSTEM)
         (self.here / "d.csv").write_text("-1,*,out,1,2\n")
         (self.here / "p.txt").write_text("# three patterns\n1 2\n\n3, 4\n\n\n5 6")
@@ -249,11 +249,11 @@ class Run(Cli):
         done = self.run_robot("--cycles", 10, "-q")
         self.assertEqual((done.stdout, done.stderr), ("", ""))
 
-    def test_no_directory_no_files(self):
+    def test_without_a_directory_no_files_are_written(self):
         self.forage("run", SYSTEM, "--world", WORLD, "--cycles", 10, "-o", "")
         self.assertEqual(list(self.here.iterdir()), [])
 
-    def test_realtime_takes_as_long_as_in_the_world(self):
+    def test_a_run_in_real_time_takes_the_time_of_the_world(self):
         begin = time.monotonic()
         self.run_robot("--seconds", 1, "--realtime")
         self.assertGreaterEqual(time.monotonic() - begin, 0.9)
@@ -276,7 +276,7 @@ class Run(Cli):
         os.waitpid(pid, 0)
         self.assertRegex(seen, rb"\[=* *\] +\d+ %  0 trials, 0 at the target  \d+ x real time  \d+ cycles/s")
 
-    def test_interrupt_keeps_what_was_done(self):
+    def test_an_interrupt_keeps_the_results_so_far(self):
         command = [FORAGE, "run", SYSTEM, "--world", WORLD, "--seconds", "1000", "--realtime", "--record", "Bug/Light"]
         process = subprocess.Popen(command, cwd=self.here, stdout=subprocess.PIPE, text=True)
         time.sleep(1.5)
@@ -289,7 +289,7 @@ class Run(Cli):
         self.assertTrue(all(len(r) == 33 for r in rows))
 
     @unittest.skipIf(len(os.sched_getaffinity(0)) < 2, "there is one core: threads share nothing")
-    def test_the_summary_tells_what_threads_have_shared(self):
+    def test_the_summary_has_the_share_of_shared_cycles(self):
         small = re.sub("<Module.*</Module>", "", SMALL_SYSTEM, flags=re.DOTALL)
         (self.here / "small.iqr").write_text(small)
         self.assertNotIn("threads", self.forage("run", "small.iqr", "--cycles", 10).stdout)
@@ -403,7 +403,7 @@ class Mistakes(Cli):
         (self.here / "d.csv").write_text("0,*,out,1,2\n")
         self.forage("run", "small.iqr", "--cycles", 1, "--replay", "d.csv", "--clamp", "t.csv")
 
-    def test_a_file_that_a_system_names_is_beside_it(self):
+    def test_a_file_that_a_system_names_is_found_beside_it(self):
         (self.here / "sub").mkdir()
         module = '<Module name="moduleReplay"><Parameter name="file" value="d.csv"/>'
         (self.here / "sub/small.iqr").write_text(SMALL_SYSTEM.replace('<Module name="moduleReplay">', module))
@@ -418,7 +418,7 @@ class Mistakes(Cli):
         (self.here / "out").mkdir(mode=0o555)
         self.assertIn("Permission denied", self.run_robot("--cycles", 1, status=2).stderr)
 
-    def test_nothing_is_made_when_a_name_is_wrong(self):
+    def test_no_files_are_written_when_a_name_is_wrong(self):
         self.run_robot("--cycles", 1, "--record", "Bug/Ligth", status=2)
         self.assertEqual(list(self.here.iterdir()), [])
 
@@ -430,7 +430,7 @@ class Mistakes(Cli):
         done = self.forage("run", SYSTEM, "--cycles", 5, "-o", "", status=2)
         self.assertIn("--world", done.stderr)
 
-    def test_trials_where_there_are_none(self):
+    def test_trials_in_a_world_without_trials(self):
         self.assertIn("never resets", self.forage("run", SYSTEM, "--world", OPEN_WORLD, "--trials", 2, status=2).stderr)
         system = self.here / "small.iqr"
         system.write_text(SMALL_SYSTEM)
@@ -442,7 +442,7 @@ class Mistakes(Cli):
 
 
 class Convert(Cli):
-    def test_writing_what_was_written_changes_no_byte(self):
+    def test_converting_a_converted_file_changes_no_byte(self):
         for system in (PROJECT / "systems").glob("*.iqr"):
             self.forage("convert", system, "one.iqr")
             self.forage("convert", "one.iqr", "two.iqr")
@@ -495,7 +495,7 @@ class Others(Cli):
         self.assertIn("_motor", self.forage("types", "moduleGazeboBug").stdout)
         self.assertIn("did you mean", self.forage("types", "neuronLinearTreshold", status=2).stderr)
 
-    def test_a_type_is_described_with_all_it_declares(self):
+    def test_a_type_is_described_with_all_its_declarations(self):
         text = self.forage("types", "neuronLinearThreshold").stdout
         self.assertRegex(text, r"excIn +Excitation\n +inhIn +Inhibition\n +modIn +Modulation \(not read\)")
         self.assertRegex(text, r"vmPrs +Part of vm kept per cycle. Default 0, usual range 0 to 1\.")
@@ -555,7 +555,7 @@ class Others(Cli):
         listed = set(re.findall(r"--[a-z-]+", self.forage("run", "--help").stdout))
         self.assertEqual(named - listed, set())
 
-    def test_shipped_systems_are_fine(self):
+    def test_shipped_systems_have_no_mistakes(self):
         for system in (PROJECT / "systems").glob("*.iqr"):
             done = self.forage("check", system)
             self.assertIn("fine", done.stdout)
@@ -603,12 +603,12 @@ class Original(Cli):
         self.forage("run", self.FILES / system, "--world", self.FILES / "DAC_basic_arena.world", "-o", "out", *arguments)
         return json.loads((self.here / "out/run.json").read_text())["result"]
 
-    def test_the_tutorials_system_reaches_the_target_in_the_large_majority_of_trials(self):
+    def test_the_tutorials_system_reaches_the_target_in_most_trials(self):
         result = self.run_original("DACReactiveBug.iqr", "--trials", 30, "--seed", 1)
         self.assertEqual(result["robots"][0]["trials"], 30)
         self.assertGreaterEqual(result["robots"][0]["at_target"], 25)
 
-    def test_every_system_and_process_of_the_original_is_fine_and_runs(self):
+    def test_every_system_and_process_of_the_original_has_no_mistakes_and_runs(self):
         worlds = {"DAC_files": "DAC_basic_arena.world", "SDIC_challenge": "SDIC_one_robot_arena.world"}
         files = sorted(p for p in (SHARED / "original").rglob("*.iqr*"))
         self.assertGreaterEqual(len(files), 7)

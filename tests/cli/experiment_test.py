@@ -102,7 +102,7 @@ class Experiment(unittest.TestCase):
 
 
 class Results(Experiment):
-    def test_measures_of_a_system_that_can_be_worked_out(self):
+    def test_measures_of_a_system_that_can_be_computed_by_hand(self):
         self.forage("experiment", "small.xml")
         rows = self.rows("forage-out/small/results.csv")
         # B receives 2 in cycle 0. A receives 2 w from cycle 1 on and adds it in each cycle: 2 w t at the end of cycle t.
@@ -145,7 +145,7 @@ class Results(Experiment):
             self.assertAlmostEqual(float(r["success"]), int(r["reached"]) / 3)
             self.assertEqual(r["never"], "")
 
-    def test_a_run_is_what_forage_run_does(self):
+    def test_a_run_of_an_experiment_is_the_same_as_forage_run(self):
         self.forage("experiment", "robot.xml", "-o", "out")
         self.forage("run", SYSTEM, "--world", WORLD, "--trials", 3, "--seed", 2, "--set", "Reactive Layer/US.threshold=0.8",
                     "--set", "Motor In to Motor.weight=0.9", "--schedule", "trial 3: Reactive Layer/US.threshold=0.5",
@@ -154,7 +154,7 @@ class Results(Experiment):
             self.assertEqual((self.here / "alone" / name).read_bytes(),
                              (self.here / "out/runs/threshold-0.8_weight-0.9_seed-2" / name).read_bytes())
 
-    def test_summary_is_of_the_results(self):
+    def test_the_summary_is_computed_from_the_results(self):
         done = self.forage("experiment", "robot.xml", "-o", "out")
         results, summary = self.rows("out/results.csv"), self.rows("out/summary.csv")
         self.assertEqual(len(summary), 4)
@@ -197,7 +197,7 @@ class Interrupted(Experiment):
                 self.assertEqual((self.here / "through/runs" / run / name).read_bytes(), (self.here / "out/runs" / run / name).read_bytes())
         self.assertEqual([p for p in (self.here / "out").rglob("*.part")], [])
 
-    def test_ctrl_c_says_how_to_go_on(self):
+    def test_ctrl_c_prints_how_to_continue(self):
         (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "1000"))
         process = subprocess.Popen([FORAGE, "experiment", "robot.xml", "-o", "out"], cwd=self.here, stderr=subprocess.PIPE, text=True)
         while not (self.here / "out/runs").exists():
@@ -207,7 +207,7 @@ class Interrupted(Experiment):
         self.assertEqual(process.returncode, 130)
         self.assertIn("the same command continues", said)
 
-    def test_only_what_is_new_is_run(self):
+    def test_only_new_runs_are_executed(self):
         self.forage("experiment", "robot.xml", "-o", "out")
         before = self.made_at("out")
         self.edit("robot.xml", 'count="3"', 'count="4"')
@@ -231,7 +231,7 @@ class Interrupted(Experiment):
         self.forage("experiment", "small.xml", "-o", "out", "--fresh")
         self.assertFalse([k for k, v in self.made_at("out").items() if v == before[k]])
 
-    def test_a_failing_run_is_reported_and_the_rest_goes_on(self):
+    def test_a_failing_run_is_reported_and_the_others_continue(self):
         self.forage("experiment", "small.xml", "-o", "through")
         (self.here / "out/runs").mkdir(parents=True)
         (self.here / "out/runs/weight-1_seed-1").write_text("in the way")
@@ -245,7 +245,7 @@ class Interrupted(Experiment):
         self.forage("experiment", "small.xml", "-o", "out")
         self.assertEqual(self.tables("through"), self.tables("out"))
 
-    def test_a_run_that_is_stopped_says_why(self):
+    def test_a_stopped_run_has_the_reason(self):
         (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "3").replace('weight" values="1 0.9"', 'weight" values="0"')
                                              .replace('trial="60"', 'trial="2"'))
         self.forage("experiment", "robot.xml", "-o", "out")
@@ -255,7 +255,7 @@ class Interrupted(Experiment):
 
 
 class Plots(Experiment):
-    def test_every_run_draws_what_the_file_asks_for(self):
+    def test_every_run_draws_the_pictures_in_the_file(self):
         text = ROBOT.replace("TRIALS", "3").replace('<measure name="never"', """<plot what="time:Bug/Light"/>
   <plot what="space:Bug/Motor@20,40"/><plot what="trajectory"/><measure name="never\"""")
         (self.here / "robot.xml").write_text(re.sub(r"<sweep.*Motor In.*/>", "", text))
@@ -308,7 +308,7 @@ class Mistakes(Experiment):
                                ("5:3", "does not say what it is"), ("6:30", "names no trials"), ("7:44", "given twice")):
             self.assertRegex(said, rf"robot.xml:{place}: error: .*{message}")
 
-    def test_a_condition_that_holds_when_all_is_zero_gives_a_warning(self):
+    def test_a_condition_that_holds_when_all_cells_are_zero_gives_a_warning(self):
         self.edit("small.xml", "P/A(1,1) >= 5", "5 > P/A(1,1)")
         self.assertIn("holds before the first cycle, when all cells are 0", self.forage("experiment", "small.xml").stderr)
         self.edit("small.xml", "5 > P/A(1,1)", "cycle > 2 and 5 > P/A(1,1)")

@@ -79,7 +79,7 @@ class Pruning(Stopped):
         for d in DISPLAYS:
             self.assert_equal_files(f"mean_Contextual_{d}_act.csv", "shown", "all")
 
-    def test_a_stopped_run_goes_on_with_the_same_groups(self):
+    def test_a_resumed_run_prunes_the_same_groups(self):
         arguments = (*RUN, *MOTOR, "--cycles", 3000)
         self.assertGreater(self.pruned(self.forage(*arguments, "-o", "through")), 8)
         for how in (signal.SIGTERM, signal.SIGKILL):
@@ -91,7 +91,7 @@ class Pruning(Stopped):
             for file in (self.here / "out").iterdir():
                 file.unlink()
 
-    def test_all_that_reads_a_group_demands_it(self):
+    def test_everything_that_reads_a_group_demands_it(self):
         """Everything that a user can read or overwrite, on groups that nothing else reads."""
         (self.here / "table.csv").write_text("cycle,process,group,v0...\n3,Bug,GPS,1,2,3\n")
         plain = self.pruned(self.forage(*RUN, "--cycles", 60, "-o", ""))
@@ -121,18 +121,18 @@ class Pruning(Stopped):
         name = next(p.name for p in (self.here / "few").glob("*.png"))
         self.assert_equal_files(name, "few", "all")
 
-    def test_a_system_that_nothing_reads_runs_whole(self):
+    def test_a_system_without_demands_is_computed_completely(self):
         (self.here / "small.iqr").write_text(SMALL)
         done = self.forage("run", "small.iqr", "--cycles", 50, "-o", "out")
         self.assertEqual(self.pruned(done), 0)
         self.assertIn("of 'P/H' becomes inf", done.stderr)
 
-    def test_the_record_of_a_run_says_what_was_pruned(self):
+    def test_the_record_of_a_run_lists_the_pruned_groups(self):
         (self.here / "small.iqr").write_text(SMALL)
         self.forage("run", "small.iqr", "--cycles", 5, "-r", "P/M", "-o", "out")
         self.assertEqual(json.loads((self.here / "out/run.json").read_text())["result"]["pruned"], ["P/H", "P/N"])
 
-    def test_what_is_done_about_numbers_that_are_not_finite_never_changes_what_is_computed(self):
+    def test_the_option_on_nan_never_changes_which_groups_are_computed(self):
         (self.here / "small.iqr").write_text(SMALL)
         arguments = ("run", "small.iqr", "--cycles", 50, "-o", "out")
         for how in ((), ("--on-nan", "warn"), ("--on-nan", "stop"), ("--on-nan", "ignore")):

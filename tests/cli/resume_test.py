@@ -76,12 +76,12 @@ class Resume(Stopped):
     def through(self):
         self.forage(*self.arguments, "-o", "through")
 
-    def test_a_run_with_checkpoints_leaves_behind_what_one_without_does(self):
+    def test_a_run_with_checkpoints_writes_the_same_files_as_one_without(self):
         self.through()
         self.forage(*self.arguments, "--checkpoint-every", 100, "-o", "out")
         self.assert_same("out")
 
-    def test_signals_stop_in_order_and_it_goes_on(self):
+    def test_signals_stop_a_run_in_order_and_it_can_be_resumed(self):
         self.through()
         for how, status in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
             out = f"out{status}"
@@ -135,7 +135,7 @@ class Resume(Stopped):
         both = self.forage("resume", "killed", status=2)
         self.assertEqual(both.stderr.count("damaged"), 2)
 
-    def test_what_it_cannot_go_on_with_is_said(self):
+    def test_a_run_that_cannot_be_resumed_is_refused_with_the_reason(self):
         done = self.forage("resume", self.here, status=2)
         self.assertRegex(done.stderr, "there is no checkpoint in .*\n  hint: .*--checkpoint-every")
         system, drive = self.here / "small.iqr", self.here / "drive.csv"
@@ -165,7 +165,7 @@ class Resume(Stopped):
         self.assertIn("needs a directory", done.stderr)
 
 
-    def test_a_directory_that_a_run_writes_into_is_not_taken_by_another(self):
+    def test_a_directory_that_a_run_writes_into_is_refused_to_others(self):
         process = self.start(*EVERYTHING, "--cycles", 10 ** 7, "--checkpoint-every", 100, "-o", "out")
         self.until_there_is("out/checkpoint.previous.forage")
         for again in (("resume", "out"), ("run", SYSTEM, "--world", WORLD, "--cycles", 5, "-o", "out")):
@@ -176,7 +176,7 @@ class Resume(Stopped):
         self.assertIsNone(self.stop(process, 0))  # a kill lets go of it
         self.assertEqual(self.stop(self.start("resume", "out", "-q"), 2, signal.SIGINT), 130)
 
-    def test_a_new_run_does_not_take_the_place_of_one_that_can_go_on(self):
+    def test_a_new_run_does_not_overwrite_one_that_can_be_resumed(self):
         killed = self.start(*self.arguments, "--realtime", "--checkpoint-every", 5, "-o", "out")
         self.until_there_is("out/checkpoint.previous.forage")
         self.until_there_is("out/checkpoint.forage")
@@ -193,7 +193,7 @@ class Resume(Stopped):
         self.assertEqual(sorted(self.content("out")), ["Bug_Light_act.csv", "notes.part", "run.json", "trajectory.csv", "trajectory.png", "trials.csv"])
         self.assertEqual(self.forage(*new).stderr, "")
 
-    def test_a_file_of_a_module_that_has_changed_is_refused_and_one_that_the_run_wrote_is_not(self):
+    def test_a_changed_file_of_a_module_is_refused_unless_the_run_wrote_it(self):
         weights = self.here / "learned.weights"
         arguments = ("run", DAC, "--world", WORLD, "--seed", 2, "--cycles", 4000, "-q", "--hash",
                      "--set", f"Adaptive.File Name={weights}", "--schedule", "cycle 300: Adaptive.write=true")
@@ -257,7 +257,7 @@ VOICES_WORLD = """<sdf version="1.4"><world name="voices">
 
 
 class Kinds(Stopped):
-    def test_runs_of_every_kind_go_on_after_kills(self):
+    def test_runs_of_every_kind_can_be_resumed_after_kills(self):
         (self.here / "models").symlink_to(PROJECT / "systems/worlds/models")
         (self.here / "voices.iqr").write_text(VOICES_SYSTEM)
         (self.here / "voices.world").write_text(VOICES_WORLD)
@@ -298,7 +298,7 @@ class Faults(Stopped):
         return subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, capture_output=True, text=True, timeout=600,
                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
 
-    def test_a_full_disk_stops_the_run_and_what_was_written_stays(self):
+    def test_a_full_disk_stops_the_run_and_keeps_the_written_rows(self):
         arguments = ("run", SYSTEM, "--world", WORLD, "--seconds", 600, "-r", "Bug/Light", "-q")
         self.forage(*arguments, "-o", "whole")
         for form in ("csv", "npy", "dat"):
@@ -319,7 +319,7 @@ class Faults(Stopped):
             self.assertTrue(whole.startswith(rows))
             self.assertFalse(list((self.here / form).glob("*.part")))
 
-    def test_on_a_full_disk_an_hdf5_file_stays_whole(self):
+    def test_on_a_full_disk_an_hdf5_file_stays_readable(self):
         """HDF5 writes only as much as there is space for. h5py, which did not write the file, reads the rows."""
         import h5py
         import numpy
@@ -354,7 +354,7 @@ class Faults(Stopped):
             if mounted:
                 subprocess.run(["umount", small], check=True)
 
-    def test_a_full_disk_keeps_the_checkpoint_before(self):
+    def test_a_full_disk_keeps_the_previous_checkpoint(self):
         arguments = (*EVERYTHING[:8], "-r", "Adaptive/Weights Display", "--cycles", 1500, "--checkpoint-every", 100)
         self.forage(*arguments, "-o", "through")
         done = self.limited(4_000_000, *arguments, "-o", "out")
@@ -394,7 +394,7 @@ class Faults(Stopped):
 
 
 class Kill(Stopped):
-    def test_killed_at_any_moment_it_leaves_behind_what_it_would_have(self):
+    def test_a_run_that_is_killed_at_any_moment_and_resumed_writes_the_same_files(self):
         chance = random.Random(1)
         # With a digest, which computes all groups, and without, which prunes some.
         kinds = [(*EVERYTHING, "--cycles", 800)]

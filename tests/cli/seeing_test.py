@@ -139,7 +139,7 @@ class Formats(Cli):
         process.send_signal(signal.SIGKILL)
         process.communicate(timeout=20)
 
-    def test_what_was_on_disk_outlives_a_kill(self):
+    def test_rows_on_disk_remain_after_a_kill(self):
         self.run_robot("--cycles", 60, "-r", "Bug/Light", out="csv")
         light = self.csv("Bug_Light_act.csv")
         self.kill("csv")
@@ -175,7 +175,7 @@ class Formats(Cli):
                 with h5py.File(self.here / "out/recording.h5") as file:
                     self.assertEqual(len(file["cycle"]), cycles)
 
-    def test_a_full_disk_is_told(self):
+    def test_a_full_disk_is_reported(self):
         for form, name in (("npy", "Bug_Place_Cells_act.npy"), ("h5", "recording.h5")):
             command = f"ulimit -f 300; trap '' XFSZ; exec {FORAGE} run {SYSTEM} --world {WORLD} --cycles 5000 -o full --format {form} -r 'Bug/Place Cells'"
             done = subprocess.run(["bash", "-c", command], cwd=self.here, capture_output=True, text=True, timeout=120)
@@ -206,7 +206,7 @@ class Mistakes(Cli):
             self.assertIn(message, done.stderr)
         self.assertEqual(list(self.here.iterdir()), [])
 
-    def test_a_cycle_that_was_not_run(self):
+    def test_plots_of_cycles_that_were_not_run(self):
         done = self.run_robot("--cycles", 5, "-p", "space:Bug/Light@7", "-p", "time:Bug/Light", status=1)
         self.assertIn("none of these cycles is there; there are 5 of 0 to 4", done.stderr)
         self.assertIn("time_Bug_Light.png", [p.name for p in (self.here / "out").iterdir()])
@@ -232,7 +232,7 @@ class Pictures(Cli):
             self.forage("plot", "out", *self.PLOTS, "diagram", "trajectory", "-o", "again", "--plot-format", form)
             self.assertEqual(filecmp.cmpfiles(self.here / "out", self.here / "again", made, shallow=False), (made, [], []))
 
-    def test_without_a_wish_it_draws_what_there_is(self):
+    def test_without_arguments_all_available_pictures_are_drawn(self):
         self.run_robot("--cycles", 50, "-r", "Bug/Light", "-r", "Bug/Place Cells")
         done = self.forage("plot", "out", "-o", "pictures")
         self.assertEqual(done.stdout.split(), [f"pictures/{n}.png" for n in (
@@ -281,7 +281,7 @@ class Pictures(Cli):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertLess((self.here / "out/time_P_A.svg").stat().st_size, 10 << 20)
 
-    def test_a_moving_picture(self):
+    def test_a_movie(self):
         self.run_robot("--cycles", 300, "-p", "movie:Bug/Place Cells@0..290/10", "-p", "movie:Bug/Light")
         width, height, frames = png_size((self.here / "out/movie_Bug_Place_Cells_0..290_10.png").read_bytes())
         self.assertEqual(frames, 30)
@@ -289,7 +289,7 @@ class Pictures(Cli):
         frames = png_size((self.here / "out/movie_Bug_Light.png").read_bytes())[2]
         self.assertTrue(60 <= frames <= 120)
 
-    def test_a_recording_is_drawn_by_its_file(self):
+    def test_a_recording_is_drawn_from_its_file(self):
         self.run_robot("--cycles", 50, "-r", "Bug/Motor")
         self.forage("plot", "out/Bug_Motor_act.csv", "space@10,20", "time:(4..6,1)", "-o", "pictures", status=2)
         self.forage("plot", "out/Bug_Motor_act.csv", "space@10,20", "time:Bug/Motor(4..6,1)", "-o", "pictures")

@@ -54,7 +54,7 @@ class Tutorial(unittest.TestCase):
             self.assertRegex(done.stdout, rf"(?m)^{number} ")
             self.assertIn(f"forage tutorial {number}\n", text)
 
-    def test_an_unknown_exercise_is_told(self):
+    def test_an_unknown_exercise_is_reported(self):
         done = self.forage("tutorial", "9.9", here=PROJECT)
         self.assertEqual(done.returncode, 2)
         self.assertIn("error: there is no exercise '9.9'", done.stderr)

@@ -52,7 +52,7 @@ class World(unittest.TestCase):
             self.assertRegex(out, r"robot +\w+ at \(")
             self.assertEqual((self.here / f"{world.stem}.png").read_bytes()[:4], b"\x89PNG")
 
-    def test_what_is_wrong_with_a_world_has_file_line_and_column(self):
+    def test_mistakes_in_a_world_are_reported_with_file_line_and_column(self):
         text = (SYSTEMS / "worlds" / "team_arena.world").read_text()
         models = {"FORAGE_MODEL_PATH": str(SYSTEMS / "worlds" / "models")}
         for old, new, said in [
@@ -87,7 +87,7 @@ class World(unittest.TestCase):
         done = self.forage("run", TEAMS[0], TEAMS[0], *TEAMS[2:], "--seconds", 1, status=2)
         self.assertIn("two modules drive the robot 'A_1'", done.stderr)
 
-    def test_a_film_has_as_many_frames_as_it_says(self):
+    def test_a_film_has_the_reported_number_of_frames(self):
         out = self.forage("run", *TEAMS, "--seconds", 3, "--video", "game.gif", "-o", "").stdout
         frames = int(re.search(r"game.gif: (\d+) frames", out)[1])
         self.assertGreater(frames, 20)
@@ -119,7 +119,7 @@ class World(unittest.TestCase):
         self.assertTrue(min(x for x, _ in path) < -3 and max(x for x, _ in path) > 3)
         self.assertTrue((out / "duel/score.csv").is_file())
 
-    def test_the_page_on_the_robot_names_tests_that_there_are(self):
+    def test_the_page_on_the_robot_names_existing_tests(self):
         rows = re.findall(r"^\| (.+?) \| (.+?) \|$", (PROJECT / "docs/reference/robot.md").read_text(), re.MULTILINE)[1:]
         self.assertGreater(len(rows), 25)
         files = ""

@@ -195,7 +195,7 @@ class BadInput(unittest.TestCase):
                 case = make(self.here)
                 self.refused("bad_made", name, case.arguments, case.status, **case.popen)
 
-    def test_what_is_sound_is_not_refused(self):
+    def test_cases_without_their_mistake_are_accepted(self):
         """Checks that the cases without their mistake are accepted; otherwise they would prove nothing."""
         for arguments in (
             "check system.iqr --world world.world",

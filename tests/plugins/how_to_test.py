@@ -89,7 +89,7 @@ class HowTo(unittest.TestCase):
                 expected.write_text(expected.read_text().replace("\n0,0", "\n0,7"))
                 run("ctest --test-dir build", here, self.environment, status=8)
 
-    def test_what_ships_is_found_from_the_package(self):
+    def test_shipped_files_are_found_from_the_package(self):
         systems = self.folder / "root/usr/share/forage/systems"
         run(f"forage run {systems}/reactive_foraging.iqr --world {systems}/worlds/basic_arena.world --trials 1",
             self.folder, self.environment)

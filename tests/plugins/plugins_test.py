@@ -91,7 +91,7 @@ class Broken(Plugins):
                         self.assertRegex(done.stderr, r"\n  hint: .*" + re.escape(hint))
                 self.assertEqual(sorted(p.name for p in self.here.iterdir()), [system])
 
-    def test_files_that_are_no_shared_objects(self):
+    def test_files_that_are_not_shared_objects(self):
         (self.here / "text.so").write_text("hello")
         (self.here / "empty.so").write_text("")
         (self.here / "mine.cpp").write_text("int x;")
@@ -126,7 +126,7 @@ class Broken(Plugins):
         self.assertTrue((self.here / "out/run.json").exists())
         self.assertFalse(list((self.here / "out").glob("*.part")))
 
-    def test_a_module_that_uses_an_output_it_has_not(self):
+    def test_a_module_that_uses_an_undeclared_output(self):
         system = self.system("neuronNumeric", '<Module name="moduleLoud"/>')
         done = self.forage("run", system, "-c", 5, "--plugin", BROKEN / "module_output.so", "-o", "", status=1)
         self.assertIn("moduleLoud of process 'P' failed in cycle 0: it uses output 1, but declares 1", done.stderr)
@@ -180,7 +180,7 @@ class Twins(Plugins):
             self.assertEqual(twin[name], content, name)
 
 
-    def test_a_run_with_plugins_that_is_stopped_goes_on_with_the_same_bytes(self):
+    def test_a_run_with_plugins_is_resumed_with_the_same_bytes(self):
         (self.here / "system.iqr").write_text(TWINS.format(twin="Twin"))
         command = ["run", "system.iqr", "--plugin", BROKEN.parent / "twins.so", "-c", 60, "--hash", "--record", "P/B", "--record", "P/D"]
         self.forage(*command, "-o", "whole")
@@ -234,7 +234,7 @@ class Found(Plugins):
         self.forage("experiment", "e.xml", "-o", "out")
         self.assertNotEqual(result.read_text(), first)
 
-    def test_a_folder_of_the_path_that_is_not_there_is_a_warning(self):
+    def test_a_missing_folder_of_the_path_is_a_warning(self):
         done = self.forage("types", path="/nowhere")
         self.assertIn("warning: FORAGE_PLUGIN_PATH: there is no '/nowhere'", done.stderr)
 
