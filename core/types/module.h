@@ -7,8 +7,7 @@
 //     void start(const ModulePorts&);                // optional: called once, before the first cycle
 //     void start(const ModulePorts&, ModuleFrame&);  // instead of it: what it writes is received in cycle 0
 //     void update(ModuleFrame&);                     // once per cycle, between groups and connections
-//     void checkpoint(Archive&);                     // required for members beside the parameters
-//     (archive.h)
+//     void checkpoint(Archive&);                     // if there are other members (archive.h)
 //
 // A module reads the activity of its input groups in the same cycle. What it writes into an output is
 // excitatory input of that group in the next cycle. An output keeps its values until it is written again.

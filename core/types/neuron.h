@@ -5,8 +5,8 @@
 //     static void describe(NeuronSpec<T>&);       // declares name, parameters and states
 //     void update(Cell&, Input&) const;           // one cycle of one cell; const Input& without gains
 //     double event_probability() const;           // optional: the probability of Input::event
-//     double event_value() const;                 // instead of update(): the activity of a cell with an
-//     event static constexpr int random_numbers = 1;    // optional: the number of Input::random, up to 4
+//     double event_value() const;                 // instead of update(): the activity during an event
+//     static constexpr int random_numbers = 1;    // optional: the number of Input::random, up to 4
 //     void check(Diagnostics&) const;             // optional: warns of parameters that contradict each other
 //
 // The cells of such a type do not see each other, so the SDK may update them in any order and on several

@@ -28,7 +28,7 @@ struct ValueRule {
     double low = -std::numeric_limits<double>::infinity();  ///< numbers outside `low` to `high` are errors
     double high = std::numeric_limits<double>::infinity();
     std::vector<std::string> choices = {};
-    std::size_t least = 1, most = 1;  ///< limits of the number of numbers
+    std::size_t least = 1, most = 1;  ///< smallest and largest count of numbers
     bool may_be_empty = false;        ///< whether an empty element counts as absent
     bool decisive = false;  ///< whether what depends on the value cannot be checked when it is wrong
 
