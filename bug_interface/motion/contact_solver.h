@@ -26,7 +26,7 @@ class Physics::ContactSolver {
     ContactSolver& operator=(const ContactSolver&) = delete;
 
     /// Updates the velocities of the active bodies, and counts the contacts of movable objects with robots.
-    /// `step`: duration of the time step, s.
+    /// `step` is the duration of the time step, s.
     void solve(double step, std::span<State> states, std::span<Velocity> velocities);
     /// Updates the poses of the parts of a body within its frame.
     void update_shapes(std::size_t body, std::span<const Part> parts);

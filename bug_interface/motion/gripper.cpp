@@ -8,8 +8,8 @@
 namespace forage::bug {
 namespace {
 
-/// Adds the links and hinges of `model` and of the models nested in it. `frame`: pose of the model in the
-/// robot. `first_link`: for each hinge, the number of the first link of its model.
+/// Adds the links and hinges of `model` and of the models nested in it. `frame` is the pose of the model in
+/// the robot. `first_link` has, for each hinge, the number of the first link of its model.
 void collect(const Model& model, const Pose& frame, std::vector<RobotLink>& links,
              std::vector<const Hinge*>& hinges, std::vector<int>& first_link) {
     const auto first = links.size();

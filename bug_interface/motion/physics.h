@@ -64,8 +64,8 @@ class Physics {
     /// When Bullet is called. `always` is for tests and benchmarks.
     enum class Contacts { when_near, always };
 
-    /// `step`: duration of a time step, s. `collision_masks[i]`: the layers that collide with layer i; when
-    /// empty, all layers collide with each other.
+    /// `step` is the duration of a time step, s. `collision_masks[i]` are the layers that collide with layer
+    /// i; when it is empty, all layers collide with each other.
     Physics(std::span<const Obstacle> obstacles, std::span<const Body> bodies, double step,
             Contacts contacts = Contacts::when_near, std::vector<LayerMask> collision_masks = {});
     ~Physics();

@@ -58,7 +58,7 @@ class Reset {
   private:
     Pose2 draw(std::uint64_t index) const;
 
-    /// Indices of start poses are separate from those of reset poses.
+    /// The first random index of start poses; reset poses have lower indices.
     static constexpr std::uint64_t first_start = std::uint64_t{1} << 63;
     ResetPlan plan_;
     RandomStream random_;

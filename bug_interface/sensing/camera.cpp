@@ -30,7 +30,7 @@ typedef std::int32_t Numbers __attribute__((vector_size(lanes * sizeof(int)))); 
 #define FORAGE_LANES(v, ...) __builtin_shuffle(v, Numbers{__VA_ARGS__})
 #endif
 
-/// Adds noise to eight of the 24 values of eight pixels, and converts them to 0..255. `noise`: that of the
+/// Adds noise to eight of the 24 values of eight pixels, and converts them to 0..255. `noise` is that of the
 /// pixels to which the values belong.
 [[gnu::always_inline]] inline void add_noise(const float* values, const Levels& noise, std::int32_t* out) {
     Levels level;
@@ -59,7 +59,7 @@ template <std::size_t pixels>
 }
 
 /// Converts a multiple of eight pixels to bytes with noise. There are no branches, as random noise would make
-/// them hard to predict. `indices`: one per pixel, into the table of normal numbers `quantiles`.
+/// them hard to predict. `indices` has one index per pixel into the table of normal numbers `quantiles`.
 FORAGE_SIMD void to_bytes(const float* rgb, const std::uint16_t* indices, const float* quantiles, float scale,
                           std::size_t pixels, std::uint8_t* out) {
     constexpr std::size_t block = 4 * lanes;

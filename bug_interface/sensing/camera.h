@@ -21,21 +21,22 @@ namespace forage::bug {
 /// ray in the tiles of the picture that their bounds meet.
 class Camera {
   public:
-    /// `link_pose`: pose of the camera's link in the robot. Each pixel is the mean of samples_per_axis^2
-    /// rays. Throws std::invalid_argument when `samples_per_axis` is not 1 to 4.
+    /// `link_pose` is the pose of the camera's link in the robot. Each pixel is the mean of
+    /// samples_per_axis^2 rays. Throws std::invalid_argument when `samples_per_axis` is not 1 to 4.
     Camera(const CameraSensor& sensor, const Pose& link_pose, std::shared_ptr<const Scene> scene,
            int samples_per_axis = 2);
 
     int width() const { return width_; }    ///< pixels
     int height() const { return height_; }  ///< pixels
 
-    /// Renders the scene and the solids `moving` from a robot at the pose `robot`, without noise. `rgb`:
+    /// Renders the scene and the solids `moving` from a robot at the pose `robot`, without noise. `rgb` has
     /// height x width x 3 values in 0..1; row 0 is the top (far), column 0 the left. Allocates memory only
     /// when there are more solids than ever before.
     void render(const Pose2& robot, std::span<const VisualSolid* const> moving, std::span<float> rgb);
 
     /// Adds noise and rounds to 8 bits. A normally distributed random number is drawn for each pixel and
-    /// added to its three channels. `sample`: the number of the picture; the same sample has the same noise.
+    /// added to its three channels. `sample` is the number of the picture; the same sample has the same
+    /// noise.
     void quantise(std::span<const float> rgb, std::span<std::uint8_t> out, const RandomStream& random,
                   std::uint64_t sample) const;
 

@@ -18,7 +18,7 @@ namespace forage::bug {
 /// needs one texel instead of four, with the same result. Most of a floor is flat.
 class FloorTexture {
   public:
-    /// `image` must have a border of one pixel. `gain`: the colour of a white texel; may exceed 1.
+    /// `image` must have a border of one pixel. `gain` is the colour of a white texel; it may exceed 1.
     FloorTexture(Image image, const Colour& gain);
     /// A floor of one colour: a picture of 1 x 1 texels.
     explicit FloorTexture(const Colour& colour);

@@ -44,7 +44,7 @@ Window window(int index, int from, int to, std::pmr::memory_resource* memory) {
     return out;
 }
 
-/// One resampled pixel, rounded to 8 bits. `step`: distance between the source pixels in bytes.
+/// One resampled pixel, rounded to 8 bits. `step` is the distance between the source pixels in bytes.
 std::array<std::uint8_t, 3> mix(const Window& window, const std::uint8_t* pixels, std::size_t step) {
     double sum[3] = {0, 0, 0};
     const std::uint8_t* pixel = pixels + static_cast<std::size_t>(window.first) * step;

@@ -18,7 +18,7 @@ namespace forage::bug {
 /// maximum range.
 class RangeScanner {
   public:
-    /// `link_pose`: pose of the sensor's link in the robot.
+    /// `link_pose` is the pose of the sensor's link in the robot.
     RangeScanner(const RangeSensor& sensor, const Pose& link_pose);
 
     double height() const { return height_; }  ///< height of all rays above the floor, m
@@ -28,16 +28,17 @@ class RangeScanner {
     /// Distance from the origin of the robot beyond which nothing is measured, m.
     double reach() const { return max_ + std::hypot(mount_.x, mount_.y); }
 
-    /// Measures without noise. ranges[i]: the measurement of ray i, m; its size is rays(). `robot`: pose of
-    /// the robot in the world. `outlines`: cross-sections at height(). Does not allocate memory.
+    /// Measures without noise. ranges[i] becomes the measurement of ray i, m; its size is rays(). `robot` is
+    /// the pose of the robot in the world, and `outlines` are cross-sections at height(). Does not allocate
+    /// memory.
     void scan(const Pose2& robot, std::span<const Outline> outlines, std::span<double> ranges) const;
 
-    /// Adds normally distributed noise to each range and clamps it to [min_range(), max_range()]. `sample`:
+    /// Adds normally distributed noise to each range and clamps it to [min_range(), max_range()]. `sample` is
     /// the number of the scan; the same sample has the same noise.
     void add_noise(std::span<double> ranges, const RandomStream& random, std::uint64_t sample) const;
 
-    /// Converts ranges to activities in 0..1, near is high: cells[k] = (max - ranges[n-1-k]) / max. Cell 0 is
-    /// the leftmost ray.
+    /// Converts ranges to activities in 0..1, which are high for near surfaces: cells[k] = (max -
+    /// ranges[n-1-k]) / max. Cell 0 is the leftmost ray.
     void to_activity(std::span<const double> ranges, std::span<double> cells) const;
 
   private:

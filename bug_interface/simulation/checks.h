@@ -13,8 +13,8 @@ namespace forage::bug {
 /// that cannot be simulated and warnings for everything else.
 void check_models(const WorldDescription& world, Diagnostics& diagnostics);
 
-/// Warns about targets and robots outside the bounds, and about models that nothing can touch. `top`: height
-/// of the highest point of the robots and their ray sensors, m.
+/// Warns about targets and robots outside the bounds, and about models that nothing can touch. `top` is the
+/// height of the highest point of the robots and their ray sensors, m.
 void check_places(const WorldDescription& world, const std::optional<ResetPlan>& plan, double top,
                   Diagnostics& diagnostics);
 

@@ -43,13 +43,13 @@ class Game {
     };
 
     Game() = default;
-    /// `homes`: of team A and B, m. Without `rules`, resources only count at the homes.
+    /// `homes` are the homes of team A and B, m. Without `rules`, resources only count at the homes.
     Game(std::optional<GameRules> rules, std::array<Pose2, 2> homes, std::vector<Resource> resources,
          std::uint64_t seed);
 
     /// Called before the first substep. With rules, all resources are removed until they appear at a site.
     void begin(Physics& physics);
-    /// Called after each substep. `time`: simulated time, s; `step`: duration of the substep, s.
+    /// Called after each substep. `time` is the simulated time, s; `step` is the duration of the substep, s.
     void substep(Physics& physics, double time, double step);
 
     bool empty() const { return resources_.empty(); }

@@ -9,7 +9,7 @@
 
 namespace forage::bug {
 
-/// Assigns layers to shapes. A layer is a range of heights that some shape extends over.
+/// Assigns layers to shapes. A layer is a range of heights over which some shape extends.
 class Heights {
   public:
     /// The layer of a shape that extends from `low` to `high` (m); a new one when no layer has this range.

@@ -22,9 +22,9 @@ namespace forage::bug {
 /// A robot of a World. Only the World creates and changes robots; therefore the members are public.
 class Robot {
   public:
-    /// `model` must have a robot_link(). `number`: of the robot among the bodies. `noise`: whether the
-    /// sensors are noisy. Reports an error when the body is not an upright cylinder at the origin of the
-    /// model, and when the world has too many heights.
+    /// `model` must have a robot_link(). `number` is that of the robot among the bodies, and `noise` says
+    /// whether the sensors are noisy. Reports an error when the body is not an upright cylinder at the origin
+    /// of the model, and when the world has too many heights.
     Robot(const Model& model, std::size_t number, std::uint64_t seed, bool noise, Heights& heights,
           Diagnostics& diagnostics);
 

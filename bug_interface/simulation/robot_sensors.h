@@ -19,15 +19,15 @@
 
 namespace forage::bug {
 
-/// What a robot has sensed by the end of a cycle. Scans are activities in 0..1, near is high, and cell 0 is
-/// the leftmost ray; they are empty when the robot does not have the sensor.
+/// What a robot has sensed by the end of a cycle. Scans are activities in 0..1, which are high for near
+/// surfaces, and cell 0 is the leftmost ray; they are empty when the robot does not have the sensor.
 struct BugSnapshot {
     Pose2 pose;                     ///< m; yaw in (-pi, pi]
     std::vector<double> proximity;  ///< scan of the sensor "laser"
     std::vector<double> target;     ///< scan of the sensor "laser_target", which sees the light
     std::vector<double> gripper;    ///< scan of the sensor "laser_gripper"; updated only on request
     Message received{};             ///< the sum of the messages of all other robots, attenuated
-    /// height x width x 3 bytes (red, green, blue), rows from the top; updated only on request.
+    /// The image: height x width x 3 bytes (red, green, blue), in rows from the top; updated only on request.
     std::vector<std::uint8_t> image;
     int image_width = 0, image_height = 0;  ///< pixels; 0 when the robot has no camera
 
@@ -51,15 +51,17 @@ RandomStream robot_stream(std::uint64_t seed, const std::string& robot, RobotStr
 /// called before anything is sensed. `sample` counts the cycles; the same sample has the same noise.
 class RobotSensors {
   public:
-    /// Uses the sensors of `link`, the link of the robot's body. `body`: number of the robot among the
-    /// bodies. `noise`: whether the sensors are noisy.
+    /// Uses the sensors of `link`, the link of the robot's body. `body` is the number of the robot among the
+    /// bodies, and `noise` says whether the sensors are noisy.
     RobotSensors(const Link& link, const std::string& robot, std::size_t body, std::uint64_t seed,
                  bool noise);
 
-    /// `fixed`: the solids that never move; `moving`: those that move with a body. A robot sees its own
-    /// gripper but not its own central disc. `step`: duration of a physics step, s.
+    /// Makes the range scanners. `fixed` are the solids that never move, and `moving` are those that move
+    /// with a body. A robot sees its own gripper but not its own central disc. `step` is the duration of a
+    /// physics step, s.
     void make_scanners(std::span<const Solid> fixed, std::span<const MovingSolid> moving, double step);
-    /// Has no effect when the robot has no camera sensor, or when the camera exists already.
+    /// Makes the camera. Has no effect when the robot has no camera sensor, or when the camera already
+    /// exists.
     void make_camera(const std::shared_ptr<const Scene>& scene);
 
     /// The pose of the body's link in the robot. The poses of the sensors are relative to it.
@@ -75,10 +77,10 @@ class RobotSensors {
 
     /// Writes the pose and the scans of `sample` into the snapshot.
     void scan(std::uint64_t sample, const BodyPoses& poses);
-    /// Writes the image of `sample` into the snapshot, unless it is there already. `visuals`: those that
+    /// Writes the image of `sample` into the snapshot, unless it is there already. `visuals` are those that
     /// move, placed in the world. Has no effect before make_camera().
     void render(std::uint64_t sample, const BodyPoses& poses, std::span<const MovingVisual> visuals);
-    /// Whether a sensor with a rate of its own is due at `now`, s of simulated time.
+    /// Whether a sensor with a rate of its own is due at the simulated time `now`, s.
     bool due(double now) const;
     /// Updates the sensors that are due. The pose is updated with the proximity sensor, as in the original.
     void sense_due(double now, const BodyPoses& poses, std::span<const MovingVisual> visuals);

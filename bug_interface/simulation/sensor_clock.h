@@ -11,10 +11,11 @@ namespace forage::bug {
 /// Sample n is due at time n * period. Sample 0 is taken at the start.
 class SensorClock {
   public:
-    /// `rate`: samples per second of simulated time; 0 means one sample per time step of `step` s.
+    /// `rate` is the number of samples per second of simulated time; 0 stands for one sample per time step of
+    /// `step` s.
     SensorClock(double rate, double step) : period_(rate > 0 ? 1 / rate : step) {}
 
-    /// Whether a sample is due at `now`, s of simulated time.
+    /// Whether a sample is due at the simulated time `now`, s.
     bool due(double now) const { return number(now) > last_; }
     /// Takes the sample that is due at `now`. Returns its number, which selects its noise.
     std::uint64_t sample(double now) { return last_ = number(now); }

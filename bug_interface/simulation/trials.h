@@ -20,10 +20,10 @@ class TrialLog {
     /// target is reached, m.
     static constexpr double reach = 0.45;
 
-    /// `targets`: the centres of the targets, m.
+    /// `targets` are the centres of the targets, m.
     explicit TrialLog(std::vector<Eigen::Vector2d> targets) : targets_(std::move(targets)) {}
 
-    /// Begins a trial. `cycle`: the first one in which the robot is driven.
+    /// Begins a trial. `cycle` is the first cycle in which the robot is driven.
     void begin(const Pose2& start, std::uint64_t cycle);
     /// Updates the smallest distance; called after every substep of a trial.
     void follow(const Pose2& pose) {
@@ -41,7 +41,7 @@ class TrialLog {
             smallest_squared_ = std::min(smallest_squared_, (start + fraction * path - t).squaredNorm());
         }
     }
-    /// Ends the trial. `done`: number of cycles that have begun since the start of the run.
+    /// Ends the trial. `done` is the number of cycles that have begun since the start of the run.
     void finish(const Pose2& end, std::uint64_t done);
 
     const std::vector<Trial>& finished() const { return finished_; }

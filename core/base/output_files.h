@@ -40,7 +40,7 @@ inline constexpr const char* held_hint = "wait until it has ended, or choose ano
 class DirectoryHold {
   public:
     DirectoryHold() = default;  ///< locks nothing
-    /// Throws std::runtime_error when another program has locked the directory.
+    /// Locks the directory. Throws std::runtime_error when another program has locked it.
     explicit DirectoryHold(const std::string& directory);
     DirectoryHold(DirectoryHold&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
     DirectoryHold& operator=(DirectoryHold&& other) noexcept { return std::swap(file_, other.file_), *this; }

@@ -9,8 +9,8 @@
 namespace forage::connectivity {
 namespace {
 
-/// Calls take(i, value) with the function's value at each distance. `whole`: the bounds are read as whole
-/// numbers, as for delays.
+/// Calls take(i, value) with the function's value at each distance. With `whole`, the bounds are read as
+/// whole numbers, as for delays.
 template <class Take>
 void evaluate(const model::DistanceFunction& function, std::span<const double> distances,
               const RandomStream& random, bool whole, Take take) {

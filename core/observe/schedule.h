@@ -47,7 +47,7 @@ class Schedule final : public Observer {
     std::size_t waiting_ = 0;
 };
 
-/// Resolves changes for a system. Reports unknown names and wrong values. `trials`: whether the run has
+/// Resolves changes for a system. Reports unknown names and wrong values. `trials` says whether the run has
 /// trials.
 std::unique_ptr<Schedule> make_schedule(const std::vector<model::ScheduledChange>& changes,
                                         const model::System& system, const Registry& registry,

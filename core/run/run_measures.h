@@ -15,7 +15,7 @@ namespace forage {
 /// end, and means over trials.
 class RunMeasures final : public Observer {
   public:
-    /// Reports measures that are impossible. `trials`: whether the run has trials.
+    /// Reports measures that are impossible. `trials` says whether the run has trials.
     RunMeasures(std::span<const model::Measure> measures, const engine::Layout& layout, bool trials,
                 Diagnostics& diagnostics);
 

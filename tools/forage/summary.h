@@ -7,8 +7,8 @@
 
 namespace forage::tool {
 
-/// The summary of a run, a few lines. `resumable`: whether there is a checkpoint from which the run can be
-/// resumed.
+/// The summary of a run, a few lines. `resumable` says whether there is a checkpoint from which the run can
+/// be resumed.
 std::string summary(const PreparedRun& prepared, const RunOutcome& outcome, bool resumable);
 
 }  // namespace forage::tool

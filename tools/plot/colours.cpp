@@ -6,7 +6,7 @@
 namespace forage::plot {
 namespace {
 
-/// Interpolates between evenly spaced samples (0..255). `fraction`: 0..1; NaN counts as 0.
+/// Interpolates between evenly spaced samples (0..255). `fraction` is in 0..1; a NaN counts as 0.
 template <std::size_t N>
 Colour between(const std::array<std::array<int, 3>, N>& samples, double fraction) {
     const double position =

@@ -14,8 +14,8 @@ namespace forage::plot {
 /// when it ends with .png.
 class Film {
   public:
-    /// `seconds_per_frame`: simulated time between two frames; the film is played at this rate. `world` must
-    /// outlive the film.
+    /// `seconds_per_frame` is the simulated time between two frames; the film is played at this rate. `world`
+    /// must outlive the film.
     Film(bug::World& world, std::string name, double seconds_per_frame, const std::string& title);
     ~Film();
     /// Adds a frame with the current state of the world. Throws std::runtime_error when it cannot be written.

@@ -101,8 +101,8 @@ class StructurePlotter final : public Observer {
 /// Draws the path of a robot.
 class TrajectoryPlotter final : public Observer {
   public:
-    /// `recorder` is an observer of the same run. `always`: draw the path of a robot that did not move, too.
-    /// `name` is the file's name without its ending.
+    /// `recorder` is an observer of the same run. With `always`, the path of a robot that did not move is
+    /// drawn, too. `name` is the file's name without its ending.
     TrajectoryPlotter(const bug::World& world, const PathRecorder& recorder, bool always, std::string name,
                       Format format, std::string title)
         : world_(world),

@@ -32,9 +32,9 @@ class WorldMap {
     double py(double y) const { return top_ + (view_.max().y() - y) * scale_; }
 
     void draw_ground(Canvas& canvas) const;  ///< floors, then static solids, from the lowest to the highest
-    void draw_movable_objects(Canvas& canvas) const;  ///< at their current poses
+    void draw_movable_objects(Canvas& canvas) const;  ///< draws them at their current poses
     void draw_marks(Canvas& canvas) const;            ///< bounds and start poses
-    void draw_targets(Canvas& canvas) const;          ///< with the rings in which they count as reached
+    void draw_targets(Canvas& canvas) const;          ///< also draws the rings in which they count as reached
     /// Draws a robot and its gripper at the current pose, and its range scans if `rays` is set.
     void draw_robot(Canvas& canvas, std::size_t robot, bool rays) const;
 

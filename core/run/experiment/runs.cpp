@@ -76,7 +76,8 @@ class Work {
         }
     }
 
-    /// `parts`: the completed fractions of the current runs; `elapsed`: time since the start, s.
+    /// `parts` is the sum of the completed fractions of the current runs, and `elapsed` is the time since the
+    /// start, s.
     ExperimentCallbacks::Progress progress(double parts, double elapsed) const {
         ExperimentCallbacks::Progress out;
         const double made = static_cast<double>(done_ + failed_) + parts;

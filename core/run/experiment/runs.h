@@ -36,8 +36,8 @@ struct ExperimentCallbacks {
 };
 
 /// Executes the runs that have no result yet, `jobs` at a time, each on one thread. Each result is written
-/// into its run's directory at once. `digests` are those of the files that decide all runs. `fresh`: repeat
-/// finished runs. Returns all results in order; empty when it was interrupted.
+/// into its run's directory at once. `digests` are those of the files that decide all runs. With `fresh`,
+/// finished runs are repeated. Returns all results in order; empty when it was interrupted.
 std::optional<std::vector<RunResult>> run_experiment(const model::Experiment& experiment,
                                                      const PrepareRun& prepare,
                                                      std::span<const PlannedRun> runs,
