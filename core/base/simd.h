@@ -10,9 +10,6 @@
 #if defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define FORAGE_SIMD __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#define FORAGE_SIMD_4 \
-    __attribute__((target_clones("arch=x86-64-v3", "default")))  ///< at most four numbers at a time
 #else
 #define FORAGE_SIMD
-#define FORAGE_SIMD_4
 #endif

@@ -286,10 +286,11 @@ void Cycle::deliver_through(int connection, const Share* share) {
                          state_.cycle,
                          *c.synapse,
                          c.feedback,
-                         state_.numbers.data()};
+                         state_.numbers.data(),
+                         c.workspace.get()};
     double* row = target.inputs[static_cast<std::size_t>(plan.kind)][target.row ^ 1];
     try {
-        auto* shared = share ? dynamic_cast<SharedKernel*>(plan.kernel.get()) : nullptr;
+        auto* shared = share ? dynamic_cast<const SharedKernel*>(plan.kernel.get()) : nullptr;
         if (!(plan.effective && target.receives)) {
             if (plan.plastic) plan.plastic->learn(in);
         } else if (shared) {

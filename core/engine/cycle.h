@@ -71,7 +71,7 @@ class Cycle {
     void remember(int group);
     /// Does what Kernel::deliver() does, for a kernel that threads share.
     using Share =
-        std::function<void(SharedKernel& kernel, const KernelInput& in, double* target, bool first)>;
+        std::function<void(const SharedKernel& kernel, const KernelInput& in, double* target, bool first)>;
     void deliver_to(int group, const Share* share = nullptr);
 
     /// About how long the updates and deliveries of the next cycle take on one thread, ns.

@@ -204,11 +204,13 @@ std::size_t Simulation::synapses(int connection) const {
 
 ConstColumn Simulation::synapse_state(int connection, int state) const {
     const auto& c = parts_->plan->connections[connection];
+    const auto& now = *parts_->state;
     const auto& about = layout().connections[connection];
     if (!about.type.has_gain && !c.reads_states)
         refuse_pruned(fmt::format("what the synapses of connection '{}' keep", about.name),
                       "read_synapses()");
-    return c.plastic ? c.plastic->state(parts_->state->numbers.data(), state) : ConstColumn(nullptr, 0);
+    return c.plastic ? c.plastic->state(now.numbers.data(), *now.connections[connection].workspace, state)
+                     : ConstColumn(nullptr, 0);
 }
 
 }  // namespace forage::engine

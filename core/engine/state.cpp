@@ -105,6 +105,7 @@ void State::begin(const Plan& plan) {
                       : Ring{target.states[s].ring, target.states[s].depth, plan.groups[p.target].stride});
         }
         if (p.plastic) p.plastic->begin(numbers.data());
+        if (p.kernel) connections[i].workspace = p.kernel->make_workspace();
     }
 }
 

@@ -44,6 +44,7 @@ struct ConnectionState {
     bool changed = false;                      ///< from outside, since it delivered
     std::unique_ptr<SynapseInstance> synapse;  ///< holds parameters
     std::vector<Ring> feedback;                ///< of a plastic one
+    std::unique_ptr<Workspace> workspace;      ///< of its kernel; holds nothing that is of later use
 };
 
 struct State {

@@ -1,20 +1,23 @@
-// Synapse types: what the synapses of a connection are. A synapse type is a plain struct whose members are
-// its parameters, with
+// Synapse types: what the synapses of a connection do. A synapse type is a plain struct whose members are
+// its parameters, with these members:
 //
-//     struct Synapse { double weight = 0; };        // the states of a synapse, with their initial values
-//     struct Target { double post = 0; };           // what it reads of its target cell
-//     static void describe(SynapseSpec<T>&);        // name, parameters, states, output, feedback
-//     void update(Synapse&, double pre, const Target&) const;         // one cycle of one synapse: what it
-//     learns double output(const Synapse&, double pre, const Target&) const; // then: its postsynaptic
-//     potential void check(Diagnostics&) const;               // optional: warns of parameters that do not
-//     fit together
+//     struct Synapse { double weight = 0; };   // the states of a synapse, with their initial values
+//     struct Target { double post = 0; };      // what a synapse reads of its target cell
 //
-// What a type does not need is left out: a struct and the arguments of it, update(). An output() that does
-// not read the target can be computed again at any time, and outputs need not be kept.
+//     // Declares the type's name, parameters, states, output and feedback.
+//     static void describe(SynapseSpec<T>&);
+//     // One cycle of one synapse: what it learns.
+//     void update(Synapse&, double pre, const Target&) const;
+//     // Its postsynaptic potential, after the update.
+//     double output(const Synapse&, double pre, const Target&) const;
+//     // Optional: reports parameters that do not fit together.
+//     void check(Diagnostics&) const;
+//
+// A type leaves out what it does not need: a struct and the arguments of that struct, or update(). The engine
+// attenuates and delays the output.
 //
 // A type that only multiplies its input by a constant has that constant as `double gain() const`, and neither
-// update() nor output(). The engine attenuates and delays what the type puts out. synapses/hebbian.h is the
-// example to copy.
+// update() nor output(). synapses/hebbian.h is the example to copy.
 #pragma once
 
 #include <functional>
@@ -34,11 +37,11 @@ namespace forage {
 struct SynapseStateInfo {
     std::string name;
     std::string label;
-    bool output = false;  ///< the postsynaptic potential, before attenuation and delay; exactly one per type
-    double initial = 0;   ///< of all synapses, before the first update
+    bool output = false;  ///< it is the postsynaptic potential before attenuation and delay; one per type
+    double initial = 0;   ///< its value before the first update
 };
 
-/// A state of the target's neuron that the synapse reads, `delay` cycles old.
+/// A state of the target's neuron that a synapse reads; it is as old as the synapse's delay.
 struct FeedbackInfo {
     std::string name;  ///< as in `<XRefHolder name="Freedback"><XRef name="..">`
     std::string label;
@@ -52,8 +55,6 @@ struct SynapseType {
     std::vector<FeedbackInfo> feedback;
     bool has_gain = false;
     bool event_driven = false;  ///< see SynapseSpec
-    bool tells_output = false;  ///< the output depends on the source and the states alone
-    bool adds_output = false;   ///< has update_and_add()
     std::function<std::unique_ptr<SynapseInstance>()> make;
     std::function<void(const void*, Diagnostics&)> check;  ///< of an object's parameters; may be empty
 
@@ -86,7 +87,7 @@ class SynapseSpec {
         states_.declare(member, type_.states.size());
         return type_.states.push_back({std::move(name), std::move(label), false, Synapse{}.*member}), *this;
     }
-    /// What output() gives.
+    /// Names the number that T::output() computes.
     SynapseSpec& output(std::string name, std::string label) {
         return type_.states.push_back({std::move(name), std::move(label), true}), *this;
     }
@@ -99,12 +100,12 @@ class SynapseSpec {
     SynapseSpec& feedback(std::string name, std::string label, bool required = true) {
         return type_.feedback.push_back({std::move(name), std::move(label), required}), *this;
     }
-    /// Promises that update() leaves a synapse as it is and output() is 0 when its source is silent (pre is
-    /// 0) and all other numbers are finite. Such synapses are then passed over, which is many times faster
-    /// where activity is sparse.
+    /// Promises that update() leaves a synapse as it is and that output() is 0 when its source is silent (pre
+    /// is 0) and all other numbers are finite. The engine then skips such synapses, which is many times
+    /// faster where activity is sparse.
     SynapseSpec& event_driven() { return type_.event_driven = true, *this; }
 
-    /// Where the numbers are that the SDK's loops need. Throws TypeError when a member is not declared.
+    /// Tells where the SDK's loops find each member. Throws TypeError when a member is not declared.
     detail::SynapseIndices<T> indices() const {
         return {states_.indices(), target_.indices(), static_cast<std::size_t>(type_.output())};
     }
@@ -118,14 +119,12 @@ class SynapseSpec {
 template <class T>
 SynapseType synapse_type() {
     static_assert(detail::HasOutput<T> != detail::HasGain<T>,
-                  "a synapse type needs double output(const Synapse&, double pre, const Target&) const, "
-                  "without what it "
-                  "does not read; or double gain() const");
+                  "a synapse type needs either double output(const Synapse&, double pre, const Target&) "
+                  "const, without the arguments that it does not read, or double gain() const");
     SynapseType type;
     SynapseSpec<T> spec(type);
     T::describe(spec);
     type.has_gain = detail::HasGain<T>;
-    type.tells_output = type.adds_output = detail::TellsOutput<T>;
     type.make = [indices = spec.indices()] { return std::make_unique<detail::SynapseModel<T>>(indices); };
     if constexpr (requires(const T t, Diagnostics d) { t.check(d); })
         type.check = [](const void* object, Diagnostics& diagnostics) {

@@ -14,7 +14,7 @@ class Broadcast final : public Kernel {
         };
         alike_ = like_first(s_.delay) && like_first(s_.factor);
     }
-    void deliver(const KernelInput& in, double* target, bool first) override {
+    void deliver(const KernelInput& in, double* target, bool first) const override {
         const double gain = in.synapse.gain();
         const std::size_t n = s_.pre.size();
         double sum = 0;

@@ -41,7 +41,7 @@ std::unique_ptr<Kernel> make_kernel(connectivity::Synapses synapses, int source_
         if (auto kernel = make_broadcast(sorted)) return kernel;
         if (auto kernel = make_sliced(sorted, source_cells)) return kernel;
     }
-    return make_list(std::move(sorted), source_cells);
+    return make_list(std::move(sorted));
 }
 
 std::unique_ptr<Kernel> make_kernel(const connectivity::Regular& regular, int source_cells,

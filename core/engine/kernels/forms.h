@@ -42,7 +42,7 @@ std::unique_ptr<Kernel> make_broadcast(ByTarget synapses_of_one, int target_cell
 std::unique_ptr<Kernel> make_broadcast(const ByTarget& synapses);
 std::unique_ptr<Kernel> make_window(const connectivity::Regular& window);
 std::unique_ptr<Kernel> make_sliced(const ByTarget& synapses, int source_cells);
-std::unique_ptr<Kernel> make_list(ByTarget synapses, int source_cells);
+std::unique_ptr<Kernel> make_list(ByTarget synapses);
 std::unique_ptr<PlasticKernel> make_plastic_by_source(const connectivity::Synapses& synapses,
                                                       GroupShape source, GroupShape target,
                                                       const SynapseType& type, bool reads_states, Rows& rows);

@@ -19,11 +19,18 @@ struct Ring {
     std::int64_t depth;
     Index stride;  ///< from row to row
 
+    /// The row of cycle `cycle` - `delay`; `delay` is less than the depth.
     const double* ago(std::uint64_t cycle, int delay) const {
-        if (depth == 1) return rows;  // no division
-        const auto row = static_cast<std::int64_t>(cycle % static_cast<std::uint64_t>(depth));
-        return rows + ((row - delay + depth) % depth) * stride;
+        if (depth == 1) return rows;  // saves the division
+        const auto row = static_cast<std::int64_t>(cycle % static_cast<std::uint64_t>(depth)) - delay;
+        return rows + (row < 0 ? row + depth : row) * stride;
     }
+};
+
+/// What a kernel computes with. Every simulation has its own, and every delivery overwrites it: it holds
+/// nothing from one cycle to the next.
+struct Workspace {
+    virtual ~Workspace() = default;
 };
 
 /// What a connection reads in a cycle.
@@ -34,6 +41,7 @@ struct KernelInput {
     const SynapseInstance& synapse;
     std::span<const Ring> feedback;  ///< states of the target, for plastic synapses; without rows: reads 0
     double* numbers;                 ///< State::numbers, for plastic synapses
+    Workspace* workspace;            ///< made by the kernel that delivers
 
     const double* ago(int delay) const { return delay == 0 ? now : past.ago(cycle, delay); }
 };
@@ -48,32 +56,33 @@ struct Part {
     std::size_t last(std::size_t n) const { return Part{index + 1, count}.first(n); }  ///< one past
 };
 
-/// The synapses of a connection. Its tables never change. What it computes with is overwritten in every
-/// delivery and holds nothing from one cycle to the next.
+/// The synapses of a connection. A kernel never changes, so that many simulations can share it.
 class Kernel {
   public:
     virtual ~Kernel() = default;
+    /// Allocates what deliver() computes with; null when that is nothing.
+    virtual std::unique_ptr<Workspace> make_workspace() const { return nullptr; }
     /// Adds to each target cell the sum, from 0 and in synapse order, of what its synapses deliver. With
     /// `first`, what the target holds counts as 0.
-    virtual void deliver(const KernelInput& in, double* target, bool first) = 0;
-    /// Name of the form.
+    virtual void deliver(const KernelInput& in, double* target, bool first) const = 0;
+    /// Returns the name of the form.
     virtual std::string_view form() const = 0;
-    /// About how long deliver() takes on one thread, ns.
+    /// Estimates how long deliver() takes on one thread, in ns.
     virtual double cost() const = 0;
 };
 
 /// A form that several threads can compute together: all parts of prepare(), then all parts of add().
 class SharedKernel : public Kernel {
   public:
-    void deliver(const KernelInput& in, double* target, bool first) final {
+    void deliver(const KernelInput& in, double* target, bool first) const final {
         prepare(in, {});
         if (first) std::fill_n(target, target_cells(), 0.0);
-        add(target, {});
+        add(*in.workspace, target, {});
     }
-    /// Reads the input.
-    virtual void prepare(const KernelInput& in, Part part) = 0;
-    /// Adds to the target cells of one part.
-    virtual void add(double* target, Part part) = 0;
+    /// Copies one part of the source's activity into the workspace.
+    virtual void prepare(const KernelInput& in, Part part) const = 0;
+    /// Adds to the target cells of one part what the workspace says.
+    virtual void add(const Workspace& workspace, double* target, Part part) const = 0;
     virtual Index target_cells() const = 0;
 };
 
@@ -82,12 +91,12 @@ class PlasticKernel : public Kernel {
   public:
     /// Writes the initial states.
     virtual void begin(double* numbers) const = 0;
-    /// Updates the synapses; deliver() does so, too. For connections of a kind that the target does not read:
-    /// they learn all the same.
-    virtual void learn(const KernelInput& in) = 0;
-    /// State `i` of the type, per synapse in synapse order, until the next call. The output state is what was
-    /// computed in this cycle, attenuated.
-    virtual ConstColumn state(const double* numbers, int i) const = 0;
+    /// Updates the synapses, as deliver() does, and delivers nothing. Connections of a kind that their target
+    /// does not read learn all the same.
+    virtual void learn(const KernelInput& in) const = 0;
+    /// Returns state `i` of the type, per synapse in synapse order; valid until the next call. The output
+    /// state is what the synapses computed in this cycle, attenuated.
+    virtual ConstColumn state(const double* numbers, Workspace& workspace, int i) const = 0;
 };
 
 }  // namespace forage::engine

@@ -18,7 +18,7 @@ FORAGE_SIMD void put_scaled(const double* pre, double gain, double factor, Index
 class OneToOne final : public Kernel {
   public:
     OneToOne(Index cells, int delay, double factor) : cells_(cells), delay_(delay), factor_(factor) {}
-    void deliver(const KernelInput& in, double* target, bool first) override {
+    void deliver(const KernelInput& in, double* target, bool first) const override {
         (first ? put_scaled : add_scaled)(in.ago(delay_), in.synapse.gain(), factor_, cells_, target);
     }
     std::string_view form() const override { return "one to one"; }

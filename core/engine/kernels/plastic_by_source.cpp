@@ -1,6 +1,6 @@
 // Plastic synapses of types that are event-driven, laid out by their source: those of silent sources are
 // passed over. Carries maps and windows that learn: 11 x 11 Hebbian synapses per cell, with sources that
-// spike with a probability of 0.3, take 50 us per cycle for 50 x 50 cells; the list takes 1,900.
+// spike with a probability of 0.3, take 70 us per cycle for 50 x 50 cells; the list takes 1,900.
 //
 // Sources are taken line by line: rows of the grid, or columns, whichever keeps the synapse order at each
 // target. Target lines that a line of sources reaches are live. They stand in a frame: cell a of line c at
@@ -62,7 +62,7 @@ class PlasticBySource final : public PlasticKernel {
           source_(source),
           target_(target) {}
 
-    /// Takes the synapses in. False when another form serves better.
+    /// Reads the synapses. False when another form serves better.
     bool fill(const connectivity::Synapses& s) {
         if (!in_order(s) || !find_live_lines(s)) return false;
         constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -87,34 +87,38 @@ class PlasticBySource final : public PlasticKernel {
             states_.push_back(rows.reserve(keeps(i) ? places_ : 0));
         if (keeps_output_) updated_ = rows.reserve(static_cast<Index>(sources_.size()));
         diverged_ = rows.reserve(1);
-        adds_outputs_ = type_.adds_output && factor_.empty() && !keeps_output_;
+    }
+    std::unique_ptr<Workspace> make_workspace() const override {
+        auto out = std::make_unique<Work>();
         Index most = 0;
         for (const Source& source : sources_) most = std::max(most, source.size);
-        active_.resize(source_.cells);
-        pre_.resize(most), output_.resize(most);
-        sums_.resize(target_.cells * ring_);
-        feedback_.assign(type_.feedback.size(), std::vector<double>(sums_.size()));
-        for (const auto& f : feedback_) feedback_columns_.emplace_back(f.data(), 0);
-        for (std::size_t i = 0; i < states_.size(); ++i) source_states_.emplace_back(nullptr, 0);
+        out->active.resize(source_.cells);
+        out->pre.resize(most), out->output.resize(most);
+        out->sums.resize(target_.cells * ring_);
+        out->feedback.assign(type_.feedback.size(), std::vector<double>(out->sums.size()));
+        for (const auto& f : out->feedback) out->source_feedback.emplace_back(f.data(), 0);
+        for (std::size_t i = 0; i < states_.size(); ++i) out->source_states.emplace_back(nullptr, 0);
+        return out;
     }
 
     void begin(double* numbers) const override {
         for (int i = 0; i < std::ssize(states_); ++i)
             if (keeps(i)) std::fill_n(numbers + states_[i], places_, type_.states[i].initial);
     }
-    void learn(const KernelInput& in) override { update(in, nullptr); }
-    void deliver(const KernelInput& in, double* target, bool first) override {
+    void learn(const KernelInput& in) const override { update(in, nullptr); }
+    void deliver(const KernelInput& in, double* target, bool first) const override {
         if (first) std::fill_n(target, target_.cells * target_.lines, 0.0);
         update(in, target);
     }
-    ConstColumn state(const double* numbers, int i) const override {
+    ConstColumn state(const double* numbers, Workspace& workspace, int i) const override {
         std::vector<double> all(numbers + states_[i], numbers + states_[i] + places_);
         if (i == output_state_)
             for (std::size_t n = 0; n < sources_.size(); ++n)
                 if (numbers[updated_ + n] == 0) std::fill_n(&all[sources_[n].place], sources_[n].size, 0.0);
-        shown_.clear();
-        for (const Index place : place_) shown_.push_back(all[place]);
-        return {shown_.data(), static_cast<Index>(shown_.size())};
+        auto& shown = static_cast<Work&>(workspace).shown;
+        shown.clear();
+        for (const Index place : place_) shown.push_back(all[place]);
+        return {shown.data(), static_cast<Index>(shown.size())};
     }
     std::string_view form() const override { return "plastic by source"; }
     double cost() const override { return 0.2 * static_cast<double>(place_.size()); }
@@ -124,6 +128,17 @@ class PlasticBySource final : public PlasticKernel {
         Index place;       ///< of its first synapse
         Index slot, size;  ///< of its targets in the frame
     };
+
+    struct Work final : Workspace {
+        std::vector<int> active;                    ///< cells of a line of sources
+        std::vector<double> pre, output;            ///< per synapse of a source
+        std::vector<double> sums;                   ///< the frame
+        std::vector<std::vector<double>> feedback;  ///< likewise
+        std::vector<Column> source_states;
+        std::vector<ConstColumn> source_feedback;
+        std::vector<double> shown;  ///< what state() gave last
+    };
+    static Work& work(const KernelInput& in) { return static_cast<Work&>(*in.workspace); }
 
     std::size_t rank(int source) const {
         return static_cast<std::size_t>(source_.line_of(source) * source_.cells + source_.cell_of(source));
@@ -174,7 +189,8 @@ class PlasticBySource final : public PlasticKernel {
     }
 
     /// Updates the synapses of active sources.
-    void update(const KernelInput& in, double* target) {
+    void update(const KernelInput& in, double* target) const {
+        auto& active = work(in).active;
         // 0 times infinity is NaN: once a number was not finite, no synapse is passed over any more.
         double& diverged = in.numbers[diverged_];
         for (const Ring& f : in.feedback)
@@ -186,15 +202,15 @@ class PlasticBySource final : public PlasticKernel {
             first = left_[line], last = entered_[line];
             int count = 0;
             for (int cell = 0; cell < source_.cells; ++cell) {  // without branches: spikes cannot be foreseen
-                const bool active = (in.now[source_.index(cell, line)] != 0) | all;
-                if (keeps_output_) in.numbers[updated_ + line * source_.cells + cell] = active;
-                active_[count] = cell;
-                count += active;
+                const bool updates = (in.now[source_.index(cell, line)] != 0) | all;
+                if (keeps_output_) in.numbers[updated_ + line * source_.cells + cell] = updates;
+                active[count] = cell;
+                count += updates;
             }
             for (int k = 0; k < count; ++k) {
                 const Source* source = &sources_[line * source_.cells];
-                if (k + 1 < count) fetch(in, source[active_[k + 1]]);
-                update_source(in, source[active_[k]], in.now[source_.index(active_[k], line)],
+                if (k + 1 < count) fetch(in, source[active[k + 1]]);
+                update_source(in, source[active[k]], in.now[source_.index(active[k], line)],
                               target != nullptr);
             }
         }
@@ -202,20 +218,21 @@ class PlasticBySource final : public PlasticKernel {
     }
 
     /// Lines leave the frame and others enter it. Slots between are 0.
-    void slide(const KernelInput& in, double* target, int leave, int stay, int enter, int end) {
+    void slide(const KernelInput& in, double* target, int leave, int stay, int enter, int end) const {
+        Work& w = work(in);
         for (int line = leave; line < std::min(stay, enter); ++line)
             for (int cell = 0; cell < target_.cells; ++cell) {
                 const Index s = slot(cell, line);
-                if (target) target[target_.index(cell, line)] += sums_[s];
-                for (auto& f : feedback_) f[s] = 0;
+                if (target) target[target_.index(cell, line)] += w.sums[s];
+                for (auto& f : w.feedback) f[s] = 0;
             }
         for (int line = std::max(enter, stay); line < end; ++line)
             for (int cell = 0; cell < target_.cells; ++cell) {
                 const Index s = slot(cell, line);
-                sums_[s] = 0;
-                for (std::size_t f = 0; f < feedback_.size(); ++f)
+                w.sums[s] = 0;
+                for (std::size_t f = 0; f < w.feedback.size(); ++f)
                     if (in.feedback[f].rows)
-                        feedback_[f][s] = in.feedback[f].ago(in.cycle, 0)[target_.index(cell, line)];
+                        w.feedback[f][s] = in.feedback[f].ago(in.cycle, 0)[target_.index(cell, line)];
             }
     }
 
@@ -227,30 +244,27 @@ class PlasticBySource final : public PlasticKernel {
                 __builtin_prefetch(in.numbers + states_[i] + source.place + k, 1);
     }
 
-    void update_source(const KernelInput& in, const Source& source, double activity, bool sum) {
+    void update_source(const KernelInput& in, const Source& source, double activity, bool sum) const {
+        Work& w = work(in);
         if (!std::isfinite(activity)) in.numbers[diverged_] = 1;  // what synapses learn from it stays
         if (source.size == 0) return;
-        if (std::memcmp(&pre_[0], &activity, sizeof activity) != 0)
-            std::fill(pre_.begin(), pre_.end(), activity);  // spikes are alike
-        for (std::size_t f = 0; f < feedback_.size(); ++f)
-            new (&feedback_columns_[f]) ConstColumn(&feedback_[f][source.slot], source.size);
+        if (std::memcmp(w.pre.data(), &activity, sizeof activity) != 0)
+            std::fill(w.pre.begin(), w.pre.end(), activity);  // spikes are alike
+        for (std::size_t f = 0; f < w.feedback.size(); ++f)
+            new (&w.source_feedback[f]) ConstColumn(&w.feedback[f][source.slot], source.size);
         for (int i = 0; i < std::ssize(states_); ++i)
-            new (&source_states_[i])
-                Column(keeps(i) ? in.numbers + states_[i] + source.place : output_.data(), source.size);
-        const bool adds = sum && adds_outputs_;
-        SynapseColumns columns(ConstColumn(pre_.data(), source.size), source_states_, feedback_columns_,
-                               adds ? &sums_[source.slot] : nullptr);
-        if (adds) return in.synapse.update_and_add(columns);
+            new (&w.source_states[i])
+                Column(keeps(i) ? in.numbers + states_[i] + source.place : w.output.data(), source.size);
+        SynapseColumns columns(ConstColumn(w.pre.data(), source.size), w.source_states, w.source_feedback);
         in.synapse.update(columns);
-        double* psp = source_states_[output_state_].data();
+        double* psp = w.source_states[output_state_].data();
         if (!factor_.empty()) attenuate(&factor_[source.place], source.size, psp);
-        if (sum) add_to_frame(psp, source.size, &sums_[source.slot]);
+        if (sum) add_to_frame(psp, source.size, &w.sums[source.slot]);
     }
 
     const SynapseType& type_;
     int output_state_;
     bool keeps_output_;
-    bool adds_outputs_ = false;  ///< the type does, as nothing attenuates them and nothing reads them
     Lines source_, target_;
     int ring_ = 0;                     ///< lines for which the frame has room
     std::vector<int> left_, entered_;  ///< by source line: the first live line, and the one after the last
@@ -263,14 +277,6 @@ class PlasticBySource final : public PlasticKernel {
     Rows::Offset updated_ =
         0;  ///< by source: 0 when the last update passed over it, so that its outputs are 0
     Rows::Offset diverged_ = 0;  ///< 1 once a number that the synapses read was not finite
-
-    std::vector<int> active_;                    ///< cells of a line of sources
-    std::vector<double> pre_, output_;           ///< per synapse of a source
-    std::vector<double> sums_;                   ///< the frame
-    std::vector<std::vector<double>> feedback_;  ///< likewise
-    std::vector<Column> source_states_;
-    std::vector<ConstColumn> feedback_columns_;
-    mutable std::vector<double> shown_;  ///< what state() gave last
 };
 
 }  // namespace

@@ -124,10 +124,9 @@ class Sliced final : public SharedKernel {
           target_cells_(target_cells),
           block_cells_(block_cells),
           panel_cells_(cells_of_panel(target_cells)),
-          stride_((delays_.size() * block_cells / slice_lanes + 1) * slice_lanes),  // with room for the 0
-          scaled_(divided_up(source_cells, block_cells) * stride_) {}
+          stride_((delays_.size() * block_cells / slice_lanes + 1) * slice_lanes) {}  // with room for the 0
 
-    /// Takes the synapses in. False when a target returns to a block after another one, as its synapses would
+    /// Reads the synapses. False when a target returns to a block after another one, as its synapses would
     /// be summed in another order, or when targets have so different numbers of synapses that a list serves
     /// better.
     bool fill(const ByTarget& s) {
@@ -155,19 +154,24 @@ class Sliced final : public SharedKernel {
         return true;
     }
 
-    void prepare(const KernelInput& in, Part part) override {
+    std::unique_ptr<Workspace> make_workspace() const override {
+        auto out = std::make_unique<Scaled>();
+        out->cells.resize(divided_up(source_cells_, block_cells_) * stride_);
+        return out;
+    }
+    void prepare(const KernelInput& in, Part part) const override {
         const double gain = in.synapse.gain();
         for (std::size_t cell = part.first(source_cells_); cell < part.last(source_cells_);) {
             const std::size_t block = cell / block_cells_, in_block = cell % block_cells_,
                               n = std::min(block_cells_ - in_block, part.last(source_cells_) - cell);
-            double* to = scaled_.data() + block * stride_ + in_block;
+            double* to = static_cast<Scaled*>(in.workspace)->cells.data() + block * stride_ + in_block;
             for (std::size_t d = 0; d < delays_.size(); ++d, to += block_cells_)
                 scale_block(in.ago(delays_[d]) + cell, gain, factor_, n, to);
             cell += n;
         }
     }
 
-    void add(double* target, Part part) override {
+    void add(const Workspace& scaled, double* target, Part part) const override {
         double sums[most_panel_cells + 1];
         const std::size_t panels = panels_.size() - 1;
         for (std::size_t p = part.first(panels); p < part.last(panels); ++p) {
@@ -177,7 +181,7 @@ class Sliced final : public SharedKernel {
                                      targets_.data() + panel.slice * slice_lanes,
                                      pre_.data() + panel.entry,
                                      weights_.empty() ? nullptr : weights_.data() + panel.entry,
-                                     scaled_.data(),
+                                     static_cast<const Scaled&>(scaled).cells.data(),
                                      stride_};
             std::fill_n(sums, panel_cells_ + 1, 0.0);
             (weights_.empty() ? add_alike_panel : add_weighted_panel)(stream, sums);
@@ -192,6 +196,10 @@ class Sliced final : public SharedKernel {
     }
 
   private:
+    /// By block, every stride_ numbers: by delay, gain times activity of the block's cells; then a 0.
+    struct Scaled final : Workspace {
+        HugeVector<double> cells;
+    };
     /// The synapses of a target in a tile.
     struct Lane {
         int first, length;
@@ -225,7 +233,7 @@ class Sliced final : public SharedKernel {
         return true;
     }
 
-    /// Where in the block's part of `scaled_` a synapse reads.
+    /// Where in the block's part of the workspace a synapse reads.
     std::uint16_t place(const ByTarget& s, int synapse, std::size_t block) const {
         const auto delay = std::find(delays_.begin(), delays_.end(), s.delay[synapse]) - delays_.begin();
         return static_cast<std::uint16_t>(delay * block_cells_ + s.pre[synapse] - block * block_cells_);
@@ -234,7 +242,6 @@ class Sliced final : public SharedKernel {
     std::vector<int> delays_;  ///< those that occur
     std::size_t source_cells_, target_cells_, block_cells_, panel_cells_, stride_;
     double factor_ = 1;          ///< of every synapse, when it is the same
-    HugeVector<double> scaled_;  ///< by block: by delay: gain times activity; then a 0. A block every stride_
     std::vector<Panel> panels_;  ///< and one for the end
     std::vector<SliceRun> runs_;
     HugeVector<std::uint16_t> targets_;  ///< of lane l of slice i: targets_[8 i + l], in its panel

@@ -14,7 +14,7 @@ typedef double Lanes __attribute__((vector_size(lanes * sizeof(double))));  // N
 
 /// Synapses of the window below each other, which follow each other in synapse order.
 struct TapColumn {
-    const double* source;   ///< what target cell 0 reads through the first one
+    Index source;           ///< place in the frames of what target cell 0 reads through the first one
     const double* factors;  ///< from the top down
     Index taps;
 };
@@ -60,8 +60,8 @@ struct Tile {
             add_tap<y + 1>(from + stride, factor, stride);
         }
     }
-    [[gnu::always_inline]] void add(const TapColumn& c, Index at, Index stride) {
-        const double* from = c.source + at;
+    [[gnu::always_inline]] void add(const double* frames, const TapColumn& c, Index at, Index stride) {
+        const double* from = frames + c.source + at;
         if (c.taps < rows - 1) {
             for (Index r = 0; r < c.taps; ++r, from += stride) add_tap<0>(from, c.factors + r, stride);
             return;
@@ -74,6 +74,7 @@ struct Tile {
 
 /// The window's source and target.
 struct Field {
+    const double* frames;
     const TapColumn* columns;
     std::size_t count;
     Index width, stride;  ///< of the target's rows, and from one row of the source to the next
@@ -85,7 +86,7 @@ template <int rows, int blocks, bool scaled>
     Tile<rows, blocks, scaled> tile;
     for (auto& row : tile.sums)
         for (Lanes& sum : row) sum = Lanes{};
-    for (std::size_t i = 0; i < f.count; ++i) tile.add(f.columns[i], at, f.stride);
+    for (std::size_t i = 0; i < f.count; ++i) tile.add(f.frames, f.columns[i], at, f.stride);
 #pragma GCC unroll 8
     for (int y = 0; y < rows; ++y, to += f.width)
 #pragma GCC unroll 8
@@ -138,8 +139,6 @@ FORAGE_SIMD void scale_rows(const double* from, double gain, double factor, Inde
         for (Index x = 0; x < width; ++x) to[x] = from[x] * gain * factor;
 }
 
-/// The source is copied into a frame of zeros, once per delay, so that a window may reach out of the group:
-/// what it finds there adds nothing.
 class Window final : public SharedKernel {
   public:
     explicit Window(const connectivity::Regular& r)
@@ -156,45 +155,59 @@ class Window final : public SharedKernel {
             std::all_of(factors_.begin(), factors_.end(), [&](double f) { return f == factors_.front(); });
         stride_ = left_ + width_ + right;
         const Index read_beyond = 3 * lanes;  // past the last cell of a row
-        const auto cells = static_cast<std::size_t>(stride_ * (top_ + height_ + bottom) + read_beyond);
-        framed_.assign(delays_.size(), std::vector<double>(cells));
+        frame_ = stride_ * (top_ + height_ + bottom) + read_beyond;
         for (std::size_t i = 0; i < r.taps.size(); ++i) {
             const auto& tap = r.taps[i];
             const auto d = std::find(delays_.begin(), delays_.end(), tap.delay) - delays_.begin();
-            const double* source = framed_[d].data() + (top_ + tap.dy) * stride_ + left_ + tap.dx;
+            const Index source = d * frame_ + (top_ + tap.dy) * stride_ + left_ + tap.dx;
             if (i > 0 && source == columns_.back().source + columns_.back().taps * stride_)
                 ++columns_.back().taps;
             else
                 columns_.push_back({source, &factors_[i], 1});
         }
     }
-    void prepare(const KernelInput& in, Part part) override {
+    std::unique_ptr<Workspace> make_workspace() const override {
+        auto out = std::make_unique<Frames>();
+        out->numbers.resize(static_cast<std::size_t>(frame_) * delays_.size());
+        return out;
+    }
+    void prepare(const KernelInput& in, Part part) const override {
         const auto first = static_cast<Index>(part.first(height_)),
                    count = static_cast<Index>(part.last(height_)) - first;
-        for (std::size_t d = 0; d < delays_.size(); ++d)
-            scale_rows(in.ago(delays_[d]) + first * width_, in.synapse.gain(),
-                       same_factor_ ? factors_.front() : 1, width_, count, stride_,
-                       framed_[d].data() + (top_ + first) * stride_ + left_);
+        double* to = static_cast<Frames*>(in.workspace)->numbers.data() + (top_ + first) * stride_ + left_;
+        for (const int delay : delays_) {
+            scale_rows(in.ago(delay) + first * width_, in.synapse.gain(), same_factor_ ? factors_.front() : 1,
+                       width_, count, stride_, to);
+            to += frame_;
+        }
     }
-    void add(double* target, Part part) override {
+    void add(const Workspace& frames, double* target, Part part) const override {
         // Pairs of rows: a single one costs more than half a pair.
         const std::size_t pairs = (height_ + 1) / 2;
         const auto first = static_cast<Index>(2 * part.first(pairs)),
                    last = std::min(static_cast<Index>(2 * part.last(pairs)), height_);
         (same_factor_ ? add_scaled_window : add_weighted_window)(
-            {columns_.data(), columns_.size(), width_, stride_}, first, last, target);
+            {static_cast<const Frames&>(frames).numbers.data(), columns_.data(), columns_.size(), width_,
+             stride_},
+            first, last, target);
     }
     Index target_cells() const override { return width_ * height_; }
     std::string_view form() const override { return "window"; }
     double cost() const override { return 0.07 * static_cast<double>(taps_ * width_ * height_); }
 
   private:
+    /// The source's activity times the gain in a frame of zeros, once per delay: a window may reach out of
+    /// the group, and what it reads there adds nothing.
+    struct Frames final : Workspace {
+        std::vector<double> numbers;
+    };
+
     Index width_, height_, taps_, left_ = 0, top_ = 0, stride_ = 0;
-    std::vector<int> delays_;                  ///< those that occur
-    std::vector<std::vector<double>> framed_;  ///< by delay: gain times activity in a frame
-    std::vector<double> factors_;              ///< of the taps
+    Index frame_ = 0;              ///< numbers in a frame
+    std::vector<int> delays_;      ///< those that occur
+    std::vector<double> factors_;  ///< of the taps
     std::vector<TapColumn> columns_;
-    bool same_factor_ = false;  ///< `framed_` holds the products with it
+    bool same_factor_ = false;  ///< the frames hold the products with it
 };
 
 }  // namespace

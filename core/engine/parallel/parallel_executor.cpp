@@ -23,7 +23,7 @@ class ParallelExecutor final : public Executor {
           pool_(threads),
           parts_(2 * pool_.threads()),
           threshold_ns_(threshold_ns),
-          share_([this](SharedKernel& kernel, const KernelInput& in, double* target, bool first) {
+          share_([this](const SharedKernel& kernel, const KernelInput& in, double* target, bool first) {
               deliver_parts(kernel, in, target, first);
           }) {
         share_out(min_task_ns);
@@ -79,7 +79,7 @@ class ParallelExecutor final : public Executor {
             const auto cells = static_cast<double>(g.cells);
             const bool large = g.cells > static_cast<Index>(2 * RandomStream::grain);
             const auto shared = [&](int c) {
-                return dynamic_cast<SharedKernel*>(plan_.connections[c].kernel.get()) != nullptr;
+                return dynamic_cast<const SharedKernel*>(plan_.connections[c].kernel.get()) != nullptr;
             };
             const bool deliver_in_parts = worth(g.delivery_cost) && std::ranges::any_of(g.incoming, shared);
             const double whole = cells + (deliver_in_parts ? 0 : g.delivery_cost);
@@ -116,7 +116,7 @@ class ParallelExecutor final : public Executor {
         return out;
     }
 
-    void deliver_parts(SharedKernel& kernel, const KernelInput& in, double* target, bool first) {
+    void deliver_parts(const SharedKernel& kernel, const KernelInput& in, double* target, bool first) {
         const auto cells = static_cast<std::size_t>(kernel.target_cells());
         auto prepare = [&](int p, int) {
             const Part part{p, parts_};
@@ -124,7 +124,7 @@ class ParallelExecutor final : public Executor {
             if (first) std::fill(target + part.first(cells), target + part.last(cells), 0.0);
         };
         pool_.run(parts_, prepare);
-        auto add = [&](int p, int) { kernel.add(target, {p, parts_}); };
+        auto add = [&](int p, int) { kernel.add(*in.workspace, target, {p, parts_}); };
         pool_.run(parts_, add);
     }
 

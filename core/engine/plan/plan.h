@@ -43,8 +43,8 @@ struct ModulePlan {
 };
 
 struct ConnectionPlan {
-    std::unique_ptr<Kernel> kernel;    ///< null when it is pruned
-    PlasticKernel* plastic = nullptr;  ///< the kernel, when its synapses have an update()
+    std::unique_ptr<const Kernel> kernel;    ///< null when it is pruned
+    const PlasticKernel* plastic = nullptr;  ///< the kernel, when its synapses have an update()
     int source = 0, target = 0;
     int longest_delay = 0;
     InputKind kind = InputKind::excitatory;

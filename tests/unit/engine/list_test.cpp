@@ -17,8 +17,6 @@ struct Gain final : SynapseInstance {
     void* parameters() override { return nullptr; }
     void update(SynapseColumns&) const override {}
     double gain() const override { return 1.3; }
-    void output(SynapseColumns&) const override {}
-    void update_and_add(SynapseColumns&) const override {}
 };
 
 enum class Order { ascending, shuffled };
@@ -76,10 +74,10 @@ struct Activity {
             if (numbers == Numbers::extreme) v = extreme(random, v);
         }
     }
-    KernelInput at(std::uint64_t cycle) const {
+    KernelInput at(std::uint64_t cycle, Workspace* workspace) const {
         static const Gain synapse;
         const Ring ring{rows.data(), depth, cells};
-        return {ring.ago(cycle, 0), ring, cycle, synapse, {}, nullptr};
+        return {ring.ago(cycle, 0), ring, cycle, synapse, {}, nullptr, workspace};
     }
 };
 
@@ -107,7 +105,7 @@ void compare(const Shape& shape, Order order, int delays, bool same, Numbers num
                fastest = make_kernel(list, shape.sources, shape.targets, Forms::fastest);
     REQUIRE(general->form() == "list");
     // Targets that return to a block need all sources in one, of places with 16 bits.
-    auto* shared = dynamic_cast<SharedKernel*>(fastest.get());
+    auto* shared = dynamic_cast<const SharedKernel*>(fastest.get());
     if (order == Order::shuffled && shape.sources * delays > 65535) {
         CHECK(!shared);
         return;
@@ -115,8 +113,9 @@ void compare(const Shape& shape, Order order, int delays, bool same, Numbers num
     REQUIRE(fastest->form() == "sliced");
     REQUIRE(shared);
     const Activity activity(shape.sources, numbers);
+    const auto workspace = fastest->make_workspace();
     for (const std::uint64_t cycle : {11, 14}) {
-        const auto in = activity.at(cycle);
+        const auto in = activity.at(cycle, workspace.get());
         auto expected = begin(shape.targets), whole = expected;
         general->deliver(in, expected.data(), false);
         CHECK_FALSE(same_numbers(expected, whole));
@@ -129,7 +128,7 @@ void compare(const Shape& shape, Order order, int delays, bool same, Numbers num
         for (const int parts : {2, 3, 13}) {
             auto divided = begin(shape.targets);
             for (int part = parts; part-- > 0;) shared->prepare(in, {part, parts});
-            for (int part = parts; part-- > 0;) shared->add(divided.data(), {part, parts});
+            for (int part = parts; part-- > 0;) shared->add(*workspace, divided.data(), {part, parts});
             CHECK(same_numbers(divided, expected));
         }
         auto first = begin(shape.targets), alone = first;

@@ -158,32 +158,20 @@ TEST_CASE("Events of a probability of 1 are not drawn") {
     CHECK((group.state(Everything::event, 0) == 1).all());
 }
 
-TEST_CASE(
-    "A synapse learns before its output is computed; the output can be computed again, or added to the "
-    "sums") {
+TEST_CASE("A synapse learns, and then computes its output") {
     const SynapseType type = synapse_type<Learner>();
-    CHECK((type.tells_output && type.adds_output && !type.has_gain));
+    CHECK(!type.has_gain);
     CHECK(type.output() == 1);
     CHECK((type.states[0].initial == 2 && type.states[2].initial == 0));
     const auto synapse = type.make();
     constexpr Index n = 11;
     const Eigen::ArrayXd pre = Eigen::ArrayXd::Constant(n, 0.5), post = Eigen::ArrayXd::LinSpaced(n, 0, 10),
                          zero = Eigen::ArrayXd::Zero(n);
-    Eigen::ArrayXd weight = Eigen::ArrayXd::Constant(n, 2), psp = zero, seen = zero,
-                   sums = Eigen::ArrayXd::Ones(n);
+    Eigen::ArrayXd weight = Eigen::ArrayXd::Constant(n, 2), psp = zero, seen = zero;
     const std::vector<Column> states{{weight.data(), n}, {psp.data(), n}, {seen.data(), n}};
     const std::vector<ConstColumn> feedback{{post.data(), n}, {zero.data(), n}, {zero.data(), n}};
-    SynapseColumns columns({pre.data(), n}, states, feedback, sums.data());
+    SynapseColumns columns({pre.data(), n}, states, feedback);
     synapse->update(columns);
     const Eigen::ArrayXd once = 2 + 0.5 * post;
-    CHECK(((weight == once) && (psp == once * 0.5) && (seen == 1) && (sums == 1)).all());
-    psp.setZero();
-    const std::vector<ConstColumn> no_feedback;
-    SynapseColumns told({pre.data(), n}, states, no_feedback);
-    synapse->output(told);
     CHECK(((weight == once) && (psp == once * 0.5) && (seen == 1)).all());
-    psp.setZero();
-    synapse->update_and_add(columns);
-    const Eigen::ArrayXd twice = once + 0.5 * post;
-    CHECK(((weight == twice) && (psp == 0) && (seen == 2) && (sums == 1 + twice * 0.5)).all());
 }
