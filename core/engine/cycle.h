@@ -45,15 +45,15 @@ class Cycle {
     void begin_deliveries();
     void deliver();  ///< after begin_deliveries()
 
-    /// The group was changed from outside: nothing that is known of it holds any longer.
+    /// Forgets what is known about a group, because it was changed from outside.
     void invalidate(int group);
-    /// Whether updates search their states for numbers that are not finite: GroupState::finite.
+    /// Whether updates search their states for numbers that are not finite, and set GroupState::finite.
     bool check_finite = false;
 
-    // What several threads share. `thread` counts from 0; each group, and each part of one, is for one
-    // thread.
+    // The steps of the phases, for several threads: each group, or each part of one, is done by one thread.
+    // Threads are numbered from 0.
 
-    /// What the update of some cells has found.
+    /// What the update of some cells has found about them.
     struct Found {
         bool finite = true, quiescent = true, same_activity = true, silent = true;
         void add(const Found& other) {
@@ -61,20 +61,21 @@ class Cycle {
             same_activity &= other.same_activity, silent &= other.silent;
         }
     };
-    /// Whether there is an update in this cycle; then update_part() for all parts and end_update() follow.
+    /// Begins the update of a group. Returns whether there is one in this cycle; if so, update_part() for all
+    /// parts and end_update() follow.
     bool begin_update(int group);
     Found update_part(int group, Part part, int thread);
     void end_update(int group, const Found& found);
-    void update(int group, int thread);  ///< all of it
+    void update(int group, int thread);  ///< does all of these
 
     /// Keeps a group's activity of this cycle for the connections with a delay.
     void remember(int group);
-    /// Does what Kernel::deliver() does, for a kernel that threads share.
+    /// Delivers through a kernel that threads share, as Kernel::deliver() does.
     using Share =
         std::function<void(const SharedKernel& kernel, const KernelInput& in, double* target, bool first)>;
     void deliver_to(int group, const Share* share = nullptr);
 
-    /// About how long the updates and deliveries of the next cycle take on one thread, ns.
+    /// Estimates how long the updates and deliveries of the next cycle take on one thread, in ns.
     double cost() const;
 
   private:

@@ -1,4 +1,5 @@
-// What shares a cycle among threads; core/engine/parallel has it, and can be left out of a build.
+// The interface of what shares a cycle among threads. core/engine/parallel implements it, and can be left out
+// of a build.
 #pragma once
 
 #include <memory>
@@ -11,19 +12,19 @@ class Executor {
   public:
     virtual ~Executor() = default;
     virtual int threads() const = 0;
-    /// Whether threads share the cycle that begins.
+    /// Begins a cycle. Returns whether threads share it.
     virtual bool begin() = 0;
-    // Such a cycle: the phases of Cycle with the same names. They give the same numbers.
+    // The phases of a shared cycle, which give the same numbers as the functions of Cycle with these names.
     virtual void update_groups() = 0;
     virtual void deliver() = 0;
-    /// Ends any cycle.
+    /// Ends a cycle, whether it was shared or not.
     virtual void end() = 0;
 };
 
-/// Null when there is nothing to share: in a build without threads, for one thread, and for a system whose
-/// cycles take less than `threshold_ns` on one thread. With a threshold of 0 all cycles are shared. No part
-/// of a divided group takes less than `min_task_ns`. Throws std::system_error when the threads cannot be
-/// started.
+/// Makes an executor. The result is null when there is nothing to share: in a build without threads, for one
+/// thread, and for a system whose cycles take less than `threshold_ns` on one thread. With a threshold of 0
+/// all cycles are shared. No part of a divided group takes less than `min_task_ns`. Throws std::system_error
+/// when the threads cannot be started.
 std::unique_ptr<Executor> make_executor(const Plan& plan, Cycle& cycle, int threads, double threshold_ns,
                                         double min_task_ns);
 

@@ -1,11 +1,11 @@
-// Whether numbers are finite.
+// Searches rows for numbers that are not finite.
 #pragma once
 
 #include "core/base/column.h"
 
 namespace forage::engine {
 
-/// Of a row whose length is a multiple of eight, as rows of the arena are when they are filled up.
+/// Returns whether all numbers of a row are finite. `n` is a multiple of eight.
 bool all_finite(const double* row, Index n);
 
 }  // namespace forage::engine

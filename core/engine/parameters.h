@@ -1,4 +1,4 @@
-// Parameters that change while a system runs.
+// Changes parameters while a system runs.
 #pragma once
 
 #include <span>
@@ -8,12 +8,12 @@
 
 namespace forage::engine {
 
-/// Reports what set_parameter() would refuse, and what the types find wrong when these changes are made in
-/// this order. Changes nothing.
+/// Reports what set_parameter() would refuse, and what the types find wrong when the changes are made in this
+/// order. It changes nothing itself.
 void check_changes(const Plan& plan, const State& state, std::span<const model::Assignment> changes,
                    Diagnostics& diagnostics);
 
-/// Changes a parameter. Throws RunError for one that cannot change while the system runs.
+/// Changes a parameter. Throws RunError for a parameter that cannot change while the system runs.
 void set_parameter(const Plan& plan, State& state, Cycle& cycle, const model::Assignment& change);
 
 }  // namespace forage::engine

@@ -12,10 +12,10 @@ class Rows {
   public:
     using Offset = std::size_t;  ///< from the start of the block, in numbers
 
-    /// Distance between two rows of `cells` numbers.
+    /// Returns the distance between two rows of `cells` numbers.
     static Index stride(Index cells) { return (cells + 7) / 8 * 8; }
 
-    /// Room for `rows` rows of `cells` numbers each, stride(cells) apart.
+    /// Reserves `rows` rows of `cells` numbers each, stride(cells) apart, and returns where they begin.
     Offset reserve(Index cells, std::int64_t rows = 1) {
         const Offset offset = size_;
         size_ += static_cast<std::size_t>(stride(cells) * rows);

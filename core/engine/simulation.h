@@ -1,4 +1,4 @@
-// A system that runs.
+// Runs a system.
 #pragma once
 
 #include <cstdint>
@@ -50,12 +50,10 @@ class Simulation {
   public:
     struct Options {
         std::uint64_t seed = 1;
-        int threads = 1;  ///< at most, for a cycle's loops; the numbers do not depend on it
-        /// ns that a cycle's updates and deliveries take on one thread; shorter ones stay there. 0: all are
-        /// shared.
+        int threads = 1;  ///< at most, to share a cycle; the numbers do not depend on it
+        /// Cycles that take less than this on one thread are not shared, ns; with 0 all are shared.
         double parallel_threshold_ns = 5'000;
-        /// ns on one thread, in a shared cycle: no part of a group takes less, nor do deliveries for which
-        /// all threads meet.
+        /// No part of a group that is shared takes less than this on one thread, ns.
         double min_task_ns = 1'250;
         Environment* environment = nullptr;  ///< given to the modules; must outlive the simulation
         bool general_forms =
@@ -68,72 +66,82 @@ class Simulation {
     static std::optional<Simulation> build(const model::System& system, const Registry& registry,
                                            const Demand& demand, const Options& options,
                                            Diagnostics& diagnostics);
-    /// The same for a system that make_layout() has checked: `layout` is its result.
+    /// Compiles a system that make_layout() has checked; `layout` is its result.
     static std::optional<Simulation> build(const model::System& system, Layout layout, const Demand& demand,
                                            const Options& options, Diagnostics& diagnostics);
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
     ~Simulation();
 
-    /// What the system consists of; the numbers below are indices into it.
+    /// Returns what the system consists of; groups, modules and connections are numbered by it.
     const Layout& layout() const;
 
     /// Starts the modules; once, before the first cycle. Throws RunError.
     void start();
-    /// One cycle. Throws RunError, also before start(). A simulation that has thrown in a cycle cannot go on.
+    /// Runs one cycle. Throws RunError, also before start(). A simulation that has thrown in a cycle cannot
+    /// go on.
     void step();
     void update_groups();
     void update_modules();
     void update_connections();  ///< ends the cycle
 
-    int threads() const;  ///< that may share a cycle
-    /// How many cycles they have shared.
+    /// Returns the number of threads that may share a cycle.
+    int threads() const;
+    /// Returns the number of cycles that threads have shared.
     std::uint64_t shared_cycles() const;
-    std::uint64_t cycle() const;  ///< the number of completed cycles; the next one has this number
+    /// Returns the number of completed cycles, which is also the number of the next cycle.
+    std::uint64_t cycle() const;
 
-    /// Searches the states of every group that is updated for numbers that are not finite, or no longer does.
-    /// A new simulation does not search. The search ends with the first such number.
+    /// Switches on or off the search of every updated group for states that are not finite. It is off in a
+    /// new simulation, and ends with the first such number.
     void check_finite(bool wanted);
-    /// The first one that was found: in the first group of the first cycle, by states, then by cells.
+    /// Returns the first number that the search found: in order of cycles, then groups, states and cells.
     const std::optional<NotFinite>& not_finite() const;
 
-    // Parameters while the system runs. An assignment names something by its id in the system that was built.
+    // Parameters may change while the system runs. An assignment names its owner by the id in the system.
 
-    /// Reports what set() would refuse, and what the types find wrong when these are made in this order.
+    /// Reports what set() would refuse, and what the types find wrong when the changes are made in this
+    /// order.
     void check(std::span<const model::Assignment> changes, Diagnostics& diagnostics) const;
     /// Changes a parameter, which its type reads from the next update on. Throws RunError for parameters that
     /// are read at start only and for modules that are disabled, and std::logic_error within a cycle, unless
     /// the demand lets users overwrite activities there.
     void set(const model::Assignment& change);
 
-    /// All that decides the cycles to come, and what can be looked at now: states, inputs, parameters, what
-    /// modules keep. Between cycles, after start(); to be read into a simulation of the same system, built
-    /// with the same seed. Throws ArchiveError when it does not fit, and RunError for modules of a type that
-    /// does not declare what it keeps.
+    /// Writes or reads all that decides the cycles to come, and what can be read now: states, inputs,
+    /// parameters, what modules keep. It is called between cycles, after start(). A checkpoint is read into a
+    /// simulation of the same system, built with the same seed. Throws ArchiveError when it does not fit, and
+    /// RunError for modules of a type that does not declare what it keeps.
     void checkpoint(Archive& archive);
 
-    // What is read here is of the running cycle, or of the last one between cycles. Reading what the demand
-    // did not name and what was therefore pruned throws a std::logic_error.
+    // The numbers that follow are those of the running cycle, or between cycles those of the last one.
+    // Reading what was pruned, because the demand did not name it, throws std::logic_error.
 
-    bool pruned(int group) const;  ///< nothing that is demanded depends on it
-    /// Input as the neuron read it, with the gain that its type applies.
+    /// Returns whether a group is pruned: nothing that is demanded depends on it.
+    bool pruned(int group) const;
+    /// Returns a group's input as its cells read it, with the gain that their type applies.
     ConstColumn input(int group, InputKind kind) const;
+    /// Returns a state of a group, one number per cell.
     ConstColumn state(int group, int state) const;
-    /// Activity, to overwrite after update_groups(). To be called again in every cycle. Throws
-    /// std::logic_error for a group that the demand does not let users overwrite.
+    /// Returns a group's activity, to overwrite after update_groups(). It must be called again in every
+    /// cycle. Throws std::logic_error for a group that the demand does not let users overwrite.
     Column output(int group);
-    /// The same for any state: what its next update reads of the last cycle.
+    /// Returns any state of such a group, to overwrite what its next update reads of the last cycle.
     Column writable_state(int group, int state);
-    /// Makes the next update of a group a full one. To be called when anything that it depends on has changed
-    /// by other means than set(), output() and writable_state().
+    /// Makes the next update of a group a full one. It must be called when anything that the group depends on
+    /// has changed by other means than set(), output() and writable_state().
     void invalidate(int group);
 
+    /// Returns what a module wrote last to an output.
     ConstColumn module_output(int module, int port) const;
-    bool has_written(int module, int port) const;  ///< the module has taken the output at least once
+    /// Returns whether a module has written to an output at least once.
+    bool has_written(int module, int port) const;
 
-    std::string_view connection_form(int connection) const;  ///< how it was compiled
-    std::size_t synapses(int connection) const;              ///< their number
-    /// State of a connection whose synapses have their own, per synapse; empty for others.
+    /// Returns the name of the kernel form to which a connection was compiled, or "pruned".
+    std::string_view connection_form(int connection) const;
+    /// Returns the number of a connection's synapses.
+    std::size_t synapses(int connection) const;
+    /// Returns a state of a connection's synapses, one number per synapse; empty when they have none.
     ConstColumn synapse_state(int connection, int state) const;
 
   private:

@@ -12,7 +12,7 @@
 
 namespace forage::engine {
 
-/// What a run knows of a group; cycle.h says what for.
+/// What a run knows about a group; cycle.h explains how a cycle uses it.
 struct GroupState {
     bool quiescent = false;      ///< with this input an update changes nothing
     bool delivered = false;      ///< the other row of `inputs` holds what the next update reads
@@ -60,20 +60,20 @@ struct State {
     std::uint64_t cycle = 0;  ///< the number of completed cycles
     std::uint64_t shown = 0;  ///< the cycle whose numbers are read
 
-    /// Allocates the numbers and sets those with which a run begins. Instances are there already.
+    /// Allocates the numbers and gives them their initial values. The instances of the types exist already.
     void begin(const Plan& plan);
-    /// Writes or reads all of it. Throws as Simulation::checkpoint().
+    /// Writes or reads all of it. Throws what Simulation::checkpoint() throws.
     void checkpoint(const Plan& plan, Archive& archive);
 };
 
-/// A group's state in `cycle`.
+/// Returns a group's state in a cycle that its ring still holds.
 inline double* state_row(const GroupState& g, const GroupPlan& plan, std::size_t state, std::uint64_t cycle) {
     const auto& s = g.states[state];
     if (s.depth == 1) return s.ring;  // saves a division for every connection
     return s.ring + static_cast<Index>(cycle % static_cast<std::uint64_t>(s.depth)) * plan.stride;
 }
 
-/// A group's activity in `cycle`.
+/// Returns a group's activity in a cycle that its ring still holds.
 inline double* activity_row(const GroupState& g, const GroupPlan& plan, std::uint64_t cycle) {
     return state_row(g, plan, static_cast<std::size_t>(plan.output), cycle);
 }

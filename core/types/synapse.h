@@ -76,13 +76,13 @@ class SynapseSpec {
         return type_.name = std::move(name), type_.label = std::move(label), *this;
     }
     SynapseSpec& doc(std::string text) { return type_.doc = std::move(text), *this; }
-    /// A parameter: `&T::member`, or `&T::part, &Part::member` for a member of a member.
+    /// Declares a parameter: `&T::member`, or `&T::part, &Part::member` for a member of a member.
     template <class... Path>
     ParameterBuilder param(std::string name, Path... path) {
         type_.parameters.push_back(detail::make_parameter<T>(std::move(name), path...));
         return {type_.parameters, type_.parameters.size() - 1};
     }
-    /// A member of Synapse, which has the state's initial value.
+    /// Declares a member of Synapse as a state; the member has the state's initial value.
     SynapseSpec& state(std::string name, double Synapse::*member, std::string label) {
         states_.declare(member, type_.states.size());
         return type_.states.push_back({std::move(name), std::move(label), false, Synapse{}.*member}), *this;
@@ -91,12 +91,12 @@ class SynapseSpec {
     SynapseSpec& output(std::string name, std::string label) {
         return type_.states.push_back({std::move(name), std::move(label), true}), *this;
     }
-    /// A member of Target, which is 0 where a file leaves out one that is not required.
+    /// Declares a member of Target. It is 0 where a file leaves out a feedback that is not required.
     SynapseSpec& feedback(std::string name, double Target::*member, std::string label, bool required = true) {
         target_.declare(member, type_.feedback.size());
         return feedback(std::move(name), std::move(label), required);
     }
-    /// A feedback that files may name, and that the type does not use.
+    /// Declares a feedback that files may name and that the type does not use.
     SynapseSpec& feedback(std::string name, std::string label, bool required = true) {
         return type_.feedback.push_back({std::move(name), std::move(label), required}), *this;
     }

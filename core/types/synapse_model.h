@@ -46,7 +46,8 @@ concept LearnsFromSource = requires(const T t, Synapse<T>& s) {
     t.update(s, 0.0);
 };
 
-/// output() takes the source's activity, after the synapse and before the target if it reads them.
+/// Whether output() takes the types `Read`: the source's activity, after the synapse and before the target if
+/// it reads them.
 template <class T, class... Read>
 concept OutputOf = requires(const T t, const Read&... read) {
     t.output(read...);

@@ -15,7 +15,7 @@ struct ByTarget {
 
     std::size_t targets() const { return start.size() - 1; }
 };
-/// Frees the parts of `synapses` as it goes.
+/// Sorts synapses by target. Frees the parts of `synapses` once they are copied.
 ByTarget sort_by_target(connectivity::Synapses synapses, int target_cells);
 
 enum class Forms {
@@ -23,18 +23,20 @@ enum class Forms {
     general,  ///< always the list of synapses: what the other forms are tested against
 };
 
-/// A kernel for synapses that multiply by a constant: psp = (gain * pre) * factor, rounded in this order.
+/// Makes a kernel for synapses that multiply by a constant: psp = (gain * pre) * factor, rounded in this
+/// order.
 std::unique_ptr<Kernel> make_kernel(connectivity::Synapses synapses, int source_cells, int target_cells,
                                     Forms forms);
-/// The same for a connection that is the same everywhere.
+/// Makes a kernel for a connection that is the same everywhere, and whose synapses multiply by a constant.
 std::unique_ptr<Kernel> make_kernel(const connectivity::Regular& regular, int source_cells, int target_cells);
-/// A kernel for synapses with an update(). Reserves their states. With `reads_states`, PlasticKernel::state()
-/// is called.
+/// Makes a kernel for synapses with an update(), and reserves room for their states. `reads_states` says that
+/// PlasticKernel::state() will be called.
 std::unique_ptr<PlasticKernel> make_plastic(connectivity::Synapses synapses, GroupShape source,
                                             GroupShape target, const SynapseType& type, bool reads_states,
                                             Rows& rows, Forms forms);
 
-// One form each. Where synapses are passed by reference, the result is null when the form does not fit.
+// Each of these functions makes one form. Those that take synapses by reference return null when the form
+// does not fit.
 
 std::unique_ptr<Kernel> make_one_to_one(int cells, int delay, double factor);
 std::unique_ptr<Kernel> make_one_to_one(const ByTarget& synapses, int source_cells);

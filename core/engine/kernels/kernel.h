@@ -1,4 +1,5 @@
-// What a connection delivers in a cycle, in one of several forms that all give the same bits.
+// Kernels compute what a connection delivers in a cycle. They have several forms, which all give the same
+// bits.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +37,7 @@ struct Workspace {
 /// What a connection reads in a cycle.
 struct KernelInput {
     const double* now;  ///< activity of the source, one number per cell
-    Ring past;  ///< the same of this and of earlier cycles; without rows when no connection has a delay
+    Ring past;  ///< activity in this and in earlier cycles; without rows when no connection has a delay
     std::uint64_t cycle;
     const SynapseInstance& synapse;
     std::span<const Ring> feedback;  ///< states of the target, for plastic synapses; without rows: reads 0
@@ -62,8 +63,8 @@ class Kernel {
     virtual ~Kernel() = default;
     /// Allocates what deliver() computes with; null when that is nothing.
     virtual std::unique_ptr<Workspace> make_workspace() const { return nullptr; }
-    /// Adds to each target cell the sum, from 0 and in synapse order, of what its synapses deliver. With
-    /// `first`, what the target holds counts as 0.
+    /// Adds to each target cell the sum of what its synapses deliver, from 0 and in synapse order. With
+    /// `first`, the sum replaces what the target holds.
     virtual void deliver(const KernelInput& in, double* target, bool first) const = 0;
     /// Returns the name of the form.
     virtual std::string_view form() const = 0;
@@ -89,7 +90,7 @@ class SharedKernel : public Kernel {
 /// A form for synapses with states of their own or feedback: their type has an update().
 class PlasticKernel : public Kernel {
   public:
-    /// Writes the initial states.
+    /// Writes the initial states of all synapses.
     virtual void begin(double* numbers) const = 0;
     /// Updates the synapses, as deliver() does, and delivers nothing. Connections of a kind that their target
     /// does not read learn all the same.

@@ -1,4 +1,4 @@
-// Whether threads make a loop faster, by trying.
+// Finds out by trials whether threads make a loop faster.
 #pragma once
 
 #include <algorithm>
@@ -8,14 +8,16 @@
 
 namespace forage::engine {
 
-/// Sharing makes work faster when the work takes long and a processor is free, which cannot be known
-/// beforehand and which changes. The tuner does the work both ways for a while, and then in the faster way
-/// until the next trial, which comes at once when sharing has become clearly slower than working alone. The
-/// numbers are the same either way.
+/// Decides whether threads share a piece of work that is done again and again. Sharing pays when the work
+/// takes long and a processor is free, which cannot be known beforehand and which changes. So the tuner lets
+/// the work be done both ways for a while, and then in the faster way until the next trial. The next trial
+/// comes at once when sharing has become clearly slower than working alone. The results are the same either
+/// way.
 template <class Clock = std::chrono::steady_clock>
 class ParallelTuner {
   public:
-    /// Begins a run; whether to share it. `worth()` is asked before a trial: without it there is none.
+    /// Begins a run of the work. Returns whether to share it. There is no trial unless `worth()` says that
+    /// one is worth its time.
     template <class Worth>
     bool begin(Worth worth) {
         if (count_ == 0 && !worth()) settle(false);

@@ -11,11 +11,10 @@
 
 namespace forage::engine {
 
-/// Runs loops whose items do not depend on each other. The caller works too; with one thread there is nothing
-/// else.
+/// Runs loops whose items do not depend on each other. The calling thread works, too.
 class ThreadPool {
   public:
-    /// Throws std::system_error when the threads cannot be started.
+    /// Starts the other threads. Throws std::system_error when that fails.
     explicit ThreadPool(int threads);
     ~ThreadPool();
     ThreadPool(const ThreadPool&) = delete;
@@ -36,8 +35,9 @@ class ThreadPool {
         for (int t = 0; t < n; ++t) own(t, items * t / n, items * (t + 1) / n);
         share(work);
     }
-    /// The same for items of which thread t takes `shares`[t] to `shares`[t + 1] - 1 first, and others' only
-    /// when it is done with these: so it finds what it left in its cache in the loop before.
+    /// Calls work(item, thread) in the same way, but thread t takes items `shares`[t] to `shares`[t + 1] - 1
+    /// first, and those of other threads only when it has finished its own. So a thread finds in its cache
+    /// what it left there in the loop before.
     template <class Work>
     void run(std::span<const int> shares, Work& work) {
         for (int t = 0; t < threads(); ++t)
@@ -46,7 +46,7 @@ class ThreadPool {
     }
 
   private:
-    /// Items that one thread takes first. Each in a line of the cache of its own.
+    /// The items that one thread takes first. Each share has a cache line of its own.
     struct alignas(64) Share {
         std::atomic<int> next{0};
         int end = 0;

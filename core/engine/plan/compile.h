@@ -8,7 +8,7 @@
 
 namespace forage::engine {
 
-/// What the numbers of a system may take: 16 GiB. Lists of synapses come on top.
+/// The most bytes that the numbers of a system may take: 16 GiB. Lists of synapses come on top.
 inline constexpr double most_bytes = 16.0 * (1 << 30);
 
 struct Compiled {
@@ -16,21 +16,21 @@ struct Compiled {
     std::unique_ptr<State> state;
 };
 
-/// Compiles a system for a demand. Without a plan when `diagnostics` got an error. Reports a system that
-/// takes more than `most_bytes`, before it takes them, or more than there is. `layout` is that of the system.
+/// Compiles a system for a demand; `layout` is that of the system. The result is empty when `diagnostics` got
+/// an error, for example because the system needs more than `most_bytes` or more memory than there is.
 Compiled compile(const model::System& system, Layout layout, const Demand& demand, std::uint64_t seed,
                  Forms forms, Environment* environment, Diagnostics& diagnostics);
 
-/// What a demand does not need: by the numbers of a layout, and outputs by module and port.
+/// What a demand does not need: groups and connections by their numbers, outputs by module and port.
 struct Pruned {
     std::vector<bool> groups, connections;
     std::vector<std::vector<bool>> outputs;
 };
 
-/// Finds the groups from which nothing that is demanded follows, nor a module's input.
+/// Finds the groups on which neither the demand nor an input of a module depends.
 Pruned prune(const Layout& layout, const Demand& demand);
 
-/// Orders the updates and deliveries of a cycle: sets `steps` and `late`.
+/// Orders the updates and deliveries of a cycle: sets Plan::steps and Plan::late.
 void order_steps(Plan& plan);
 
 }  // namespace forage::engine

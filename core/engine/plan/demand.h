@@ -6,16 +6,16 @@
 
 namespace forage::engine {
 
-/// What users of a simulation read and overwrite, by the numbers of a Layout. It is collected before a system
-/// is compiled: Simulation::build() prunes the groups on which none of it depends. What modules read need not
-/// be demanded. A demand for nothing prunes nothing, unless modules read groups.
+/// What the users of a simulation read and overwrite, by the numbers of a Layout. A demand is collected
+/// before the system is compiled: Simulation::build() prunes the groups on which none of it depends. What
+/// modules read need not be demanded. An empty demand prunes nothing, unless modules read groups.
 class Demand {
   public:
     struct Output {
         int module, port;
     };
 
-    /// Everything may be read and overwritten at any time, for interactive use.
+    /// Returns a demand for everything, for interactive use: all may be read and overwritten at any time.
     static Demand everything() {
         Demand out;
         out.reads_everything_ = out.overwrites_everything_ = true;
@@ -36,7 +36,7 @@ class Demand {
     bool overwrites(int group) const { return overwrites_everything_ || contains(overwritten_, group); }
     bool overwrites_anything() const { return overwrites_everything_ || !overwritten_.empty(); }
 
-    /// Whether everything in `other` is demanded here, too.
+    /// Returns whether everything in `other` is demanded here, too.
     bool covers(const Demand& other) const {
         const auto in = [](const std::vector<int>& all) {
             return [&all](int n) { return contains(all, n); };

@@ -40,8 +40,8 @@ struct Layout {
     std::vector<Connection> connections;
 };
 
-/// The layout of a system. Reports what model::validate() finds; empty when that has errors. Modules are
-/// checked against `environment`, which may be null.
+/// Makes the layout of a system. Reports what model::validate() finds, and returns nothing when that has
+/// errors. Modules are checked against `environment`, which may be null.
 std::optional<Layout> make_layout(const model::System& system, const Registry& registry,
                                   Diagnostics& diagnostics, Environment* environment = nullptr);
 
@@ -53,8 +53,8 @@ struct UpdateOrder {
     std::vector<const model::Connection*> connections;
 };
 
-/// The cross references of a module, in the order of its ports: that of the type's declaration, or that of
-/// the file for a type that takes any. The target of an unset one is empty.
+/// Returns the cross references of a module in the order of its ports, which the type declares; a type that
+/// takes any ports has those of the file. The target of an unset one is empty.
 std::vector<model::CrossReference> cross_references(const model::ModuleUse& use, const ModuleType& type,
                                                     bool outputs);
 

@@ -56,7 +56,7 @@ struct ConnectionPlan {
     std::size_t synapses = 0;
 };
 
-/// Groups, modules and connections by the numbers of the layout.
+/// A compiled system. Groups, modules and connections have the numbers of the layout.
 struct Plan {
     Layout layout;
     std::vector<GroupPlan> groups;
@@ -65,7 +65,7 @@ struct Plan {
     Rows rows;                 ///< of all numbers
     std::vector<int> updated;  ///< groups that are not pruned, in order
 
-    /// The updates of a cycle, and deliveries that need not wait for modules; see cycle.h.
+    /// Updates of a cycle, and deliveries that need not wait for modules; cycle.h explains them.
     struct Step {
         int group;
         bool deliver;  ///< else update
