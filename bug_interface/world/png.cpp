@@ -118,7 +118,7 @@ Image read_png(const std::string& path, int border) {
 
 std::string png_problem(const std::string& path) {
     if (!std::filesystem::is_regular_file(path))
-        return "it is no file";  // reading a pipe would wait for its writer
+        return "it is not a file";  // reading a pipe would wait for its writer
     if (PngFile png(path); !png.problem.empty()) return png.problem;
     std::ifstream file(path, std::ios::binary);
     file.seekg(-8, std::ios::end);

@@ -40,7 +40,7 @@ std::string texture_of(SdfSource& in, const xml::Element& script, const std::str
         if (!fs::exists(file)) continue;
         if (const std::string problem = png_problem(file); !problem.empty())
             in.diagnostics.error(script.where(),
-                                 fmt::format("the texture '{}' is no PNG picture: {}", file, problem));
+                                 fmt::format("the texture '{}' is not a PNG picture: {}", file, problem));
         return file;
     }
     in.diagnostics.error(script.where(), fmt::format("the texture '{}' of material '{}' is missing in '{}'",

@@ -75,7 +75,8 @@ void check_joints(SdfSource& in, const Model& model) {
         for (const std::string& name : {hinge.parent, hinge.child})
             if (std::find(links.begin(), links.end(), name.substr(name.rfind(':') + 1)) == links.end())
                 in.diagnostics.error(
-                    hinge.where, fmt::format("joint '{}' names no link of its model: '{}'", hinge.name, name),
+                    hinge.where,
+                    fmt::format("joint '{}' does not name a link of its model: '{}'", hinge.name, name),
                     suggest(name, links));
 }
 

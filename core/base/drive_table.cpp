@@ -20,14 +20,14 @@ DriveTable::Row parse_row(TableReader& in) {
     if (fields.size() < 4) {
         const auto other = std::min(in.row().find_first_of(";\t"), in.row().size());
         if (other == in.row().size())
-            return fault(in.row(), fmt::format("'{}' is no row of a table", escaped(in.row())));
+            return fault(in.row(), fmt::format("'{}' is not a row of a table", escaped(in.row())));
         return fault(in.row().substr(other),
                      in.row()[other] == ';' ? "a semicolon between values" : "a tab between values",
                      fmt::format("{}, with commas; numbers have a decimal point", form));
     }
     for (std::size_t i = 1; i <= 2; ++i) {
         if (fields[i].empty())
-            return fault(fields[i], fmt::format("the row names no {}", i == 1 ? "process" : "group"));
+            return fault(fields[i], fmt::format("the row does not name a {}", i == 1 ? "process" : "group"));
         if (fields[i].starts_with('"'))
             return fault(fields[i], fmt::format("{} stands in quotes", escaped(fields[i])),
                          "write names without quotes");
@@ -51,7 +51,7 @@ DriveTable::Row parse_row(TableReader& in) {
 }  // namespace
 
 DriveTable DriveTable::parse(std::string_view text, const std::string& name) {
-    TableReader in(text, name, TableReader::Layout::csv, "this is no table", form);
+    TableReader in(text, name, TableReader::Layout::csv, "this is not a table", form);
     DriveTable table;
     table.file_ = in.file();
     while (in.next())

@@ -29,7 +29,7 @@ class TableReader {
     };
 
     /// Reads `text`, which must live as long as the reader. Throws FileError when it is not made of lines;
-    /// `refusal` begins the message ("this is no table"), and `hint` belongs to it.
+    /// `refusal` begins the message ("this is not a table"), and `hint` belongs to it.
     TableReader(std::string_view text, std::string path, Layout layout, std::string_view refusal,
                 std::string_view hint = {});
     /// Reads a CSV file of any size. An incomplete last line, as a killed program leaves it, is not a row

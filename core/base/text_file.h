@@ -47,7 +47,7 @@ std::optional<Diagnostic> why_unreadable(const std::string& path);
 std::ifstream open_file(const std::string& path);
 
 /// The error of a text that is not made of lines: it begins like a file of another kind, or has a NUL byte or
-/// obsolete line ends. Empty when there is none. `wanted` begins the message, such as "this is no table".
+/// obsolete line ends. Empty when there is none. `wanted` begins the message, such as "this is not a table".
 std::optional<Diagnostic> not_lines(std::string_view text, std::string_view wanted);
 
 }  // namespace forage

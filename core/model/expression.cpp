@@ -403,14 +403,15 @@ std::vector<CellValue> parse_cell_values(std::string_view text) {
         const auto close = rest.find(")=");
         const auto end = std::min(rest.find_first_of(blanks, close == rest.npos ? 0 : close), rest.size());
         if (!rest.starts_with('(') || close == rest.npos)
-            Parser::fail(fmt::format("'{}' is no cell with a value", escaped(rest.substr(0, end))), hint,
+            Parser::fail(fmt::format("'{}' is not a cell with a value", escaped(rest.substr(0, end))), hint,
                          offset(rest, text));
         auto cell = rest.substr(0, close + 1);
         Source source;
         source.cells_text = cell, source.cells_at = offset(cell, text);
         if (!(source.cells = take_cells(cell)) || !cell.empty() ||
             source.cells_text.find("..") != std::string::npos)
-            Parser::fail(fmt::format("'{}' is no cell", escaped(source.cells_text)), hint, source.cells_at);
+            Parser::fail(fmt::format("'{}' is not a cell", escaped(source.cells_text)), hint,
+                         source.cells_at);
         const auto word = rest.substr(close + 2, end - close - 2);
         const auto value = parse_number<double>(word);
         if (!value) Parser::fail(no_number(word), hint, offset(word, text));

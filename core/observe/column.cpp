@@ -51,12 +51,12 @@ std::optional<ColumnRef> find_column(const engine::Layout& s, const expression::
             const auto names_group = [&](std::string_view part) { return !groups_named(s, part).empty(); };
             const auto before = text.substr(0, open), inside = text.substr(open + 1, text.size() - open - 2);
             if (names_group(before) || names_group(before.substr(0, before.rfind(':')))) {
-                context.error(piece.at + open, fmt::format("'{}' names no cells", text.substr(open)),
+                context.error(piece.at + open, fmt::format("'{}' does not name cells", text.substr(open)),
                               "cells are written (x,y) or (x1..x2,y1..y2)");
                 return std::nullopt;
             }
             if (names_group(inside) || names_group(inside.substr(0, inside.rfind(':')))) {
-                context.error(piece.at, fmt::format("'{}' is no function of cells here", before),
+                context.error(piece.at, fmt::format("'{}' is not a function of cells here", before),
                               "sources have mean(...), conditions also sum, min and max");
                 return std::nullopt;
             }

@@ -131,7 +131,7 @@ std::vector<std::unique_ptr<Recording>> open_hdf5_recording(const std::string& p
     for (const auto& p : places) out.push_back(std::make_unique<Hdf5Recording>(file, p));
     return out;
 } catch (const std::exception& e) {
-    throw FileError(path, {}, {error_at(0, 0, fmt::format("this is no recording: {}", e.what()))});
+    throw FileError(path, {}, {error_at(0, 0, fmt::format("this is not a recording: {}", e.what()))});
 }
 
 }  // namespace forage::observe

@@ -64,7 +64,7 @@ std::vector<std::vector<double>> patterns_in(TableReader& rows, const GroupShape
 std::vector<std::vector<double>> parse_patterns(const std::string& text, const std::string& path,
                                                 const GroupShape& shape, Diagnostics& diagnostics) {
     try {
-        TableReader rows(text, path, TableReader::Layout::blocks, "these are no patterns",
+        TableReader rows(text, path, TableReader::Layout::blocks, "these are not patterns",
                          "a list of patterns is a text");
         return patterns_in(rows, shape);
     } catch (const FileError& e) {

@@ -19,7 +19,7 @@ std::filesystem::path final_name(const std::string& path) {
 }
 
 [[noreturn]] void no_recording(const std::string& path, const std::string& why) {
-    throw FileError(path, {}, {error_at(0, 0, "this is no recording: " + why)});
+    throw FileError(path, {}, {error_at(0, 0, "this is not a recording: " + why)});
 }
 
 /// The largest accepted number of cells. A damaged file may contain any number.

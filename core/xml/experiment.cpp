@@ -165,7 +165,7 @@ class ExperimentReader {
             if (n && *n > 0)
                 m.last = static_cast<std::uint64_t>(*n);
             else if (m.what.text != "all")
-                out_.error(m.what.at, fmt::format("{} = '{}' names no trials", kind, m.what.text),
+                out_.error(m.what.at, fmt::format("{} = '{}' does not name any trials", kind, m.what.text),
                            "'all', or for example 'last 100'");
         }
         experiment_.measures.push_back(std::move(m));

@@ -130,7 +130,7 @@ class Scanner {
                 continue;
             if (what.starts_with('#') && what.size() < 40)
                 return fail(
-                    i, fmt::format("'&{};' is no character that XML may hold", what),
+                    i, fmt::format("'&{};' is not a character that XML allows", what),
                     "&#N; is a character by its number in Unicode; control characters have none here");
             if (!what.empty() && std::all_of(what.begin(), what.end(), continues_name))
                 return fail(

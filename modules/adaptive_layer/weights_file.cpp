@@ -25,7 +25,7 @@ Eigen::MatrixXd parse_weights(const std::string& text, const std::string& path, 
         "weights are numbers with commas between them, {} x {} of them: a row of stimulus cells for each "
         "response cell",
         responses, stimuli);
-    TableReader in(text, path, TableReader::Layout::list, "these are no weights");
+    TableReader in(text, path, TableReader::Layout::list, "these are not weights");
     in.next();
     Eigen::MatrixXd weights(stimuli, responses);
     Index count = 0;

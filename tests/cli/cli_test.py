@@ -363,7 +363,7 @@ class Mistakes(Cli):
             (["--clamp", "Bug/Motr(1,1)=1"], "did you mean 'Bug/Motor'"),
             (["--clamp", "Bug/Motor:vm(1,1)=1"], "only the activity"),
             (["--add", "Bug/Motor(1,1)=x"], "--add '(1,1)=x', column 7: 'x' is not a number"),
-            (["--add", "Bug/Motor(1,1)=1 2"], "column 9: '2' is no cell with a value"),
+            (["--add", "Bug/Motor(1,1)=1 2"], "column 9: '2' is not a cell with a value"),
             (["--add", "Bug/Motor"], "write 'Process/Group(x,y)=value' or 'Process/Group=FILE', or name a table"),
             (["--multiply", "Bug/Motor(1,1)=1; evry 2"], "'evry 2' is not an option of a manipulation; options are every N, step N"),
             (["--multiply", "Bug/Motor(1,1)=1; every 0"], "'every' needs a whole number, at least 1"),

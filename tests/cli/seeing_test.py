@@ -258,7 +258,7 @@ class Pictures(Cli):
             ("trajectory.csv", r"\A(.*\n.*\n\d+,\d+)(.|\n)*", r"\g<1>", "trajectory.csv:3:1: error: the file ends within this row"),
             ("trajectory.csv", r"\Atrial,cycle,x,", "trial,cycle,u,", "trajectory.csv:1:1: error: there is no column 'x'"),
             ("trajectory.csv", r"\A(.|\n)*", "", "trajectory.csv: error: it is empty"),
-            ("trials.csv", r"\btarget\b|\bmissed\b", "lost", "trials.csv:2:[0-9]+: error: 'lost' is no outcome of a trial"),
+            ("trials.csv", r"\btarget\b|\bmissed\b", "lost", "trials.csv:2:[0-9]+: error: 'lost' is not an outcome of a trial"),
             ("trials.csv", r"\A(.*\n)(?:[^,\n]*,){7}[^,]+", r"\g<1>1,2,3,4,5,6,target,-", "trials.csv:2:[0-9]+: error: '-' is not a number"),
         ):
             changed = re.sub(old, new, tables[name], count=1)

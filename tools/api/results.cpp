@@ -89,7 +89,7 @@ std::vector<plot::Path> read_paths(const std::string& directory) {
     for (const auto column = trials.column("outcome"); trials.next();) {
         const auto outcome = trials.fields()[column];
         if (outcome != "target" && outcome != "missed" && outcome != "unfinished")
-            trials.fault(outcome, fmt::format("'{}' is no outcome of a trial", escaped(outcome)));
+            trials.fault(outcome, fmt::format("'{}' is not an outcome of a trial", escaped(outcome)));
         out.push_back({{}, outcome == "target", outcome != "unfinished"});
     }
     trials.require_whole();

@@ -13,7 +13,7 @@ namespace {
 
 /// The rows of a text, with '|' between their fields.
 std::vector<std::string> rows(const std::string& text, Layout layout) {
-    TableReader in(text, "t", layout, "this is no table");
+    TableReader in(text, "t", layout, "this is not a table");
     std::vector<std::string> out;
     while (in.next()) {
         out.emplace_back();
@@ -69,7 +69,7 @@ TEST_CASE("A list is one row, whatever its lines are") {
 
 TEST_CASE("All faults are reported at once, each with its line and column") {
     const auto read = [](Layout layout, const std::string& text) {
-        TableReader in(text, "t", layout, "this is no table");
+        TableReader in(text, "t", layout, "this is not a table");
         while (in.next())
             for (const auto f : in.fields()) in.number(f);
         in.require_sound();
@@ -82,7 +82,8 @@ TEST_CASE("All faults are reported at once, each with its line and column") {
     std::string many;
     for (int i = 0; i < 300; ++i) many += "x,x\n";
     CHECK(faults([&] { read(Layout::csv, many); }).size() == 100);
-    CHECK(faults([&] { read(Layout::csv, "\x89PNG"); }) == Texts{"0:0 this is no table, but a PNG picture"});
+    CHECK(faults([&] { read(Layout::csv, "\x89PNG"); }) ==
+          Texts{"0:0 this is not a table, but a PNG picture"});
     CHECK(faults([&] { read(Layout::csv, std::string("1,\0", 3)); }) ==
           Texts{"1:3 the byte 0x00 does not occur in a text"});
 }

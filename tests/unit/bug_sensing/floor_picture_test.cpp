@@ -24,9 +24,9 @@ TEST_CASE("A file that is not a picture is reported before its pixels are read")
     CHECK(png_problem(cut) == "its end is missing");
 
     REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
-    CHECK(png_problem(pipe) == "it is no file");  // and does not wait for a writer
-    CHECK(png_problem(folder) == "it is no file");
-    CHECK(png_problem(folder / "none.png") == "it is no file");
+    CHECK(png_problem(pipe) == "it is not a file");  // and does not wait for a writer
+    CHECK(png_problem(folder) == "it is not a file");
+    CHECK(png_problem(folder / "none.png") == "it is not a file");
     std::filesystem::remove_all(folder);
 }
 

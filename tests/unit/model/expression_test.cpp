@@ -189,8 +189,8 @@ TEST_CASE("Mistakes are reported with their column") {
         CHECK(assignment(nonsense) == "1: not an assignment");
     CHECK(manipulation("P/A(1,1)=1; every 0") == "13: 'every' needs a whole number, at least 1");
     CHECK(manipulation("P/A(1,1)=1; from cycle 3;; ") == "26: '' is not an option of a manipulation");
-    CHECK(manipulation("P/A(1,1)=1 (2,x)=1") == "9: '(2,x)' is no cell");
-    CHECK(manipulation("P/A(1,1)=1 2") == "9: '2' is no cell with a value");
+    CHECK(manipulation("P/A(1,1)=1 (2,x)=1") == "9: '(2,x)' is not a cell");
+    CHECK(manipulation("P/A(1,1)=1 2") == "9: '2' is not a cell with a value");
     CHECK(manipulation("P/A(1,1)=on") == "7: 'on' is not a number");
     CHECK(manipulation("t.csv; every 2") == "6: a table says itself in which cycles its rows hold");
     CHECK(manipulation("") == "1: no manipulation");

@@ -120,7 +120,7 @@ TEST_CASE("Mistakes in conditions are reported with the names that exist") {
     CHECK(contains(s.said("max(P/A(1..4,1)) > 1"), ", column 8: 'P/A' has not all of the cells (1..4,1)"));
     CHECK(contains(s.said("P/A(4,1) > 1"), "has no cell (4,1)"));
     CHECK(contains(s.said("P/A(0,1) > 1"), "it has 3 columns and 2 rows"));
-    CHECK(contains(s.said("P/A(x,1) > 1"), "'(x,1)' names no cells"));
+    CHECK(contains(s.said("P/A(x,1) > 1"), "'(x,1)' does not name cells"));
     CHECK(contains(s.said("P/A(1,1)"), "a comparison is missing"));
     CHECK(contains(s.said("cycle = 5"), "write '=='"));
     CHECK(contains(s.said("cycle >= "), "something is missing"));
