@@ -305,7 +305,7 @@ class Mistakes(Experiment):
         self.edit("robot.xml", "sytem", "system")
         said = self.forage("experiment", "robot.xml", status=2).stderr
         for place, message in (("3:31", "has both 'cycles' and 'trials'"), ("4:26", "both a list and a count"),
-                               ("5:3", "does not say what it is"), ("6:30", "names no trials"), ("7:44", "given twice")):
+                               ("5:3", "does not say what it is"), ("6:30", "does not name any trials"), ("7:44", "given twice")):
             self.assertRegex(said, rf"robot.xml:{place}: error: .*{message}")
 
     def test_a_condition_that_holds_when_all_cells_are_zero_gives_a_warning(self):
