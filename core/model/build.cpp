@@ -237,6 +237,23 @@ void embed_links(System& system) {
     for (auto& c : system.connections) c.linked = false;
 }
 
+void complete(std::span<Process> processes, std::span<Connection> connections) {
+    const auto place = [](std::optional<Icon>& icon, int number) {
+        if (!icon) icon = Icon{20 + number % 6 * 100, 20 + number / 6 * 90, 50, 50};
+    };
+    int process = 0;
+    for (Process& p : processes) {
+        place(p.icon, process++);
+        if (p.linked()) p.placeholder.front().icon = p.icon;
+        int group = 0;
+        for (Group& g : p.groups) place(g.icon, group++);
+    }
+    for (Connection& c : connections) {
+        c.terse = false;
+        if (!c.line) c.line.emplace();
+    }
+}
+
 void rename(System& system, std::string_view id, std::string name) {
     if (auto* p = find_process(system, id))
         p->name = std::move(name);

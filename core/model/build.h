@@ -4,6 +4,7 @@
 // independent of the original, and references stay valid when something is added.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -59,6 +60,10 @@ ProcessFile extract_process(const System& system, std::string_view id);
 
 /// Makes the content of linked processes part of the system. No process is linked afterwards.
 void embed_links(System& system);
+
+/// Gives all connections, groups and processes what the original requires and a file may leave out: patterns,
+/// arborizations and functions are written, and all items have a place in the diagram.
+void complete(std::span<Process> processes, std::span<Connection> connections);
 
 /// An id that is not in use: `preferred`, or `preferred` followed by the lowest number that makes it unique.
 std::string fresh_id(const System& system, const std::string& preferred);

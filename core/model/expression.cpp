@@ -490,8 +490,8 @@ model::ManipulationSpec parse_manipulation(model::ManipulationSpec::Mode mode, s
 
 namespace {
 
-constexpr std::array<std::string_view, 6> plots = {"time",       "space",   "movie",
-                                                   "connection", "diagram", "trajectory"};
+constexpr std::array<std::string_view, 7> plots = {"time",    "space",      "movie", "connection",
+                                                   "diagram", "trajectory", "wiring"};
 constexpr int most_blocks = 1000;  // lines closer than a pixel
 
 /// "100", "0..500" or "0..500/10"
@@ -550,8 +550,8 @@ Plot parse_plot(std::string_view text) {
         rest = rest.substr(0, ats.back());
     }
     out.what = trim(rest);
-    if (out.what.empty() && out.kind == Plot::Kind::connection)
-        Parser::fail("which connection?", "'connection:NAME'; 'forage describe' lists them", 0);
+    if (out.what.empty() && out.of_connection())
+        Parser::fail("which connection?", fmt::format("'{}:NAME'; 'forage describe' lists them", kind), 0);
     return out;
 }
 

@@ -132,7 +132,7 @@ struct CellValue {
 
 /// A picture, as an expression describes it.
 struct Plot {
-    enum class Kind { time, space, movie, connection, diagram, trajectory };
+    enum class Kind { time, space, movie, connection, diagram, trajectory, wiring };
     struct Cycles {
         std::uint64_t first, last, step;
         bool contains(std::uint64_t c) const { return c >= first && c <= last && (c - first) % step == 0; }
@@ -144,6 +144,7 @@ struct Plot {
     int blocks_across = 1, blocks_down = 1;
 
     bool of_cells() const { return kind == Kind::time || kind == Kind::space || kind == Kind::movie; }
+    bool of_connection() const { return kind == Kind::connection || kind == Kind::wiring; }
     static std::string_view name(Kind kind);
 };
 

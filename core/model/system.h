@@ -123,6 +123,7 @@ struct Connection {
     std::optional<Line> line;
     std::vector<std::string> comments;
     bool linked = false;  ///< whether it comes from the file of a linked process
+    bool terse = false;  ///< whether its file leaves out elements; the writer leaves out those with a default
     Location at, source_at, target_at;
     friend bool operator==(const Connection&, const Connection&) = default;
 };

@@ -111,7 +111,7 @@ class Checker {
             element(child, *known);
         }
         if (strangers) return;  // a missing element is probably the misspelt one
-        if (chosen < rule.choose)
+        if (chosen < rule.choose && !(rule.or_none && chosen == 0))
             structural(e.where(),
                        fmt::format("<{}> holds {}, it needs {}", e.name(),
                                    chosen ? "only one element" : "no element", amount(rule)),

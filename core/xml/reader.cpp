@@ -164,6 +164,7 @@ class Reader {
     template <class P>
     P populations(const Element& e, P pattern) {
         const auto inside = e.children();
+        if (inside.empty()) return pattern;  // both are <All/>
         pattern.source = population(inside[0]);
         pattern.target = population(inside[1]);
         return pattern;
@@ -236,10 +237,17 @@ class Reader {
         c.kind = kind == "inhibitory"   ? InputKind::inhibitory
                  : kind == "modulatory" ? InputKind::modulatory
                                         : InputKind::excitatory;
-        c.pattern = pattern(e.child("Pattern").children().front());
-        c.arborization = arborization(e.child("Arborization").children().front());
-        c.attenuation = function(e.child("AttenuationFunction").children().front());
-        c.delay = function(e.child("DelayFunction").children().front());
+        c.arborization.at = c.attenuation.at = c.delay.at = e.where();  // for defaults
+        const auto read = [&](const char* name, auto& part, auto reader) {
+            if (const Element form = e.child(name))
+                part = (this->*reader)(form.children().front());
+            else
+                c.terse = true;
+        };
+        read("Pattern", c.pattern, &Reader::pattern);
+        read("Arborization", c.arborization, &Reader::arborization);
+        read("AttenuationFunction", c.attenuation, &Reader::function);
+        read("DelayFunction", c.delay, &Reader::function);
         if (const Element s = e.child("Synapse")) {
             c.synapse.emplace();
             use(s, *c.synapse);

@@ -38,6 +38,8 @@ struct ValueRule {
         std::string_view rule;  ///< a key of Format::values
     };
     Exception exception = {};
+    std::string unit = {};       ///< of numbers; empty when they have none
+    std::string otherwise = {};  ///< the value that holds where the file has none; empty when it has no text
 };
 
 struct AttributeRule {
@@ -63,7 +65,8 @@ struct ElementRule {
     /// Format::values, when the element has a value. A :KIND without a name is that of the element itself.
     std::string_view content = {};
     std::vector<AttributeRule> attributes = {};
-    int choose = 0;  ///< the number of elements in it when they are alternatives, else 0
+    int choose = 0;        ///< the number of elements in it when they are alternatives, else 0
+    bool or_none = false;  ///< whether all alternatives may be absent
 
     std::vector<ChildRule> children = {};  ///< made from `content` by Format::link()
     const ValueRule* value = nullptr;
@@ -112,6 +115,17 @@ inline AttributeRule number(std::string name, std::string doc,
 }
 inline AttributeRule whole(std::string name, std::string doc, double low, double high = 1e6) {
     return {std::move(name), {ValueKind::whole, std::move(doc), low, high}};
+}
+
+/// The unit of a rule's numbers.
+inline AttributeRule in(std::string unit, AttributeRule rule) {
+    rule.value.unit = std::move(unit);
+    return rule;
+}
+/// The value that holds where the file does not have the attribute.
+inline AttributeRule otherwise(std::string value, AttributeRule rule) {
+    rule.value.otherwise = std::move(value);
+    return rule;
 }
 
 const Format& system_format();

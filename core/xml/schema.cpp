@@ -35,6 +35,9 @@ class Schema : Printer {
     void documentation(const std::string& doc) {
         if (!doc.empty()) written("a:documentation", doc);
     }
+    void documentation(const ValueRule& rule) {
+        documentation(rule.doc + (rule.otherwise.empty() ? "" : "; " + rule.otherwise + " if absent"));
+    }
     void choice_of(const std::vector<std::string>& values) {
         open("choice");
         for (const auto& v : values) written("value", v);
@@ -70,7 +73,7 @@ class Schema : Printer {
     void attribute_of(const AttributeRule& rule) {
         if (!rule.required) open("optional");
         attribute(rule.name);
-        documentation(rule.value.doc);
+        documentation(rule.value);
         value(rule.value);
         close();
         if (!rule.required) close();
@@ -97,13 +100,19 @@ class Schema : Printer {
         else if (rule.children.empty())
             leaf("empty");
         else if (rule.choose > 0)
-            for (int i = 0; i < rule.choose; ++i) {
-                open("choice");
-                for (const auto& c : rule.children) reference(c.name);
-                close();
-            }
+            alternatives(rule);
         else
             interleaved(rule.children);
+    }
+
+    void alternatives(const ElementRule& rule) {
+        if (rule.or_none) open("optional");
+        for (int i = 0; i < rule.choose; ++i) {
+            open("choice");
+            for (const auto& c : rule.children) reference(c.name);
+            close();
+        }
+        if (rule.or_none) close();
     }
 
     /// Writes the children in any order, each as often as its rule allows.

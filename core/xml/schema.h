@@ -1,4 +1,4 @@
-// Schemas of the formats, with which editors complete and check files.
+// Schemas of the formats, with which editors complete and check files, and tables of them for the reference.
 #pragma once
 
 #include <string>
@@ -14,5 +14,9 @@ std::string relax_ng(const Registry& registry);
 
 /// A RELAX NG grammar of experiment files.
 std::string relax_ng_of_experiments();
+
+/// The elements of system files and the types of `registry` as Markdown: for each of them a table between
+/// "<!-- table: NAME -->" and "<!-- end -->". docs/reference holds these tables.
+std::string markdown_tables(const Registry& registry);
 
 }  // namespace forage::xml

@@ -5,36 +5,38 @@ namespace forage::xml {
 namespace {
 
 AttributeRule direction() {
-    return choice("direction", "RF: around the source cell; PF: around the target cell", {"RF", "PF"});
+    return otherwise(
+        "RF", choice("direction", "RF: around the source cell; PF: around the target cell", {"RF", "PF"}));
 }
 AttributeRule probability() {
-    return required(number("initialization_probability",
-                           "chance that a point of the arborization becomes a synapse", 0, 1));
+    return otherwise("1", number("initialization_probability",
+                                 "probability that a point of the arborization becomes a synapse", 0, 1));
 }
-AttributeRule cells(std::string name, double low = 1, std::string doc = "a number of cells") {
-    return required(whole(std::move(name), std::move(doc), low, 1e5));
+AttributeRule cells(std::string name, std::string doc, double low = 1) {
+    return in("cells", required(whole(std::move(name), std::move(doc), low, 1e5)));
 }
 AttributeRule decisive(AttributeRule rule) {
     rule.value.decisive = true;
     return rule;
 }
-AttributeRule coordinate(std::string name) {
-    return required(whole(std::move(name), "in the units of the diagram, or a cell from 1", -1e6));
+AttributeRule coordinate(std::string name, std::string doc) {
+    return required(whole(std::move(name), std::move(doc), -1e6));
 }
 AttributeRule id() { return required(text("id", "unique in the file")); }
 AttributeRule name() { return required(text("name", "as shown to people")); }
 AttributeRule type_name(std::string doc) { return required(text("name", std::move(doc))); }
-AttributeRule port() { return text("port", "port of the original's remote control"); }
-AttributeRule color() { return text("color", "#RRGGBB"); }
+AttributeRule port() { return text("port", "port of the original's remote control; without effect"); }
+AttributeRule color() { return text("color", "#RRGGBB, a colour of the original's diagram; without effect"); }
 
 std::vector<ElementRule> elements() {
     constexpr std::string_view functions = "FunUniform FunLinear FunGaussian FunBlock FunRandom",
                                populations = "All Region List";
-    const std::vector<AttributeRule> rect{cells("width"), cells("height"), direction(), probability()};
-    const std::vector<AttributeRule> window{cells("innerwidth", 0),
-                                            cells("innerheight", 0),
-                                            cells("outerwidth"),
-                                            cells("outerheight"),
+    const std::vector<AttributeRule> rect{cells("width", "its extent along x"),
+                                          cells("height", "its extent along y"), direction(), probability()};
+    const std::vector<AttributeRule> window{cells("innerwidth", "the hole's extent along x", 0),
+                                            cells("innerheight", "the hole's extent along y", 0),
+                                            cells("outerwidth", "the extent along x"),
+                                            cells("outerheight", "the extent along y"),
                                             direction(),
                                             probability()};
     const AttributeRule min = required(number("min", "value at distance 0")),
@@ -44,9 +46,12 @@ std::vector<ElementRule> elements() {
          "a brain model: processes and the connections between their groups",
          "Note? Process Connection",
          {id(), name(), text("author", "the author"), text("date", "when it was made"),
-          required(number("cylesPerSecond", "pace of the simulation, in cycles per second; 0: unthrottled", 0,
-                          1e6)),
-          flag("syncPlots", "plots follow every cycle"), port()}},
+          in("cycles/s",
+             otherwise("25",
+                       number("cylesPerSecond",
+                              "cycles in a second of the clock; 0 (unthrottled in the original) counts as 25",
+                              0, 1e6))),
+          otherwise("false", flag("syncPlots", "plots follow every cycle; without effect")), port()}},
         {"iqrEntity",
          "a part of a system in a file of its own",
          "Process! Connection",
@@ -54,8 +59,9 @@ std::vector<ElementRule> elements() {
         {"Process",
          "a part of the system: groups, and possibly the module that ties them to the outside",
          "Module? Note? DiagramIcon? Group",
-         {id(), name(), text("hostname", "unused"), port(), flag("enableModule", "whether the module runs"),
-          text("path", "file of a linked process"), color()}},
+         {id(), name(), text("hostname", "without effect"), port(),
+          otherwise("true", flag("enableModule", "whether the module runs")),
+          text("path", "file of a linked process, relative to this file; empty: not linked"), color()}},
         {"Module",
          "what ties the process to the outside",
          "Parameter XRefHolder Note?",
@@ -71,7 +77,7 @@ std::vector<ElementRule> elements() {
              decisive(choice("name", "InputFromGroup and OutputToGroup in a module, Freedback in a synapse",
                              {"InputFromGroup", "OutputToGroup", "Freedback"})))}},
         {"XRef",
-         "a named place and what stands in it",
+         "a port of the type and what is connected to it",
          "",
          {type_name("as the type declares it"),
           required(text("target", "id of a group, or a state of the target's neuron; empty: unset"))}},
@@ -79,8 +85,9 @@ std::vector<ElementRule> elements() {
         {"DiagramIcon",
          "place of an icon in the diagram",
          "",
-         {coordinate("x"), coordinate("y"), whole("width", "of the icon", 0),
-          whole("height", "of the icon", 0)}},
+         {in("pixels", coordinate("x", "its left edge")), in("pixels", coordinate("y", "its upper edge")),
+          in("pixels", otherwise("50", whole("width", "of the icon", 0))),
+          in("pixels", otherwise("50", whole("height", "of the icon", 0)))}},
         {"Group",
          "cells of one neuron type",
          "Topology! Neuron! Note? DiagramIcon?",
@@ -89,28 +96,32 @@ std::vector<ElementRule> elements() {
         {"TopologyRect",
          "a rectangle of cells",
          "",
-         {decisive(cells("hcount", 1, "cells in a row")), decisive(cells("vcount", 1, "cells in a column")),
-          flag("cylinderHor", "the upper edge meets the lower one"),
-          flag("cylinderVert", "the left edge meets the right one")}},
+         {decisive(cells("hcount", "cells in a row")), decisive(cells("vcount", "cells in a column")),
+          otherwise("false", flag("cylinderHor", "the upper edge meets the lower one")),
+          otherwise("false", flag("cylinderVert", "the left edge meets the right one"))}},
         {"TopologySparse", "single cells", "Point+"},
         {"Point",
          "a cell, or a vertex of a line",
          "",
-         {decisive(coordinate("x")), decisive(coordinate("y"))}},
+         {decisive(coordinate("x", "column of a cell, from 1; of a vertex: pixels")),
+          decisive(coordinate("y", "row of a cell, from 1; of a vertex: pixels"))}},
         {"Neuron", "the type of a group's cells", "Parameter Note?", {type_name("the neuron type")}},
         {"Connection",
          "synapses from one group to another",
-         "Pattern! Arborization! AttenuationFunction! DelayFunction! Synapse? Note? DiagramLine?",
+         "Pattern? Arborization? AttenuationFunction? DelayFunction? Synapse? Note? DiagramLine?",
          {id(), name(), required(text("source", "id of a group")), required(text("target", "id of a group")),
-          choice("type", "how it acts on its target", {"excitatory", "inhibitory", "modulatory"})}},
+          otherwise("excitatory", choice("type", "how it acts on its target",
+                                         {"excitatory", "inhibitory", "modulatory"}))}},
         {"Pattern", "which cells are paired", "PatternMapped PatternForeach PatternTuples", {}, 1},
         {"PatternMapped",
          "the smaller population laid over the larger",
          populations,
-         {choice("type", "pair with the centre of the projection, or with all cells under it",
-                 {"center", "all"})},
-         2},
-        {"PatternForeach", "every source cell with every target cell", populations, {}, 2},
+         {otherwise("center",
+                    choice("type", "pair with the centre of the projection, or with all cells under it",
+                           {"center", "all"}))},
+         2,
+         true},
+        {"PatternForeach", "every source cell with every target cell", populations, {}, 2, true},
         {"PatternTuples", "cell by cell", "Tuple+"},
         {"Tuple", "every source of it with every target of it", "SourceList! TargetList!"},
         {"SourceList", "cells of the source", "Point+"},
@@ -119,8 +130,8 @@ std::vector<ElementRule> elements() {
         {"Region",
          "a rectangle of cells",
          "",
-         {cells("xstart", 1, "its leftmost column"), cells("ystart", 1, "its uppermost row"),
-          cells("width", 1, "its columns"), cells("height", 1, "its rows")}},
+         {cells("xstart", "its leftmost column"), cells("ystart", "its uppermost row"),
+          cells("width", "its columns"), cells("height", "its rows")}},
         {"List", "single cells", "Point+"},
         {"Arborization",
          "how a pair spreads into synapses",
@@ -132,7 +143,10 @@ std::vector<ElementRule> elements() {
         {"ArbRectWindow", "a rectangle with a hole", "", window},
         {"ArbEllipseWindow", "an ellipse with a hole", "", window},
         {"ArbAll", "every cell", "", {direction(), probability()}},
-        {"ArbRandom", "cells chosen at random", "", {cells("count", 0), direction(), probability()}},
+        {"ArbRandom",
+         "cells chosen at random",
+         "",
+         {cells("count", "how many for each pair", 0), direction(), probability()}},
         {"AttenuationFunction", "what is lost over the distance", functions, {}, 1},
         {"DelayFunction", "cycles lost over the distance", functions, {}, 1},
         {"FunUniform",
@@ -143,12 +157,12 @@ std::vector<ElementRule> elements() {
         {"FunGaussian",
          "rises with the distance like a Gaussian upside down",
          "",
-         {min, max, required(number("sigma", "its width in cells"))}},
+         {min, max, in("cells", required(number("sigma", "its width in cells")))}},
         {"FunBlock",
          "min near, max far",
          "",
-         {min, max, required(whole("width", "diameter of what is near, in cells", 0)),
-          whole("height", "without effect", 0)}},
+         {min, max, in("cells", required(whole("width", "diameter of what is near, in cells", 0))),
+          otherwise("0", whole("height", "without effect", 0))}},
         {"FunRandom", "random between 0 and max", "", {max}},
         {"Synapse",
          "the type of a connection's synapses",
@@ -157,8 +171,8 @@ std::vector<ElementRule> elements() {
         {"DiagramLine",
          "the line that draws a connection",
          "Point",
-         {whole("APSource", "where it leaves the source's icon, 16 points around it", 0, 15),
-          whole("APTarget", "where it meets the target's icon", 0, 15)}},
+         {otherwise("0", whole("APSource", "where it leaves the source's icon, 16 points around it", 0, 15)),
+          otherwise("0", whole("APTarget", "where it meets the target's icon", 0, 15))}},
     };
 }
 

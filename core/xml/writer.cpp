@@ -193,10 +193,13 @@ class Writer : Printer {
                             {"type", kinds[static_cast<std::size_t>(c.kind)]},
                             {"source", c.source},
                             {"target", c.target}});
-        pattern(c.pattern);
-        arborization(c.arborization);
-        function("AttenuationFunction", c.attenuation);
-        function("DelayFunction", c.delay);
+        const auto written = [&c](const auto& part) {
+            return !c.terse || part != std::remove_cvref_t<decltype(part)>{};
+        };
+        if (written(c.pattern)) pattern(c.pattern);
+        if (written(c.arborization)) arborization(c.arborization);
+        if (written(c.attenuation)) function("AttenuationFunction", c.attenuation);
+        if (written(c.delay)) function("DelayFunction", c.delay);
         if (c.synapse) {
             use("Synapse", *c.synapse);
             references("Freedback", c.synapse->feedback);

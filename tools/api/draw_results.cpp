@@ -88,7 +88,7 @@ std::optional<Loaded> load_for(const std::vector<PlotSpec>& specs, const Results
                            [&](const PlotSpec& s) { return ((s.kind == kinds) || ...); });
     };
     const bool trajectory = any(Kind::trajectory);
-    if (!trajectory && !any(Kind::diagram, Kind::connection)) return std::nullopt;
+    if (!trajectory && !any(Kind::diagram, Kind::connection, Kind::wiring)) return std::nullopt;
     if (results.input.system.empty()) {
         diagnostics.error({}, "which system? there is no run.json that names it",
                           "name the .iqr file instead");

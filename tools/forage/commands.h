@@ -35,6 +35,7 @@ struct ConvertOptions {
     /// Name or id of the process to write as a file of its own; empty: the whole system.
     std::string extract;
     std::vector<std::string> plugins;
+    bool original = false;  ///< whether to write everything that the original requires
     bool embed = false, lenient = false;
 };
 
@@ -65,6 +66,18 @@ struct TutorialOptions {
     std::string directory;  ///< empty: forage-out/tutorial/ and the number
 };
 
+struct NewOptions {
+    std::string kind;    ///< system, neuron, synapse or module
+    std::string name;    ///< empty: my_system
+    bool robot = false;  ///< whether the system has a robot, and a world for it
+};
+
+struct SchemaOptions {
+    bool of_experiments = false;  ///< the schema of experiment files instead of system files
+    bool markdown = false;        ///< tables for the reference instead of a schema
+    std::vector<std::string> plugins = {};
+};
+
 struct BuildPluginOptions {
     std::string source;
     std::string output;  ///< empty: the folder plugins beside the source
@@ -92,11 +105,11 @@ int describe(const RunInput& input);
 int view(const std::string& directory);
 /// Lists the types, or describes one with its parameters.
 int types(const std::string& name, const std::vector<std::string>& plugins);
-/// Prints a RELAX NG schema of experiment files, or of system files with the types of these plugins.
-int schema(bool of_experiments, const std::vector<std::string>& plugins);
+/// Prints a RELAX NG schema, or the tables of the reference.
+int schema(const SchemaOptions& options);
 
-/// Writes the project of a plugin into the folder `name`. `kind` is neuron, synapse or module.
-int new_project(const std::string& kind, const std::string& name);
+/// Writes the beginning of a system, or the project of a plugin into the folder `name`.
+int create(const NewOptions& options);
 /// Compiles a source file to a plugin, with the compiler in CXX or else c++, and checks that it can be
 /// loaded.
 int build_plugin(const BuildPluginOptions& options);

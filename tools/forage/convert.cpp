@@ -66,7 +66,7 @@ std::string process_id(const model::System& system, const std::string& wanted, D
 std::string converted(const ConvertOptions& o, Diagnostics& diagnostics) {
     const bool to_process = is_process_file(o.output);
     if (is_process_file(o.input)) {
-        const auto file = xml::read_process(o.input, diagnostics);
+        auto file = xml::read_process(o.input, diagnostics);
         if (!file) return {};
         if (!to_process || !o.imports.empty() || !o.extract.empty() || o.embed) {
             diagnostics.error({}, fmt::format("'{}' is a process file", o.input),
@@ -74,6 +74,7 @@ std::string converted(const ConvertOptions& o, Diagnostics& diagnostics) {
                               "convert SYSTEM.iqr OUT.iqr --import FILE");
             return {};
         }
+        if (o.original) model::complete({&file->process, 1}, file->connections);
         return xml::write_process(*file);
     }
     auto system = xml::read_system(o.input, diagnostics);
@@ -86,6 +87,7 @@ std::string converted(const ConvertOptions& o, Diagnostics& diagnostics) {
                 diagnostics.error({std::make_shared<SourceFile>(SourceFile{path, {}})}, e.what());
             }
     if (o.embed) model::embed_links(*system);
+    if (o.original) model::complete(system->processes, system->connections);
     if (!to_process && !o.extract.empty()) {
         diagnostics.error({},
                           fmt::format("--extract writes a process file, '{}' would be a system", o.output),

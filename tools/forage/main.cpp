@@ -71,8 +71,8 @@ int program(int argc, char** argv) {
     add_plot(app, plot_options);
     add_convert(app, convert_options);
     BuildPluginOptions build_options;
-    std::string new_kind, new_name;
-    add_new(app, new_kind, new_name);
+    NewOptions new_options;
+    add_new(app, new_options);
     add_build_plugin(app, build_options);
     auto& check_command =
         *app.add_subcommand("check", "Check a system (and a world) and report all mistakes");
@@ -106,8 +106,11 @@ int program(int argc, char** argv) {
     auto& schema_command =
         *app.add_subcommand("schema", "Print a RELAX NG schema of system files, for editors");
     schema_command.footer("Example:\n  forage schema > iqr.rng");
-    bool of_experiments = false;
-    schema_command.add_flag("--experiment", of_experiments, "The schema of experiment files instead");
+    SchemaOptions schema_options;
+    schema_command.add_flag("--experiment", schema_options.of_experiments,
+                            "The schema of experiment files instead");
+    schema_command.add_flag("--markdown", schema_options.markdown,
+                            "The elements of system files and the types, as tables in Markdown, instead");
     std::string shell;
     auto& completion_command =
         *app.add_subcommand("completion", "Print a script that completes command lines");
@@ -121,7 +124,7 @@ int program(int argc, char** argv) {
         ->footer("Example:\n  forage man > forage.1; man ./forage.1");
     std::vector<std::string> plugins;
     add_plugins(types_command, plugins);
-    add_plugins(schema_command, plugins);
+    add_plugins(schema_command, schema_options.plugins);
 
     try {
         if (argc == 1) {
@@ -157,9 +160,9 @@ int program(int argc, char** argv) {
         if (app.got_subcommand("view")) return view(directory);
         if (app.got_subcommand("man")) return fmt::print("{}", man_page(app)), fine;
         if (app.got_subcommand("completion")) return fmt::print("{}", completion(app, shell)), fine;
-        if (app.got_subcommand("new")) return new_project(new_kind, new_name);
+        if (app.got_subcommand("new")) return create(new_options);
         if (app.got_subcommand("build-plugin")) return build_plugin(build_options);
-        if (app.got_subcommand("schema")) return schema(of_experiments, plugins);
+        if (app.got_subcommand("schema")) return schema(schema_options);
         return types(type, plugins);
     } catch (const std::exception& e) {
         fmt::print(stderr, "error: {}\n", e.what());

@@ -1,5 +1,7 @@
 #include <cctype>
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -42,18 +44,50 @@ std::string filled(std::string text, const std::string& name, const std::string&
     return text;
 }
 
-}  // namespace
+int refused(const std::string& what, const std::string& hint) {
+    fmt::print(stderr, "error: {}\n  hint: {}\n", what, hint);
+    return bad_input;
+}
 
-int new_project(const std::string& kind, const std::string& name) {
-    const auto refuse = [](const std::string& what, const std::string& hint) {
-        fmt::print(stderr, "error: {}\n  hint: {}\n", what, hint);
-        return bad_input;
-    };
+/// Writes files, given by name and text, unless one of them exists.
+int write_new(const std::vector<std::pair<std::string, std::string>>& files) {
+    for (const auto& [file, text] : files)
+        if (std::filesystem::exists(file))
+            return refused(fmt::format("there is already a '{}' here", file), "take another name or folder");
+    for (const auto& [file, text] : files) write_file(file, text);
+    return fine;
+}
+
+/// Writes NAME.iqr; with a robot, NAME.world, too.
+int new_system(const std::string& name, bool robot) {
     if (!usable(name))
-        return refuse(fmt::format("'{}' cannot be the name of a type", name),
-                      "take a letter, then letters, digits, '_' and '-'");
+        return refused(fmt::format("'{}' cannot be the name of a system", name),
+                       "take a letter, then letters, digits, '_' and '-'");
+    const auto text = [&](const char* source) { return filled(template_text(source), name, ""); };
+    const int status =
+        robot ? write_new({{name + ".iqr", text("robot.iqr")}, {name + ".world", text("robot.world")}})
+              : write_new({{name + ".iqr", text("system.iqr")}});
+    if (status != fine) return status;
+    if (robot)
+        fmt::print(
+            "{0}.iqr: a robot that avoids walls and finds a light, in {0}.world. Next:\n"
+            "  forage run {0}.iqr --world {0}.world --seconds 60\n",
+            name);
+    else
+        fmt::print(
+            "{0}.iqr: two groups and two connections. Next:\n"
+            "  forage run {0}.iqr --seconds 4 --plot time:Brain/Cells\n",
+            name);
+    return fine;
+}
+
+/// Writes the project of a plugin into the folder `name`.
+int new_project(const std::string& kind, const std::string& name) {
+    if (!usable(name))
+        return refused(fmt::format("'{}' cannot be the name of a type", name),
+                       "take a letter, then letters, digits, '_' and '-'");
     if (std::filesystem::exists(name))
-        return refuse(fmt::format("there is already a '{}' here", name), "take another name or folder");
+        return refused(fmt::format("there is already a '{}' here", name), "take another name or folder");
     make_directory(name);
     const std::pair<std::string, std::string> files[] = {
         {name + ".cpp", kind + ".cpp"},  {"CMakeLists.txt", "CMakeLists.txt"}, {"example.iqr", kind + ".iqr"},
@@ -66,6 +100,17 @@ int new_project(const std::string& kind, const std::string& name) {
         "  forage run example.iqr --plugin build/plugins\n",
         name, kind, kind, class_name(name), name);
     return fine;
+}
+
+}  // namespace
+
+int create(const NewOptions& o) {
+    if (o.kind == "system") return new_system(o.name.empty() ? "my_system" : o.name, o.robot);
+    if (o.robot) return refused("--robot is for systems", "forage new system NAME --robot");
+    if (o.name.empty())
+        return refused(fmt::format("which name has the {} type?", o.kind),
+                       fmt::format("forage new {} NAME", o.kind));
+    return new_project(o.kind, o.name);
 }
 
 }  // namespace forage::tool

@@ -160,6 +160,7 @@ void add_plot(CLI::App& app, PlotOptions& o) {
         "  space:SOURCE@0..1000/100        at every 100th cycle; ';blocks=9x1' at the end divides the group\n"
         "  movie:SOURCE@0..500/5           the same as an animated PNG\n"
         "  connection:NAME                 the synapses between two groups, with strength and delay\n"
+        "  wiring:NAME                     the receptive field of each cell of a small group\n"
         "  diagram, diagram:PROCESS        the diagram of the system or of one process\n"
         "  trajectory                      the robot's paths\n"
         "A source is 'Process/Group:state(x1..x2,y1..y2)'; state and cells are optional. See\n"
@@ -193,20 +194,25 @@ void add_convert(CLI::App& app, ConvertOptions& o) {
         ->option_text("PROCESS");
     add_plugins(convert, o.plugins);
     convert.add_flag("--embed", o.embed, "Write the content of linked processes instead of links");
+    convert.add_flag("--original", o.original,
+                     "Write what the file leaves out and the original iqr requires: patterns, arborizations, "
+                     "functions, places in the diagram");
     convert.add_flag("--lenient", o.lenient,
                      "Unknown elements and attributes are warnings, and are not written");
 }
 
-void add_new(CLI::App& app, std::string& kind, std::string& name) {
-    auto& command = *app.add_subcommand("new", "Write a small project with a type of your own");
-    command.footer("Example:\n  forage new neuron adaptive");
-    command.add_option("KIND", kind, "neuron, synapse or module")
+void add_new(CLI::App& app, NewOptions& o) {
+    auto& command = *app.add_subcommand(
+        "new", "Write the beginning of a system, or a small project with a type of your own");
+    command.footer("Examples:\n  forage new system mine --robot\n  forage new neuron adaptive");
+    command.add_option("KIND", o.kind, "system, neuron, synapse or module")
         ->required()
-        ->check(one_of({"neuron", "synapse", "module"}))
+        ->check(one_of({"system", "neuron", "synapse", "module"}))
         ->option_text(" ");
-    command.add_option("NAME", name, "Name of the folder and, after the kind, of the type")
-        ->required()
+    command
+        .add_option("NAME", o.name, "Name of the system, or of the folder and, after the kind, of the type")
         ->option_text(" ");
+    command.add_flag("--robot", o.robot, "A system with a robot, and a world for it");
 }
 
 void add_build_plugin(CLI::App& app, BuildPluginOptions& o) {

@@ -34,7 +34,7 @@ void add_tutorial(CLI::App& app, TutorialOptions& o);
 void add_experiment(CLI::App& app, ExperimentOptions& o);
 void add_plot(CLI::App& app, PlotOptions& o);
 void add_convert(CLI::App& app, ConvertOptions& o);
-void add_new(CLI::App& app, std::string& kind, std::string& name);
+void add_new(CLI::App& app, NewOptions& options);
 void add_build_plugin(CLI::App& app, BuildPluginOptions& o);
 
 }  // namespace forage::tool

@@ -99,11 +99,11 @@ std::optional<Registry> registry_with(const std::vector<std::string>& plugins) {
 
 }  // namespace
 
-int schema(bool of_experiments, const std::vector<std::string>& plugins) {
-    if (of_experiments) return fmt::print("{}", xml::relax_ng_of_experiments()), fine;
-    const auto registry = registry_with(plugins);
+int schema(const SchemaOptions& options) {
+    if (options.of_experiments) return fmt::print("{}", xml::relax_ng_of_experiments()), fine;
+    const auto registry = registry_with(options.plugins);
     if (!registry) return bad_input;
-    fmt::print("{}", xml::relax_ng(*registry));
+    fmt::print("{}", options.markdown ? xml::markdown_tables(*registry) : xml::relax_ng(*registry));
     return fine;
 }
 

@@ -127,7 +127,7 @@ void RowPlotter::finish(RunView& run, ResultFiles& files) {
 StructurePlotter::StructurePlotter(PlotSpec spec, const engine::Layout& layout, const model::System& system,
                                    Format format, std::string title)
     : spec_(std::move(spec)), format_(format), title_(std::move(title)) {
-    if (spec_.kind != PlotSpec::Kind::connection) return;
+    if (!spec_.of_connection()) return;
     Diagnostics told;  // check_structure() has reported these
     const auto* c = find_connection(system, spec_.what, "plot", told);
     for (std::size_t i = 0; c && i < layout.connections.size(); ++i)

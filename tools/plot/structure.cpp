@@ -6,10 +6,12 @@
 #include <fmt/format.h>
 
 #include "core/connectivity/connect.h"
+#include "core/connectivity/grid.h"
 #include "core/model/lookup.h"
 #include "core/model/validate.h"
 #include "tools/plot/connection.h"
 #include "tools/plot/diagram.h"
+#include "tools/plot/wiring.h"
 
 namespace forage::plot {
 namespace {
@@ -49,8 +51,18 @@ std::vector<double> strengths(const model::Connection& c, const connectivity::Sy
     return out;
 }
 
-Picture picture_of(const model::Connection& c, const model::System& system, const Registry& registry,
-                   const engine::Simulation* simulation, std::uint64_t seed) {
+/// The cell at each position of a group, row by row; -1 where there is none.
+std::vector<int> places(const model::Topology& topology) {
+    const connectivity::Grid grid(topology);
+    std::vector<int> out;
+    for (int y = 0; y < grid.height(); ++y)
+        for (int x = 0; x < grid.width(); ++x) out.push_back(grid.index(grid.left() + x, grid.top() + y));
+    return out;
+}
+
+/// A connection plot, or a wiring plot if `wiring` is set.
+Picture picture_of(const model::Connection& c, bool wiring, const model::System& system,
+                   const Registry& registry, const engine::Simulation* simulation, std::uint64_t seed) {
     const model::GroupIndex groups(system);
     const auto source = groups.find(c.source), target = groups.find(c.target);
     const SynapseType* type = c.synapse ? registry.synapse(c.synapse->type) : nullptr;
@@ -61,7 +73,7 @@ Picture picture_of(const model::Connection& c, const model::System& system, cons
     auto synapses =
         connectivity::connect(c, source.group->topology, target.group->topology, seed, diagnostics);
     if (diagnostics.failed()) throw std::runtime_error(format(diagnostics));
-    ConnectionPlot p;
+    WiringPlot p;
     p.source = model::trim(source.group->name), p.target = model::trim(target.group->name);
     p.source_shape = model::shape(source.group->topology),
     p.target_shape = model::shape(target.group->topology);
@@ -72,7 +84,9 @@ Picture picture_of(const model::Connection& c, const model::System& system, cons
                     model::path(system, *target.process, *target.group), synapses.size(), type->label);
     p.strength = strengths(c, synapses, *type, simulation);
     p.pre = std::move(synapses.pre), p.post = std::move(synapses.post), p.delay = std::move(synapses.delay);
-    return connection_plot(p);
+    if (!wiring) return connection_plot(p);
+    p.source_places = places(source.group->topology), p.target_places = places(target.group->topology);
+    return wiring_plot(p);
 }
 
 }  // namespace
@@ -98,7 +112,7 @@ const model::Connection* find_connection(const model::System& system, std::strin
 
 void check_structure(const PlotSpec& spec, const model::System& system, std::string_view option,
                      Diagnostics& diagnostics, Location at) {
-    if (spec.kind == PlotSpec::Kind::connection) find_connection(system, spec.what, option, diagnostics, at);
+    if (spec.of_connection()) find_connection(system, spec.what, option, diagnostics, at);
     if (spec.kind != PlotSpec::Kind::diagram || spec.what.empty() || find_process(system, spec.what)) return;
     std::vector<std::string> names;
     for (const auto& p : system.processes) names.emplace_back(model::trim(p.name));
@@ -108,11 +122,12 @@ void check_structure(const PlotSpec& spec, const model::System& system, std::str
 
 Picture structure_plot(const PlotSpec& spec, const model::System& system, const Registry& registry,
                        const engine::Simulation* simulation, std::uint64_t seed, const std::string& run) {
-    if (spec.kind == PlotSpec::Kind::connection) {
+    if (spec.of_connection()) {
         Diagnostics diagnostics;
         const auto* connection = find_connection(system, spec.what, "connection", diagnostics);
         if (!connection) throw std::runtime_error(format(diagnostics));
-        return picture_of(*connection, system, registry, simulation, seed);
+        return picture_of(*connection, spec.kind == PlotSpec::Kind::wiring, system, registry, simulation,
+                          seed);
     }
     const auto* process = find_process(system, spec.what);
     return process ? process_diagram(system, *process) : diagram(system, run);

@@ -1,5 +1,7 @@
 #include "core/xml/reader.h"
 
+#include <algorithm>
+
 #include "core/xml/rules.h"
 #include "tests/support/model_text.h"
 
@@ -228,4 +230,72 @@ TEST_CASE("Every element that another one can hold is described by the format ta
             for (const auto& a : rule.attributes) CHECK_FALSE(a.value.doc.empty());
         }
     CHECK(xml::system_format().find("Nothing") == nullptr);
+}
+
+TEST_CASE("An attribute that is absent has the default of the format table") {
+    const std::string pattern =
+        "<PatternForeach><Region xstart=\"1\" ystart=\"2\" width=\"3\" height=\"1\"/><List><Point x=\"2\" "
+        "y=\"3\"/></List></PatternForeach>";
+    const std::string window =
+        "<ArbEllipseWindow innerwidth=\"1\" innerheight=\"2\" outerwidth=\"3\" outerheight=\"4\" "
+        "direction=\"PF\" initialization_probability=\"0.5\"/>";
+    std::vector<std::string> texts{small_system,
+                                   replaced(small_system, pattern, "<PatternMapped type=\"all\"/>")};
+    for (const char* shape :
+         {"ArbRect width=\"3\" height=\"4\"", "ArbEllipse width=\"3\" height=\"4\"",
+          "ArbRectWindow innerwidth=\"1\" innerheight=\"2\" outerwidth=\"3\" outerheight=\"4\"", "ArbAll",
+          "ArbRandom count=\"2\""})
+        texts.push_back(
+            replaced(small_system, window,
+                     std::string("<") + shape + " direction=\"PF\" initialization_probability=\"0.5\"/>"));
+    /// The text in which the attribute of the first such element has this value, or is absent.
+    const auto with = [](std::string text, std::size_t element, const std::string& attribute,
+                         const std::string& value) {
+        std::size_t at = text.find(' ', element), end = text.find('>', element);
+        const std::size_t there = text.find(" " + attribute + "=\"", element);
+        if (there < end) text.erase(there, text.find('"', there + attribute.size() + 3) + 1 - there);
+        at = std::min(at, text.find_first_of("/>", element));
+        return value.empty() ? text : text.insert(at, " " + attribute + "=\"" + value + "\"");
+    };
+    int tried = 0;
+    for (const auto& rule : xml::system_format().elements)
+        for (const auto& attribute : rule.attributes) {
+            if (attribute.value.otherwise.empty()) continue;
+            INFO("<" << rule.name << " " << attribute.name << ">");
+            const auto text = std::find_if(texts.begin(), texts.end(), [&](const std::string& t) {
+                return t.find("<" + rule.name + " ") != std::string::npos;
+            });
+            REQUIRE(text != texts.end());
+            const std::size_t at = text->find("<" + rule.name + " ");
+            CHECK(system_of(with(*text, at, attribute.name, "")) ==
+                  system_of(with(*text, at, attribute.name, attribute.value.otherwise)));
+            ++tried;
+        }
+    CHECK(tried > 20);
+}
+
+TEST_CASE("A connection may leave out its pattern, arborization and functions") {
+    const auto connection = [](const std::string& parts) {
+        return "<System id=\"s\" name=\"S\"><Process id=\"p\" name=\"P\"/><Connection id=\"c\" name=\"C\" "
+               "source=\"a\" target=\"b\">" +
+               parts + "<Synapse name=\"synapseFixedWeight\"/></Connection></System>";
+    };
+    auto terse = system_of(connection("")).connections[0];
+    const auto written =
+        system_of(connection("<Pattern><PatternMapped type=\"center\"><All/><All/></PatternMapped></"
+                             "Pattern><Arborization><ArbRect width=\"1\" height=\"1\" "
+                             "direction=\"RF\" initialization_probability=\"1\"/></Arborization>"
+                             "<AttenuationFunction><FunUniform value=\"0\"/></AttenuationFunction>"
+                             "<DelayFunction><FunUniform value=\"0\"/></DelayFunction>"))
+            .connections[0];
+    CHECK((terse.terse && !written.terse));
+    CHECK((terse.attenuation.at.line == 1 && terse.attenuation.at.file));  // warnings have a place
+    terse.terse = false;
+    CHECK(terse == written);
+    CHECK(system_of(connection("<Pattern><PatternForeach/></Pattern>")).connections[0].pattern ==
+          model::Pattern(model::ForeachPattern{}));
+    CHECK(mistake(connection("<Pattern><PatternForeach><All/></PatternForeach></Pattern>")) ==
+          "1:110: <PatternForeach> holds only one element, it needs 2 elements | source, then target, each "
+          "one of "
+          "<All>, <Region>, <List>");
 }

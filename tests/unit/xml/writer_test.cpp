@@ -229,3 +229,24 @@ TEST_CASE("The original's systems and processes are equal after writing and read
     }
     CHECK(files >= 6);
 }
+
+TEST_CASE("What a connection leaves out is left out when it is written, unless the original shall read it") {
+    model::System system = system_of(
+        "<System id=\"s\" name=\"S\"><Process id=\"p\" name=\"P\"><Group id=\"a\" name=\"A\"><Topology>"
+        "<TopologyRect hcount=\"1\" vcount=\"1\"/></Topology><Neuron name=\"neuronRandomSpike\"/></Group>"
+        "</Process><Connection id=\"c\" name=\"C\" source=\"a\" target=\"a\"><DelayFunction><FunUniform "
+        "value=\"3\"/></DelayFunction><Synapse name=\"synapseFixedWeight\"/></Connection></System>");
+    const std::string terse = xml::write_system(system);
+    CHECK(system_of(terse) == system);
+    for (const char* absent : {"<Pattern", "<Arb", "<Attenuation", "<DiagramIcon", "<DiagramLine"})
+        CHECK(terse.find(absent) == std::string::npos);
+    CHECK(terse.find("<FunUniform value=\"3\"/>") != std::string::npos);
+
+    model::complete(system.processes, system.connections);
+    const std::string complete = xml::write_system(system);
+    CHECK(system_of(complete) == system);
+    for (const char* present :
+         {"<PatternMapped type=\"center\">", "<ArbRect width=\"1\" height=\"1\" direction=\"RF\"",
+          "<AttenuationFunction>", "<DiagramIcon", "<DiagramLine APSource=\"0\" APTarget=\"0\""})
+        CHECK(complete.find(present) != std::string::npos);
+}

@@ -1,0 +1,105 @@
+#include "tools/plot/wiring.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "tools/plot/axes.h"
+
+namespace forage::plot {
+namespace {
+
+/// The sum of the strengths from each source cell to each target cell, NaN where there is no synapse.
+std::vector<double> fields_of(const WiringPlot& p) {
+    std::vector<double> out(
+        static_cast<std::size_t>(p.source_shape.cells) * static_cast<std::size_t>(p.target_shape.cells),
+        std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < p.pre.size(); ++i) {
+        double& sum =
+            out[static_cast<std::size_t>(p.post[i]) * static_cast<std::size_t>(p.source_shape.cells) +
+                static_cast<std::size_t>(p.pre[i])];
+        sum = std::isnan(sum) ? p.strength[i] : sum + p.strength[i];
+    }
+    return out;
+}
+
+/// Draws the source, with the cells that have a synapse in the colour of their strength.
+void draw_field(Canvas& canvas, const WiringPlot& plot, std::span<const double> strengths,
+                const ColourScale& scale, const Box& box, double cell) {
+    const GroupShape& source = plot.source_shape;
+    canvas.fill(box.x, box.y, box.width, box.height, {0.93, 0.93, 0.93});
+    for (int y = 0; y < source.height; ++y)
+        for (int x = 0; x < source.width; ++x) {
+            const int pre = plot.source_places[static_cast<std::size_t>(y * source.width + x)];
+            if (pre >= 0 && std::isnan(strengths[static_cast<std::size_t>(pre)])) continue;
+            canvas.fill(box.x + x * cell, box.y + y * cell, cell, cell,
+                        pre < 0 ? white : scale(strengths[static_cast<std::size_t>(pre)]));
+        }
+    cairo_t* c = canvas.cairo();  // one path for all lines, as files grow with the number of paths
+    for (int x = 1; x < source.width; ++x)
+        cairo_move_to(c, box.x + x * cell, box.y), cairo_line_to(c, box.x + x * cell, box.bottom());
+    for (int y = 1; y < source.height; ++y)
+        cairo_move_to(c, box.x, box.y + y * cell), cairo_line_to(c, box.right(), box.y + y * cell);
+    canvas.colour(white);
+    cairo_set_line_width(c, 1);
+    cairo_stroke(c);
+    canvas.colour(grey);
+    cairo_rectangle(c, box.x - 0.5, box.y - 0.5, box.width + 1, box.height + 1);
+    cairo_stroke(c);
+}
+
+}  // namespace
+
+Picture wiring_plot(const WiringPlot& plot) {
+    constexpr double left = 14, top = 76, bottom = 34, bar_gap = 20, bar_width = 14;  // pixels
+    constexpr int most_pixels = 640, largest_cell = 22, smallest_cell = 3;
+    constexpr double frame = 6;  // between two panels
+    const GroupShape &source = plot.source_shape, &target = plot.target_shape;
+    const auto side = [&](int panels, int cells) {
+        return (most_pixels - panels * frame) / (panels * cells);
+    };
+    const double cell = std::min(std::floor(std::min(side(target.width, source.width),  //
+                                                     side(target.height, source.height))),
+                                 double(largest_cell));
+    if (cell < smallest_cell)
+        throw std::runtime_error(fmt::format(
+            "'{}' joins groups of {} x {} and {} x {} cells, which are too large for a wiring plot; draw "
+            "'connection:{}'",
+            plot.title, source.width, source.height, target.width, target.height, plot.title));
+    const double step_x = cell * source.width + frame, step_y = cell * source.height + frame;
+    const double width = step_x * target.width, height = step_y * target.height;
+    std::vector<double> fields = fields_of(plot);
+    ColourScale scale;
+    for (const double v : fields) scale.include(v);
+    const std::string legend = fmt::format(
+        "each panel is a cell of {} and shows {}: coloured are the cells "
+        "from which it receives",
+        plot.target, plot.source);
+    return {
+        std::max(left + width + bar_gap + bar_width + colour_bar_labels, 560.0),
+        top + std::max(height, 110.0) + bottom, [=, fields = std::move(fields)](Canvas& canvas) {
+            canvas.text(12, 22, plot.title, 15, 0, black, true);
+            canvas.text(12, 40, plot.subtitle, 12, 0, grey);
+            canvas.text(12, 57, legend, 12, 0, grey);
+            for (int row = 0; row < target.height; ++row)
+                for (int column = 0; column < target.width; ++column) {
+                    const int post =
+                        plot.target_places[static_cast<std::size_t>(row * target.width + column)];
+                    if (post < 0) continue;
+                    const Box box{left + column * step_x, top + row * step_y, step_x - frame, step_y - frame};
+                    draw_field(canvas, plot,
+                               std::span(fields).subspan(
+                                   static_cast<std::size_t>(post) * static_cast<std::size_t>(source.cells),
+                                   static_cast<std::size_t>(source.cells)),
+                               scale, box, cell);
+                }
+            draw_colour_bar(canvas, scale, {left + width + bar_gap, top, bar_width, std::max(height, 110.0)},
+                            "strength");
+        }};
+}
+
+}  // namespace forage::plot
