@@ -568,7 +568,7 @@ class Others(Cli):
         self.assertEqual(self.forage("schema", "--experiment").stdout, experiments.read_text(), "run: forage schema --experiment > docs/reference/experiment.rng")
         if not shutil.which("xmllint"):
             self.skipTest("xmllint is absent")
-        files = [*(PROJECT / "systems").glob("*.iqr"), *SHARED.glob("original/*/*.iqr"), *SHARED.glob("original/*/*.iqrProcess")]
+        files = [*(PROJECT / "systems").rglob("*.iqr"), *SHARED.glob("original/*/*.iqr"), *SHARED.glob("original/*/*.iqrProcess")]
         for grammar, file in [*((schema, f) for f in files), *((experiments, f) for f in (PROJECT / "systems").glob("*/*.xml"))]:
             done = subprocess.run(["xmllint", "--nowarning", "--noout", "--relaxng", grammar, file], capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, done.stderr)
