@@ -207,7 +207,7 @@ class Beginnings(unittest.TestCase):
             name = "mine" + "_robot" * len(options)
             last = self.forage("new", "system", name, *options).splitlines()[-1]
             text = (self.here / f"{name}.iqr").read_text()
-            commands = re.findall(r"^ +(forage .*?)(?:  .*)?$", text.split("-->")[0], re.MULTILINE)
+            commands = re.findall(r"^ +(forage .*?)(?:  .*)?$", text.split("</Note>")[0], re.MULTILINE)
             self.assertEqual(len(commands), 4)
             for command in [*commands, last.strip()]:
                 with self.subTest(command):

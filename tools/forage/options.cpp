@@ -204,7 +204,7 @@ void add_convert(CLI::App& app, ConvertOptions& o) {
 void add_new(CLI::App& app, NewOptions& o) {
     auto& command = *app.add_subcommand(
         "new", "Write the beginning of a system, or a small project with a type of your own");
-    command.footer("Examples:\n  forage new system mine --robot\n  forage new neuron adaptive");
+    command.footer("Example:\n  forage new system mine --robot\n  forage new neuron adaptive");
     command.add_option("KIND", o.kind, "system, neuron, synapse or module")
         ->required()
         ->check(one_of({"system", "neuron", "synapse", "module"}))
