@@ -5,6 +5,7 @@ With FORAGE_REWRITE_EXPECTATIONS set, the tables and pictures are written anew.
 
 usage: system_file_test.py FORAGE PROJECT
 """
+import math
 import os
 import pathlib
 import re
@@ -23,6 +24,16 @@ REMEDY = "write it anew with FORAGE_REWRITE_EXPECTATIONS=1"
 TABLE = re.compile(r"<!-- table: (\w+) -->\n(.*?)<!-- end -->\n", re.DOTALL)
 EXAMPLE = re.compile(r"<!-- example: (\w+) A=(\S+) B=(\S+)(?: plot=(\w+))? -->\n```xml\n(.*?)```\n(?:\n!\[.*?\]\(.*?\)\n)?", re.DOTALL)
 SYSTEM = re.compile(r"<!-- system: (\w+) -->\n```xml\n(.*?)```\n", re.DOTALL)
+EQUATIONS = re.compile(r"<!-- equations: (\w+) -->\n```python\n(.*?)```\n", re.DOTALL)
+MEMBRANE = {"excGain": 1.3, "inhGain": 0.8, "vmPrs": 0.7, "clipVm": True, "vmMin": 0.0, "vmMax": 0.9}
+SETTINGS = {
+    "neuronIntegrateFire": {**MEMBRANE, "threshold": 0.5, "spkAmpl": 0.8, "vmReset": 0.3},
+    "neuronLinearThreshold": {**MEMBRANE, "threshold": 0.4},
+    "neuronNumeric": {},
+    "neuronPyramidApicalShunt": {"vmPrs": 0.5, "threshold": 0.6, "vmReset": 0.4},
+    "neuronSigmoid": {**MEMBRANE, "midpoint": 0.3, "slope": 0.7},
+}
+PROCESS = re.compile(r"<!-- process: (\w+) -->\n```xml\n(.*?)```\n", re.DOTALL)
 SPARSE = [(1, 1), (2, 1), (4, 1), (1, 2), (4, 3)]
 
 
@@ -76,7 +87,10 @@ class Reference(unittest.TestCase):
 
     def test_systems_are_sound_and_run(self):
         systems = SYSTEM.findall(PAGES[0].read_text())
-        self.assertGreater(len(systems), 4)
+        self.assertEqual(len(systems), 7)
+        for name, text in PROCESS.findall(PAGES[0].read_text()):
+            (self.here / f"{name}.iqrProcess").write_text(text)
+            self.forage("convert", f"{name}.iqrProcess", "copy.iqrProcess")
         for name, text in systems:
             with self.subTest(name):
                 (self.here / "x.iqr").write_text(text)
@@ -103,6 +117,46 @@ class Reference(unittest.TestCase):
         shown = re.findall(r"\]\(system-file/(\w+)\.svg\)", page)
         self.assertEqual(sorted(shown), sorted(e[0] for e in examples))
         self.assertEqual(sorted(p.stem for p in PICTURES.iterdir()), sorted(shown))
+
+    def test_groups_that_are_too_large_for_a_wiring_plot_are_refused(self):
+        (self.here / "x.iqr").write_text(system("100x100", "100x100", '<Connection id="c" name="C" source="a" target="b"><Synapse name="synapseFixedWeight"/></Connection>'))
+        done = subprocess.run([FORAGE, "plot", "x.iqr", "wiring:C"], cwd=self.here, capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("too large for a wiring plot; draw 'connection:C'", done.stderr)
+        self.assertEqual([p.name for p in self.here.iterdir()], ["x.iqr"])
+
+    def test_equations_are_those_of_the_types(self):
+        equations = dict(EQUATIONS.findall(PAGES[1].read_text()))
+        self.assertEqual(sorted(equations), sorted(SETTINGS))
+        inputs = {"excIn": ("Exc", "excitatory", 0.6), "inhIn": ("Inh", "inhibitory", 0.5), "modIn": ("Mod", "modulatory", 0.4)}
+        for name, text in equations.items():
+            used = {i: v for i, v in inputs.items() if i in text}
+            states = sorted(set(re.findall(r"(\w+) = ", text)))
+            parameters = "".join(f'<Parameter name="{n}" value="{str(v).lower()}"/>' for n, v in SETTINGS[name].items())
+            groups = "".join(f'<Group id="{g}" name="{g}"><Topology><TopologyRect hcount="4" vcount="1"/></Topology><Neuron name="neuronRandomSpike">'
+                             f'<Parameter name="probability" value="0.5"/><Parameter name="spkAmpl" value="{a}"/></Neuron></Group>' for g, _, a in used.values())
+            cells = f'<Group id="x" name="X"><Topology><TopologyRect hcount="4" vcount="1"/></Topology><Neuron name="{name}">{parameters}</Neuron></Group>'
+            connections = "".join(f'<Connection id="{g}-x" name="{g}" type="{kind}" source="{g}" target="x"><Synapse name="synapseFixedWeight"/></Connection>'
+                                  for g, kind, _ in used.values())
+            (self.here / "x.iqr").write_text(f'<System id="s" name="S"><Process id="p" name="P">{groups}{cells}</Process>{connections}</System>')
+            sources = [f"P/X:{state}" for state in states] + [f"P/{g}:act" for g, _, _ in used.values()]
+            run = subprocess.run([FORAGE, "run", "x.iqr", "--cycles", "40", "-o", name, *(w for s in sources for w in ("--record", s))],
+                                 cwd=self.here, capture_output=True, text=True, timeout=60)
+            self.assertEqual(run.returncode, 0, run.stderr)  # a warning says that spkAmpl divides the reset
+
+            def recorded(source):
+                rows = (self.here / name / (re.sub("[/:]", "_", source) + ".csv")).read_text().splitlines()[1:]
+                return [[float(v) for v in row.split(",")[1:]] for row in rows]
+
+            records = {s: recorded(f"P/X:{s}") for s in states}
+            arriving = {i: recorded(f"P/{g}:act") for i, (g, _, _) in used.items()}
+            for cell in range(4):
+                names = {"tanh": math.tanh, **SETTINGS[name], **dict.fromkeys(states, 0)}
+                for cycle in range(40):
+                    names.update({i: rows[cycle - 1][cell] if cycle else 0 for i, rows in arriving.items()})
+                    exec(text, names)
+                    for state in states:
+                        self.assertAlmostEqual(names[state], records[state][cycle][cell], 12, (name, state, cycle))
 
     def test_elements_may_be_left_out_as_the_page_says(self):
         """A system in which everything is left out means the same as one in which everything is written."""
