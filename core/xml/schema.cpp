@@ -36,7 +36,8 @@ class Schema : Printer {
         if (!doc.empty()) written("a:documentation", doc);
     }
     void documentation(const ValueRule& rule) {
-        documentation(rule.doc + (rule.otherwise.empty() ? "" : "; " + rule.otherwise + " if absent"));
+        documentation(rule.doc + (rule.unit.empty() ? "" : " (" + rule.unit + ")") +
+                      (rule.otherwise.empty() ? "" : "; " + rule.otherwise + " if absent"));
     }
     void choice_of(const std::vector<std::string>& values) {
         open("choice");

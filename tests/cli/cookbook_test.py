@@ -100,7 +100,7 @@ def noise(test, run):
 def gating(test, run):
     signal, output = run.rows("Circuit/Signal"), run.rows("Circuit/Output")
     for cycle in range(1, 120):
-        test.assertEqual(output[cycle], signal[cycle - 1] if 42 <= cycle < 82 or cycle < 2 else [0] * 5)
+        test.assertEqual(output[cycle], signal[cycle - 1] if 42 <= cycle < 82 or cycle < 2 else [0] * 12)
 
 
 def working_memory(test, run):
