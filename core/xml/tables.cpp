@@ -1,6 +1,5 @@
 // The tables of the reference, in Markdown.
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -12,8 +11,7 @@ namespace {
 
 /// A text for a cell of a table: with a capital letter, and without what would end the cell.
 std::string cell(std::string text) {
-    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z' && !text.starts_with("min "))
-        text[0] = static_cast<char>(text[0] - 'a' + 'A');
+    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
     for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
         text.insert(at, 1, '\\');
     return text;

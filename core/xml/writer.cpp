@@ -1,6 +1,7 @@
 #include "core/xml/writer.h"
 
 #include <array>
+#include <type_traits>
 
 #include "core/xml/printer.h"
 
