@@ -76,6 +76,21 @@ TEST_CASE("A written model is read back as an equal one, and writing it again ch
     CHECK(connections > models());  // the models are worth testing
 }
 
+TEST_CASE("A model means the same when what has its default is left out of its file") {
+    for (std::uint64_t seed = 1; seed <= models(); ++seed) {
+        const model::System system = test::RandomModel(seed).make();
+        model::System terse = system;
+        for (auto& c : terse.connections) c.terse = true;
+        const std::string text = xml::write_system(terse);
+        Diagnostics diagnostics;
+        auto again = xml::parse_system("random.iqr", text, diagnostics);
+        INFO("seed " << seed << "\n" << format(diagnostics) << text);
+        REQUIRE(again);
+        for (auto& c : again->connections) c.terse = false;
+        REQUIRE(*again == system);
+    }
+}
+
 TEST_CASE("Neither the number of threads nor the form of the connections changes a bit of a simulation") {
     Registry registry;
     add_neurons(registry);
