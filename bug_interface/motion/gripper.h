@@ -1,4 +1,4 @@
-// The links of a robot and its hinges: a gripper.
+// The links of a robot, and the hinges of its gripper.
 #pragma once
 
 #include <string>

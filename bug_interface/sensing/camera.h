@@ -45,11 +45,10 @@ class Camera {
     std::optional<Eigen::Vector2d> floor_point(int column, int row) const;
 
   private:
-    static constexpr int tile_width = 32;    ///< pixels of one row that are rendered together
-    static constexpr int segment_width = 8;  ///< pixels that are tested together for a uniform colour
-    static constexpr int max_samples = 16;   ///< largest number of samples per pixel
-    static constexpr double low_height =
-        0.02;  ///< m; solids below it (paint on the floor) have tighter bounds
+    static constexpr int tile_width = 32;       ///< pixels of one row that are rendered together
+    static constexpr int segment_width = 8;     ///< pixels that are tested together for a uniform colour
+    static constexpr int max_samples = 16;      ///< largest number of samples per pixel
+    static constexpr double low_height = 0.02;  ///< m; solids below it (paint) have tighter bounds
 
     /// A box and a sphere that both contain all points that some rays can see, in the frame of the robot.
     struct Bounds {
@@ -57,8 +56,8 @@ class Camera {
         Eigen::Vector3d centre = Eigen::Vector3d::Zero();
         double radius = 0;
     };
-    /// The bounding rectangle of the points where some rays meet the only floor, in the frame of the robot,
-    /// m.
+    /// The bounding rectangle of the points where some rays meet the floor, when there is only one; in the
+    /// frame of the robot, m.
     struct Extent {
         float x = 0, y = 0;            ///< centre
         float half_x = 0, half_y = 0;  ///< half the sides
@@ -106,8 +105,8 @@ class Camera {
     Pose mount_;  ///< pose of the camera in the robot
     std::vector<Tile> tiles_;
     Tile whole_;  ///< bounds of all tiles
-    std::vector<float> ray_x_, ray_y_,
-        ray_z_;                              ///< per sample, robot's frame; length 1 along the optical axis
+    /// Directions of the samples in the frame of the robot, with length 1 along the optical axis.
+    std::vector<float> ray_x_, ray_y_, ray_z_;
     std::vector<FloorPoints> floor_points_;  ///< one per floor of the scene
     std::vector<Window> windows_;            ///< windows of the solids in the current picture
 };

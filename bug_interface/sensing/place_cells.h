@@ -13,15 +13,15 @@ struct PlaceField {
 };
 
 /// Fills `out` with the activities of w x h place cells, row 0 at +y. The receptive field of cell (r, c) has
-/// its centre at X = (c - w/2) / (w/2), Y = -(r - h/2) / (h/2), with halves rounded down, and at 0 for a side
-/// of one cell. The activity is exp(-distance^2 / sigma^2), divided by the largest of the group. (x, y) is
-/// the position of the robot, m.
+/// its centre at X = (c - w/2) / (w/2), Y = -(r - h/2) / (h/2), where w/2 and h/2 are rounded down; X or Y is
+/// 0 when there is only one column or row. The activity is exp(-distance^2 / sigma^2), divided by the largest
+/// activity in the group. (x, y) is the position of the robot, m.
 void place_cells(double x, double y, int w, int h, const PlaceField& field, std::span<double> out);
 
 /// Fills `out` with the activities of head direction cells. They cover a full turn: cell 0 is the direction
-/// -x, followed by -y, +x and +y. The activity is exp(-(d / sigma)^2), divided by the largest of the group; d
-/// is the difference of directions in turns, and `sigma` is in turns, too. `yaw` is the heading of the robot,
-/// rad.
+/// -x, followed by -y, +x and +y. The activity is exp(-(d / sigma)^2), divided by the largest activity in the
+/// group; d is the difference of directions in turns, and `sigma` is in turns, too. `yaw` is the heading of
+/// the robot, rad.
 void head_direction_cells(double yaw, double sigma, std::span<double> out);
 
 }  // namespace forage::bug

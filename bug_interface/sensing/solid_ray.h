@@ -21,7 +21,8 @@ inline double radius_squared(const Solid& solid) {
     return solid.size.squaredNorm() / 4;
 }
 
-/// The outward normal of the flat face number 2 * axis, or 2 * axis + 1 on the negative side.
+/// The outward normal of a flat face: face 2 * axis is on the positive side of the axis, and 2 * axis + 1 on
+/// the negative side.
 inline Eigen::Vector3d face_normal(int face) { return Eigen::Vector3d::Unit(face / 2) * (face % 2 ? -1 : 1); }
 
 /// Rays from one point. Ray i has the direction (x[i], y[i], z[i]).
@@ -38,11 +39,12 @@ struct Entries {
 };
 
 /// Intersects rays with a box, cylinder or sphere that has the half extents `half` in its own frame. In that
-/// frame the rays start at `origin` and have the directions `rotation` * ray. No ray meets a plane.
+/// frame the rays start at `origin` and have the directions `rotation` * ray. Rays never meet a
+/// ShapeKind::plane.
 void intersect(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& origin,
                const Eigen::Matrix3d& rotation, const Rays& rays, const Entries& out);
 
-/// The outward unit normal of the point where a ray enters a cylinder or sphere through its curved face.
+/// The outward unit normal at the point where a ray enters a cylinder or sphere through its curved face.
 Eigen::Vector3d curved_normal(ShapeKind kind, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                               double depth);
 

@@ -1,4 +1,5 @@
-// Communication between robots: each transmits a message of 36 cells per cycle, and receives those of others.
+// Communication between robots: each transmits a message of 36 cells per cycle, and receives those of the
+// others.
 #pragma once
 
 #include <array>

@@ -24,8 +24,8 @@ struct Delivery {
 
 /// The state of a game. Resources are movable objects with the target plugin. In every 101st substep each
 /// resource is checked. When its centre is within 3 m of a home it counts for that team (for B when it is at
-/// both homes) and returns to its start pose. It is held when it had more than 100 contacts with robots since
-/// the last check.
+/// both homes) and returns to its start pose. A resource is held when it had more than 100 contacts with
+/// robots since the last check.
 ///
 /// With rules there is a clock. Once per second every resource that is not held ages. Old resources turn bad
 /// (yellow) and later dissolve, and new good resources (blue) appear at the sites. Resources that are not in

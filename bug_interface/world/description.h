@@ -19,16 +19,17 @@ namespace forage::bug {
 
 using forage::Pose2;
 
-using Pose = Eigen::Isometry3d;  ///< relative to the parent: of a model in the world, of a link in its model,
-                                 ///< of others in their link
-using Colour = Eigen::Array3f;   ///< red, green, blue in 0..1
+/// A pose in the frame of the parent: of a model in the world, of a link in its model, of other things in
+/// their link.
+using Pose = Eigen::Isometry3d;
+using Colour = Eigen::Array3f;  ///< red, green, blue in 0..1
 
 enum class ShapeKind { plane, box, cylinder, sphere };
 
 struct Shape {
     ShapeKind kind = ShapeKind::box;
-    Eigen::Vector3d size =
-        Eigen::Vector3d::Zero();  ///< full extents of a box or plane (whose z is unused), else diameters
+    /// Full extents along the axes, which are diameters where the shape is round. The z of a plane is unused.
+    Eigen::Vector3d size = Eigen::Vector3d::Zero();
 };
 
 /// How a surface reflects light: shade = ambient * scene ambient + diffuse * max(0, normal . light).
@@ -99,8 +100,8 @@ struct Plugin {
 /// A vertical hinge between two links. Its angle is 0 where the model's file puts the links.
 struct Hinge {
     Location where;
-    std::string name, parent,
-        child;                     ///< names of links; "MODEL::LINK" for a link of a model in this one
+    std::string name;
+    std::string parent, child;     ///< names of links; "MODEL::LINK" for a link of a model in this one
     Pose pose = Pose::Identity();  ///< pose of the axis in the child link
     double sense = 1;              ///< 1 when the child turns to the left as the angle grows, else -1
     double lower = 0, upper = 0;   ///< limits of the angle, rad

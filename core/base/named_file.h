@@ -10,7 +10,7 @@
 
 namespace forage {
 
-/// Reports all errors of a file. For a missing file, the hint is a file with a similar name.
+/// Reports all errors of a file. For a missing file, the hint names a file with a similar name.
 void report(const FileError& error, Diagnostics& diagnostics);
 
 /// The text of the file at `path`, as read_file() returns it. Reports an error and returns nothing when it

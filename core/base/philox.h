@@ -75,9 +75,9 @@ struct Rounds {
 
 FORAGE_AVX2 inline __m256i all(std::uint64_t v) { return _mm256_set1_epi64x(static_cast<long long>(v)); }
 
-/// Computes 4 `many` blocks. The low half of lane l of words[i][j] is word j of block `first` + 4 i + l. The
-/// high half is undefined, so that a product of low halves needs no blending. Each round depends on the one
-/// before, so several blocks are computed side by side.
+/// Computes 4 * `many` blocks. The low half of lane l of words[i][j] is word j of block `first` + 4 i + l.
+/// The high half is undefined, so that a product of low halves needs no blending. Each round depends on the
+/// one before, so several blocks are computed side by side.
 template <int many>
 FORAGE_AVX2 inline void blocks(const Rounds& rounds, std::uint32_t first, __m256i (&words)[many][4]) {
     const __m256i m0 = all(multipliers[0]), m1 = all(multipliers[1]);
@@ -114,7 +114,7 @@ FORAGE_AVX512 inline __m512i product(__m512i a, std::uint32_t factor) {
     return _mm512_maskz_mul_epu32(all_lanes, a, wide(factor));
 }
 
-/// Computes 8 `many` blocks, in vectors with eight lanes.
+/// Computes 8 * `many` blocks, in vectors with eight lanes.
 template <int many>
 FORAGE_AVX512 inline void blocks(const Rounds& rounds, std::uint32_t first, __m512i (&words)[many][4]) {
     constexpr int exclusive_or = 0x96;  // the exclusive or of three operands

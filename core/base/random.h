@@ -25,9 +25,9 @@ class RandomStream {
     /// `grain`.
     void uniform(std::uint64_t cycle, std::span<double> out, std::uint32_t draw = 0,
                  std::size_t first = 0) const;
-    /// Sets out[i] = `value` with this probability (exact to 53 bits; NaN: never), else 0. This is many times
-    /// faster than a comparison of uniform numbers, and independent of them. `out` is the part of a column
-    /// that begins at `first`, a multiple of `grain`.
+    /// Sets out[i] = `value` with this `probability` (exact to 53 bits; NaN: never), else 0. This is many
+    /// times faster than a comparison of uniform numbers, and independent of them. `out` is the part of a
+    /// column that begins at `first`, a multiple of `grain`.
     void events(std::uint64_t cycle, double probability, std::span<double> out, double value = 1,
                 std::uint32_t draw = 0, std::size_t first = 0) const;
     /// A column may be computed in parts whose sizes are multiples of this.

@@ -28,8 +28,8 @@ class TableReader {
                ///< allowed; line ends are blanks.
     };
 
-    /// Reads `text`, which must live as long as the reader. Throws FileError when it is not made of lines;
-    /// `refusal` begins the message ("this is not a table"), and `hint` belongs to it.
+    /// Reads `text`, which must live as long as the reader. Throws FileError when it does not
+    /// consist of lines; the message begins with `refusal` ("this is not a table"), and `hint` is its hint.
     TableReader(std::string_view text, std::string path, Layout layout, std::string_view refusal,
                 std::string_view hint = {});
     /// Reads a CSV file of any size. An incomplete last line, as a killed program leaves it, is not a row
@@ -43,7 +43,7 @@ class TableReader {
 
     /// Goes to the next row. Returns false at the end, and after a hundred faults.
     bool next();
-    /// The row without blanks at its ends, and its fields. Both are valid until the next call of next().
+    /// The row without blanks at its ends, and its fields. Both are valid until the next call to next().
     std::string_view row() const { return row_; }
     const std::vector<std::string_view>& fields() const { return fields_; }
 

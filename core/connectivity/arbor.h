@@ -21,7 +21,7 @@ class Arbor {
     /// the point is wrapped around a cylinder.
     void spread(Place centre, const std::function<void(int, double)>& visit);
 
-    /// An upper bound of the number of cells around any centre, computed without listing them.
+    /// An upper bound on the number of cells around any centre, computed without listing them.
     double most_points() const;
 
   private:
@@ -36,7 +36,7 @@ class Arbor {
     std::uint64_t draws_ = 0;
     /// Coordinates at which a point can be a cell, directly or across the seam of a cylinder.
     Span reach_x_, reach_y_;
-    /// All positions, in the order that the draws so far have given them; used for ArbRandom only.
+    /// All positions, in the order in which earlier draws have left them; used for ArbRandom only.
     std::vector<int> places_;
 };
 

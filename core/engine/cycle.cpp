@@ -90,7 +90,8 @@ bool Cycle::begin_update(int group) {
     auto& g = state_.groups[group];
     if (g.quiescent) return false;
     g.same_for = g.same_input ? g.same_for + 1 : 0;
-    // To look whether a group is quiescent costs about as much as an update: after 1, 2, 4, 8... cycles.
+    // Looking whether a group is quiescent costs about as much as an update, so it is done after 1, 2,
+    // 4, 8... updates with the same input.
     g.looks = std::has_single_bit(g.same_for) && plan_.groups[group].numbers <= most_searched;
     if (std::exchange(g.delivered, false)) g.row ^= 1;
     return true;

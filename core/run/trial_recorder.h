@@ -53,8 +53,8 @@ struct MeasuredTrials {
     static constexpr std::size_t window = 50;  ///< number of trials over which the success ratio is computed
 
     std::size_t reached() const;
-    /// The share of the last `window` of the first `count` finished trials (fewer at the start) that reached
-    /// the target, 0..1. `count` is above 0.
+    /// The share of trials that reached the target, 0..1, among the last `window` of the first `count`
+    /// finished trials, or among all of these when they are fewer. `count` is above 0.
     double recent_success(std::size_t count) const;
 };
 

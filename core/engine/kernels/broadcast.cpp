@@ -1,5 +1,5 @@
 // All target cells receive the same sum, which is made once.
-// Carries 7 of the 42 connections of the DAC system; 1,000 cells onto 1,000 cost 1,300 additions, not a
+// Used for 7 of the 42 connections of the DAC system; 1,000 cells onto 1,000 cost 1,300 additions, not a
 // million.
 #include "core/engine/kernels/forms.h"
 

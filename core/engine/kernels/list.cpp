@@ -1,5 +1,5 @@
 // The general form: synapses sorted by target, summed one after the other.
-// Carries 13 of the 42 connections of the DAC system: small ones, and whatever has no other form.
+// Used for 13 of the 42 connections of the DAC system: small ones, and whatever has no other form.
 #include "core/engine/kernels/forms.h"
 
 namespace forage::engine {

@@ -1,5 +1,5 @@
 // Each target cell has one synapse, from the source cell of the same index, and all are alike.
-// Carries 21 of the 42 connections of the DAC system; 108,000 cycles/s for 100 x 100 cells, 12 times a list.
+// Used for 21 of the 42 connections of the DAC system; 108,000 cycles/s for 100 x 100 cells, 12 times a list.
 #include "core/base/simd.h"
 #include "core/engine/kernels/forms.h"
 

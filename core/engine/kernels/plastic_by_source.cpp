@@ -1,5 +1,5 @@
 // Plastic synapses of types that are event-driven, laid out by their source: those of silent sources are
-// passed over. Carries maps and windows that learn: 11 x 11 Hebbian synapses per cell, with sources that
+// passed over. For maps and windows that learn: 11 x 11 Hebbian synapses per cell, with sources that
 // spike with a probability of 0.3, take 70 us per cycle for 50 x 50 cells; the list takes 1,900.
 //
 // Sources are taken line by line: rows of the grid, or columns, whichever keeps the synapse order at each
@@ -274,8 +274,7 @@ class PlasticBySource final : public PlasticKernel {
     std::vector<Index> place_;    ///< of the synapses, in synapse order
     std::vector<double> factor_;  ///< reference - attenuation, by place; empty when all are 1
     std::vector<Rows::Offset> states_;
-    Rows::Offset updated_ =
-        0;  ///< by source: 0 when the last update passed over it, so that its outputs are 0
+    Rows::Offset updated_ = 0;   ///< by source: 0 when the last update passed over it, and its outputs are 0
     Rows::Offset diverged_ = 0;  ///< 1 once a number that the synapses read was not finite
 };
 

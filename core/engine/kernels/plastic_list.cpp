@@ -1,5 +1,5 @@
-// Plastic synapses in synapse order: the general form. Carries delays, apical synapses, and whatever does not
-// fit plastic_by_source.cpp; 5 ns per synapse and cycle.
+// Plastic synapses in synapse order: the general form. For delays, apical synapses, and whatever does not fit
+// plastic_by_source.cpp; 5 ns per synapse and cycle.
 #include <algorithm>
 
 #include "core/engine/kernels/forms.h"

@@ -1,6 +1,6 @@
 // Lists of synapses, eight targets side by side: each is summed in synapse order, and no sum waits for its
-// own last addition. Carries the colour planes of the DAC system, 9,408 synapses in 3 us, where a list takes
-// 10, and random connections: 0.45 to 0.62 ns per synapse, a third of a list.
+// own last addition. For the colour planes of the DAC system, 9,408 synapses in 3 us, where a list takes 10,
+// and for random connections: 0.45 to 0.62 ns per synapse, a third of a list.
 //
 // Targets are divided into panels and sources into blocks: the activity of a block stays in the nearest
 // cache, the sums of a panel in the second. The synapses from a block to a panel are a tile; panels follow

@@ -1,5 +1,5 @@
-// A window of synapses round every cell, the same everywhere: no weights are moved but the window's own.
-// Carries layers of retinas and maps, 10^4 cells and more: 11 x 11 synapses per cell cost 0.07 ns each, a
+// A window of synapses round every cell, the same everywhere: only the window's own weights are moved.
+// For layers of retinas and maps, 10^4 cells and more: 11 x 11 synapses per cell cost 0.07 ns each, a
 // tenth of a list.
 #include <cstring>
 

@@ -1,4 +1,4 @@
-// A cycle that threads share. Carries single systems of more than some thousand cells: two threads gain 1.8
+// A cycle that threads share. For single systems of more than a few thousand cells: two threads gain 1.8
 // to 1.9 times with windows over 100 x 100 cells and with 20 groups of 1,000 all to all.
 #include <algorithm>
 #include <span>
