@@ -134,7 +134,7 @@ Cycle::Found Cycle::update_part(int group, Part part, int thread) {
         each_row(g, p.stride,
                  [&](const double* row) { found.finite &= all_finite(row + first, Rows::stride(count)); });
     found.quiescent = g.looks && columns.time_invariant() && at_rest(g, p.stride, first, count, before);
-    if (found.quiescent) return found;
+    if (found.quiescent && count == p.cells) return found;  // other parts need to know what this one holds
     const double* now = activity_row(g, p, cycle) + first;
     found.same_activity = small && cycle > 0 && same_bits(now, old, count);
     found.silent = !small && all_zero(now, count);

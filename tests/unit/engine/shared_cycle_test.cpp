@@ -85,9 +85,37 @@ struct Slow {
     }
 };
 
+/// act = 1 in the first cycles, then 0.
+struct Pulse {
+    double length = 1;
+
+    struct Cell {
+        double cycles = 0, act = 0;
+    };
+    static void describe(NeuronSpec<Pulse>& s) {
+        s.name("pulse", "Pulse").param("length", &Pulse::length).range(0, 100);
+        s.state("cycles", &Cell::cycles, "Cycles").output("act", &Cell::act, "Activity");
+    }
+    void update(Cell& c, const Input&) const { c.cycles += 1, c.act = c.cycles <= length; }
+};
+
+/// Is at rest while it is excited, and never quiescent while it is not.
+struct Waiting {
+    struct Cell {
+        double waited = 0, act = 0;
+    };
+    static void describe(NeuronSpec<Waiting>& s) {
+        s.name("waiting", "Waiting").reads(InputKind::excitatory);
+        s.state("waited", &Cell::waited, "Waited").output("act", &Cell::act, "Activity");
+    }
+    void update(Cell& c, const Input& in) const { c.act = in.excitation > 0, c.waited += 1 - c.act; }
+};
+
 Registry types() {
     Registry r = registry();
     r.add(neuron_type<Total>());
+    r.add(neuron_type<Pulse>());
+    r.add(neuron_type<Waiting>());
     return r;
 }
 
@@ -258,4 +286,26 @@ TEST_CASE("Deliveries to whole groups are shared") {
     deliverers.clear();
     for (int cycle = 0; cycle < 3; ++cycle) simulation.step();
     CHECK(deliverers.size() == 2);
+}
+
+TEST_CASE("Of a divided group, one part may be at rest and active while another is silent and is not") {
+    model::System system;
+    const auto p = model::add_process(system, "P");
+    const auto pulse = model::add_group(system, p, "Pulse", 1, 1, "pulse"),
+               half = model::add_group(system, p, "Half", 8, 32, "waiting"),
+               late = model::add_group(system, p, "Late", 8, 32, "waiting");
+    model::set_parameter(model::find_group(system, pulse)->neuron, "length",
+                         std::to_string(GENERATE(1, 2, 3, 4, 5)));
+    connect(system, pulse, half, InputKind::excitatory, "synapseFixedWeight").pattern =
+        model::ForeachPattern{{}, model::Region{1, 1, 8, 16, {}}};
+    connect(system, half, late, InputKind::excitatory, "synapseFixedWeight").delay = uniform(3);
+    const Registry registry = types();
+    auto one = run(system, registry),
+         many = run(system, registry, {.threads = 2, .parallel_threshold_ns = 0, .min_task_ns = 0});
+    REQUIRE(many.threads() > 1);
+    for (int cycle = 0; cycle < 20; ++cycle) {
+        INFO("cycle " << cycle);
+        one.step(), many.step();
+        REQUIRE(states(one) == states(many));
+    }
 }
