@@ -46,7 +46,7 @@ std::string loop(PreparedRun& p, const RunCallbacks& callbacks, DirectoryWatch& 
         watch.look();
         if (!run.divergence().empty() && !told) {
             told = true;
-            if (p.spec.on_nan == OnNan::stop) throw std::runtime_error("stopped: " + run.divergence());
+            if (p.spec.on_nan == OnNan::stop) throw std::runtime_error(run.divergence());
             if (callbacks.diverged) callbacks.diverged(run.divergence());
         }
         if (callbacks.after_cycle) callbacks.after_cycle();

@@ -294,10 +294,10 @@ class Run(Cli):
         (self.here / "small.iqr").write_text(small)
         self.assertNotIn("threads", self.forage("run", "small.iqr", "--cycles", 10).stdout)
         out = self.forage("run", "small.iqr", "--cycles", 10, "--threads", 2).stdout
-        self.assertRegex(out, r"threads +1 of 2: the cycles are too short to share, or too few for a trial")
+        self.assertRegex(out, r"threads +1 of 2: the cycles are too short to share, or too few to measure")
         (self.here / "large.iqr").write_text(small.replace('hcount="2" vcount="1"', 'hcount="100" vcount="80"'))
         self.assertRegex(self.forage("run", "large.iqr", "--cycles", 100, "--threads", 2).stdout,
-                         r"threads +2, which shared [1-9]\d*\.\d % of the cycles; in the others, one thread was as fast in trials")
+                         r"threads +2, which shared [1-9]\d*\.\d % of the cycles; in the others, one thread was as fast when measured")
         self.assertRegex(self.forage("run", "large.iqr", "--cycles", 100, "--threads", 1000).stdout,
                          r"threads +\d+ of 1000, one per core, which shared")
 

@@ -385,7 +385,7 @@ class Faults(Stopped):
         self.assertRegex(done.stdout, rf"diverged +{where}")
         self.assertEqual(len(self.table("out/P_A_act.csv")), 11)
         done = self.forage(*arguments, "--on-nan", "stop", status=1)
-        self.assertRegex(done.stderr, rf"(?m)^error: stopped: {where}\n\Z")
+        self.assertRegex(done.stderr, rf"(?m)^error: {where}\n\Z")
         self.assertEqual(len(self.table("out/P_A_act.csv")), 6)
         done = self.forage(*arguments, "--on-nan", "ignore")
         self.assertNotIn("becomes", done.stderr)

@@ -13,9 +13,9 @@ std::string threads_line(int wanted, std::uint64_t shared, double cycles) {
     if (!engine::has_threads()) return fmt::format("1 of {}: this build has no threads (FORAGE_THREADS=OFF)", wanted);
     if (cores() == 1) return fmt::format("1 of {}: there is one core", wanted);
     if (shared == 0)
-        return fmt::format("1 of {}: the cycles are too short to share, or too few for a trial", wanted);
+        return fmt::format("1 of {}: the cycles are too short to share, or too few to measure", wanted);
     return fmt::format(
-        "{}, which shared {:.1f} % of the cycles; in the others, one thread was as fast in trials",
+        "{}, which shared {:.1f} % of the cycles; in the others, one thread was as fast when measured",
         wanted > cores() ? fmt::format("{} of {}, one per core", cores(), wanted) : fmt::format("{}", wanted),
         100 * static_cast<double>(shared) / cycles);
 }
