@@ -46,16 +46,15 @@ concept LearnsFromSource = requires(const T t, Synapse<T>& s) {
     t.update(s, 0.0);
 };
 
-/// Whether output() takes the types `Read`: the source's activity, after the synapse and before the target if
-/// it reads them.
+/// Whether output() takes arguments of the types `Read`: the synapse, the source's activity and the target,
+/// in this order. All but the activity may be missing.
 template <class T, class... Read>
 concept OutputOf = requires(const T t, const Read&... read) {
     t.output(read...);
 };
 template <class T>
-concept HasOutput = OutputOf<T, double> || OutputOf < T,
-        Synapse<T>,
-double > || OutputOf<T, double, Target<T>> || OutputOf<T, Synapse<T>, double, Target<T>>;
+concept HasOutput = (OutputOf<T, double>) || (OutputOf<T, Synapse<T>, double>) ||
+                    (OutputOf<T, double, Target<T>>) || (OutputOf<T, Synapse<T>, double, Target<T>>);
 
 /// Where the numbers of some synapses are.
 template <class T>
