@@ -28,8 +28,8 @@ struct Ring {
     }
 };
 
-/// What a kernel computes with. Every simulation has its own, and every delivery overwrites it: it holds
-/// nothing from one cycle to the next.
+/// What a kernel computes with. Every simulation has its own. Nothing in it decides what later cycles
+/// compute, so checkpoints and digests leave it out.
 struct Workspace {
     virtual ~Workspace() = default;
 };
