@@ -1,7 +1,10 @@
 #include "tools/api/forage/forage.h"
 
+#include "core/base/named_file.h"
 #include "core/plugin/search.h"
-#include "tools/api/sources.h"
+#include "tools/api/experiment.h"
+#include "tools/api/prepare.h"
+#include "tools/api/results.h"
 
 namespace forage {
 namespace {
@@ -12,11 +15,10 @@ void throw_errors(const Diagnostics& diagnostics) {
 
 Run make_run(model::System system, Registry types, std::unique_ptr<Environment> environment,
              const OpenOptions& options, Diagnostics& diagnostics) {
-    auto run = Run::make(std::move(system), std::move(types), std::move(environment),
-                         {.seed = options.seed,
-                          .threads = options.threads,
-                          .compute_everything = options.compute_everything},
-                         diagnostics);
+    auto run = Run::make(
+        std::move(system), std::move(types), std::move(environment),
+        {.seed = options.seed, .threads = options.threads, .compute_everything = options.compute_everything},
+        diagnostics);
     throw_errors(diagnostics);
     if (const Environment* world = run->environment())
         for (std::size_t i = 0; i < world->robot_names().size(); ++i)
@@ -36,8 +38,10 @@ Registry types(const std::vector<std::string>& plugins) {
 
 Run open(const std::string& system, const OpenOptions& options) {
     RunInput input;
-    input.system = system, input.world = options.world, input.seed = options.seed, input.plugins = options.plugins;
-    input.lenient = options.lenient, input.noise = options.noise, input.real_time_factor = options.real_time_factor;
+    input.system = system, input.world = options.world, input.seed = options.seed,
+    input.plugins = options.plugins;
+    input.lenient = options.lenient, input.noise = options.noise,
+    input.real_time_factor = options.real_time_factor;
     for (const auto& setting : options.settings) input.settings.push_back({setting});
     Diagnostics diagnostics;
     auto loaded = load(input, diagnostics);
@@ -50,6 +54,41 @@ Run open(model::System system, Registry types, std::unique_ptr<Environment> envi
          const OpenOptions& options) {
     Diagnostics diagnostics;
     return make_run(std::move(system), std::move(types), std::move(environment), options, diagnostics);
+}
+
+RunOutcome run(const RunSpec& spec, const RunCallbacks& callbacks) {
+    Diagnostics diagnostics;
+    const Sources sources = read_sources(spec.input, diagnostics);
+    auto prepared = prepare(sources, spec, diagnostics);
+    if (prepared && !spec.directory.empty()) clear_directory(spec, diagnostics);
+    throw_errors(diagnostics);
+    begin(*prepared);
+    return run_to_end(*prepared, callbacks);
+}
+
+std::vector<std::string> draw(const std::string& from, const std::vector<std::string>& plots,
+                              const std::string& directory, const std::string& format) {
+    Diagnostics diagnostics;
+    std::vector<std::string> out;
+    const auto picture = plot::format_of("x." + format);
+    if (!picture) diagnostics.error({}, "'" + format + "' is not a format of pictures", "png, svg or pdf");
+    try {
+        Results results = open_results(from);
+        if (picture) out = draw(results, plots, directory, *picture, diagnostics);
+    } catch (const FileError& e) {
+        report(e, diagnostics);
+    }
+    throw_errors(diagnostics);
+    return out;
+}
+
+ExperimentOutcome experiment(const std::string& file, const std::string& directory, int jobs) {
+    Diagnostics diagnostics;
+    auto prepared = prepare_experiment(file, directory, {}, diagnostics);
+    throw_errors(diagnostics);
+    auto results = run_experiment(*prepared, jobs, false, {});
+    return {std::move(prepared->runs), std::move(*results), prepared->results_file(),
+            prepared->summary_file()};
 }
 
 }  // namespace forage

@@ -10,7 +10,8 @@ namespace forage::tool {
 namespace {
 
 std::string threads_line(int wanted, std::uint64_t shared, double cycles) {
-    if (!engine::has_threads()) return fmt::format("1 of {}: this build has no threads (FORAGE_THREADS=OFF)", wanted);
+    if (!engine::has_threads())
+        return fmt::format("1 of {}: this build has no threads (FORAGE_THREADS=OFF)", wanted);
     if (cores() == 1) return fmt::format("1 of {}: there is one core", wanted);
     if (shared == 0)
         return fmt::format("1 of {}: the cycles are too short to share, or too few to measure", wanted);

@@ -20,6 +20,8 @@
 #include <vector>
 
 #include "core/model/build.h"
+#include "core/run/experiment/runs.h"
+#include "core/run/prepared_run.h"
 #include "core/run/run.h"
 #include "core/types/registry.h"
 
@@ -48,6 +50,28 @@ Run open(const std::string& system, const OpenOptions& options = {});
 /// effect.
 Run open(model::System system, Registry types, std::unique_ptr<Environment> environment = nullptr,
          const OpenOptions& options = {});
+
+/// Runs what `spec` describes to its end, and writes recordings, pictures and tables into spec.directory, as
+/// `forage run` does. RunOutcome::problems says what failed during the run. Throws InputError for mistakes in
+/// the spec and its files, and std::runtime_error when the directory cannot be written to.
+RunOutcome run(const RunSpec& spec, const RunCallbacks& callbacks = {});
+
+/// Draws pictures, as `forage plot` does, of a directory of results, a recording (.csv, .npy, .h5) or a
+/// system file (.iqr): `plots` such as "time:Process/Group" and "trajectory", or all that are possible when
+/// there are none. They are written into `directory`, or beside the results when it is empty, in a format
+/// that is png, svg or pdf. Returns the names of the files. Throws InputError.
+std::vector<std::string> draw(const std::string& from, const std::vector<std::string>& plots = {},
+                              const std::string& directory = {}, const std::string& format = "png");
+
+struct ExperimentOutcome {
+    std::vector<PlannedRun> runs;
+    std::vector<RunResult> results;  ///< one per run, in the same order
+    std::string results_file, summary_file;
+};
+/// Runs an experiment file with all its seeds and swept values, as `forage experiment` does, and writes its
+/// tables. An empty `directory` stands for forage-out/ and the file's name; `jobs` runs are executed at a
+/// time (0: one per core). Runs that were finished before are not repeated. Throws InputError.
+ExperimentOutcome experiment(const std::string& file, const std::string& directory = {}, int jobs = 0);
 
 /// The types that ship with Forage, and those of plugins. Throws InputError.
 Registry types(const std::vector<std::string>& plugins = {});

@@ -1,0 +1,67 @@
+#include "tools/api/experiment.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "core/base/cores.h"
+#include "core/base/named_file.h"
+#include "core/run/experiment/tables.h"
+#include "core/xml/experiment.h"
+#include "tools/api/prepare.h"
+
+namespace forage {
+namespace {
+
+/// Whether the files of an experiment can be read. Reports those that cannot, with the place where they are
+/// named.
+bool files_are_there(const model::Experiment& e, Diagnostics& diagnostics) {
+    bool all = find_file(e.system, e.system_at, diagnostics);
+    if (e.world_at.file) all &= find_file(e.world, e.world_at, diagnostics);
+    for (const auto& m : e.manipulations)
+        if (!m.patterns.empty()) all &= find_file(m.patterns.text, m.patterns.at, diagnostics);
+    return all;
+}
+
+}  // namespace
+
+std::optional<PreparedExperiment> prepare_experiment(const std::string& file, std::string directory,
+                                                     const std::vector<std::string>& plugins,
+                                                     Diagnostics& diagnostics) {
+    auto wanted = xml::read_experiment(file, diagnostics);
+    if (!wanted || !files_are_there(*wanted, diagnostics)) return std::nullopt;
+    if (directory.empty()) directory = "forage-out/" + std::filesystem::path(file).stem().string();
+    PreparedExperiment out{std::move(*wanted), std::move(directory), {}, {}, {}};
+    out.runs = planned_runs(out.experiment, out.directory, plugins);
+    out.sources = read_sources(out.runs.front().spec.input, diagnostics);
+    check_experiment(
+        out.experiment, [&](const RunSpec& spec, Diagnostics& d) { return prepare(out.sources, spec, d); },
+        out.runs, diagnostics);
+    if (diagnostics.failed()) return std::nullopt;
+    const char* hint = "choose another directory for the results with -o";
+    try {
+        make_directory(out.directory + "/runs");
+        for (const auto& table : {out.results_file(), out.summary_file()}) refuse_no_file(table);
+        hint = held_hint;
+        out.hold = DirectoryHold(out.directory);
+    } catch (const std::exception& e) {
+        diagnostics.error({}, e.what(), hint);
+        return std::nullopt;
+    }
+    return out;
+}
+
+std::optional<std::vector<RunResult>> run_experiment(const PreparedExperiment& e, int jobs, bool fresh,
+                                                     const ExperimentCallbacks& callbacks) {
+    for (const auto& table : {e.results_file(), e.summary_file()})  // an existing table is complete
+        std::remove(table.c_str());
+    const auto results = run_experiment(
+        e.experiment, [&](const RunSpec& spec, Diagnostics& d) { return prepare(e.sources, spec, d); },
+        e.runs, source_digests(e.runs.front().spec.input, e.sources), jobs > 0 ? jobs : cores(), fresh,
+        callbacks);
+    if (!results) return results;
+    write_durably(e.results_file(), results_csv(e.experiment, e.runs, *results));
+    write_durably(e.summary_file(), summary_csv(e.experiment, e.runs, *results));
+    return results;
+}
+
+}  // namespace forage

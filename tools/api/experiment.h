@@ -1,0 +1,39 @@
+// Experiment files: read, checked, run, and written as tables.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/output_files.h"
+#include "core/run/experiment/runs.h"
+#include "tools/api/sources.h"
+
+namespace forage {
+
+/// An experiment that is checked, with its directory made and locked.
+struct PreparedExperiment {
+    model::Experiment experiment;
+    std::string directory;
+    std::vector<PlannedRun> runs;
+    Sources sources;
+    DirectoryHold hold;
+
+    std::string results_file() const { return directory + "/results.csv"; }
+    std::string summary_file() const { return directory + "/summary.csv"; }
+};
+
+/// Reads an experiment file and checks all its runs. An empty `directory` stands for forage-out/ and the
+/// file's name. Reports all mistakes before anything is run or overwritten; empty when `diagnostics` got an
+/// error.
+std::optional<PreparedExperiment> prepare_experiment(const std::string& file, std::string directory,
+                                                     const std::vector<std::string>& plugins,
+                                                     Diagnostics& diagnostics);
+
+/// Executes the runs that are not finished yet (with `fresh`, all of them), `jobs` at a time (0: one per
+/// core), and writes the tables of results. Returns the results in the order of the runs; empty when it was
+/// interrupted.
+std::optional<std::vector<RunResult>> run_experiment(const PreparedExperiment& experiment, int jobs,
+                                                     bool fresh, const ExperimentCallbacks& callbacks);
+
+}  // namespace forage
