@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/output_files.h"
+#include "core/observe/group_statistics.h"
 #include "core/observe/schedule.h"
 #include "core/run/checkpoint_writer.h"
 #include "core/run/result_files.h"
@@ -26,8 +27,9 @@ struct PreparedRun {
     StopCondition stop;
     const observe::Schedule* schedule;  ///< an observer of the run, like the next two
     RunMeasures* measures;
-    CheckpointWriter* checkpoints;     ///< null in a run without checkpoints
-    std::vector<std::string> plugins;  ///< paths of the loaded files
+    CheckpointWriter* checkpoints;               ///< null in a run without checkpoints
+    const observe::GroupStatistics* statistics;  ///< null unless the spec asks for an explanation
+    std::vector<std::string> plugins;            ///< paths of the loaded files
     /// Names and versions of libraries, for run.json.
     std::vector<std::pair<std::string, std::string>> libraries;
 };

@@ -44,6 +44,25 @@ std::pair<std::string, std::string> take_apart(const std::string& text) {
     return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+/// The sources for which "*" and "Process/*" stand, with or without a state: those of all groups that have
+/// it. Any other text stands for itself.
+std::vector<std::string> groups_of(const std::string& text, const engine::Layout& layout) {
+    const auto star = text.find('*');
+    const std::string process = text.substr(0, star == std::string::npos ? 0 : star);
+    if (star == std::string::npos || !(process.empty() || process.ends_with('/'))) return {text};
+    const std::string state = text.substr(star + 1);
+    if (!(state.empty() || state.starts_with(':'))) return {text};
+    std::vector<std::string> out;
+    for (const auto& g : layout.groups) {
+        const auto& states = g.type.states;
+        const bool has = state.empty() || state.ends_with("In") ||
+                         std::any_of(states.begin(), states.end(),
+                                     [&](const auto& s) { return s.name == state.substr(1); });
+        if (g.path.starts_with(process) && has) out.push_back("#" + g.id + state);
+    }
+    return out.empty() ? std::vector{text} : out;  // which is then reported as unknown
+}
+
 }  // namespace
 
 std::vector<RecordingFile> recorded_files(const std::vector<model::RecordingSpec>& recordings,
@@ -64,41 +83,43 @@ std::vector<RecordingFile> recorded_files(const std::vector<model::RecordingSpec
                               "-o chooses the directory; names have letters, digits, '.', '-' and '_'");
             continue;
         }
-        auto source = observe::find_source(layout, text, option, diagnostics, asked.column.at);
-        if (!source) continue;
-        const observe::Recorded& what = source->what();
-        if (!seen.insert(file + "\n" + what.name + "\n" + what.group_id).second) continue;  // duplicate
-        const FormatName& format = *format_of(file.empty() ? "x." + options.format : file);
-        const bool several = observe::holds_several(format.format);
-        std::string stem = file_name(what.name), archive;
-        if (format.archive) archive = file.empty() ? "recording.npz" : file;
-        std::string name =
-            fmt::format("{}.{}", several ? "recording" : stem, format.archive ? "npy" : format.name);
-        if (!file.empty() && !format.archive) name = file;
-        auto at = find(name);
-        if (at != out.end() && !several && file.empty()) {  // two groups have the same name
-            name =
-                fmt::format("{}_{}.{}", stem, file_name(what.group_id), format.archive ? "npy" : format.name);
-            at = find(name);
+        for (const auto& one : groups_of(text, layout)) {
+            auto source = observe::find_source(layout, one, option, diagnostics, asked.column.at);
+            if (!source) continue;
+            const observe::Recorded& what = source->what();
+            if (!seen.insert(file + "\n" + what.name + "\n" + what.group_id).second) continue;  // duplicate
+            const FormatName& format = *format_of(file.empty() ? "x." + options.format : file);
+            const bool several = observe::holds_several(format.format);
+            std::string stem = file_name(what.name), archive;
+            if (format.archive) archive = file.empty() ? "recording.npz" : file;
+            std::string name =
+                fmt::format("{}.{}", several ? "recording" : stem, format.archive ? "npy" : format.name);
+            if (!file.empty() && !format.archive) name = file;
+            auto at = find(name);
+            if (at != out.end() && !several && file.empty()) {  // two groups have the same name
+                name = fmt::format("{}_{}.{}", stem, file_name(what.group_id),
+                                   format.archive ? "npy" : format.name);
+                at = find(name);
+            }
+            if (at == out.end()) {
+                out.push_back({name, format.format, {}, asked.every, archive});
+                at = out.end() - 1;
+            } else if (!several) {
+                diagnostics.error(
+                    asked.column.at,
+                    fmt::format("{} \'{}\': a .{} file holds one source", option, whole, format.name),
+                    "name another file, or one that ends in .npz, .h5 or .dat");
+                continue;
+            }
+            if (at->every != asked.every) {
+                diagnostics.error(asked.column.at,
+                                  fmt::format("{} '{}': '{}' has a row every {} cycles, not every {}", option,
+                                              whole, name, at->every, asked.every),
+                                  "name another file for it");
+                continue;
+            }
+            at->sources.push_back(std::move(*source));
         }
-        if (at == out.end()) {
-            out.push_back({name, format.format, {}, asked.every, archive});
-            at = out.end() - 1;
-        } else if (!several) {
-            diagnostics.error(
-                asked.column.at,
-                fmt::format("{} \'{}\': a .{} file holds one source", option, whole, format.name),
-                "name another file, or one that ends in .npz, .h5 or .dat");
-            continue;
-        }
-        if (at->every != asked.every) {
-            diagnostics.error(asked.column.at,
-                              fmt::format("{} '{}': '{}' has a row every {} cycles, not every {}", option,
-                                          whole, name, at->every, asked.every),
-                              "name another file for it");
-            continue;
-        }
-        at->sources.push_back(std::move(*source));
     }
     return out;
 }

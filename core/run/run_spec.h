@@ -73,6 +73,7 @@ struct RunSpec {
     int threads = 1;    ///< largest number of threads; the results do not depend on it
     OnNan on_nan = OnNan::warn;
     bool digest = false;    ///< whether everything is computed, for a digest of the final state
+    bool explain = false;   ///< whether statistics of all groups are collected, to explain what they did
     std::string directory;  ///< directory of the results; none when empty
     /// Whether to start even if the directory holds the checkpoint of an unfinished run.
     bool discard_checkpoint = false;

@@ -116,6 +116,8 @@ std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given,
     auto* measures_added = &run.add(std::move(measures));
     stop.declare(run.demand());
     for (auto& m : manipulations) run.add(std::move(m));
+    const observe::GroupStatistics* statistics =
+        spec.explain ? &run.add(std::make_unique<observe::GroupStatistics>(run.layout())) : nullptr;
     const plot::Format format = *plot::format_of("x." + spec.plot_format);
     const std::string title = run_title(spec.input);
     const bool trajectory = plot::add_plots(spec.plots, run, format, title, diagnostics);
@@ -143,8 +145,9 @@ std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given,
             return std::nullopt;
         CheckpointWriter* checkpoints = nullptr;
         if (spec.checkpoint_every) checkpoints = &add_checkpoints(run, spec, sources, *schedule_added);
-        return PreparedRun{std::move(spec), std::move(hold), std::move(run), std::move(stop),
-                           schedule_added,  measures_added,  checkpoints,    std::move(loaded->plugins),
+        return PreparedRun{std::move(spec), std::move(hold), std::move(run),
+                           std::move(stop), schedule_added,  measures_added,
+                           checkpoints,     statistics,      std::move(loaded->plugins),
                            libraries};
     } catch (const std::exception& e) {
         diagnostics.error({}, e.what());

@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
-#include <set>
 
 #include <fmt/format.h>
 
 #include "core/engine/simulation.h"
-#include "core/model/lookup.h"
+#include "core/run/explain.h"
 #include "tools/forage/commands.h"
 
 namespace forage::tool {
@@ -14,27 +13,6 @@ namespace {
 
 std::string counted(std::size_t n, std::string_view one, std::string_view many = "") {
     return fmt::format("{} {}{}", n, n == 1 || many.empty() ? one : many, n == 1 || !many.empty() ? "" : "s");
-}
-
-/// Notes about valid content that may be a mistake: disabled modules, and groups without input or without
-/// outgoing connections.
-std::vector<std::string> notes(const model::System& system) {
-    std::vector<std::string> out;
-    std::set<std::string> written, read;
-    for (const auto& c : system.connections) read.insert(c.source), written.insert(c.target);
-    for (const auto& p : system.processes) {
-        if (!p.module) continue;
-        for (const auto& r : p.module->inputs) read.insert(r.target);
-        for (const auto& r : p.module->outputs) written.insert(r.target);
-        if (!p.module_enabled)
-            out.push_back(fmt::format("the module of process '{}' is disabled", model::trim(p.name)));
-    }
-    for (const auto& p : system.processes)
-        for (const auto& g : p.groups)
-            if (!read.contains(g.id) && !written.contains(g.id))
-                out.push_back(fmt::format("group '{}/{}' has neither incoming nor outgoing connections",
-                                          model::trim(p.name), model::trim(g.name)));
-    return out;
 }
 
 }  // namespace
@@ -71,7 +49,7 @@ int check(const RunInput& input) {
                diagnostics.warnings()
                    ? ", " + counted(static_cast<std::size_t>(diagnostics.warnings()), "warning")
                    : "");
-    for (const auto& note : notes(loaded->system)) fmt::print("  note: {}\n", note);
+    for (const auto& note : wiring_notes(loaded->system, layout)) fmt::print("  note: {}\n", note);
     if (loaded->world) fmt::print("{}", bug::describe(*loaded->world));
     return fine;
 }

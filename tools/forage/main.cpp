@@ -63,6 +63,8 @@ int program(int argc, char** argv) {
     forage::RunInput check_input, describe_input;
     std::string type;
     add_run(app, run_options);
+    RunOptions explain_options;
+    add_explain(app, explain_options);
     ResumeOptions resume_options;
     add_resume(app, resume_options);
     add_experiment(app, experiment_options);
@@ -149,6 +151,7 @@ int program(int argc, char** argv) {
             run_options.spec.arguments.assign(argv + 1, argv + argc);
             return run(run_options);
         }
+        if (app.got_subcommand("explain")) return run(explain_options);
         if (app.got_subcommand("resume")) return resume(resume_options, parse_run);
         if (app.got_subcommand("tutorial")) return tutorial(tutorial_options);
         if (app.got_subcommand("experiment")) return experiment(experiment_options);

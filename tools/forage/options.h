@@ -27,6 +27,7 @@ void add_plugins(CLI::App& command, std::vector<std::string>& plugins);
 void add_input(CLI::App& command, RunInput& input);
 
 void add_run(CLI::App& app, RunOptions& o);
+void add_explain(CLI::App& app, RunOptions& o);
 void add_resume(CLI::App& app, ResumeOptions& o);
 /// Parses the options of `forage run`. `arguments` are the words after the program's name.
 RunOptions parse_run(std::vector<std::string> arguments);

@@ -118,17 +118,9 @@ void add_recording(CLI::App& run, RunSpec& o) {
     add_plot_format(run, o.plot_format);
 }
 
-}  // namespace
-
-void add_run(CLI::App& app, RunOptions& options) {
+/// Adds the options of `forage run`.
+void add_run_options(CLI::App& run, RunOptions& options) {
     RunSpec& o = options.spec;
-    auto& run = *app.add_subcommand("run", "Run a system, in a world if one is given");
-    run.footer(
-        "Without --cycles, --seconds or --trials it runs for 60 seconds of the world.\n"
-        "Example:\n"
-        "  forage run systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world --trials 30\n"
-        "  ... --schedule 'trial 10: Motor In to Motor.weight=0.5' --schedule 'max(Bug/Light) > 0.9: "
-        "Bug/Light.threshold=1'");
     add_input(run, o.input);
     auto* cycles = run.add_option("-c,--cycles", o.length.cycles, "Stop after N cycles")
                        ->transform(count())
@@ -225,6 +217,36 @@ void add_run(CLI::App& app, RunOptions& options) {
     run.add_flag("--realtime", options.real_time,
                  "Run at most as fast as the clock: one second of the world per second");
     run.add_flag("-q,--quiet", options.quiet, "Print errors only");
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, RunOptions& options) {
+    auto& run = *app.add_subcommand("run", "Run a system, in a world if one is given");
+    run.footer(
+        "Without --cycles, --seconds or --trials it runs for 60 seconds of the world.\n"
+        "Example:\n"
+        "  forage run systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world --trials 30\n"
+        "  ... --schedule 'trial 10: Motor In to Motor.weight=0.5' --schedule 'max(Bug/Light) > 0.9: "
+        "Bug/Light.threshold=1'");
+    add_run_options(run, options);
+}
+
+void add_explain(CLI::App& app, RunOptions& options) {
+    options.spec.explain = true;
+    options.spec.directory.clear();
+    auto& explain =
+        *app.add_subcommand("explain", "Run a system, and tell what its groups did and why some were silent");
+    explain.footer(
+        "Prints the mean, least and largest activity and inputs of every group, which groups nothing "
+        "drives,\n"
+        "which thresholds were never reached, and the way back from a silent motor to the first silent "
+        "group.\n"
+        "Example:\n"
+        "  forage explain systems/reactive_foraging_exercise.iqr --world systems/worlds/basic_arena.world");
+    add_run_options(explain, options);
+    for (const char* name : {"--checkpoint-every", "--discard-checkpoint"})  // a resumed run explains nothing
+        explain.remove_option(explain.get_option(name));
 }
 
 void add_resume(CLI::App& app, ResumeOptions& o) {

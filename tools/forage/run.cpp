@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/run/checkpoint_file.h"
+#include "core/run/explain.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/progress.h"
 #include "tools/forage/stop.h"
@@ -16,7 +17,8 @@ int run(const RunOptions& o) {
     Diagnostics diagnostics;
     const RunSpec& spec = o.spec;
     if (!(spec.recordings.empty() && spec.plots.empty()) && spec.directory.empty())
-        diagnostics.error({}, "--record and --plot need a directory to write to", "leave out -o '' or name one");
+        diagnostics.error({}, "--record and --plot need a directory to write to",
+                          "leave out -o '' or name one");
     const Sources sources = read_sources(spec.input, diagnostics);
     auto prepared = prepare(sources, spec, diagnostics);
     if (prepared && !spec.directory.empty()) clear_directory(spec, diagnostics);
@@ -46,7 +48,8 @@ int run_to_end(const RunOptions& o, PreparedRun& prepared) {
             if (const double ahead = run.seconds() - begun - progress.elapsed(); ahead > 0)
                 std::this_thread::sleep_for(std::chrono::duration<double>(ahead));
         if (progress.due())
-            progress.draw({prepared.stop.fraction_done(run), run.cycle(), run.seconds(), prepared.stop.progress(run)});
+            progress.draw(
+                {prepared.stop.fraction_done(run), run.cycle(), run.seconds(), prepared.stop.progress(run)});
     };
     callbacks.interrupted = [] { return noted_signal() ? stopped_by(noted_signal()) : std::string(); };
 
@@ -57,6 +60,12 @@ int run_to_end(const RunOptions& o, PreparedRun& prepared) {
     if (prepared.checkpoints && finished) remove_checkpoints(directory);
     const bool resumable = prepared.checkpoints && !finished && has_checkpoint(directory);
     if (!o.quiet) fmt::print("{}", summary(prepared, outcome, resumable));
+    if (prepared.statistics) {
+        fmt::print("\n{}", activity_table(run.layout(), *prepared.statistics));
+        fmt::print("\n");
+        for (const auto& note : explanation(run.system(), run.layout(), *prepared.statistics))
+            fmt::print("- {}\n", note);
+    }
     for (const auto& problem : outcome.problems) fmt::print(stderr, "error: {}\n", problem);
     if (!outcome.problems.empty()) return run_failed;
     return noted_signal() ? 128 + noted_signal() : fine;

@@ -103,8 +103,11 @@ Lines running_lines(const Environment& world, const Trial& t) {
         return fmt::format("({:.2f}, {:.2f})", std::round(p.x * 100) / 100 + 0.0,
                            std::round(p.y * 100) / 100 + 0.0);
     };
-    Lines lines{{"robot", fmt::format("from {} to {}, {:.2f} m apart", place(t.start), place(t.end),
-                                      std::hypot(t.end.x - t.start.x, t.end.y - t.start.y))}};
+    const double distance = std::hypot(t.end.x - t.start.x, t.end.y - t.start.y);
+    const bool moved = distance > 0.01 || std::abs(t.end.yaw - t.start.yaw) > 0.01;
+    Lines lines{
+        {"robot", fmt::format("from {} to {}, {:.2f} m apart{}", place(t.start), place(t.end), distance,
+                              moved ? "" : ": it has not moved; 'forage explain' tells why")}};
     if (world.has_targets())
         lines.emplace_back("target", fmt::format("{:.2f} m away at the nearest{}", t.smallest_distance,
                                                  t.reached_target ? ": reached" : ""));

@@ -1,0 +1,275 @@
+#include "core/run/explain.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <queue>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/model/lookup.h"
+#include "core/model/validate.h"
+
+namespace forage {
+namespace {
+
+using engine::Layout;
+using observe::Spread;
+
+constexpr std::array<const char*, input_kinds> kind_names = {"excitation", "inhibition", "modulation"};
+constexpr std::array<const char*, input_kinds> kind_adjectives = {"excitatory", "inhibitory", "modulatory"};
+
+std::size_t number_of(InputKind kind) { return static_cast<std::size_t>(kind); }
+
+/// What ends at each group, and what begins there.
+struct Wiring {
+    struct Group {
+        std::vector<int> incoming, ignored;  ///< connections; ignored: of a kind that the type does not read
+        std::vector<int> writers, readers;   ///< enabled modules
+        std::string disabled;                ///< a process whose disabled module would write to the group
+        bool has_targets = false;
+        bool driven() const { return !incoming.empty() || !writers.empty(); }
+    };
+    std::vector<Group> groups;
+
+    Wiring(const model::System& system, const Layout& layout) : groups(layout.groups.size()) {
+        for (int c = 0; c < std::ssize(layout.connections); ++c) {
+            const auto& connection = layout.connections[at(c)];
+            auto& target = groups[at(connection.target)];
+            (connection.effective ? target.incoming : target.ignored).push_back(c);
+            groups[at(connection.source)].has_targets = true;
+        }
+        for (int m = 0; m < std::ssize(layout.modules); ++m) {
+            for (const int g : layout.modules[at(m)].input_groups)
+                if (g >= 0) groups[at(g)].readers.push_back(m);
+            for (const int g : layout.modules[at(m)].output_groups)
+                if (g >= 0) groups[at(g)].writers.push_back(m);
+        }
+        std::map<std::string_view, std::size_t> by_id;
+        for (std::size_t g = 0; g < groups.size(); ++g) by_id[layout.groups[g].id] = g;
+        for (const auto& p : system.processes)
+            if (p.module && !p.module_enabled)
+                for (const auto& r : p.module->outputs)
+                    if (const auto it = by_id.find(r.target); it != by_id.end())
+                        groups[it->second].disabled = model::trim(p.name);
+    }
+    static std::size_t at(int number) { return static_cast<std::size_t>(number); }
+};
+
+bool reads_input(const NeuronType& type) {
+    return std::any_of(type.reads.begin(), type.reads.end(), [](bool reads) { return reads; });
+}
+
+class Explainer {
+  public:
+    Explainer(const model::System& system, const Layout& layout, const observe::GroupStatistics& statistics)
+        : layout_(layout), seen_(statistics.groups()), wiring_(system, layout) {
+        for (const auto& p : system.processes)
+            for (const auto& g : p.groups) uses_[g.id] = &g.neuron;
+    }
+
+    std::vector<std::string> notes() const {
+        std::vector<std::string> out;
+        std::vector<bool> told(layout_.groups.size());
+        for (std::size_t g = 0; g < layout_.groups.size(); ++g)
+            for (const int m : wiring_.groups[g].readers)
+                if (silent(g)) {
+                    out.push_back(chain(g, m, told));
+                    break;
+                }
+        for (std::size_t g = 0; g < layout_.groups.size(); ++g) {
+            if (silent(g) && !told[g] && is_first(g) && wiring_.groups[g].driven())
+                out.push_back(fmt::format("{} was silent: {}", name(g), why_silent(g)));
+            if (auto text = clipped(g); !text.empty()) out.push_back(text);
+        }
+        return out;
+    }
+
+  private:
+    static std::size_t at(int number) { return static_cast<std::size_t>(number); }
+    const std::string& name(std::size_t g) const { return layout_.groups[g].path; }
+    const Spread& activity(std::size_t g) const {
+        return seen_[g].states[at(layout_.groups[g].type.output())];
+    }
+    bool silent(std::size_t g) const { return activity(g).silent(); }
+    const Spread* state(std::size_t g, std::string_view state_name) const {
+        const auto& states = layout_.groups[g].type.states;
+        for (std::size_t s = 0; s < states.size(); ++s)
+            if (states[s].name == state_name) return &seen_[g].states[s];
+        return nullptr;
+    }
+    /// The value of a number or a switch among the parameters of a group's type.
+    std::optional<double> parameter(std::size_t g, std::string_view parameter_name) const {
+        const auto& type = layout_.groups[g].type;
+        for (const auto& p : type.parameters)
+            if (p.name == parameter_name) {
+                const auto cell = type.make();
+                model::apply(uses_.at(layout_.groups[g].id)->settings, type.parameters, cell->parameters());
+                const ParameterValue value = p.get(cell->parameters());
+                if (const auto* number = std::get_if<double>(&value)) return *number;
+                if (const auto* on = std::get_if<bool>(&value)) return *on;
+            }
+        return std::nullopt;
+    }
+    /// The groups from which a group is excited.
+    std::vector<std::size_t> sources(std::size_t g) const {
+        std::vector<std::size_t> out;
+        for (const int c : wiring_.groups[g].incoming)
+            if (const auto& connection = layout_.connections[at(c)]; connection.kind == InputKind::excitatory)
+                if (const auto s = at(connection.source); std::find(out.begin(), out.end(), s) == out.end())
+                    out.push_back(s);
+        return out;
+    }
+    /// Whether the silence of a group is not explained by the silence of all its sources.
+    bool is_first(std::size_t g) const {
+        const auto from = sources(g);
+        return from.empty() || std::any_of(from.begin(), from.end(), [&](auto s) { return !silent(s); }) ||
+               !wiring_.groups[g].writers.empty();
+    }
+
+    std::string why_silent(std::size_t g) const {
+        const auto& type = layout_.groups[g].type;
+        const auto& wires = wiring_.groups[g];
+        const auto& inputs = seen_[g].inputs;
+        const Spread &excitation = inputs[number_of(InputKind::excitatory)],
+                     &inhibition = inputs[number_of(InputKind::inhibitory)];
+        if (!reads_input(type))
+            return fmt::format("{} reads no input, and its parameters keep it silent", type.name);
+        if (!wires.driven()) {
+            if (!wires.disabled.empty())
+                return fmt::format("the module of process '{}', which writes to it, is disabled",
+                                   wires.disabled);
+            if (!wires.ignored.empty())
+                return fmt::format("its only input is {}, which {} does not read",
+                                   kind_adjectives[number_of(layout_.connections[at(wires.ignored[0])].kind)],
+                                   type.name);
+            return "nothing drives it: no connection ends there, and no module writes to it";
+        }
+        if (type.reads[number_of(InputKind::excitatory)] && excitation.silent()) {
+            std::vector<std::string> active;
+            for (const auto s : sources(g))
+                if (!silent(s)) active.push_back(name(s));
+            if (!active.empty())
+                return fmt::format(
+                    "it received no excitation, although {} was active: look at the weight and the "
+                    "attenuation of the connection, and at excGain",
+                    fmt::join(active, " and "));
+            for (const int m : wires.writers)
+                return fmt::format("the module of process '{}' wrote only zeros to it",
+                                   layout_.modules[at(m)].process);
+            return "it received no excitation";
+        }
+        const auto* potential = state(g, "vm");
+        if (const auto threshold = parameter(g, "threshold");
+            potential && threshold && potential->most < *threshold) {
+            std::string text = fmt::format("its potential vm was {:.3g} at most, and its threshold is {:.3g}",
+                                           potential->most + 0.0, *threshold);
+            if (inhibition.most > 0)
+                text += fmt::format("; excitation was {:.3g} on average, inhibition {:.3g}",
+                                    excitation.mean(), inhibition.mean());
+            return text;
+        }
+        if (inhibition.mean() >= excitation.mean())
+            return fmt::format("inhibition ({:.3g} on average) outweighs excitation ({:.3g})",
+                               inhibition.mean(), excitation.mean());
+        return fmt::format("its input ({:.3g} on average) is not enough for {}", excitation.mean(),
+                           type.name);
+    }
+
+    /// The shortest way back from a silent group to one whose silence needs another explanation.
+    std::string chain(std::size_t g, int reader, std::vector<bool>& told) const {
+        const std::string text =
+            fmt::format("{} was silent, so the module of process '{}' read only zeros there: ", name(g),
+                        layout_.modules[at(reader)].process);
+        std::map<std::size_t, std::size_t> next{{g, g}};  // towards g
+        std::queue<std::size_t> waiting({g});
+        while (!waiting.empty()) {
+            const std::size_t now = waiting.front();
+            waiting.pop();
+            if (is_first(now)) {
+                told[now] = told[g] = true;
+                if (now == g) return text + why_silent(g);
+                std::vector<std::string> names;
+                for (std::size_t step = now; step != g; step = next.at(step)) names.push_back(name(step));
+                std::reverse(names.begin(), names.end());
+                return text + fmt::format("{} <- {}. {} is the first silent group on the way back: {}",
+                                          name(g), fmt::join(names, " <- "), name(now), why_silent(now));
+            }
+            for (const auto s : sources(now))
+                if (next.emplace(s, now).second) waiting.push(s);
+        }
+        return text + "it belongs to a loop of silent groups that nothing outside drives";
+    }
+
+    std::string clipped(std::size_t g) const {
+        const auto* potential = state(g, "vm");
+        const auto clips = parameter(g, "clipVm"), limit = parameter(g, "vmMax");
+        if (!potential || !clips || *clips == 0 || !limit || potential->most < *limit ||
+            seen_[g].inputs[number_of(InputKind::excitatory)].most <= *limit)
+            return {};
+        return fmt::format(
+            "{} was clipped: its excitation was up to {:.3g}, and vmMax keeps its potential at {:.3g}",
+            name(g), seen_[g].inputs[number_of(InputKind::excitatory)].most, *limit);
+    }
+
+    const Layout& layout_;
+    const std::vector<observe::GroupStatistics::Group>& seen_;
+    Wiring wiring_;
+    std::map<std::string, const model::TypeUse*> uses_;  ///< by the group's id
+};
+
+}  // namespace
+
+std::vector<std::string> wiring_notes(const model::System& system, const Layout& layout) {
+    std::vector<std::string> out;
+    const Wiring wiring(system, layout);
+    for (const auto& p : system.processes)
+        if (p.module && !p.module_enabled)
+            out.push_back(fmt::format("the module of process '{}' is disabled", model::trim(p.name)));
+    for (std::size_t g = 0; g < wiring.groups.size(); ++g) {
+        const auto& about = layout.groups[g];
+        const auto& wires = wiring.groups[g];
+        const bool used = wires.has_targets || !wires.readers.empty();
+        for (const int c : wires.ignored)
+            out.push_back(
+                fmt::format("connection '{}' delivers {} input to group '{}', and {} does not read that",
+                            layout.connections[static_cast<std::size_t>(c)].name,
+                            kind_adjectives[number_of(layout.connections[static_cast<std::size_t>(c)].kind)],
+                            about.path, about.type.name));
+        if (wires.driven() || !wires.ignored.empty() || !wires.disabled.empty()) continue;
+        if (!used)
+            out.push_back(
+                fmt::format("group '{}' has neither incoming nor outgoing connections", about.path));
+        else if (reads_input(about.type))
+            out.push_back(fmt::format("nothing drives group '{}'", about.path));
+    }
+    return out;
+}
+
+std::string activity_table(const Layout& layout, const observe::GroupStatistics& statistics) {
+    std::size_t widest = 5;
+    for (const auto& g : layout.groups) widest = std::max(widest, g.path.size());
+    std::string out = fmt::format("{:<{}}  {:>10}  {:>10}  {:>10}  {:>7}\n", "group", widest + 2, "mean",
+                                  "least", "largest", "active");
+    const auto row = [&](const std::string& what, const Spread& s) {
+        out += fmt::format("{:<{}}  {:>10.4g}  {:>10.4g}  {:>10.4g}  {:>5.1f} %\n", what, widest + 2,
+                           s.mean(), s.count ? s.least : 0, s.count ? s.most : 0, 100 * s.active_share());
+    };
+    for (std::size_t g = 0; g < layout.groups.size(); ++g) {
+        const auto& seen = statistics.groups()[g];
+        row(layout.groups[g].path, seen.states[static_cast<std::size_t>(layout.groups[g].type.output())]);
+        for (std::size_t k = 0; k < input_kinds; ++k)
+            if (!seen.inputs[k].silent()) row(std::string("  ") + kind_names[k], seen.inputs[k]);
+    }
+    return out;
+}
+
+std::vector<std::string> explanation(const model::System& system, const Layout& layout,
+                                     const observe::GroupStatistics& statistics) {
+    auto out = wiring_notes(system, layout);
+    for (auto& note : Explainer(system, layout, statistics).notes()) out.push_back(std::move(note));
+    return out;
+}
+
+}  // namespace forage

@@ -1,0 +1,70 @@
+"""`forage explain` tells what the groups of a system did, and why some of them did nothing.
+
+    explain_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
+"""
+
+import unittest
+
+from cli_test import EXERCISE, WORLD, Cli
+from prune_test import WEAK, connection, group
+
+NEURON = 'name="neuronLinearThreshold"><Parameter name="threshold" value="{}"/>'
+SPIKES = 'name="neuronRandomSpike"><Parameter name="probability" value="1"/>'
+STRONG = 'name="synapseFixedWeight"><Parameter name="weight" value="3"/>'
+ZERO = 'name="synapseFixedWeight"><Parameter name="weight" value="0"/>'
+CLIPS = 'name="neuronLinearThreshold"><Parameter name="clipVm" value="true"/><Parameter name="vmMax" value="1"/>'
+
+
+def system(groups, connections):
+    return f"""<?xml version="1.0" encoding="UTF-8"?>
+<System id="s" name="small" author="" date="" cylesPerSecond="25">
+  <Process id="p" name="P"><DiagramIcon x="0" y="0"/>{"".join(groups)}</Process>{"".join(connections)}
+</System>
+"""
+
+
+class Explain(Cli):
+    def explain(self, groups, connections):
+        (self.here / "small.iqr").write_text(system(groups, connections))
+        return self.forage("explain", "small.iqr", "--cycles", 20).stdout
+
+    def test_the_silent_motor_of_the_exercise_is_followed_to_its_cause(self):
+        said = self.forage("explain", EXERCISE, "--world", WORLD, "--seconds", 20).stdout
+        self.assertIn("Bug/Motor <- Selection/Motor In <- Selection/UR <- Selection/Approach <- Reactive Layer/Approach. "
+                      "Reactive Layer/Approach is the first silent group on the way back: its potential vm was 0.117 at most, "
+                      "and its threshold is 0.7", said)
+        self.assertIn("it has not moved; 'forage explain' tells why", said)
+        self.assertRegex(said, r"Reactive Layer/US +0\.\d+ +0 +0\.1166 +91\.9 %")
+        self.assertRegex(said, r"  excitation +0\.\d+ +0 +0\.1166 +99\.1 %")
+        self.assertFalse((self.here / "forage-out").exists())
+
+    def test_each_reason(self):
+        said = self.explain(
+            [group("S", SPIKES), group("Low", NEURON.format(0.5)), group("Full", CLIPS), group("None", NEURON.format(0.1)),
+             group("Alone", NEURON.format(0.1)), group("After", NEURON.format(0.1))],
+            [connection("1", "S", "Low", WEAK), connection("2", "S", "Full", STRONG), connection("3", "S", "None", ZERO),
+             connection("4", "Alone", "After", STRONG),
+             connection("5", "S", "After", WEAK).replace('"excitatory"', '"modulatory"')])
+        for note in ("nothing drives group 'P/Alone'",
+                     "connection '5' delivers modulatory input to group 'P/After', and neuronLinearThreshold does not read that",
+                     "P/Low was silent: its potential vm was 0.2 at most, and its threshold is 0.5",
+                     "P/None was silent: it received no excitation, although P/S was active",
+                     "P/Full was clipped: its excitation was up to 6, and vmMax keeps its potential at 1"):
+            self.assertIn("- " + note, said)
+        self.assertNotIn("- P/S was", said)
+
+    def test_check_notes_what_is_known_without_a_run(self):
+        (self.here / "small.iqr").write_text(system([group("A", NEURON.format(0)), group("B", NEURON.format(0))],
+                                                    [connection("1", "A", "B", STRONG)]))
+        self.assertIn("note: nothing drives group 'P/A'", self.forage("check", "small.iqr").stdout)
+
+    def test_groups_are_recorded_by_wildcards(self):
+        (self.here / "small.iqr").write_text(system([group("A", SPIKES), group("B", NEURON.format(0))], [connection("1", "A", "B", STRONG)]))
+        self.forage("run", "small.iqr", "--cycles", 3, "-r", "*", "-r", "P/*:vm", "-r", "*:excIn", "-o", "out")
+        self.assertEqual(sorted(p.name for p in (self.here / "out").glob("P_*.csv")),
+                         ["P_A_act.csv", "P_A_excIn.csv", "P_B_act.csv", "P_B_excIn.csv", "P_B_vm.csv"])
+        self.assertIn("there is no group 'Q/*'", self.forage("run", "small.iqr", "-r", "Q/*", status=2).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=["explain_test.py"], defaultTest="Explain")
