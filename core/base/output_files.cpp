@@ -26,10 +26,8 @@ void check_output(const std::string& path, const std::string& example, Diagnosti
     namespace fs = std::filesystem;
     const std::string directory = fs::path(path).parent_path().string();
     std::error_code none;
-    if (!directory.empty() && !fs::is_directory(directory, none))
-        diagnostics.error({}, fmt::format("there is no directory '{}' for '{}'", directory, path),
-                          "create it first, or name another");
-    else if (access(directory.empty() ? "." : directory.c_str(), W_OK | X_OK) != 0)
+    if (!directory.empty()) fs::create_directories(directory, none);
+    if (access(directory.empty() ? "." : directory.c_str(), W_OK | X_OK) != 0)
         diagnostics.error({}, fmt::format("cannot write '{}': {}", path, std::strerror(errno)),
                           "name a file in a directory that you may write to");
     else if (fs::exists(path, none) && !fs::is_regular_file(path, none))

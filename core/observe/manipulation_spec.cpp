@@ -8,6 +8,7 @@
 
 #include "core/base/drive_table.h"
 #include "core/base/named_file.h"
+#include "core/base/number.h"
 #include "core/observe/pattern_file.h"
 
 namespace forage::observe {
@@ -93,8 +94,11 @@ class ManipulationReader {
     }
 
     void add_patterns(const Spec& spec, Settings settings) {
-        settings.patterns =
-            read_patterns(spec.patterns.text, layout_.groups[settings.group].shape, diagnostics_);
+        const GroupShape& shape = layout_.groups[settings.group].shape;
+        if (const auto value = parse_number<double>(spec.patterns.text))
+            settings.patterns = {std::vector<double>(static_cast<std::size_t>(shape.cells), *value)};
+        else
+            settings.patterns = read_patterns(spec.patterns.text, shape, diagnostics_);
         if (!settings.patterns.empty()) made_.push_back({&spec, std::move(settings), {}});
     }
 
@@ -134,7 +138,8 @@ class ManipulationReader {
                 return report(e, diagnostics_);
             diagnostics_.error(
                 {}, fmt::format("{} '{}': {}", what({}), spec.table.text, e.errors().front().message),
-                "write 'Process/Group(x,y)=value' or 'Process/Group=FILE', or name a table of "
+                "write 'Process/Group=value', 'Process/Group(x,y)=value' or 'Process/Group=FILE', or name a "
+                "table of "
                 "rows cycle,process,group,v0,v1,...");
         }
     }

@@ -40,7 +40,8 @@ double MeasuredTrials::recent_success(std::size_t count) const {
     const std::size_t first = count - std::min(count, window);
     double reached = 0;
     for (std::size_t i = first; i < count; ++i) reached += finished[i].reached_target;
-    return 100.0 * reached / static_cast<double>(count - first) / 100;  // rounded as the percentage in the summary
+    return 100.0 * reached / static_cast<double>(count - first) /
+           100;  // rounded as the percentage in the summary
 }
 
 TrialRecorder::TrialRecorder(const Environment& environment, std::size_t robot, const engine::Layout& layout,
@@ -76,14 +77,17 @@ TrialMeasures TrialRecorder::at_end(const Trial& trial, const engine::Simulation
 
 MeasuredTrial TrialRecorder::measured(const Trial& trial, const TrialMeasures& measures) const {
     MeasuredTrial out{trial, measures, {}};
-    for (const Sighting& s : measures.patches) out.route += (out.route.empty() ? "" : " > ") + colours_[s.patch];
+    for (const Sighting& s : measures.patches)
+        out.route += (out.route.empty() ? "" : " > ") + colours_[s.patch];
     return out;
 }
 
-MeasuredTrials TrialRecorder::trials(const Environment& environment, const engine::Simulation& simulation) const {
+MeasuredTrials TrialRecorder::trials(const Environment& environment,
+                                     const engine::Simulation& simulation) const {
     MeasuredTrials out;
     const auto& finished = environment.trials(robot_);
-    for (std::size_t i = 0; i < finished.size(); ++i) out.finished.push_back(measured(finished[i], finished_[i]));
+    for (std::size_t i = 0; i < finished.size(); ++i)
+        out.finished.push_back(measured(finished[i], finished_[i]));
     if (const Trial running = environment.current_trial(robot_); running.cycles > 0)
         out.running = measured(running, at_end(running, simulation));
     return out;
@@ -104,10 +108,13 @@ std::string trials_csv(const MeasuredTrials& trials) {
         const bool finished = !recent.empty();
         out += fmt::format(
             "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", t.number, t.start.x, t.start.y,
-            t.start.yaw, t.cycles, t.smallest_distance,
-            t.reached_target ? "target" : finished ? "missed" : "unfinished", t.first_cycle, t.end.x, t.end.y,
-            t.end.yaw, m.start ? fmt::format("{}", m.start) : "", t.route, recent,
-            m.discrepancy ? fmt::format("{}", *m.discrepancy) : "",
+            t.start.yaw, t.cycles,
+            std::isfinite(t.smallest_distance) ? fmt::format("{}", t.smallest_distance) : "",
+            t.reached_target ? "target"
+            : finished       ? "missed"
+                             : "unfinished",
+            t.first_cycle, t.end.x, t.end.y, t.end.yaw, m.start ? fmt::format("{}", m.start) : "", t.route,
+            recent, m.discrepancy ? fmt::format("{}", *m.discrepancy) : "",
             peaks ? fmt::format("{}", peaks->cue) : "", peaks ? fmt::format("{}", peaks->distractor) : "",
             m.memory ? fmt::format("{}", m.memory->sequences) : "",
             m.memory ? fmt::format("{}", m.memory->segments) : "");

@@ -230,7 +230,8 @@ class Run(Cli):
             self.assertIn(message, self.forage("run", "small.iqr", "--cycles", 1, "--replay", "d.csv", "--clamp", "P/A=p.txt", status=2).stderr)
 
     def test_at_a_trial(self):
-        self.run_robot("--trials", 3, "-r", "Bug/Motor", "--schedule", "trial 3: Motor In to Motor.weight=0", "--trial-timeout", 20)
+        self.run_robot("--trials", 3, "-r", "Bug/Motor", "--schedule", "trial 3: Motor In to Motor.weight=0", "--trial-timeout", 20,
+                       status=1)
         cycle = json.loads((self.here / "out/run.json").read_text())["result"]["changes"][0]["cycle"]
         trials = self.table("out/trials.csv")[1:]
         third = int(trials[2][7])  # first_cycle
@@ -241,7 +242,8 @@ class Run(Cli):
         self.assertFalse(any(any(row) for c, row in motor.items() if c > cycle))
 
     def test_the_exercise_stands_still_and_the_run_ends(self):
-        done = self.run_robot("--trials", 2, "--trial-timeout", 20, system=EXERCISE)
+        done = self.run_robot("--trials", 2, "--trial-timeout", 20, system=EXERCISE, status=1)
+        self.assertEqual(done.stderr, "error: trial 1 did not end within 20 s (--trial-timeout)\n")
         self.assertIn("did not end within 20 s", done.stdout)
         self.assertIn("0.00 m apart", done.stdout)
 
@@ -364,7 +366,7 @@ class Mistakes(Cli):
             (["--clamp", "Bug/Motor:vm(1,1)=1"], "only the activity"),
             (["--add", "Bug/Motor(1,1)=x"], "--add '(1,1)=x', column 7: 'x' is not a number"),
             (["--add", "Bug/Motor(1,1)=1 2"], "column 9: '2' is not a cell with a value"),
-            (["--add", "Bug/Motor"], "write 'Process/Group(x,y)=value' or 'Process/Group=FILE', or name a table"),
+            (["--add", "Bug/Motor"], "write 'Process/Group=value', 'Process/Group(x,y)=value' or 'Process/Group=FILE', or name a table"),
             (["--multiply", "Bug/Motor(1,1)=1; evry 2"], "'evry 2' is not an option of a manipulation; options are every N, step N"),
             (["--multiply", "Bug/Motor(1,1)=1; every 0"], "'every' needs a whole number, at least 1"),
             (["--add", "Bug/Motor(1,1)=1; from trail 2"], "column 8: a comparison is missing behind 'trail 2'"),
@@ -588,7 +590,7 @@ class Others(Cli):
                 continue  # long, and tests/closed_loop/learning_test.py runs them
             with self.subTest(command):
                 done = subprocess.run([FORAGE, *shlex.split(command)[1:]], cwd=self.here, capture_output=True, text=True, timeout=120)
-                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(done.returncode, 1 if "--trial-timeout" in command else 0, done.stderr)
 
     def test_shipped_floors_are_what_their_script_draws(self):
         script = PROJECT / "systems" / "worlds" / "make_floors.py"

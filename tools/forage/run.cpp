@@ -68,7 +68,10 @@ int run_to_end(const RunOptions& o, PreparedRun& prepared) {
     }
     for (const auto& problem : outcome.problems) fmt::print(stderr, "error: {}\n", problem);
     if (!outcome.problems.empty()) return run_failed;
-    return noted_signal() ? 128 + noted_signal() : fine;
+    if (noted_signal()) return 128 + noted_signal();
+    if (outcome.stopped.empty()) return fine;
+    fmt::print(stderr, "error: {}\n", outcome.stopped);
+    return run_failed;
 }
 
 }  // namespace forage::tool

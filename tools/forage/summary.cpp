@@ -44,8 +44,10 @@ std::string summary(const PreparedRun& p, const RunOutcome& outcome, bool resuma
     line("cycles", fmt::format("{} ({:.1f} s {})", run.cycle(), run.seconds(),
                                environment ? "in the world" : "at the system's pace"));
     const auto done = static_cast<double>(run.cycle() - outcome.first_cycle);
-    line("speed", fmt::format("{:.0f} cycles/s, {:.0f} x real time ({:.2f} s)", done / outcome.clock_seconds,
-                              run.seconds_per_cycle() * done / outcome.clock_seconds, outcome.clock_seconds));
+    if (done > 0)
+        line("speed",
+             fmt::format("{:.0f} cycles/s, {:.0f} x real time ({:.2f} s)", done / outcome.clock_seconds,
+                         run.seconds_per_cycle() * done / outcome.clock_seconds, outcome.clock_seconds));
     if (p.spec.threads > 1) line("threads", threads_line(p.spec.threads, simulation.shared_cycles(), done));
     for (const auto& e : p.schedule->entries())
         line(e.cycle ? "changed" : "not changed", e.cycle
