@@ -601,8 +601,8 @@ class Others(Cli):
 class Original(Cli):
     FILES = SHARED / "original" / "DAC_files"
 
-    def run_original(self, system, *arguments):
-        self.forage("run", self.FILES / system, "--world", self.FILES / "DAC_basic_arena.world", "-o", "out", *arguments)
+    def run_original(self, system, *arguments, **more):
+        self.forage("run", self.FILES / system, "--world", self.FILES / "DAC_basic_arena.world", "-o", "out", *arguments, **more)
         return json.loads((self.here / "out/run.json").read_text())["result"]
 
     def test_the_tutorials_system_reaches_the_target_in_most_trials(self):
@@ -622,7 +622,7 @@ class Original(Cli):
                 self.assertEqual(json.loads((self.here / "out/run.json").read_text())["result"]["cycles"], 1000)
 
     def test_the_tutorials_incomplete_system_stands_still(self):
-        result = self.run_original("DACReactiveBug_ex.iqr", "--trials", 30)
+        result = self.run_original("DACReactiveBug_ex.iqr", "--trials", 30, status=1)
         self.assertEqual(result["robots"][0]["trials"], 0)
         self.assertIn("did not end", result["stopped"])
 
