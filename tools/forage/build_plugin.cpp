@@ -33,7 +33,7 @@ std::optional<Sdk> find_sdk() {
     const fs::path source = FORAGE_SOURCE_DIR;
     if (fs::exists(source / "tools/api/forage/plugin.h"))
         return Sdk{source,
-                   prefix / "core/types/libforage_random.a",
+                   prefix / "core/base/libforage_random.a",
                    {(source / "tools/api").string(), source.string()}};
     return std::nullopt;
 }
