@@ -244,5 +244,17 @@ class Found(Plugins):
         self.assertIn("neuronTwice", self.forage("schema", "--plugin", self.PLUGIN).stdout)
 
 
+class BuildTree(unittest.TestCase):
+    def test_build_plugin_compiles_a_new_type_and_its_example_gives_the_expected_rows(self):
+        for kind in ("neuron", "synapse"):
+            with self.subTest(kind), tempfile.TemporaryDirectory() as folder:
+                here = pathlib.Path(folder) / "mine"
+                for words in (["new", kind, "mine"], ["build-plugin", "mine/mine.cpp"],
+                              ["run", "mine/example.iqr", "--cycles", "6", "--record", "Example/Cells", "-o", "mine/out"]):
+                    done = subprocess.run([FORAGE, *words], cwd=folder, capture_output=True, text=True, timeout=300)
+                    self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                self.assertEqual((here / "out/Example_Cells_act.csv").read_text(), (here / "expected.csv").read_text())
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])
