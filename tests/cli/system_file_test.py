@@ -83,7 +83,7 @@ class Reference(unittest.TestCase):
                 page.write_text(now)
             else:
                 self.assertEqual(text, now, f"a table of {page.name} differs from 'forage schema --markdown': {REMEDY}")
-        self.assertEqual(sorted(found), sorted(made), "each element and type has one table")
+        self.assertEqual(sorted(found), sorted(made), "a new element or type needs '<!-- table: NAME -->' and '<!-- end -->' in one of the pages")
 
     def test_systems_are_sound_and_run(self):
         systems = SYSTEM.findall(PAGES[0].read_text())
