@@ -11,9 +11,9 @@ namespace forage::plugin {
 /// Updates an object of `type` a few times. Returns how the type breaks its declaration, with the numbers;
 /// empty when no violation was seen. Other exceptions of an update are left to the run.
 ///
-/// A neuron type without a Cell must use the states that it declares, and write inside its columns. A synapse
-/// type that is declared event driven must be so for all numbers, and for parameters anywhere in their
-/// ranges.
+/// A neuron type must read the inputs and use the states that it declares, write inside its columns, and
+/// compute the same numbers whenever it starts anew. A synapse type that is declared event driven must be so
+/// for all numbers, and for parameters anywhere in their ranges.
 std::string contract_violation(const NeuronType& type);
 std::string contract_violation(const SynapseType& type);
 

@@ -105,6 +105,10 @@ class Loader {
         } catch (...) {
             return fmt::format("its constructor throws: {}", current_exception_message());
         }
+        for (const auto& p : type.parameters)
+            if (outside(p.default_value, p.range))
+                return fmt::format("its parameter '{}' is {} by default, outside its own range {} to {}",
+                                   p.name, to_text(p.default_value), p.range->low, p.range->high);
         if constexpr (std::is_same_v<Type, NeuronType>)
             for (const auto& s : type.states)
                 if (s.history < 1)

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <numbers>
 #include <type_traits>
 #include <utility>
 
@@ -13,6 +15,13 @@
 #include "core/types/numbers.h"
 
 namespace forage {
+
+/// Returns a number with the normal distribution of mean 0 and standard deviation 1, computed from two
+/// independent numbers that are uniform in [0, 1), such as Input::random (Box and Muller, Ann. Math. Stat.
+/// 29, 1958).
+inline double normal(double u, double v) {
+    return std::sqrt(-2 * std::log(1 - u)) * std::cos(2 * std::numbers::pi * v);
+}
 
 /// What one cell receives in one cycle.
 struct Input {

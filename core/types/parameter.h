@@ -79,6 +79,10 @@ class ParameterBuilder {
 namespace detail {
 
 template <class M>
+inline constexpr bool is_parameter = std::is_same_v<M, bool> || std::is_same_v<M, double> ||
+                                     std::is_same_v<M, int> || std::is_same_v<M, std::string>;
+
+template <class M>
 constexpr ParameterKind kind_of() {
     if constexpr (std::is_same_v<M, bool>)
         return ParameterKind::boolean;
@@ -87,7 +91,7 @@ constexpr ParameterKind kind_of() {
     else if constexpr (std::is_same_v<M, int>)
         return ParameterKind::integer;
     else {
-        static_assert(std::is_same_v<M, std::string>, "a parameter is a bool, double, int or std::string");
+        static_assert(is_parameter<M>, "a parameter is a bool, double, int or std::string");
         return ParameterKind::text;
     }
 }
@@ -103,15 +107,19 @@ Parameter make_parameter(std::string name, Path... path) {
     p.label = name;
     p.name = std::move(name);
     p.kind = kind_of<M>();
-    const T defaults{};
-    p.default_value = ParameterValue(member(defaults));
-    p.offset = static_cast<std::size_t>(reinterpret_cast<const char*>(&member(defaults)) -
-                                        reinterpret_cast<const char*>(&defaults));
-    p.size = sizeof(M);
-    p.set = [member](void* object, const ParameterValue& v) {
-        member(*static_cast<T*>(object)) = std::get<M>(v);
-    };
-    p.get = [member](const void* object) { return ParameterValue(member(*static_cast<const T*>(object))); };
+    if constexpr (is_parameter<M>) {  // otherwise kind_of() says what is wrong, in one line
+        const T defaults{};
+        p.default_value = ParameterValue(member(defaults));
+        p.offset = static_cast<std::size_t>(reinterpret_cast<const char*>(&member(defaults)) -
+                                            reinterpret_cast<const char*>(&defaults));
+        p.size = sizeof(M);
+        p.set = [member](void* object, const ParameterValue& v) {
+            member(*static_cast<T*>(object)) = std::get<M>(v);
+        };
+        p.get = [member](const void* object) {
+            return ParameterValue(member(*static_cast<const T*>(object)));
+        };
+    }
     return p;
 }
 

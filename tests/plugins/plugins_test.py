@@ -19,6 +19,10 @@ BROKEN = pathlib.Path(sys.argv[2]).resolve() / "broken"
 
 # The message for each broken plugin: the error, and a part of the hint.
 CORPUS = {
+    "another_each_time": (r"'neuronAnotherEachTime' that does not work: it computes other numbers when it starts anew", ""),
+    "default_outside": (r"'neuronDefaultOutside' that does not work: its parameter 'rate' is 5 by default, outside its own range 0 to 1", ""),
+    "reads_modulation": (r"'neuronReadsModulation' that does not work: its update\(\) reads the modulatory input, and its describe\(\) does not "
+                         r"declare reads\(InputKind::modulatory\)", ""),
     "behind_the_end": (r"has a neuron type 'neuronBehindTheEnd' that does not work: it writes beside its columns", ""),
     "half_good": (r"neuron type 'neuronBad' declares the state 'act' twice", ""),
     "no_history": (r"state 'act' has a history of 0, the least is 1", ""),
