@@ -64,12 +64,32 @@ class HowTo(unittest.TestCase):
         return commands
 
     def test_every_page_is_followed_to_its_last_block(self):
-        for page in ("write-a-neuron", "embed", "write-an-observer"):
+        for page in ("write-a-neuron", "three-factor-learning", "embed", "write-an-observer"):
             text = (PAGES / f"{page}.md").read_text()
             self.assertEqual(len(re.findall(r"^```\w+$", text, re.MULTILINE)), len(list(BLOCK.finditer(text))), page)
 
     def test_write_a_neuron(self):
         self.assertGreaterEqual(self.follow("write-a-neuron"), 15)
+
+    def test_three_factor_learning(self):
+        self.assertGreaterEqual(self.follow("three-factor-learning"), 3)
+
+    def test_a_parameter_of_an_unsupported_type_gives_one_error(self):
+        (self.folder / "wrong.cpp").write_text("""#include <forage/plugin.h>
+struct Wrong {
+    std::vector<double> rates;
+    struct Cell { double act = 0; };
+    static void describe(forage::NeuronSpec<Wrong>& s) {
+        s.name("neuronWrong", "Wrong").output("act", &Cell::act, "Activity");
+        s.param("rates", &Wrong::rates);
+    }
+    void update(Cell&, const forage::Input&) const {}
+};
+FORAGE_PLUGIN(Wrong);
+""")
+        done = subprocess.run(["forage", "build-plugin", "wrong.cpp"], cwd=self.folder, env=self.environment, capture_output=True, text=True)
+        self.assertEqual(re.findall(r"error: (static assertion failed: )?(.*)", done.stderr)[0][1], "a parameter is a bool, double, int or std::string")
+        self.assertEqual(done.stderr.count("error: "), 2, done.stderr)  # the compiler's, and "does not compile"
 
     def test_embed(self):
         self.assertGreaterEqual(self.follow("embed"), 3)
