@@ -120,21 +120,21 @@ void Camera::make_samples(int samples_per_axis) {
 }
 
 void Camera::make_floor_points() {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
+    constexpr float beyond = std::numeric_limits<float>::infinity();
     for (const FloorSurface& floor : scene_->floors()) {
         FloorPoints points;
         for (std::size_t k = 0; k < ray_x_.size(); ++k) {
             const double depth = (floor.z - mount_.translation().z()) / ray_z_[k];
             const bool met = ray_z_[k] < 0 && depth > 0 && depth <= far_;
             points.x.push_back(met ? static_cast<float>(mount_.translation().x() + depth * ray_x_[k])
-                                   : infinity);
+                                   : beyond);
             points.y.push_back(met ? static_cast<float>(mount_.translation().y() + depth * ray_y_[k])
-                                   : infinity);
-            points.depth.push_back(met ? static_cast<float>(depth) : infinity);
+                                   : beyond);
+            points.depth.push_back(met ? static_cast<float>(depth) : beyond);
         }
         for (Tile& tile : tiles_)
             for (int k = 0; k < tile.pixels * samples_; ++k)
-                tile.reaches_floor &= points.depth[tile.first + static_cast<std::size_t>(k)] < infinity;
+                tile.reaches_floor &= points.depth[tile.first + static_cast<std::size_t>(k)] < beyond;
         floor_points_.push_back(std::move(points));
     }
 }

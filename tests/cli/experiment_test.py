@@ -266,6 +266,10 @@ class Plots(Experiment):
             self.assertEqual(sorted(p.name for p in run.glob("*.png")),
                              ["space_Bug_Motor_20_40.png", "time_Bug_Light.png", "trajectory.png"])
         self.assertNotEqual((runs[0] / "time_Bug_Light.png").read_bytes(), (runs[1] / "time_Bug_Light.png").read_bytes())
+        path = (runs[0] / "trajectory.png").read_bytes()
+        (runs[0] / "trajectory.png").unlink()
+        self.forage("plot", runs[0], "trajectory")
+        self.assertEqual((runs[0] / "trajectory.png").read_bytes(), path)
 
 
 class Mistakes(Experiment):

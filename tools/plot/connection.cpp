@@ -60,7 +60,7 @@ std::string cells_of(const std::string& name, const GroupShape& s) {
 }  // namespace
 
 Picture connection_plot(const ConnectionPlot& plot) {
-    constexpr double left = 78, top = 66, bottom = 50, gap = 22, bar = 16;  // pixels around the tables
+    constexpr double top = 66, bottom = 50, bar = 16;  // pixels around the tables
     struct Panel {
         SynapseTable table;
         ColourScale scale;
@@ -78,8 +78,12 @@ Picture connection_plot(const ConnectionPlot& plot) {
     const SynapseTable& t = panels[0].table;
     const int cell = std::clamp(longest_side / std::max(t.columns, t.rows), 1, 28);
     const double width = cell * t.columns, height = cell * t.rows, tall = std::max(height, 110.0);
-    const double step = left + width + gap + bar + colour_bar_labels;
     Measure measure;
+    // The label below a narrow table is wider than the table, on both sides.
+    const std::string below = measure.canvas().fitted(cells_of(plot.source, plot.source_shape), 13, 320);
+    const double beside = std::max(0.0, (measure.canvas().width_of(below, 13) - width) / 2);
+    const double left = std::max(78.0, beside + 12), gap = std::max(22.0, beside + 10);
+    const double step = left + width + gap + bar + colour_bar_labels;
     const double room = std::max({step * static_cast<double>(panels.size()),
                                   24 + measure.canvas().width_of(plot.title, 15, true),
                                   24 + measure.canvas().width_of(plot.subtitle, 12), 420.0});
@@ -97,8 +101,7 @@ Picture connection_plot(const ConnectionPlot& plot) {
                 });
                 const Axes axes{
                     box, {0.5, plot.source_shape.cells + 0.5}, {0.5, plot.target_shape.cells + 0.5}, true};
-                draw_axes(canvas, axes,
-                          {canvas.fitted(cells_of(plot.source, plot.source_shape), 13, step - 40), true},
+                draw_axes(canvas, axes, {below, true},
                           {canvas.fitted("cell of " + plot.target, 13, tall), true});
                 draw_colour_bar(canvas, p.scale, {box.right() + gap, top, bar, tall}, p.quantity);
                 x += step;

@@ -10,6 +10,7 @@
 
 #include "core/model/edit.h"
 #include "core/model/validate.h"
+#include "core/run/run_json.h"
 
 namespace forage {
 namespace {
@@ -146,6 +147,9 @@ class Work {
             const std::lock_guard lock(libraries_);
             run.finish(files);
         }
+        RunOutcome outcome;
+        outcome.stopped = result.stopped, outcome.files = files;
+        files.write("run.json", [&] { return run_json(prepared, outcome); });  // for `forage plot` and `view`
         if (stopped_by_user) return std::nullopt;
         if (!files.problems().empty()) return failed(files.problems().front());
         write_result(runs_[index], key(index), result, files.names());

@@ -14,4 +14,4 @@ struct AnotherEachTime {
         cell.act = ++shared;
     }
 };
-FORAGE_PLUGIN(AnotherEachTime)
+FORAGE_PLUGIN(AnotherEachTime);

@@ -13,4 +13,4 @@ struct DefaultOutside {
     }
     void update(Cell& cell, const Input&) const { cell.act = rate; }
 };
-FORAGE_PLUGIN(DefaultOutside)
+FORAGE_PLUGIN(DefaultOutside);

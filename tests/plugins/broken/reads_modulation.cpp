@@ -13,4 +13,4 @@ struct ReadsModulation {
     }
     void update(Cell& cell, const Input& in) const { cell.act = in.excitation * (1 + in.modulation); }
 };
-FORAGE_PLUGIN(ReadsModulation)
+FORAGE_PLUGIN(ReadsModulation);
