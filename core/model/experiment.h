@@ -17,6 +17,8 @@ struct Measure {
         duration,  ///< mean length of the trials, s
         first,     ///< number of cycles until a condition first holds
         final,     ///< a quantity at the end of the run
+        trials,    ///< fraction of the trials in which a condition held, 0..1
+        cycles,    ///< number of cycles, outside resets, before which a condition held
     };
     std::string name;
     Kind kind = Kind::success;
@@ -34,6 +36,23 @@ struct RecordingSpec {
 struct Sweep {
     Expression parameter;  ///< "WHERE.parameter"
     std::vector<Expression> values;
+};
+
+/// What a system must have or do in an exercise: a number within bounds.
+struct Requirement {
+    std::string what;    ///< such as "the robot reaches the light"
+    std::string advice;  ///< what to say when it is missing; {n}, {all} and {value} stand for numbers
+    std::optional<Measure> measure;  ///< empty: the number of synapses between these cells
+    Expression from, to;             ///< "Process/Group" or some of its cells; no `from` means any group
+    std::string kind;                ///< excitatory, inhibitory or modulatory; empty: any
+    std::optional<double> at_least, at_most;
+};
+
+/// An exercise of a tutorial: users complete a system until it meets the requirements.
+struct Exercise {
+    std::string start;  ///< the system that users complete, relative to the working directory
+    Location start_at;
+    std::vector<Requirement> requirements;
 };
 
 struct Experiment {
@@ -59,6 +78,7 @@ struct Experiment {
     std::vector<Expression> plots;
     std::vector<Measure> measures;
     std::vector<Sweep> sweeps;  ///< every combination of their values is run with every seed
+    std::optional<Exercise> exercise;
 };
 
 }  // namespace forage::model

@@ -11,6 +11,8 @@ namespace {
 
 using Kind = model::Measure::Kind;
 
+bool counts(Kind kind) { return kind == Kind::trials || kind == Kind::cycles; }
+
 /// A mean over the last `last` finished trials of the first robot; empty when there are none.
 std::optional<double> mean_of_trials(const model::Measure& m, const Environment& environment) {
     const std::span all(environment.trials(0));
@@ -29,14 +31,15 @@ RunMeasures::RunMeasures(std::span<const model::Measure> measures, const engine:
                          Diagnostics& diagnostics) {
     for (const auto& m : measures) {
         Entry e{m, std::nullopt, std::nullopt, std::nullopt};
-        if (m.kind == Kind::first) {
+        if (m.kind == Kind::first || counts(m.kind)) {
             e.condition =
                 observe::parse_condition(layout, trials, m.what.text, "measure", diagnostics, m.what.at);
             ++waiting_;
         } else if (m.kind == Kind::final) {
             e.quantity =
                 observe::parse_quantity(layout, trials, m.what.text, "measure", diagnostics, m.what.at);
-        } else if (!trials) {
+        }
+        if (!trials && (m.kind == Kind::success || m.kind == Kind::duration || m.kind == Kind::trials)) {
             diagnostics.error(m.at, fmt::format("measure '{}': this experiment has no trials", m.name),
                               "trials are those of a robot that its world puts back to the start");
         }
@@ -54,7 +57,7 @@ void RunMeasures::declare(engine::Demand& demand) const {
 void RunMeasures::check(const engine::Simulation& simulation, Diagnostics& diagnostics) const {
     const SimTime start{0, 0, 1};
     for (const auto& e : entries_)
-        if (e.condition && e.condition->sees_cells() && e.condition->holds(simulation, start))
+        if (e.spec.kind == Kind::first && e.condition->sees_cells() && e.condition->holds(simulation, start))
             diagnostics.warning(e.spec.what.at,
                                 fmt::format("measure '{}' holds before the first cycle, when all cells are 0",
                                             e.spec.what.text),
@@ -63,23 +66,50 @@ void RunMeasures::check(const engine::Simulation& simulation, Diagnostics& diagn
 
 void RunMeasures::before_cycle(RunView& run) {
     if (waiting_ == 0) return;
-    for (auto& e : entries_)
-        if (e.condition && !e.first && e.condition->holds(run.simulation, run.time)) {
+    const bool resetting = run.environment && run.environment->resetting(0);
+    for (auto& e : entries_) {
+        const bool counted = counts(e.spec.kind);
+        if (!e.condition || (counted ? resetting : e.first.has_value()) ||
+            !e.condition->holds(run.simulation, run.time))
+            continue;
+        if (!counted) {
             e.first = static_cast<double>(run.time.cycle);
             --waiting_;
+            continue;
         }
+        ++e.cycles;
+        if (e.last_trial != run.time.trial) ++e.trials;
+        e.last_trial = run.time.trial;
+    }
+}
+
+std::optional<double> RunMeasures::value(Entry& e, RunView& run) const {
+    switch (e.spec.kind) {
+        case Kind::success:
+        case Kind::duration:
+            return mean_of_trials(e.spec, *run.environment);
+        case Kind::trials: {
+            const auto finished = static_cast<int>(run.environment->trials(0).size());
+            const int held = e.trials - (e.last_trial > finished ? 1 : 0);
+            return finished == 0 ? std::nullopt : std::optional(static_cast<double>(held) / finished);
+        }
+        case Kind::cycles:
+            return static_cast<double>(e.cycles);
+        case Kind::first:
+            return e.first;
+        case Kind::final:
+            return e.quantity->in(run.simulation, run.time);
+    }
+    return std::nullopt;
 }
 
 std::vector<std::optional<double>> RunMeasures::values(RunView& run) {
     before_cycle(run);  // a condition may hold after the last cycle
     std::vector<std::optional<double>> out;
-    for (const auto& e : entries_) {
-        std::optional<double> value = e.first;
-        if (e.quantity) value = e.quantity->in(run.simulation, run.time);
-        if (e.spec.kind == Kind::success || e.spec.kind == Kind::duration)
-            value = mean_of_trials(e.spec, *run.environment);
-        if (value && !std::isfinite(*value)) value.reset();
-        out.push_back(value);
+    for (auto& e : entries_) {
+        auto number = value(e, run);
+        if (number && !std::isfinite(*number)) number.reset();
+        out.push_back(number);
     }
     return out;
 }

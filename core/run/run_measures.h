@@ -11,8 +11,8 @@
 
 namespace forage {
 
-/// Takes the measures of an experiment file: the cycles in which conditions first hold, quantities at the
-/// end, and means over trials.
+/// Takes the measures of an experiment file: when, how long and in how many trials conditions hold,
+/// quantities at the end, and means over trials.
 class RunMeasures final : public Observer {
   public:
     /// Reports measures that are impossible. `trials` says whether the run has trials.
@@ -25,7 +25,7 @@ class RunMeasures final : public Observer {
     void check(const engine::Simulation& simulation, Diagnostics& diagnostics) const override;
     void before_cycle(RunView& run) override;
     void checkpoint(Archive& archive) override {
-        for (auto& e : entries_) archive(e.first);
+        for (auto& e : entries_) archive(e.first, e.cycles, e.trials, e.last_trial);
         archive(waiting_);
     }
 
@@ -39,9 +39,15 @@ class RunMeasures final : public Observer {
         std::optional<observe::Condition> condition;
         std::optional<observe::Quantity> quantity;
         std::optional<double> first;  ///< the cycle before which the condition first held
+        std::uint64_t cycles = 0;     ///< how often the condition has held, without resets
+        int trials = 0;               ///< in how many trials
+        int last_trial = 0;           ///< the last of these trials
     };
+    std::optional<double> value(Entry& entry, RunView& run) const;
+
     std::vector<Entry> entries_;
-    std::size_t waiting_ = 0;  ///< conditions that have not held yet
+    /// Conditions that have to be checked: those that are counted, and the others until they hold.
+    std::size_t waiting_ = 0;
 };
 
 }  // namespace forage

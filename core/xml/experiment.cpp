@@ -38,6 +38,7 @@ class ExperimentReader {
         }
         for (const Element& e : root.children("measure")) measure(e);
         for (const Element& e : root.children("sweep")) sweep(e);
+        if (const Element e = root.child("exercise")) exercise(e);
         if (count_runs() > most_runs)
             out_.error(root.where(), fmt::format("these sweeps and seeds make more than {} runs", most_runs),
                        "every value is combined with every value of the other sweeps, and with every seed");
@@ -144,17 +145,25 @@ class ExperimentReader {
         experiment_.manipulations.push_back(std::move(m));
     }
 
+    /// The attributes of measures, in the order of model::Measure::Kind, and that of synapses.
+    static constexpr std::array measured = {"success", "duration", "first", "final",
+                                            "trials",  "cycles",   "to"};
+
     void measure(const Element& e) {
-        static constexpr std::array names = {"success", "duration", "first", "final"};
-        const char* kind = one_of(e, names);
-        if (!kind) return;
+        const char* kind = one_of(e, std::span(measured).first(measured.size() - 1));
+        if (kind) experiment_.measures.push_back(measure_of(e, kind, "name", experiment_.measures));
+    }
+
+    /// The measure that the attribute `kind` describes. Its name differs from those of the `others`.
+    model::Measure measure_of(const Element& e, std::string_view kind, const char* name,
+                              std::span<const model::Measure> others) {
         model::Measure m;
-        m.name = e["name"].text(), m.at = e["name"].where(), m.what = written(e[kind]);
-        if (m.name.empty() && e["name"])
+        m.name = e[name].text(), m.at = e[name].where(), m.what = written(e[kind]);
+        if (m.name.empty() && e[name])
             out_.error(m.at, "a measure needs a name", "names are columns of the table of results");
-        m.kind = static_cast<model::Measure::Kind>(
-            std::find(names.begin(), names.end(), std::string_view(kind)) - names.begin());
-        for (const auto& other : experiment_.measures)
+        m.kind = static_cast<model::Measure::Kind>(std::find(measured.begin(), measured.end(), kind) -
+                                                   measured.begin());
+        for (const auto& other : others)
             if (other.name == m.name && !m.name.empty())
                 out_.error(m.at,
                            fmt::format("there is a measure '{}' already, on line {}", m.name, other.at.line),
@@ -168,7 +177,30 @@ class ExperimentReader {
                 out_.error(m.what.at, fmt::format("{} = '{}' does not name any trials", kind, m.what.text),
                            "'all', or for example 'last 100'");
         }
-        experiment_.measures.push_back(std::move(m));
+        return m;
+    }
+
+    void exercise(const Element& e) {
+        model::Exercise exercise{file(e["start"]), e["start"].where(), {}};
+        std::vector<model::Measure> measures = experiment_.measures;
+        for (const Element& child : e.children("require")) {
+            const char* kind = one_of(child, measured);
+            if (!kind) continue;
+            model::Requirement r;
+            r.what = child["what"].text(), r.advice = child.text(), r.kind = child["kind"].text();
+            r.at_least = child["at-least"].number(), r.at_most = child["at-most"].number();
+            if (kind == measured.back()) {
+                r.to = written(child["to"]), r.from = written(child["from"]);
+                if (!r.at_least && !r.at_most) r.at_least = 1;
+            } else {
+                r.measure = measure_of(child, kind, "what", measures);
+                measures.push_back(*r.measure);
+            }
+            if (!r.at_least && !r.at_most)
+                out_.error(child.where(), "<require> gives no bound", "give it 'at-least' or 'at-most'");
+            exercise.requirements.push_back(std::move(r));
+        }
+        experiment_.exercise = std::move(exercise);
     }
 
     void sweep(const Element& e) {

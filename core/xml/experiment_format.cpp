@@ -33,7 +33,8 @@ Format make_format() {
         .values = {{"text", {}}},
         .elements =
             {{"experiment", "a system, run many times",
-              "note? system! world? length! seeds? set at clamp add multiply record plot measure sweep"},
+              "note? system! world? length! seeds? set at clamp add multiply record plot measure sweep "
+              "exercise?"},
              {"note", "a text for people", ":text"},
              {"system", "what is run", "", {file("an .iqr file, as seen from this one")}},
              {"world",
@@ -82,12 +83,30 @@ Format make_format() {
               {required(text("name", "its column in the table of results")),
                text("success", "share of the trials that reached the target: 'all', or 'last N' trials"),
                text("duration", "mean seconds of a trial: of 'all', or of the 'last N' trials"),
+               text("trials", "a condition: share of the trials in which it held"),
+               text("cycles", "a condition: the number of cycles in which it held"),
                text("first", "a condition: the number of cycles until it first held"),
                text("final", "a cell, or mean, sum, min or max of a column, at the end")}},
              {"sweep",
               "a parameter that takes several values; several sweeps give every combination",
               "",
-              {parameter, required(text("values", "with blanks between"))}}}}
+              {parameter, required(text("values", "with blanks between"))}},
+             {"exercise",
+              "what a system of one's own must have and do: 'forage tutorial NUMBER --system FILE'",
+              "require",
+              {required(text("start", "the .iqr file that users complete, as seen from this one"))}},
+             {"require",
+              "a number within bounds; the text says what may be wrong, with {n}, {all} and {value}",
+              ":text",
+              {required(text("what", "what is required, such as 'the robot reaches the light'")),
+               text("success", "as in a measure"), text("duration", "as in a measure"),
+               text("trials", "as in a measure"), text("cycles", "as in a measure"),
+               text("first", "as in a measure"), text("final", "as in a measure"),
+               text("to", "'Process/Group' or some of its cells: the number of synapses to them"),
+               text("from", "where the synapses come from; without it, from anywhere"),
+               choice("kind", "of the synapses", {"excitatory", "inhibitory", "modulatory"}),
+               number("at-least", "the lowest number that is accepted; for synapses 1 if no bound is given"),
+               number("at-most", "the highest number that is accepted")}}}}
         .link();
 }
 

@@ -32,6 +32,8 @@ ROBOT = f"""<experiment>
   <measure name="length" duration="all"/>
   <measure name="light" first="max(Bug/Light) > 0.5"/>
   <measure name="never" first="cycle 1000000"/>
+  <measure name="second or later" trials="trial >= 2"/>
+  <measure name="too bright" trials="max(Bug/Light) > 2"/>
   <sweep parameter="Reactive Layer/US.threshold" values="0.2 0.8"/>
   <sweep parameter="Motor In to Motor.weight" values="1 0.9"/>
 </experiment>
@@ -66,6 +68,7 @@ SMALL = """<experiment>
   <measure name="five" first="P/A(1,1) >= 5"/>
   <measure name="end" final="sum(P/A)"/>
   <measure name="cell" final="P/A(2,1)"/>
+  <measure name="above five" cycles="P/A(1,1) >= 5"/>
 </experiment>
 """
 
@@ -110,6 +113,7 @@ class Results(Experiment):
         self.assertEqual([r["five"] for r in rows], ["4", "6"])  # after cycles 3 and 5
         self.assertEqual([r["end"] for r in rows], ["36", "18"])
         self.assertEqual([r["cell"] for r in rows], ["18", "9"])
+        self.assertEqual([r["above five"] for r in rows], ["7", "5"])  # after cycles 3 to 9 and 5 to 9
         self.assertEqual([(r["cycles"], r["seconds"], r["status"], r["seed"]) for r in rows], [("10", "0.4", "finished", "1")] * 2)
 
     def test_until_ends_a_run(self):
@@ -144,6 +148,8 @@ class Results(Experiment):
             self.assertEqual(r["trials"], "3")
             self.assertAlmostEqual(float(r["success"]), int(r["reached"]) / 3)
             self.assertEqual(r["never"], "")
+            self.assertAlmostEqual(float(r["second or later"]), 2 / 3)
+            self.assertEqual(float(r["too bright"]), 0)
 
     def test_a_run_of_an_experiment_is_the_same_as_forage_run(self):
         self.forage("experiment", "robot.xml", "-o", "out")

@@ -18,7 +18,7 @@ ALLOWED = {
     'core/engine': {'core/base', 'core/connectivity', 'core/model', 'core/types'},
     'core/xml': {'core/base', 'core/model', 'core/types'},
     'core/observe': {'core/base', 'core/engine', 'core/model'},
-    'core/run': {'core/base', 'core/types', 'core/model', 'core/engine', 'core/observe'},
+    'core/run': {'core/base', 'core/types', 'core/model', 'core/connectivity', 'core/engine', 'core/observe'},
     'core/plugin': {'core/base', 'core/types'},
     # Shipped types use only what a plugin can use, and do not use each other.
     'neurons': {'core/types'},

@@ -26,16 +26,26 @@ bool files_are_there(const model::Experiment& e, Diagnostics& diagnostics) {
 
 std::optional<PreparedExperiment> prepare_experiment(const std::string& file, std::string directory,
                                                      const std::vector<std::string>& plugins,
-                                                     Diagnostics& diagnostics) {
+                                                     Diagnostics& diagnostics, const std::string& system) {
     auto wanted = xml::read_experiment(file, diagnostics);
+    if (wanted && !system.empty()) wanted = with_system(std::move(*wanted), system);
     if (!wanted || !files_are_there(*wanted, diagnostics)) return std::nullopt;
     if (directory.empty()) directory = "forage-out/" + std::filesystem::path(file).stem().string();
     PreparedExperiment out{std::move(*wanted), std::move(directory), {}, {}, {}};
     out.runs = planned_runs(out.experiment, out.directory, plugins);
     out.sources = read_sources(out.runs.front().spec.input, diagnostics);
+    if (!system.empty() && out.experiment.exercise) {
+        RunInput start;
+        start.system = out.experiment.exercise->start;
+        const Sources begun = read_sources(start, diagnostics);
+        if (begun.system && out.sources.system)
+            check_names(out.experiment, *begun.system, *out.sources.system, diagnostics);
+        if (diagnostics.failed()) return std::nullopt;
+    }
     check_experiment(
         out.experiment, [&](const RunSpec& spec, Diagnostics& d) { return prepare(out.sources, spec, d); },
         out.runs, diagnostics);
+    if (!system.empty() && !diagnostics.failed()) findings(out, {}, diagnostics);  // checks the names
     if (diagnostics.failed()) return std::nullopt;
     const char* hint = "choose another directory for the results with -o";
     try {
@@ -62,6 +72,15 @@ std::optional<std::vector<RunResult>> run_experiment(const PreparedExperiment& e
     write_durably(e.results_file(), results_csv(e.experiment, e.runs, *results));
     write_durably(e.summary_file(), summary_csv(e.experiment, e.runs, *results));
     return results;
+}
+
+std::vector<Finding> findings(const PreparedExperiment& e, std::span<const RunResult> results,
+                              Diagnostics& diagnostics) {
+    RunSpec bare;  // names the groups and connections of the system
+    bare.input = e.runs.front().spec.input;
+    const auto example = prepare(e.sources, bare, diagnostics);
+    if (!example) return {};
+    return findings(e.experiment, results, example->run.system(), example->run.layout(), diagnostics);
 }
 
 }  // namespace forage

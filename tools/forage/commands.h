@@ -49,6 +49,7 @@ struct PlotOptions {
 struct ExperimentOptions {
     std::string file;
     std::string directory;  ///< empty: forage-out/ and the file's name
+    std::string system;     ///< a system to check against the file's exercise; empty: run the file's system
     std::vector<std::string> plugins = {};
     int jobs = 0;        ///< number of simultaneous runs; 0: one per core
     bool fresh = false;  ///< whether finished runs are repeated
@@ -62,8 +63,9 @@ struct WorldCommand {
 };
 
 struct TutorialOptions {
-    std::string exercise;   ///< number of the exercise; empty: list all exercises
+    std::string exercise;   ///< number of the exercise, or an experiment file; empty: list all exercises
     std::string directory;  ///< empty: forage-out/tutorial/ and the number
+    std::string system;     ///< a system of the user's own; empty: run the exercise's system
 };
 
 struct NewOptions {

@@ -1,6 +1,8 @@
 #include "tools/api/experiment.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -22,11 +24,25 @@ std::string progress_text(const ExperimentCallbacks::Progress& p) {
     return text;
 }
 
+/// The findings about a system, for printing. Returns the exit status.
+int print_findings(const std::string& system, std::span<const Finding> all) {
+    const auto met = std::count_if(all.begin(), all.end(), [](const auto& f) { return f.met; });
+    if (all.empty())
+        fmt::print("{}: this exercise requires nothing of a system\n", system);
+    else
+        fmt::print("{}: {} of {} requirements are met\n", system, met, all.size());
+    for (const auto& f : all) {
+        fmt::print("  {}  {}\n", f.met ? "yes" : "no ", f.what);
+        if (!f.advice.empty()) fmt::print("       {}\n", f.advice);
+    }
+    return met == std::ssize(all) ? fine : run_failed;
+}
+
 }  // namespace
 
 int experiment(const ExperimentOptions& o) {
     Diagnostics diagnostics;
-    const auto wanted = prepare_experiment(o.file, o.directory, o.plugins, diagnostics);
+    const auto wanted = prepare_experiment(o.file, o.directory, o.plugins, diagnostics, o.system);
     if (diagnostics.failed() || !o.quiet) fmt::print(stderr, "{}", format(diagnostics));
     if (!wanted) return bad_input;
     note_signals();
@@ -53,12 +69,13 @@ int experiment(const ExperimentOptions& o) {
             ++failures;
             fmt::print(stderr, "error: run '{}': {}\n", runs[i].name, (*results)[i].failure);
         }
-    if (!o.quiet)
+    if (!o.quiet && o.system.empty())
         fmt::print("{}: {} runs{}\n{}  written: {}, {}\n", o.file, runs.size(),
                    failures ? fmt::format(", {} failed", failures) : "",
                    summary_text(wanted->experiment, runs, *results), wanted->results_file(),
                    wanted->summary_file());
-    return failures ? run_failed : fine;
+    if (failures || o.system.empty()) return failures ? run_failed : fine;
+    return print_findings(o.system, findings(*wanted, *results, diagnostics));
 }
 
 }  // namespace forage::tool

@@ -124,9 +124,16 @@ void add_tutorial(CLI::App& app, TutorialOptions& o) {
     auto& tutorial = *app.add_subcommand("tutorial", "List the exercises of the tutorial, or run one");
     tutorial.footer(
         "docs/tutorial has the text, the questions and their solutions.\n"
-        "Example:\n"
-        "  forage tutorial 3.1");
-    tutorial.add_option("EXERCISE", o.exercise, "Number of the exercise")->option_text(" ");
+        "Examples:\n"
+        "  forage tutorial 3.1\n"
+        "  forage tutorial 2.2 --system mine.iqr");
+    tutorial.add_option("EXERCISE", o.exercise, "Number of the exercise, or an experiment file")
+        ->option_text(" ");
+    tutorial
+        .add_option("--system", o.system,
+                    "Run the exercise on this system, and say what it still lacks; the exit status is 1 if "
+                    "it lacks something")
+        ->option_text("FILE");
     tutorial.add_option("-o,--output", o.directory, "Directory for results [forage-out/tutorial/EXERCISE]")
         ->option_text("DIR");
 }

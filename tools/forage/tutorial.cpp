@@ -18,6 +18,8 @@ namespace fs = std::filesystem;
 struct Exercise {
     std::string number;  ///< such as "3.1": the beginning of the file's name, up to '-'
     fs::path file;
+    fs::path start;       ///< the system that users complete; empty when there is none
+    fs::path solution;    ///< the system that the exercise runs
     std::string title;    ///< the first line of the note
     std::string look_at;  ///< the other lines, without leading blanks
 };
@@ -52,12 +54,25 @@ std::vector<Exercise> exercises(Diagnostics& diagnostics) {
         if (entry.path().extension() != ".xml" || dash == std::string::npos) continue;
         const auto experiment = xml::read_experiment(entry.path().string(), diagnostics);
         if (!experiment) continue;
-        Exercise exercise{name.substr(0, dash), entry.path(), {}, {}};
+        const auto path = [](const std::string& p) { return fs::path(p).lexically_normal(); };
+        Exercise exercise{name.substr(0, dash),
+                          entry.path(),
+                          experiment->exercise ? path(experiment->exercise->start) : fs::path(),
+                          path(experiment->system),
+                          {},
+                          {}};
         read_note(experiment->note, exercise);
         out.push_back(std::move(exercise));
     }
     std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
     return out;
+}
+
+/// The path relative to the working directory when it is below it.
+std::string shown(const fs::path& path) {
+    std::error_code none;
+    const fs::path relative = fs::relative(path, none);
+    return relative.empty() || *relative.begin() == ".." ? path.string() : relative.string();
 }
 
 }  // namespace
@@ -74,11 +89,20 @@ int tutorial(const TutorialOptions& o) {
         return bad_input;
     }
     if (o.exercise.empty()) {
-        for (const auto& e : all) fmt::print("{:<5} {}\n", e.number, e.title);
-        fmt::print("\nforage tutorial {} runs the first one; docs/tutorial has the text.\n",
-                   all.front().number);
+        for (const auto& e : all) {
+            fmt::print("{:<5} {}\n", e.number, e.title);
+            if (!e.start.empty())
+                fmt::print("      start {}, solution {}\n", shown(e.start), shown(e.solution));
+        }
+        fmt::print(
+            "\nforage tutorial {} runs the first one; with --system FILE, on a file of your own. "
+            "docs/tutorial "
+            "has the text.\n",
+            all.front().number);
         return fine;
     }
+    if (fs::path(o.exercise).extension() == ".xml")
+        return experiment({.file = o.exercise, .directory = o.directory, .system = o.system});
     const auto wanted =
         std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.number == o.exercise; });
     if (wanted == all.end()) {
@@ -88,11 +112,14 @@ int tutorial(const TutorialOptions& o) {
                    suggest(o.exercise, numbers));
         return bad_input;
     }
-    const std::string directory = o.directory.empty() ? "forage-out/tutorial/" + wanted->number : o.directory;
+    const std::string own = o.system.empty() ? "" : "-own";
+    const std::string directory =
+        o.directory.empty() ? "forage-out/tutorial/" + wanted->number + own : o.directory;
     fmt::print("{} {}\n", wanted->number, wanted->title);
     std::fflush(stdout);
-    const int status = experiment({.file = wanted->file.string(), .directory = directory});
-    if (status != fine) return status;
+    const int status =
+        experiment({.file = wanted->file.string(), .directory = directory, .system = o.system});
+    if (status != fine || !o.system.empty()) return status;
     fmt::print("look at\n{}", wanted->look_at);
     for (const auto& run : fs::directory_iterator(fs::path(directory) / "runs"))
         for (const auto& file : fs::directory_iterator(run))
