@@ -1,34 +1,83 @@
 #!/usr/bin/env python3
-"""Runs every command of docs/tutorial as it is printed.
+"""Runs every command of docs/tutorial as it is printed, and its exercises on the systems of users.
 
-usage: tutorial_test.py FORAGE PROJECT
+usage: tutorial_test.py FORAGE PROJECT [TEST...]
 """
+import csv
 import os
 import pathlib
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 FORAGE = pathlib.Path(sys.argv[1]).resolve()
 PROJECT = pathlib.Path(sys.argv[2]).resolve()
 PAGES = sorted((PROJECT / "docs/tutorial").glob("*.md"))
 LONG = "systems/learning"  # tests/closed_loop/learning_test.py runs these
+SAID = {  # what the text says of runs that print no deviations
+    "-o forage-out/tutorial/q4": "74.77 times as strong",
+    "-o forage-out/tutorial/q5": "4.65 times as strong",
+    "-o forage-out/tutorial/load": "20 of 20 (100 %)",
+    "-o forage-out/tutorial/4.1-q2": "of 45.1 segments",
+    "-o forage-out/tutorial/4.5-q2": "of 42.8 segments",
+    "-o forage-out/tutorial/vehicle": "30 of 30 (100 %)",
+    "tutorial 1.2": "0.5 ",
+    "tutorial 2.1": "0.4667",
+    "tutorial 2.2": "34 ",
+}
+EXERCISES = {f.name.split("-")[0]: f for f in sorted((PROJECT / "systems/tutorial").glob("*.xml"))}
 
 
-class Tutorial(unittest.TestCase):
+def start_and_solution(number):
+    """The systems of an exercise; none when users have nothing to complete."""
+    root = xml.etree.ElementTree.parse(EXERCISES[number]).getroot()
+    task = root.find("exercise")
+    if task is None:
+        return None
+    return [(EXERCISES[number].parent / e).resolve() for e in (task.get("start"), root.find("system").get("file"))]
+
+
+def deviation(summary):
+    """All means and standard deviations in the summary of an experiment."""
+    with open(summary, newline="") as file:
+        for row in csv.DictReader(file):
+            for column, mean in row.items():
+                if column.endswith(" mean") and mean and row[column[:-4] + "sd"]:
+                    yield float(mean), float(row[column[:-4] + "sd"])
+
+
+def agrees(written, number):
+    """Whether `number`, rounded to the digits of the text `written`, is what stands there: '14 140' has the unit 10."""
+    digits = written.replace(" ", "")
+    unit = 10 ** (-len(digits.split(".")[1]) if "." in digits else len(digits) - len(digits.rstrip("0")))
+    return abs(float(digits) - number) <= 0.501 * unit
+
+
+TASKS = [number for number in EXERCISES if start_and_solution(number)]
+
+
+class Commands(unittest.TestCase):
     def forage(self, *arguments, here):
         return subprocess.run([FORAGE, *arguments], cwd=here, capture_output=True, text=True, timeout=600)
 
+
+class Tutorial(Commands):
     def test_every_command_works_as_printed(self):
         commands = 0
         with tempfile.TemporaryDirectory() as here:
             os.symlink(PROJECT / "systems", pathlib.Path(here) / "systems")
             for page in PAGES:
-                for block in re.findall(r"^```sh\n(.*?)^```", page.read_text(), re.MULTILINE | re.DOTALL):
+                for name, text in re.findall(r"^Save this as `([^`]+)`:\n\n```xml\n(.*?)^```", page.read_text(), re.MULTILINE | re.DOTALL):
+                    (pathlib.Path(here) / name).write_text(text)
+                for block, text in re.findall(r"^```sh\n(.*?)^```(.*?)(?=^```sh|\Z)", page.read_text(), re.MULTILINE | re.DOTALL):
                     for line in block.splitlines():
+                        if "--system mine.iqr" in line:
+                            shutil.copy(start_and_solution(shlex.split(line)[2])[1], pathlib.Path(here) / "mine.iqr")
                         self.assertTrue(line.startswith("build/release/bin/forage "), f"{page.name}: {line}")
                         commands += 1
                         if LONG in line:
@@ -36,7 +85,27 @@ class Tutorial(unittest.TestCase):
                         with self.subTest(f"{page.name}: {line}"):
                             done = self.forage(*shlex.split(line)[1:], here=here)
                             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                            for end, said in SAID.items():
+                                if line.endswith(end):
+                                    self.assertIn(said, done.stdout)
+                            if re.search(r"tutorial \d\.\d$", line):
+                                self.numbers_agree(text, pathlib.Path(here) / "forage-out/tutorial" / line.split()[-1] / "summary.csv")
         self.assertGreater(commands, 15)
+
+    def numbers_agree(self, text, summary):
+        measured = list(deviation(summary))
+        for mean, sd in re.findall(r"(\d[\d ]*(?:\.\d+)?) \+- (\d[\d ]*(?:\.\d+)?)", text):
+            self.assertTrue(any(agrees(mean, m) and agrees(sd, s) for m, s in measured), f"{mean} +- {sd} is not in {measured}")
+
+    def test_a_course_is_checked_with_one_line(self):
+        line = re.search(r"^    (for f in .*)$", (PROJECT / "docs/tutorial/teachers.md").read_text(), re.MULTILINE)[1]
+        with tempfile.TemporaryDirectory() as here:
+            for student, system in zip("ab", start_and_solution("2.2")):
+                (pathlib.Path(here) / "students" / student).mkdir(parents=True)
+                shutil.copy(system, pathlib.Path(here) / "students" / student / "mine.iqr")
+            path = f"{FORAGE.parent}:{os.environ['PATH']}"
+            done = subprocess.run(["bash", "-c", line], cwd=here, env=os.environ | {"PATH": path}, capture_output=True, text=True)
+            self.assertEqual(re.findall(r"(?m)^students/.*mine.iqr$", done.stdout), ["students/a/mine.iqr"])
 
     def test_pictures_and_pages_are_there(self):
         for page in PAGES:
@@ -47,10 +116,8 @@ class Tutorial(unittest.TestCase):
         done = self.forage("tutorial", here=PROJECT)
         self.assertEqual(done.returncode, 0, done.stderr)
         text = "".join(page.read_text() for page in PAGES)
-        files = sorted((PROJECT / "systems/tutorial").glob("*.xml"))
-        self.assertGreaterEqual(len(files), 12)
-        for file in files:
-            number = file.name.split("-")[0]
+        self.assertGreaterEqual(len(EXERCISES), 12)
+        for number in EXERCISES:
             self.assertRegex(done.stdout, rf"(?m)^{number} ")
             self.assertIn(f"forage tutorial {number}\n", text)
 
@@ -61,5 +128,102 @@ class Tutorial(unittest.TestCase):
         self.assertIn("hint:", done.stderr)
 
 
+class OwnSystem(Commands):
+    def setUp(self):
+        directory = tempfile.TemporaryDirectory()
+        self.addCleanup(directory.cleanup)
+        self.here = pathlib.Path(directory.name)
+
+    def check(self, number, text, status):
+        (self.here / "mine.iqr").write_text(text)
+        done = self.forage("tutorial", number, "--system", "mine.iqr", here=self.here)
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
+    def edited(self, text, old, new):
+        self.assertIn(old, text)
+        return text.replace(old, new)
+
+    def test_the_start_lacks_something_and_the_solution_nothing(self):
+        missing = {
+            "1.2": ["No excitatory connection leads from Const Speed", "No trial ended: the robot stands still"],
+            "2.1": ["Cell 3 of US (front left) drives no cell of Approach that turns well to the left"],
+            "2.2": ["no inhibitory connection leads to Explore", "14 of 30 trials ended at the light."],
+            "3.1": ["Adaptive/UR does not get the reflex", "in 0 of 120 trials", "18 of 60 of the last six trials"],
+            "4.1": ["does not reach Selection/Contextual", "Then both layers act at once"],
+        }
+        self.assertEqual(list(missing), TASKS)
+        for number in TASKS:
+            with self.subTest(number):
+                start, solution = start_and_solution(number)
+                said = self.check(number, start.read_text(), 1)
+                for words in missing[number]:
+                    self.assertIn(words, said)
+                said = self.check(number, solution.read_text(), 0)
+                self.assertIn("yes  ", said)
+                self.assertNotIn("no   ", said)
+
+    def test_a_crossed_reflex_is_recognised(self):
+        text = (PROJECT / "systems/reactive_foraging.iqr").read_text()
+        begin = text.index('name="US to Approach"')
+        end = text.index("</Connection>", begin)
+        pairs = text[begin:end].replace('<TargetList><Point x="1"', "LEFT").replace('<TargetList><Point x="9"', '<TargetList><Point x="1"')
+        crossed = text[:begin] + pairs.replace("LEFT", '<TargetList><Point x="9"') + text[end:]
+        self.assertIn("are the pairs crossed?", self.check("2.1", crossed, 1))
+        self.assertIn("turned away from the light in 16 of 30 trials", self.check("2.2", crossed, 1))
+
+    def test_a_weak_inhibition_is_recognised(self):
+        text = (PROJECT / "systems/reactive_foraging.iqr").read_text()
+        begin = text.index('name="Approach Inhibition to Explore"')
+        weak = text[:begin] + self.edited(text[begin:], 'name="weight" value="1"', 'name="weight" value="0.1"')
+        self.assertIn("Is its inhibition stronger than its drive", self.check("2.2", weak, 1))
+
+    def test_a_group_that_drives_all_actions_is_recognised(self):
+        text = (PROJECT / "systems/tutorial/explore.iqr").read_text()
+        begin = text.index('name="Const Speed to Explore"')
+        said = self.check("1.2", text[:begin] + text[begin:].replace('type="center"', 'type="all"', 1), 1)
+        self.assertIn("a cell of Motor In was active that means a turn", said)
+
+    def test_a_renamed_group_is_reported_once(self):
+        text = self.edited((PROJECT / "systems/reactive_foraging.iqr").read_text(), 'name="UR"', 'name="Reflex"')
+        said = self.check("2.2", text, 2)
+        self.assertEqual(re.findall("error: .*", said), ["error: the system has no group 'Selection/UR'"])
+        self.assertIn("hint: the exercise uses it: keep the names of the system to start from", said)
+
+    def test_an_exercise_without_a_task_runs_on_any_system(self):
+        said = self.check("1.3", (PROJECT / "systems/reactive_foraging.iqr").read_text(), 0)
+        self.assertIn("mine.iqr: this exercise requires nothing of a system", said)
+
+    def test_an_exercise_may_be_a_file_from_anywhere(self):
+        shutil.copytree(PROJECT / "systems", self.here / "course")
+        exercise = self.here / "course/tutorial/mine.xml"
+        text = EXERCISES["2.2"].read_text()
+        exercise.write_text(self.edited(text, "{n} of {all} trials ended at the light.", "Too few: {value}, {n}, {all}."))
+        (self.here / "mine.iqr").write_text((PROJECT / "systems/tutorial/reflex.iqr").read_text())
+        done = self.forage("tutorial", "course/tutorial/mine.xml", "--system", "mine.iqr", here=self.here)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("Too few: 0.467, 14, 30.", done.stdout)
+
+    def test_steps_differ_from_solutions_only_where_they_should(self):
+        def parts(name):
+            """Processes and connections as text without comments, and parameters of modules."""
+            root = xml.etree.ElementTree.parse(PROJECT / "systems" / name).getroot()
+            return {e.get("name"): re.sub(r"\s+", " ", xml.etree.ElementTree.tostring(e, encoding="unicode").strip()) for e in root}
+
+        explore = {"Const Speed to Explore", "Explore to Motor In"}
+        contextual = {"Choice to Contextual", "Contextual to Motor In", "Contextual Inhibition to Adaptive"}
+        for name, full, differs in (
+            ("reactive_foraging_exercise.iqr", "reactive_foraging.iqr", explore | {"US to Approach", "Approach Inhibition to Explore"}),
+            ("tutorial/explore.iqr", "reactive_foraging.iqr", {"US to Approach", "Approach Inhibition to Explore"}),
+            ("tutorial/reflex.iqr", "reactive_foraging.iqr", {"Approach Inhibition to Explore"}),
+            ("tutorial/adaptive.iqr", "dac_foraging.iqr", contextual),
+            ("dac_foraging_exercise.iqr", "dac_foraging.iqr", contextual | {"Pre Thresh Approach to UR", "Choice to Adaptive", "Adaptive"}),
+        ):
+            with self.subTest(name):
+                some, all_of_them = parts(name), parts(full)
+                self.assertEqual({k for k in all_of_them if some.get(k) != all_of_them[k]}, differs)
+                self.assertLessEqual(set(some), set(all_of_them))
+
+
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)
