@@ -181,7 +181,7 @@ class OwnSystem(Commands):
     def test_a_group_that_drives_all_actions_is_recognised(self):
         text = (PROJECT / "systems/tutorial/explore.iqr").read_text()
         begin = text.index('name="Const Speed to Explore"')
-        said = self.check("1.2", text[:begin] + text[begin:].replace('type="center"', 'type="all"', 1), 1)
+        said = self.check("1.2", text[:begin] + text[begin:].replace("<Synapse", '<Pattern><PatternMapped type="all"/></Pattern><Synapse', 1), 1)
         self.assertIn("a cell of Motor In was active that means a turn", said)
 
     def test_a_renamed_group_is_reported_once(self):

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -150,6 +151,7 @@ std::vector<Finding> findings(const model::Experiment& experiment, std::span<con
     std::size_t measure = experiment.measures.size() -
                           static_cast<std::size_t>(std::count_if(
                               all.begin(), all.end(), [](const auto& r) { return r.measure.has_value(); }));
+    bool moved = true;  // until a requirement has said otherwise
     for (const auto& r : all) {
         const Number n =
             r.measure ? measured(r, measure++, results) : Number{synapses(r, system, layout, diagnostics)};
@@ -157,7 +159,9 @@ std::vector<Finding> findings(const model::Experiment& experiment, std::span<con
             n.value && (!r.at_least || *n.value >= *r.at_least) && (!r.at_most || *n.value <= *r.at_most);
         std::string advice = with_numbers(joined(r.advice), n);
         if (is_share(r) && n.all == 0)
-            advice = "No trial ended: the robot stands still, or never leaves the arena.";
+            advice = std::exchange(moved, false)
+                         ? "No trial ended: the robot stands still, or never leaves the arena."
+                         : "";
         out.push_back({r.what, met, met ? "" : std::move(advice)});
     }
     return out;
