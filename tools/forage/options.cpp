@@ -124,7 +124,7 @@ void add_tutorial(CLI::App& app, TutorialOptions& o) {
     auto& tutorial = *app.add_subcommand("tutorial", "List the exercises of the tutorial, or run one");
     tutorial.footer(
         "docs/tutorial has the text, the questions and their solutions.\n"
-        "Examples:\n"
+        "Example:\n"
         "  forage tutorial 3.1\n"
         "  forage tutorial 2.2 --system mine.iqr");
     tutorial.add_option("EXERCISE", o.exercise, "Number of the exercise, or an experiment file")
