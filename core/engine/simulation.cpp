@@ -213,4 +213,12 @@ ConstColumn Simulation::synapse_state(int connection, int state) const {
                      : ConstColumn(nullptr, 0);
 }
 
+std::span<const int> Simulation::synapse_sources(int connection) const {
+    return parts_->plan->connections[connection].pre;
+}
+
+std::span<const int> Simulation::synapse_targets(int connection) const {
+    return parts_->plan->connections[connection].post;
+}
+
 }  // namespace forage::engine

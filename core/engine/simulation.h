@@ -143,6 +143,10 @@ class Simulation {
     std::size_t synapses(int connection) const;
     /// Returns a state of a connection's synapses, one number per synapse; empty when they have none.
     ConstColumn synapse_state(int connection, int state) const;
+    /// Returns the source cells of the synapses that have states, in the same order.
+    std::span<const int> synapse_sources(int connection) const;
+    /// Returns their target cells.
+    std::span<const int> synapse_targets(int connection) const;
 
   private:
     struct Parts;

@@ -539,7 +539,13 @@ Plot parse_plot(std::string_view text) {
         out.blocks_across = *across, out.blocks_down = *down;
         rest = rest.substr(0, semicolons.back());
     }
-    if (const auto ats = find_unquoted(rest, "@"); out.of_cells() && !ats.empty()) {
+    const auto ats = find_unquoted(rest, "@");
+    // A connection may have an '@' in its name.
+    const bool cycles = out.kind == Plot::Kind::connection
+                            ? !ats.empty() && rest.substr(ats.back()).find_first_not_of("@0123456789.,/ ") ==
+                                                  std::string_view::npos
+                            : out.of_cells();
+    if (cycles && !ats.empty()) {
         auto list = rest.substr(ats.back() + 1);
         out.cycles_text = list;
         while (!list.empty()) {

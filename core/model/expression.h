@@ -143,7 +143,11 @@ struct Plot {
     std::string cycles_text;  ///< the text after '@'
     int blocks_across = 1, blocks_down = 1;
 
-    bool of_cells() const { return kind == Kind::time || kind == Kind::space || kind == Kind::movie; }
+    /// Whether the picture is made of rows of numbers. That of a connection at given cycles is, too.
+    bool of_cells() const {
+        return kind == Kind::time || kind == Kind::space || kind == Kind::movie ||
+               (kind == Kind::connection && !cycles.empty());
+    }
     bool of_connection() const { return kind == Kind::connection || kind == Kind::wiring; }
     static std::string_view name(Kind kind);
 };

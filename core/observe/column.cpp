@@ -28,7 +28,64 @@ std::vector<int> groups_named(const engine::Layout& s, std::string_view path) {
     return out;
 }
 
+/// The connections with this name, or the one with this id.
+std::vector<int> connections_named(const engine::Layout& s, std::string_view name) {
+    name = model::trim(name);
+    std::vector<int> out;
+    for (int c = 0; c < std::ssize(s.connections); ++c) {
+        if (s.connections[c].id == name) return {c};
+        if (model::trim(s.connections[c].name) == name) out.push_back(c);
+    }
+    return out;
+}
+
+/// Splits "Name:state" at its last colon. Without one, the state is empty.
+std::pair<std::string_view, std::string_view> split_state(std::string_view text) {
+    const auto colon = text.rfind(':');
+    if (colon == std::string_view::npos) return {text, {}};
+    return {text.substr(0, colon), model::trim(text.substr(colon + 1))};
+}
+
 }  // namespace
+
+bool names_connection(const engine::Layout& s, const expression::Piece& piece) {
+    const std::string_view text = piece.text, name = split_state(text).first;
+    return groups_named(s, text).empty() && groups_named(s, name).empty() &&
+           !(connections_named(s, name).empty() && connections_named(s, text).empty());
+}
+
+std::optional<ColumnRef> find_synapses(const engine::Layout& s, const expression::Piece& piece,
+                                       const expression::Context& context) {
+    auto [name, state] = split_state(piece.text);
+    auto found = connections_named(s, name);
+    if (found.empty()) name = piece.text, state = {}, found = connections_named(s, name);
+    if (found.size() != 1) {
+        std::vector<std::string> ids;
+        for (const int c : found) ids.push_back(s.connections[c].id);
+        context.error(piece.at, fmt::format("'{}' names {} connections", name, found.size()),
+                      fmt::format("use the id: '{}'", fmt::join(ids, "', '")));
+        return std::nullopt;
+    }
+    const auto& connection = s.connections[found.front()];
+    if (connection.type.has_gain) {
+        context.error(piece.at, fmt::format("the synapses of connection '{}' keep nothing", name),
+                      fmt::format("{} has a fixed weight, the same in all synapses", connection.type.name));
+        return std::nullopt;
+    }
+    std::vector<std::string> known;
+    for (int i = 0; i < std::ssize(connection.type.states); ++i) {
+        known.push_back(connection.type.states[i].name);
+        if (known.back() == state)
+            return ColumnRef{
+                0, i, {}, fmt::format("{}:{}", model::trim(connection.name), state), found.front()};
+    }
+    context.error(
+        piece.at,
+        state.empty() ? fmt::format("'{}' names a connection, not a group", name)
+                      : fmt::format("{} has no state '{}'", connection.type.name, state),
+        fmt::format("its synapses have '{1}:{0}'", fmt::join(known, fmt::format("', '{}:", name)), name));
+    return std::nullopt;
+}
 
 std::optional<ColumnRef> find_column(const engine::Layout& s, std::string_view text, std::string_view what,
                                      Diagnostics& diagnostics, Location at) {

@@ -1,6 +1,7 @@
 #include "core/observe/condition.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -21,13 +22,26 @@ std::optional<Quantity> resolve(const expression::Quantity& q, const engine::Lay
     auto source = find_source(layout, cells, context);
     if (!source) return std::nullopt;
     out.source = std::move(*source);
-    if (const std::size_t n = out.source.part.numbers.size(); q.kind == Quantity::Kind::cell && n != 1) {
+    if (const std::size_t n = out.source.what().size(); q.kind == Quantity::Kind::cell && n != 1) {
         const std::string& name = q.source.column.text;
         context.error(q.at, fmt::format("'{}' has {} cells", cells.text(), n),
                       fmt::format("name one, '{0}(1,1)', or write mean({0}) or max({0})", name));
         return std::nullopt;
     }
     return out;
+}
+
+double whole(Quantity::Kind kind, const ConstColumn& all) {
+    switch (kind) {
+        case Quantity::Kind::mean:
+            return all.mean();
+        case Quantity::Kind::min:
+            return all.minCoeff();
+        case Quantity::Kind::max:
+            return all.maxCoeff();
+        default:
+            return all.sum();  // a single cell, too
+    }
 }
 
 }  // namespace
@@ -45,21 +59,18 @@ double Quantity::in(const engine::Simulation& simulation, const SimTime& now) co
         default:
             break;
     }
-    const ConstColumn all = values(simulation, source.column);
-    const auto& cells = source.part.numbers;
-    const bool whole = static_cast<Index>(cells.size()) == all.size();
-    double out = all[static_cast<Index>(cells.front())];
-    if (kind == Kind::mean || kind == Kind::sum) {
-        if (whole) return kind == Kind::mean ? all.mean() : all.sum();
-        for (std::size_t i = 1; i < cells.size(); ++i) out += all[static_cast<Index>(cells[i])];
-        return kind == Kind::mean ? out / static_cast<double>(cells.size()) : out;
+    if (source.column.connection < 0) {
+        const ConstColumn all = values(simulation, source.column);
+        if (static_cast<Index>(source.part.numbers.size()) == all.size()) return whole(kind, all);
     }
-    if (whole && kind != Kind::cell) return kind == Kind::min ? all.minCoeff() : all.maxCoeff();
-    for (std::size_t i = 1; i < cells.size(); ++i) {
-        const double v = all[static_cast<Index>(cells[i])];
-        out = kind == Kind::min ? std::min(out, v) : std::max(out, v);
+    const std::vector<double> numbers = source.all(simulation);
+    if (numbers.empty()) return std::numeric_limits<double>::quiet_NaN();  // there are no synapses
+    double out = numbers.front();
+    for (std::size_t i = 1; i < numbers.size(); ++i) {
+        const double v = numbers[i];
+        out = kind == Kind::min ? std::min(out, v) : kind == Kind::max ? std::max(out, v) : out + v;
     }
-    return out;
+    return kind == Kind::mean ? out / static_cast<double>(numbers.size()) : out;
 }
 
 bool Condition::sees_cells() const {

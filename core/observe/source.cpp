@@ -1,11 +1,18 @@
 #include "core/observe/source.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include <fmt/format.h>
+
+#include "core/model/lookup.h"
 
 namespace forage::observe {
 namespace {
 
 constexpr std::string_view mean_prefix = "mean:";
+constexpr double most_synapses_recorded = 1 << 24;  ///< numbers in a row that recordings are read with
 
 std::string interval(int first, int count) {
     return count == 1 ? fmt::format("{}", first) : fmt::format("{}..{}", first, first + count - 1);
@@ -20,28 +27,36 @@ std::string Recorded::cell_name(std::size_t i) const {
     return fmt::format("x{}_y{}", cells.x + n % cells.width, cells.y + n / cells.width);
 }
 
+namespace {
+
+/// What a source selects of `what`: its cells, or their mean. Empty when a cell is missing.
+std::optional<Recorded> selected(const Recorded& what, const expression::Source& source) {
+    Recorded out = what;
+    if (what.mean) return source.cells ? std::nullopt : std::optional(out);
+    const model::Region &all = what.cells, r = source.cells.value_or(all);
+    const auto within = [](int first, int count, int all_first, int all_count) {
+        return count >= 1 && first >= all_first && count <= all_count &&
+               first - all_first <= all_count - count;
+    };
+    if (!within(r.x, r.width, all.x, all.width) || !within(r.y, r.height, all.y, all.height))
+        return std::nullopt;
+    out.cells = r;
+    if (source.cells) out.name += fmt::format("({},{})", interval(r.x, r.width), interval(r.y, r.height));
+    if (source.mean) out.mean = true, out.name.insert(0, mean_prefix);
+    return out;
+}
+
+}  // namespace
+
 std::optional<Part> part_of(const Recorded& what, const expression::Source& source) {
-    Part out{{}, what};
-    const model::Region& all = what.cells;
-    if (what.mean && source.cells) return std::nullopt;
-    const model::Region r = source.cells.value_or(all);
-    if (!what.mean) {
-        const auto within = [](int first, int count, int all_first, int all_count) {
-            return count >= 1 && first >= all_first && count <= all_count &&
-                   first - all_first <= all_count - count;
-        };
-        if (!within(r.x, r.width, all.x, all.width) || !within(r.y, r.height, all.y, all.height))
-            return std::nullopt;
-        out.what.cells = r;
-        for (int y = r.y; y < r.y + r.height; ++y)
-            for (int x = r.x; x < r.x + r.width; ++x)
-                out.numbers.push_back(static_cast<std::size_t>((y - all.y) * all.width + x - all.x));
-    } else {
-        out.numbers = {0};
-    }
-    if (source.cells)
-        out.what.name += fmt::format("({},{})", interval(r.x, r.width), interval(r.y, r.height));
-    if (source.mean && !what.mean) out.what.mean = true, out.what.name.insert(0, mean_prefix);
+    auto found = selected(what, source);
+    if (!found) return std::nullopt;
+    Part out{{}, std::move(*found)};
+    const model::Region &all = what.cells, &r = out.what.cells;
+    if (what.mean) return out.numbers = {0}, out;
+    for (int y = r.y; y < r.y + r.height; ++y)
+        for (int x = r.x; x < r.x + r.width; ++x)
+            out.numbers.push_back(static_cast<std::size_t>((y - all.y) * all.width + x - all.x));
     return out;
 }
 
@@ -55,10 +70,92 @@ void Part::take(std::span<const double> row, std::span<double> out) const {
     out[0] = sum / static_cast<double>(numbers.size());
 }
 
+namespace {
+
+/// Calls visit(column, row, number) for each synapse in a range of the matrix; both count from 0 within it.
+template <class Visit>
+void for_each_synapse(const engine::Simulation& simulation, const ColumnRef& c, const model::Region& range,
+                      Visit visit) {
+    const auto pre = simulation.synapse_sources(c.connection),
+               post = simulation.synapse_targets(c.connection);
+    const ConstColumn numbers = simulation.synapse_state(c.connection, c.state);
+    for (std::size_t i = 0; i < pre.size(); ++i) {
+        const int x = pre[i] + 1 - range.x, y = post[i] + 1 - range.y;
+        if (x >= 0 && x < range.width && y >= 0 && y < range.height)
+            visit(x, y, numbers[static_cast<Index>(i)]);
+    }
+}
+
+double mean_of(const std::vector<double>& numbers) {
+    double sum = 0;
+    for (const double v : numbers) sum += v;
+    return sum / static_cast<double>(numbers.size());
+}
+
+}  // namespace
+
+std::vector<double> Source::all(const engine::Simulation& simulation) const {
+    std::vector<double> out;
+    if (column.connection >= 0) {
+        for_each_synapse(simulation, column, what().cells, [&](int, int, double v) { out.push_back(v); });
+    } else {
+        const ConstColumn cells = values(simulation, column);
+        for (const std::size_t i : part.numbers) out.push_back(cells[static_cast<Index>(i)]);
+    }
+    return out;
+}
+
 void Source::read(const engine::Simulation& simulation, std::span<double> out) const {
+    if (column.connection >= 0) {
+        if (what().mean) {
+            out[0] = mean_of(all(simulation));
+            return;
+        }
+        std::fill(out.begin(), out.end(), std::numeric_limits<double>::quiet_NaN());
+        for_each_synapse(simulation, column, what().cells, [&](int x, int y, double v) {
+            double& place = out[static_cast<std::size_t>(y) * static_cast<std::size_t>(what().cells.width) +
+                                static_cast<std::size_t>(x)];
+            place = std::isnan(place) ? v : place + v;
+        });
+        return;
+    }
     const ConstColumn all = values(simulation, column);
     part.take({all.data(), static_cast<std::size_t>(all.size())}, out);
 }
+
+namespace {
+
+/// The part of a connection's matrix that holds the synapses of `source`. Reports cells outside the groups.
+std::optional<Part> find_synapse_part(const engine::Layout& layout, const ColumnRef& column,
+                                      const expression::Source& source, const expression::Context& context) {
+    const auto& connection = layout.connections[column.connection];
+    const int sources = layout.groups[connection.source].shape.cells,
+              targets = layout.groups[connection.target].shape.cells;
+    const auto& state = connection.type.states[column.state];
+    Recorded whole;
+    whole.name = column.name, whole.label = state.label, whole.state = state.name;
+    whole.group_id = connection.id, whole.group = model::trim(connection.name);
+    whole.cells = {1, 1, sources, targets, {}}, whole.group_width = sources, whole.synapses = true;
+    auto out = selected(whole, source);
+    if (!out) {
+        context.error(source.cells_at, fmt::format("'{}' has no synapses {}", column.name, source.cells_text),
+                      fmt::format("a synapse is (source cell, target cell), of {} and {} cells, which count "
+                                  "from 1, row by row",
+                                  sources, targets));
+        return std::nullopt;
+    }
+    if (const double numbers = double{1} * out->cells.width * out->cells.height;
+        !out->mean && numbers > most_synapses_recorded) {
+        context.error(
+            source.column.at,
+            fmt::format("'{}' is a matrix of {:.0f} numbers per cycle", column.name, numbers),
+            fmt::format("choose source and target cells, '{0}(1..100,1..100)', or mean({0})", column.name));
+        return std::nullopt;
+    }
+    return Part{{}, std::move(*out)};
+}
+
+}  // namespace
 
 std::optional<Part> find_part(const engine::Layout& layout, const ColumnRef& column,
                               const expression::Source& source, const expression::Context& context) {
@@ -94,6 +191,12 @@ std::optional<Part> find_part(const engine::Layout& layout, const ColumnRef& col
 
 std::optional<Source> find_source(const engine::Layout& layout, const expression::Source& source,
                                   const expression::Context& context) {
+    if (names_connection(layout, source.column)) {
+        auto synapses = find_synapses(layout, source.column, context);
+        auto part = synapses ? find_synapse_part(layout, *synapses, source, context) : std::nullopt;
+        if (!part) return std::nullopt;
+        return Source{std::move(*synapses), std::move(*part)};
+    }
     auto column = find_column(layout, source.column, context);
     auto part = column ? find_part(layout, *column, source, context) : std::nullopt;
     if (!part) return std::nullopt;

@@ -21,6 +21,7 @@ struct Recorded {
     int group_width = 1;                 ///< columns of the whole group
     bool numbered = false;               ///< whether the cells have no places
     bool mean = false;                   ///< whether the row is one number, the mean of the cells
+    bool synapses = false;               ///< whether it is a matrix of synapses; unknown in files
 
     std::size_t size() const {
         return mean ? 1 : static_cast<std::size_t>(cells.width) * static_cast<std::size_t>(cells.height);
@@ -40,7 +41,9 @@ struct Part {
 /// missing.
 std::optional<Part> part_of(const Recorded& what, const expression::Source& source);
 
-/// Cells of a column, or their mean.
+/// Cells of a column, or their mean. The synapses of a connection are cells of a matrix that has a column per
+/// source cell and a row per target cell, both counted from 1. The number is NaN where there is no synapse,
+/// and the sum where several synapses connect the same two cells.
 struct Source {
     ColumnRef column;
     Part part;
@@ -49,6 +52,8 @@ struct Source {
     /// Reads the numbers of the running cycle, or, between cycles, of the last one; `out` has what().size()
     /// numbers.
     void read(const engine::Simulation& simulation, std::span<double> out) const;
+    /// The numbers of the cells, or of the synapses between cells of the range.
+    std::vector<double> all(const engine::Simulation& simulation) const;
     /// Demands the column.
     void declare(engine::Demand& out) const { observe::declare(column, out); }
 };

@@ -57,7 +57,7 @@ const Results::Entry* find_recording(const Results& results, const PlotSpec& spe
 std::string draw_rows(const Results& results, const PlotSpec& spec, plot::Format format,
                       Diagnostics& diagnostics) {
     const auto wanted =
-        expression::Context{spec.what, "forage plot", diagnostics}.parsed(&expression::parse_source);
+        expression::Context{spec.source(), "forage plot", diagnostics}.parsed(&expression::parse_source);
     if (!wanted) return {};
     std::optional<observe::Part> part;
     const auto* entry = find_recording(results, spec, *wanted, part);

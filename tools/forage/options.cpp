@@ -167,10 +167,12 @@ void add_plot(CLI::App& app, PlotOptions& o) {
         "  space:SOURCE@0..1000/100        at every 100th cycle; ';blocks=9x1' at the end divides the group\n"
         "  movie:SOURCE@0..500/5           the same as an animated PNG\n"
         "  connection:NAME                 the synapses between two groups, with strength and delay\n"
+        "  connection:NAME@0,100           weights that are learned, at these cycles\n"
         "  wiring:NAME                     the receptive field of each cell of a small group\n"
         "  diagram, diagram:PROCESS        the diagram of the system or of one process\n"
         "  trajectory                      the robot's paths\n"
-        "A source is 'Process/Group:state(x1..x2,y1..y2)'; state and cells are optional. See\n"
+        "A source is 'Process/Group:state(x1..x2,y1..y2)'; state and cells are optional. 'NAME:weight(3,1)'\n"
+        "is the synapse of a connection from the third cell of its source to the first of its target. See\n"
         "docs/reference/expressions.md.\n"
         "Example:\n"
         "  forage plot systems/reactive_foraging.iqr diagram 'connection:US to Approach' --plot-format svg");

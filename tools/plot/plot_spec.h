@@ -14,6 +14,8 @@ namespace forage::plot {
 struct PlotSpec : expression::Plot {
     std::string text;  ///< the whole text
 
+    /// The source of the rows of numbers. A connection at given cycles is its weights.
+    std::string source() const { return of_connection() ? "\"" + what + "\":weight" : what; }
     bool wants(std::uint64_t cycle) const;
     /// The name of the picture's file. Animations are always PNG files.
     std::string file(Format format) const;

@@ -44,7 +44,10 @@ void RowPlot::add(std::uint64_t cycle, std::span<const double> numbers) {
     last_ = cycle;
     if (!spec_.wants(cycle)) return;
     if (spec_.kind != PlotSpec::Kind::time) return add_frame(cycle, numbers);
-    const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
+    // NaN, which stands for a synapse that does not exist, is the smallest.
+    const auto smaller = [](double a, double b) {
+        return std::isnan(a) ? !std::isnan(b) : std::abs(a) < std::abs(b);
+    };
     for (auto& curve : curves_) {
         const auto cells = numbers.first(std::min(cells_per_row_, numbers.size()));
         curve.add(static_cast<double>(cycle), *std::max_element(cells.begin(), cells.end(), smaller));
@@ -87,7 +90,9 @@ std::string RowPlot::draw(Format format, const PlotContext& context) const {
         if (curves_.empty() || curves_[0].bins().empty()) throw nothing();
         TimePlot p;
         p.title = title, p.subtitle = context.run, p.quantity = quantity;
-        p.cells = what_.cells.height > 1 && !what_.numbered ? "cell, row by row" : "cell";
+        p.cells = what_.synapses                              ? "synapse, target by target"
+                  : what_.cells.height > 1 && !what_.numbered ? "cell, row by row"
+                                                              : "cell";
         p.curves = curves_;
         p.cells_per_row = cells_per_row_;
         p.seconds_per_cycle = context.seconds_per_cycle;
@@ -98,11 +103,15 @@ std::string RowPlot::draw(Format format, const PlotContext& context) const {
     if (frames_.empty()) throw nothing();
     SpacePlot p;
     p.title = title, p.subtitle = context.run, p.quantity = quantity;
-    p.grid = {what_.cells.x, what_.cells.y, what_.mean ? 1 : what_.cells.width,
-              what_.mean ? 1 : what_.cells.height, what_.numbered};
+    p.grid = {what_.cells.x,
+              what_.cells.y,
+              what_.mean ? 1 : what_.cells.width,
+              what_.mean ? 1 : what_.cells.height,
+              what_.numbered,
+              what_.synapses};
     p.blocks_across = spec_.blocks_across, p.blocks_down = spec_.blocks_down;
     p.frames = frames_;
-    if (spec_.kind == PlotSpec::Kind::space) return render(space_plot(p), format);
+    if (spec_.kind != PlotSpec::Kind::movie) return render(space_plot(p), format);
     return render_animation(space_animation(p), seconds_per_frame);
 }
 
@@ -187,7 +196,7 @@ bool add_plots(const std::vector<model::Expression>& plots, Run& run, Format for
             if (!run.environment())
                 diagnostics.error(at, "a trajectory needs a world", "add --world FILE.world");
         } else if (spec->of_cells()) {
-            auto source = observe::find_source(run.layout(), spec->what, option, diagnostics, at);
+            auto source = observe::find_source(run.layout(), spec->source(), option, diagnostics, at);
             if (source)
                 run.add(std::make_unique<RowPlotter>(std::move(*spec), std::move(*source), format, title));
         } else {

@@ -54,7 +54,8 @@ void draw_panel(Canvas& canvas, const SpacePlot& plot, const SpaceFrame& frame, 
                 const Box& box, bool single) {
     const CellGrid& g = plot.grid;
     draw_cells(canvas, box, g.width, g.height, [&](int column, int row) {
-        return scale(frame.values[static_cast<std::size_t>(row * g.width + column)]);
+        const double v = frame.values[static_cast<std::size_t>(row * g.width + column)];
+        return std::isnan(v) ? Colour{0.93, 0.93, 0.93} : scale(v);  // there is no synapse
     });
     const auto divide = [&](int blocks, bool across) {
         for (int b = 1; b < blocks; ++b) {
@@ -68,8 +69,9 @@ void draw_panel(Canvas& canvas, const SpacePlot& plot, const SpaceFrame& frame, 
     divide(plot.blocks_across, true);
     divide(plot.blocks_down, false);
     const Axes axes{box, {g.x - 0.5, g.x + g.width - 0.5}, {g.y - 0.5, g.y + g.height - 0.5}, true};
-    draw_axes(canvas, axes, {single ? g.numbered ? "cell" : "column of cells" : "", true},
-              {single && !g.numbered ? "row" : "", true, !g.numbered});
+    const char* across = g.synapses ? "source cell" : g.numbered ? "cell" : "column of cells";
+    const char* down = g.synapses ? "target cell" : g.numbered ? "" : "row";
+    draw_axes(canvas, axes, {single ? across : "", true}, {single ? down : "", true, !g.numbered});
     if (!single) canvas.text(box.x + box.width / 2, box.y - 6, fmt::format("cycle {}", frame.cycle), 12, 0.5);
 }
 

@@ -15,6 +15,7 @@ struct CellGrid {
     int x = 1, y = 1;  ///< upper left cell
     int width = 1, height = 1;
     bool numbered = false;  ///< whether the cells have no positions; x is their number then, from 1
+    bool synapses = false;  ///< whether columns are source cells and rows are target cells
 };
 
 struct SpaceFrame {

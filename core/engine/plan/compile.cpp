@@ -204,6 +204,7 @@ class Compiler {
         if (plan.pruned) return;
         add_synapse_states(c, about.type, plan);
         if (budget_.exceeded()) return;
+        if (plan.reads_states) plan.pre = synapses.pre, plan.post = synapses.post;
         auto kernel = make_plastic(std::move(synapses), source, target, about.type, plan.reads_states,
                                    plan_->rows, forms_);
         plan.plastic = kernel.get();

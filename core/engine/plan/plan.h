@@ -54,6 +54,8 @@ struct ConnectionPlan {
     bool reads_states = false;  ///< of its synapses, from outside
     std::vector<int> feedback;  ///< for a plastic one: states of the target, -1 for an unset one
     std::size_t synapses = 0;
+    /// Source and target cell of each synapse, when `reads_states` is set and the kernel is plastic.
+    std::vector<int> pre, post;
 };
 
 /// A compiled system. Groups, modules and connections have the numbers of the layout.
