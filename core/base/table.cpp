@@ -97,6 +97,18 @@ void TableReader::split() {
     constexpr std::string_view separators = " \t\r\v\f,;";
     for (std::size_t at = 0; at <= row_.size() && fields_.size() <= most_fields;) {
         if (any && (at = row_.find_first_not_of(separators, at)) == row_.npos) return;
+        const auto rest = row_.substr(at);
+        if (layout_ == Layout::csv && rest.starts_with('"')) {  // RFC 4180; a doubled quote stays doubled
+            auto close = rest.find('"', 1);
+            while (close != rest.npos && rest.substr(close).starts_with("\"\""))
+                close = rest.find('"', close + 2);
+            if (const auto after = rest.substr(std::min(close, rest.size() - 1) + 1);
+                close != rest.npos && (after.empty() || after.starts_with(','))) {
+                fields_.push_back(rest.substr(1, close - 1));
+                at += close + 2;
+                continue;
+            }
+        }
         const auto end = std::min(any ? row_.find_first_of(separators, at) : row_.find(',', at), row_.size());
         fields_.push_back(trimmed(row_.substr(at, end - at)));
         at = end + 1;

@@ -21,7 +21,8 @@ namespace forage {
 class TableReader {
   public:
     enum class Layout {
-        csv,     ///< A line is a row with commas between its fields; empty lines are skipped.
+        csv,     ///< A line is a row with commas between its fields, which may be quoted; empty lines are
+                 ///< skipped.
         blocks,  ///< A line is a row with blanks, commas or semicolons between its fields; an empty line is a
                  ///< row without fields.
         list,  ///< The whole text is one row with commas between its fields; a comma after the last field is

@@ -490,8 +490,9 @@ model::ManipulationSpec parse_manipulation(model::ManipulationSpec::Mode mode, s
 
 namespace {
 
-constexpr std::array<std::string_view, 7> plots = {"time",    "space",      "movie", "connection",
-                                                   "diagram", "trajectory", "wiring"};
+constexpr std::array<std::string_view, 11> plots = {"time",    "space",      "movie",    "connection",
+                                                    "diagram", "trajectory", "wiring",   "curve",
+                                                    "heat",    "learning",   "occupancy"};
 constexpr int most_blocks = 1000;  // lines closer than a pixel
 
 /// "100", "0..500" or "0..500/10"

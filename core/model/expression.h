@@ -132,13 +132,25 @@ struct CellValue {
 
 /// A picture, as an expression describes it.
 struct Plot {
-    enum class Kind { time, space, movie, connection, diagram, trajectory, wiring };
+    enum class Kind {
+        time,
+        space,
+        movie,
+        connection,
+        diagram,
+        trajectory,
+        wiring,
+        curve,
+        heat,
+        learning,
+        occupancy
+    };
     struct Cycles {
         std::uint64_t first, last, step;
         bool contains(std::uint64_t c) const { return c >= first && c <= last && (c - first) % step == 0; }
     };
     Kind kind = Kind::time;
-    std::string what;  ///< the source, connection or process; may be empty for diagram and trajectory
+    std::string what;  ///< the source, connection, process or measure; may be empty
     std::vector<Cycles> cycles;
     std::string cycles_text;  ///< the text after '@'
     int blocks_across = 1, blocks_down = 1;
@@ -148,6 +160,8 @@ struct Plot {
         return kind == Kind::time || kind == Kind::space || kind == Kind::movie ||
                (kind == Kind::connection && !cycles.empty());
     }
+    /// Whether the picture is drawn from the results of several runs or trials.
+    bool of_results() const { return kind >= Kind::curve; }
     bool of_connection() const { return kind == Kind::connection || kind == Kind::wiring; }
     static std::string_view name(Kind kind);
 };

@@ -278,6 +278,38 @@ class Plots(Experiment):
         self.assertEqual((runs[0] / "trajectory.png").read_bytes(), path)
 
 
+    def test_the_results_of_all_runs_are_drawn(self):
+        (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "3").replace('<measure name="never"', '<plot what="trajectory"/><measure name="never"'))
+        self.forage("experiment", "robot.xml", "-o", "two")
+        drawn = self.forage("plot", "two").stdout.split()
+        self.assertIn("two/heat_success.png", drawn)
+        self.assertEqual(drawn[-2:], ["two/learning.png", "two/occupancy.png"])
+        self.edit("robot.xml", '<sweep parameter="Motor In to Motor.weight" values="1 0.9"/>', "")
+        self.forage("experiment", "robot.xml", "-o", "one")
+        self.forage("plot", "one", "curve:success", "learning:cycles", "--plot-format", "svg", "-o", "svg")
+        self.assertTrue((self.here / "svg/curve_success.svg").read_text().count("</g>") > 5)
+        page = (self.here / self.forage("view", "one").stdout.split("\n")[0]).read_text()
+        pictures = re.findall(r'<img src="./([^"]*)"', page)
+        self.assertTrue(pictures[0].startswith("curve_"), pictures)
+        self.assertEqual(sum(p.endswith("trajectory.png") for p in pictures), 6, pictures)
+        run = sorted((self.here / "one/runs").iterdir())[0]
+        self.forage("plot", run, "learning", "occupancy")
+        self.assertTrue((run / "occupancy.png").exists())
+
+    def test_what_cannot_be_drawn(self):
+        self.forage("experiment", "robot.xml", "-o", "out")
+        said = self.forage("plot", "out", "curve:speed", "heat:success", "occupancy", status=2).stderr
+        self.assertIn("there is no measure 'speed'", said)
+        self.assertNotIn("heat", said)  # that one can be drawn
+        self.assertIn("holds no paths", said)
+        run = sorted((self.here / "out/runs").iterdir())[0]
+        said = self.forage("plot", run, "curve:success", "learning:speed", status=2).stderr
+        self.assertIn("does not hold the results of an experiment", said)
+        self.assertIn("there is no column 'speed'", said)
+        said = self.forage("run", SYSTEM, "--cycles", 1, "--plot", "curve:success", status=2).stderr
+        self.assertIn("'forage plot DIR curve:success' draws it afterwards", said)
+
+
 class Mistakes(Experiment):
     def test_all_mistakes_at_once_with_their_places(self):
         (self.here / "robot.xml").write_text(f"""<experiment>

@@ -9,6 +9,7 @@
 #include "core/base/output_files.h"
 #include "tools/api/results.h"
 #include "tools/api/sources.h"
+#include "tools/plot/occupancy.h"
 #include "tools/plot/structure.h"
 
 namespace forage {
@@ -22,6 +23,7 @@ constexpr const char* how_to_record =
     "'forage run --record' makes recordings, 'forage run --plot' draws at once";
 
 std::vector<std::string> usual_plots(const Results& results) {
+    if (results.experiment) return usual_plots(*results.experiment, results.directory);
     std::vector<std::string> out;
     if (results.recordings.empty() && results.directory.empty()) return {"diagram"};
     for (const auto& r : results.recordings) {
@@ -79,6 +81,27 @@ std::string draw_rows(const Results& results, const PlotSpec& spec, plot::Format
     return drawn.draw(format, results.context);
 }
 
+/// The runs of an experiment, or the one whose results these are.
+std::vector<TrialSeries> runs_of(const Results& results) {
+    if (results.experiment) return trial_series(*results.experiment, results.directory);
+    return {{"", {results.directory}}};
+}
+
+/// Where the robot was in all runs. Reports results without paths.
+std::optional<plot::Picture> draw_occupancy(const Results& results, const bug::World& world,
+                                            Diagnostics& diagnostics) {
+    std::vector<plot::Path> paths;
+    for (const auto& series : runs_of(results))
+        for (const auto& directory : series.directories)
+            if (fs::exists(directory + "/trajectory.csv"))
+                for (auto& path : read_paths(directory)) paths.push_back(std::move(path));
+    if (!paths.empty()) return plot::occupancy_plot(world, paths, results.context.run);
+    diagnostics.error({}, fmt::format("'{}' holds no paths of a robot", results.path),
+                      results.experiment ? "write <plot what=\"trajectory\"/> in the experiment"
+                                         : "runs in a world have a trajectory.csv");
+    return std::nullopt;
+}
+
 /// Loads what the pictures of a system and of its world need. Empty when no picture needs it, and when
 /// something is missing, which is reported.
 std::optional<Loaded> load_for(const std::vector<PlotSpec>& specs, const Results& results,
@@ -87,21 +110,47 @@ std::optional<Loaded> load_for(const std::vector<PlotSpec>& specs, const Results
         return std::any_of(specs.begin(), specs.end(),
                            [&](const PlotSpec& s) { return ((s.kind == kinds) || ...); });
     };
-    const bool trajectory = any(Kind::trajectory);
-    if (!trajectory && !any(Kind::diagram, Kind::connection, Kind::wiring)) return std::nullopt;
+    const bool trajectory = any(Kind::trajectory), world = trajectory || any(Kind::occupancy);
+    if (!world && !any(Kind::diagram, Kind::connection, Kind::wiring)) return std::nullopt;
     if (results.input.system.empty()) {
         diagnostics.error({}, "which system? there is no run.json that names it",
                           "name the .iqr file instead");
         return std::nullopt;
     }
     RunInput input = results.input;
-    if (!trajectory) input.world.clear();
+    if (!world) input.world.clear();
     auto loaded = load(input, diagnostics);
     if (!loaded) return loaded;
     for (const auto& s : specs) plot::check_structure(s, loaded->system, "forage plot", diagnostics);
     if (trajectory && (!loaded->world || !fs::exists(results.directory + "/trajectory.csv")))
         diagnostics.error({}, "a trajectory needs the results of a run in a world");
     return loaded;
+}
+
+/// A picture as the content of a file; empty when there was an error.
+std::string draw_one(const PlotSpec& spec, Results& results, const std::optional<Loaded>& loaded,
+                     plot::Format format, Diagnostics& diagnostics) {
+    if (spec.of_cells()) return draw_rows(results, spec, format, diagnostics);
+    const std::string& title = results.context.run;
+    std::optional<plot::Picture> picture;
+    if (spec.kind == Kind::learning)
+        picture = draw_learning(spec, runs_of(results), title, diagnostics);
+    else if (spec.kind == Kind::occupancy && !loaded->world)
+        diagnostics.error({}, fmt::format("'{}': these runs have no world", spec.text));
+    else if (spec.kind == Kind::occupancy)
+        picture = draw_occupancy(results, *loaded->world, diagnostics);
+    else if (spec.of_results() && !results.experiment)
+        diagnostics.error(
+            {}, fmt::format("'{}': '{}' does not hold the results of an experiment", spec.text, results.path),
+            "'forage experiment' writes them");
+    else if (spec.of_results())
+        picture = draw_measure(spec, *results.experiment, title, diagnostics);
+    else if (spec.kind == Kind::trajectory)
+        picture = plot::trajectory_plot(*loaded->world, read_paths(results.directory), title);
+    else
+        picture =
+            plot::structure_plot(spec, loaded->system, loaded->registry, nullptr, results.input.seed, title);
+    return picture ? plot::render(*picture, format) : "";
 }
 
 }  // namespace
@@ -123,15 +172,7 @@ std::vector<std::string> draw(Results& results, std::vector<std::string> plots, 
     if (directory.empty()) directory = ".";
     std::vector<std::string> written;
     for (const auto& spec : specs) try {
-            const std::string picture =
-                spec.of_cells() ? draw_rows(results, spec, format, diagnostics)
-                : spec.kind == Kind::trajectory
-                    ? plot::render(plot::trajectory_plot(*loaded->world, read_paths(results.directory),
-                                                         results.context.run),
-                                   format)
-                    : plot::render(plot::structure_plot(spec, loaded->system, loaded->registry, nullptr,
-                                                        results.input.seed, results.context.run),
-                                   format);
+            const std::string picture = draw_one(spec, results, loaded, format, diagnostics);
             if (picture.empty()) continue;
             make_directory(directory);
             write_file(directory + "/" + spec.file(format), picture);

@@ -60,7 +60,17 @@ Results open_results(const std::string& path) {
     std::error_code none;
     if (!fs::is_directory(path, none))
         if (const auto wrong = why_unreadable(path)) throw FileError(path, {}, {*wrong});
-    if (fs::is_directory(path)) {
+    if (holds_experiment(path)) {
+        out.directory = path;
+        out.experiment = read_run_table(path);
+        for (const auto& row : out.experiment->rows)  // all have the same world
+            if (const auto run = read_run_json(fmt::format("{}/runs/{}", path, row.run))) {
+                out.input = run->input;
+                out.context.seconds_per_cycle = run->seconds_per_cycle;
+                break;
+            }
+        out.context.run = fs::weakly_canonical(path).filename().string();
+    } else if (fs::is_directory(path)) {
         out.directory = path;
         const auto known = read_run(path, out);
         std::vector<fs::path> files;

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/observe/recording.h"
 #include "core/run/run_spec.h"
+#include "tools/api/experiment_plots.h"
 #include "tools/plot/plots.h"
 #include "tools/plot/trajectory.h"
 
@@ -23,9 +25,11 @@ struct Results {
     RunInput input;         ///< the system and world of the run, if they are known
     plot::PlotContext context;
     std::vector<Entry> recordings;
+    std::optional<RunTable> experiment;  ///< the table of an experiment's runs
 };
 
-/// Opens a directory of results, a recording (.csv, .npy, .h5) or a system file. Throws FileError.
+/// Opens a directory of results of a run or an experiment, a recording (.csv, .npy, .h5) or a system file.
+/// Throws FileError.
 Results open_results(const std::string& path);
 
 /// The robot's path in each trial. Throws FileError for tables that are damaged or do not belong together.
@@ -37,7 +41,9 @@ std::vector<plot::Path> read_paths(const std::string& directory);
 std::vector<std::string> draw(Results& results, std::vector<std::string> plots, std::string directory,
                               plot::Format format, Diagnostics& diagnostics);
 
-/// An HTML page of the pictures and tables in a directory of results. It needs nothing from the network.
-std::string results_page(const std::string& directory);
+/// Writes index.html, a page of the pictures and tables in a directory of results and of the pictures below
+/// it, and returns its path. Draws the usual pictures of an experiment first. The page needs nothing from the
+/// network.
+std::string write_page(const std::string& directory, Diagnostics& diagnostics);
 
 }  // namespace forage

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/output_files.h"
 #include "core/base/table.h"
 #include "core/run/run_json.h"
 #include "tools/api/results.h"
@@ -14,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_rows = 200, most_columns = 40;
+constexpr std::size_t most_rows = 200, most_columns = 40, most_pictures = 500;
 
 std::string to_html(std::string_view text) {
     std::string out;
@@ -49,7 +50,8 @@ std::string picture(const std::string& name) {
     if (plot::format_of(name) == plot::Format::pdf)
         return fmt::format("<p><a href=\"{}\">{}</a></p>\n", at, text);
     return fmt::format(
-        "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a><figcaption>{1}</figcaption></figure>\n",
+        "<figure><a href=\"{0}\"><img src=\"{0}\" loading=\"lazy\" "
+        "alt=\"{1}\"></a><figcaption>{1}</figcaption></figure>\n",
         at, text);
 }
 
@@ -83,7 +85,23 @@ std::string settings(const std::string& directory) {
     return out + "</table>\n";
 }
 
-}  // namespace
+/// Whether a picture shows all runs of an experiment.
+bool shows_all_runs(const fs::path& picture) {
+    const std::string name = picture.filename().string();
+    return name.starts_with("curve_") || name.starts_with("heat_") || name.starts_with("learning") ||
+           name.starts_with("occupancy");
+}
+
+/// The pictures in the folders below a directory, in order of their paths relative to it.
+std::vector<std::string> pictures_below(const std::string& directory) {
+    std::vector<std::string> out;
+    for (const auto& entry : fs::recursive_directory_iterator(directory))
+        if (entry.is_regular_file() && plot::format_of(entry.path().filename().string()) &&
+            entry.path().parent_path() != fs::path(directory))
+            out.push_back(entry.path().lexically_relative(directory).string());
+    std::sort(out.begin(), out.end());
+    return out;
+}
 
 std::string results_page(const std::string& directory) {
     std::vector<fs::path> pictures, tables, others, folders;
@@ -101,6 +119,7 @@ std::string results_page(const std::string& directory) {
             others.push_back(entry.path());
     }
     for (auto* files : {&pictures, &tables, &others, &folders}) std::sort(files->begin(), files->end());
+    std::stable_partition(pictures.begin(), pictures.end(), shows_all_runs);
     const std::string title = to_html(fs::weakly_canonical(directory).filename().string());
     std::string out = fmt::format(R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>{0}</title>
@@ -123,7 +142,25 @@ table {{ border-collapse: collapse; font-size: 13px; }} th, td {{ border: 1px so
             out += fmt::format("<li><a href=\"{}\">{}</a></li>\n", address(name), to_html(name));
         }
     if (!others.empty() || !folders.empty()) out += "</ul>\n";
+    const auto below = pictures_below(directory);
+    if (!below.empty()) out += fmt::format("<h2>Pictures of the runs</h2>\n");
+    for (std::size_t i = 0; i < std::min(below.size(), most_pictures); ++i) out += picture(below[i]);
+    if (below.size() > most_pictures)
+        out += fmt::format("<p>The first {} of {} pictures.</p>\n", most_pictures, below.size());
     return out + "</body></html>\n";
+}
+
+}  // namespace
+
+std::string write_page(const std::string& directory, Diagnostics& diagnostics) {
+    if (holds_experiment(directory)) {
+        Results results = open_results(directory);
+        if (!usual_plots(*results.experiment, directory).empty())
+            draw(results, {}, directory, plot::Format::png, diagnostics);
+    }
+    const std::string file = (fs::path(directory) / "index.html").string();
+    write_file(file, results_page(directory));
+    return file;
 }
 
 }  // namespace forage

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "core/base/output_files.h"
 #include "tools/api/results.h"
 #include "tools/forage/commands.h"
 
@@ -17,10 +16,11 @@ int view(const std::string& directory) {
             directory);
         return bad_input;
     }
-    const std::string file = (std::filesystem::path(directory) / "index.html").string();
-    write_file(file, results_page(directory));
+    Diagnostics diagnostics;
+    const std::string file = write_page(directory, diagnostics);
+    fmt::print(stderr, "{}", format(diagnostics));
     fmt::print("{}\nOpen it with a browser: xdg-open '{}'\n", file, file);
-    return fine;
+    return diagnostics.failed() ? bad_input : fine;
 }
 
 }  // namespace forage::tool

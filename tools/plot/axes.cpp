@@ -18,6 +18,14 @@ double round_step(double raw) {
     return 10 * power;
 }
 
+std::vector<std::pair<double, std::string>> ticks_of(const AxisStyle& style, Interval interval, int count) {
+    if (!style.ticks.empty()) return style.ticks;
+    const Ticks ticks(interval, count, style.whole);
+    std::vector<std::pair<double, std::string>> out;
+    for (const double v : ticks.at()) out.emplace_back(v, ticks.name(v));
+    return out;
+}
+
 }  // namespace
 
 Ticks::Ticks(Interval interval, int count, bool whole) : step_(1) {
@@ -47,24 +55,22 @@ void draw_axes(Canvas& canvas, const Axes& axes, const AxisStyle& x, const AxisS
     cairo_rectangle(canvas.cairo(), b.x - 0.5, b.y - 0.5, b.width + 1, b.height + 1);
     cairo_stroke(canvas.cairo());
 
-    const Ticks tx(axes.x, static_cast<int>(b.width / (axes.x.size() < 100 ? 40 : 80)) + 1, x.whole);
     double free_from = -1e9;
-    for (const double v : tx.at()) {
+    for (const auto& [v, name] :
+         ticks_of(x, axes.x, static_cast<int>(b.width / (axes.x.size() < 100 ? 40 : 80)) + 1)) {
         canvas.line(axes.px(v), b.bottom() + 0.5, axes.px(v), b.bottom() + 5, black);
-        const std::string name = tx.name(v);
         const double half = canvas.width_of(name, tick_size) / 2;
         if (!x.named || axes.px(v) - half < free_from) continue;
         canvas.text(axes.px(v), b.bottom() + 18, name, tick_size, 0.5);
         free_from = axes.px(v) + half + 6;
     }
-    const Ticks ty(axes.y, static_cast<int>(b.height / (y.whole ? 30 : 50)) + 1, y.whole);
     double widest = 0, last = -1e9;
-    for (const double v : ty.at()) {
+    for (const auto& [v, name] : ticks_of(y, axes.y, static_cast<int>(b.height / (y.whole ? 30 : 50)) + 1)) {
         canvas.line(b.x - 0.5, axes.py(v), b.x - 5, axes.py(v), black);
         if (!y.named || std::abs(axes.py(v) - last) < 13) continue;
         last = axes.py(v);
-        canvas.text(b.x - 8, last + 4.3, ty.name(v), tick_size, 1);
-        widest = std::max(widest, canvas.width_of(ty.name(v), tick_size));
+        canvas.text(b.x - 8, last + 4.3, name, tick_size, 1);
+        widest = std::max(widest, canvas.width_of(name, tick_size));
     }
     if (!x.title.empty()) canvas.text(b.x + b.width / 2, b.bottom() + 37, x.title, title_size, 0.5);
     if (!y.title.empty()) canvas.text_upwards(b.x - 17 - widest, b.y + b.height / 2, y.title, title_size);

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/plot/canvas.h"
@@ -49,8 +50,9 @@ struct Axes {
 
 struct AxisStyle {
     std::string title;
-    bool whole = false;  ///< whether ticks are only at whole numbers
-    bool named = true;   ///< whether ticks have labels
+    bool whole = false;                                      ///< whether ticks are only at whole numbers
+    bool named = true;                                       ///< whether ticks have labels
+    std::vector<std::pair<double, std::string>> ticks = {};  ///< places and labels, instead of round numbers
 };
 
 /// Draws the frame, the ticks with labels, and the titles.

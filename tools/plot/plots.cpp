@@ -195,6 +195,9 @@ bool add_plots(const std::vector<model::Expression>& plots, Run& run, Format for
             trajectory = true;
             if (!run.environment())
                 diagnostics.error(at, "a trajectory needs a world", "add --world FILE.world");
+        } else if (spec->of_results()) {
+            diagnostics.error(at, fmt::format("'{}' is drawn from results", text),
+                              fmt::format("'forage plot DIR {}' draws it afterwards", text));
         } else if (spec->of_cells()) {
             auto source = observe::find_source(run.layout(), spec->source(), option, diagnostics, at);
             if (source)

@@ -54,6 +54,8 @@ TEST_CASE(
     "count") {
     CHECK(rows("\xEF\xBB\xBF# one\n1, a b ,\t2\r\n\n  \n , \nlast", Layout::csv) ==
           Texts{"1|a b|2", "|", "last"});
+    CHECK(rows("1,\"a, b\",\"\"\n\"say \"\"no\"\", \",x\ny\"z,\"open\n", Layout::csv) ==
+          Texts{"1|a, b|", "say \"\"no\"\", |x", "y\"z|\"open"});
     CHECK(rows("", Layout::csv).empty());
 }
 

@@ -212,6 +212,8 @@ TEST_CASE("Plots have a kind, a subject, cycles and blocks") {
     CHECK(plot("space:P/A(1..2,1)@0..100/10,7;blocks=3x2") == "space|P/A(1..2,1)|0-100/10 7-7/1 |3x2");
     CHECK(plot("diagram") == "diagram|||1x1");
     CHECK(plot("connection:A @ B") == "connection|A @ B||1x1");
+    CHECK(plot("curve:trial length") == "curve|trial length||1x1");
+    CHECK(plot("learning") == "learning|||1x1");
     CHECK(plot("connection:A @ B@0,10..20/5") == "connection|A @ B|0-0/1 10-20/5 |1x1");
 }
 

@@ -1,0 +1,146 @@
+#include "tools/plot/occupancy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "tools/plot/axes.h"
+#include "tools/plot/world_map.h"
+
+namespace forage::plot {
+namespace {
+
+using Points = std::vector<Eigen::Vector2d>;
+
+constexpr int occupancy_left = 62, occupancy_top = 58, occupancy_bottom = 52, cells_across = 75;
+constexpr std::size_t mean_points = 80;  ///< of a mean path
+
+/// Places on a path after equal shares of its length.
+Points resampled(const Points& path) {
+    std::vector<double> length = {0};
+    for (std::size_t i = 1; i < path.size(); ++i)
+        length.push_back(length.back() + (path[i] - path[i - 1]).norm());
+    Points out;
+    for (std::size_t k = 0, i = 0; k < mean_points; ++k) {
+        const double at = length.back() * static_cast<double>(k) / (mean_points - 1);
+        while (i + 2 < path.size() && length[i + 1] < at) ++i;
+        const double step = length[i + 1] - length[i];
+        out.push_back(step > 0 ? path[i] + (path[i + 1] - path[i]) * std::min(1.0, (at - length[i]) / step)
+                               : path[i]);
+    }
+    return out;
+}
+
+/// The mean of the paths from each start pose.
+std::vector<Points> mean_paths(const bug::World& world, const std::vector<Path>& paths) {
+    auto starts = world.start_poses();
+    if (starts.empty()) starts.emplace_back();
+    std::vector<Points> sums(starts.size(), Points(mean_points, Eigen::Vector2d::Zero()));
+    std::vector<double> counts(starts.size());
+    for (const auto& p : paths) {
+        if (p.points.size() < 2) continue;
+        const auto nearest =
+            std::min_element(starts.begin(), starts.end(),
+                             [&](const auto& a, const auto& b) {
+                                 const auto distance = [&](const Pose2& s) {
+                                     return std::hypot(s.x - p.points[0].x(), s.y - p.points[0].y());
+                                 };
+                                 return distance(a) < distance(b);
+                             }) -
+            starts.begin();
+        const auto n = static_cast<std::size_t>(nearest);
+        const Points points = resampled(p.points);
+        for (std::size_t i = 0; i < mean_points; ++i) sums[n][i] += points[i];
+        ++counts[n];
+    }
+    std::vector<Points> out;
+    for (std::size_t n = 0; n < sums.size(); ++n) {
+        if (counts[n] == 0) continue;
+        for (auto& point : sums[n]) point /= counts[n];
+        out.push_back(std::move(sums[n]));
+    }
+    return out;
+}
+
+/// The share of the paths that crossed each cell of the view, row by row from the top.
+std::vector<double> shares(const std::vector<Path>& paths, const WorldMap::Box& view, int columns, int rows) {
+    std::vector<double> out(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+    double count = 0;
+    for (const auto& p : paths) {
+        if (p.points.empty()) continue;
+        ++count;
+        std::set<std::size_t> crossed;
+        for (const auto& point : p.points) {
+            const double x = (point.x() - view.min().x()) / view.sizes().x() * columns,
+                         y = (view.max().y() - point.y()) / view.sizes().y() * rows;
+            if (x >= 0 && x < columns && y >= 0 && y < rows)
+                crossed.insert(static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
+                               static_cast<std::size_t>(x));
+        }
+        for (const std::size_t i : crossed) ++out[i];
+    }
+    for (double& v : out) v /= std::max(count, 1.0);
+    return out;
+}
+
+void draw_path(Canvas& canvas, const WorldMap& map, const Points& path) {
+    for (const bool halo : {true, false}) {
+        canvas.colour(halo ? black : white);
+        cairo_set_line_width(canvas.cairo(), halo ? 4.2 : 2.4);
+        for (const auto& p : path) cairo_line_to(canvas.cairo(), map.px(p.x()), map.py(p.y()));
+        cairo_stroke(canvas.cairo());
+    }
+}
+
+}  // namespace
+
+Picture occupancy_plot(const bug::World& world, const std::vector<Path>& paths, const std::string& title) {
+    Eigen::AlignedBox2d all;
+    for (const auto& p : paths)
+        for (const auto& point : p.points) all.extend(point);
+    const auto map = std::make_shared<const WorldMap>(world, all, 640, occupancy_left, occupancy_top);
+    const auto& view = map->view();
+    const double cell = view.sizes().maxCoeff() / cells_across;
+    const int columns = std::max(1, static_cast<int>(view.sizes().x() / cell + 0.5)),
+              rows = std::max(1, static_cast<int>(view.sizes().y() / cell + 0.5));
+    const auto crossed = shares(paths, view, columns, rows);
+    const auto means = mean_paths(world, paths);
+    ColourScale scale;
+    for (const double v : crossed) scale.include(v);
+    const Box box{occupancy_left, occupancy_top, map->width(), map->height()};
+    const std::string subtitle =
+        fmt::format("{} paths; cells of {:.2g} m; white: the mean path from each start", paths.size(), cell);
+    return {
+        box.right() + 22 + 16 + colour_bar_labels, box.bottom() + occupancy_bottom, [=](Canvas& canvas) {
+            canvas.text(12, 22, title, 15, 0, black, true);
+            canvas.text(12, 40, subtitle, 12, 0, grey);
+            cairo_save(canvas.cairo());
+            cairo_rectangle(canvas.cairo(), box.x, box.y, box.width, box.height);
+            cairo_clip(canvas.cairo());
+            map->draw_ground(canvas);
+            for (int row = 0; row < rows; ++row)
+                for (int column = 0; column < columns; ++column) {
+                    const double v =
+                        crossed[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                                static_cast<std::size_t>(column)];
+                    if (v == 0) continue;
+                    canvas.colour(scale(v), 0.85);
+                    cairo_rectangle(canvas.cairo(), box.x + box.width * column / columns,
+                                    box.y + box.height * row / rows, box.width / columns, box.height / rows);
+                    cairo_fill(canvas.cairo());
+                }
+            map->draw_movable_objects(canvas);
+            map->draw_marks(canvas);
+            for (const auto& path : means) draw_path(canvas, *map, path);
+            map->draw_targets(canvas);
+            cairo_restore(canvas.cairo());
+            draw_axes(canvas, {box, {view.min().x(), view.max().x()}, {view.min().y(), view.max().y()}},
+                      {"x (m)"}, {"y (m)"});
+            draw_colour_bar(canvas, scale, {box.right() + 22, box.y, 16, box.height}, "share of the paths");
+        }};
+}
+
+}  // namespace forage::plot
