@@ -25,13 +25,9 @@ DriveTable::Row parse_row(TableReader& in) {
                      in.row()[other] == ';' ? "a semicolon between values" : "a tab between values",
                      fmt::format("{}, with commas; numbers have a decimal point", form));
     }
-    for (std::size_t i = 1; i <= 2; ++i) {
+    for (std::size_t i = 1; i <= 2; ++i)
         if (fields[i].empty())
             return fault(fields[i], fmt::format("the row does not name a {}", i == 1 ? "process" : "group"));
-        if (fields[i].starts_with('"'))
-            return fault(fields[i], fmt::format("{} stands in quotes", escaped(fields[i])),
-                         "write names without quotes");
-    }
     const auto [line, column] = in.place(fields[1]);
     DriveTable::Row row{0, std::string(fields[1]), std::string(fields[2]), {}, line, column};
     const auto cycle = parse_number<std::int64_t>(fields[0]);

@@ -1,6 +1,7 @@
 // The files that a run leaves behind in its directory.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <utility>
@@ -34,7 +35,12 @@ class ResultFiles {
     void note(std::string name, std::string text) { notes_.emplace_back(std::move(name), std::move(text)); }
 
     const std::vector<std::pair<std::string, std::string>>& notes() const { return notes_; }
-    const std::vector<std::string>& names() const { return names_; }
+    /// The names of the written files, in alphabetical order.
+    std::vector<std::string> names() const {
+        auto out = names_;
+        std::sort(out.begin(), out.end());
+        return out;
+    }
     const std::vector<Recording>& recordings() const { return recordings_; }
     const std::vector<std::string>& problems() const { return problems_; }
 

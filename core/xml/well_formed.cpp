@@ -159,7 +159,17 @@ class Scanner {
             return only_instructions ? skip("<?", "?>", "the declaration that begins here is not closed")
                                      : fail(pos_, "a '<?' stands after another thing than a '<?'",
                                             "move it to the beginning of the file, after the <?xml?>");
-        if (at("<!--")) return skip("<!--", "-->", "the comment that begins here is not closed");
+        if (at("<!--")) {
+            const std::size_t start = pos_;
+            if (!skip("<!--", "-->", "the comment that begins here is not closed")) return false;
+            const std::string_view inside = text_.substr(start + 4, pos_ - start - 7);
+            const std::size_t dashes = inside.find("--");
+            if (dashes != std::string_view::npos || inside.ends_with('-'))
+                return fail(start + 4 + std::min(dashes, inside.size() - 1),
+                            "two dashes within a comment, which XML does not allow",
+                            "write one dash, or a blank between them");
+            return true;
+        }
         if (at("<![CDATA["))
             return open_.empty()
                        ? fail(pos_, "there is text outside of the first element")

@@ -78,11 +78,13 @@ void adaptive_lines(const std::vector<MeasuredTrial>& trials, Lines& lines) {
     for (auto t = trials.end() - static_cast<std::ptrdiff_t>(std::min(trials.size(), MeasuredTrials::window));
          t != trials.end(); ++t)
         if (const auto peaks = t->measures.peaks()) cue += peaks->cue, distractor += peaks->distractor;
+    const double ratio = cue / distractor;
     if (distractor > 0)
         lines.emplace_back("prototypes",
-                           fmt::format("{:.2f} times as strong at the last patch as at those before (peaks, "
+                           fmt::format("{} times as strong at the last patch as at those before (peaks, "
                                        "mean of the last {} trials)",
-                                       cue / distractor, std::min(trials.size(), MeasuredTrials::window)));
+                                       ratio < 1000 ? fmt::format("{:.2f}", ratio) : "more than 1000",
+                                       std::min(trials.size(), MeasuredTrials::window)));
 }
 
 void memory_line(const std::vector<MeasuredTrial>& trials, Lines& lines) {
