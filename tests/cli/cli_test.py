@@ -587,7 +587,7 @@ class Others(Cli):
         os.symlink(PROJECT / "systems", self.here / "systems")
         for command in commands:
             if "systems/learning" in command:
-                continue  # long, and tests/closed_loop/learning_test.py runs them
+                continue  # long, and tests/cli/docs_test.py runs them
             with self.subTest(command):
                 done = subprocess.run([FORAGE, *shlex.split(command)[1:]], cwd=self.here, capture_output=True, text=True, timeout=120)
                 self.assertEqual(done.returncode, 1 if "--trial-timeout" in command else 0, done.stderr)
