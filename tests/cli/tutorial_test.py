@@ -89,7 +89,7 @@ class OwnSystem(Commands):
             "1.2": ["No excitatory connection leads from Const Speed", "No trial ended: the robot stands still"],
             "2.1": ["Cell 3 of US (front left) drives no cell of Approach that turns well to the left"],
             "2.2": ["no inhibitory connection leads to Explore", "14 of 30 trials ended at the light."],
-            "3.1": ["Adaptive/UR does not get the reflex", "in 0 of 120 trials", "18 of 60 of the last six trials"],
+            "3.1": ["Adaptive/UR does not get the reflex", "in only 0 of 120 trials", "18 of 60 trials (the last six of each run)"],
             "4.1": ["does not reach Selection/Contextual", "Then both layers act at once"],
         }
         self.assertEqual(list(missing), TASKS)
