@@ -90,7 +90,8 @@ void Physics::ContactSolver::set_state(std::size_t body, const State& state, con
     }
 }
 
-void Physics::ContactSolver::solve(double step, std::span<State> states, std::span<Velocity> velocities) {
+void Physics::ContactSolver::solve(double step, std::span<State> states, std::span<Velocity> velocities,
+                                   std::span<char> touched) {
     active_bodies_.clear();
     for (std::size_t i = 0; i < states.size(); ++i) {
         if (states[i].active) states[i].update_rotation();
@@ -100,7 +101,7 @@ void Physics::ContactSolver::solve(double step, std::span<State> states, std::sp
     for (int m = 0; m < dispatcher_.getNumManifolds(); ++m)
         dispatcher_.getManifoldByIndexInternal(m)->clearManifold();
     world_.performDiscreteCollisionDetection();
-    find_contacts(states);
+    find_contacts(states, touched);
     if (manifolds_.empty()) return;
     info_.m_timeStep = scalar(step);
     const auto is_movable = [&](const btCollisionObject* o) {
@@ -147,7 +148,7 @@ bool Physics::ContactSolver::can_collide(const ObjectInfo& a, int shape_a, const
 /// Collects the contacts in `manifolds_`, without those of shapes that share no height. A contact has the
 /// smaller friction coefficient of its two surfaces, as in the original. The contacts are sorted by object,
 /// as the solution depends on their order, and Bullet's own order depends on earlier contacts.
-void Physics::ContactSolver::find_contacts(std::span<State> states) {
+void Physics::ContactSolver::find_contacts(std::span<State> states, std::span<char> touched) {
     manifolds_.clear();
     for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) {
         btPersistentManifold* contact = dispatcher_.getManifoldByIndexInternal(m);
@@ -168,6 +169,8 @@ void Physics::ContactSolver::find_contacts(std::span<State> states) {
             if (point.getDistance() < touching) {
                 if (a.movable && b.driven) ++states[first - obstacles_].robot_contacts;
                 if (b.movable && a.driven) ++states[second - obstacles_].robot_contacts;
+                if (a.driven && !touched.empty()) touched[first - obstacles_] = 1;
+                if (b.driven && !touched.empty()) touched[second - obstacles_] = 1;
             }
         }
         if (contact->getNumContacts() > 0) manifolds_.push_back(contact);

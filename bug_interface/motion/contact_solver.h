@@ -26,8 +26,9 @@ class Physics::ContactSolver {
     ContactSolver& operator=(const ContactSolver&) = delete;
 
     /// Updates the velocities of the active bodies, and counts the contacts of movable objects with robots.
-    /// `step` is the duration of the time step, s.
-    void solve(double step, std::span<State> states, std::span<Velocity> velocities);
+    /// `step` is the duration of the time step, s. Sets `touched` of driven bodies that touch another shape,
+    /// unless it is empty.
+    void solve(double step, std::span<State> states, std::span<Velocity> velocities, std::span<char> touched);
     /// Updates the poses of the parts of a body within its frame.
     void update_shapes(std::size_t body, std::span<const Part> parts);
 
@@ -42,7 +43,7 @@ class Physics::ContactSolver {
 
     btRigidBody& rigid(std::size_t body) { return *static_cast<btRigidBody*>(bodies_[body]); }
     void set_state(std::size_t body, const State& state, const Velocity& velocity);
-    void find_contacts(std::span<State> states);
+    void find_contacts(std::span<State> states, std::span<char> touched);
     bool can_collide(const ObjectInfo& a, int shape_a, const ObjectInfo& b, int shape_b) const;
     void add(const Obstacle& obstacle);
     void add(const Body& body);

@@ -121,7 +121,7 @@ void Physics::step(std::span<const MotorCommand> commands) {
             contact_solver_ = std::make_unique<ContactSolver>(obstacles_, bodies_, collision_masks_);
         ++contact_steps_;
         activate_neighbours();
-        contact_solver_->solve(step_, states_, velocities_);
+        contact_solver_->solve(step_, states_, velocities_, touched_);
     }
     for (std::size_t i = 0; i < states_.size(); ++i) {
         State& s = states_[i];

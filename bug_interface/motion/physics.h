@@ -1,6 +1,7 @@
 // Rigid bodies in the plane: they drive, slide along walls, stop at each other and push movable objects.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -100,6 +101,11 @@ class Physics {
 
     /// The number of contacts between shapes of this movable object and shapes of robots in the last step.
     int robot_contacts(std::size_t body) const { return states_[body].robot_contacts; }
+    /// Makes the following steps note which driven bodies touch another shape.
+    void note_touches() { touched_.resize(bodies_.size()); }
+    /// Whether a driven body has touched another shape since forget_touches(). False without note_touches().
+    bool touched(std::size_t body) const { return !touched_.empty() && touched_[body]; }
+    void forget_touches() { std::fill(touched_.begin(), touched_.end(), 0); }
     double speed(std::size_t body) const;              ///< speed in the last step, m/s
     double angular_velocity(std::size_t body) const {  ///< angular velocity in the last step, rad/s
         return velocities_[body].turn;
@@ -203,6 +209,7 @@ class Physics {
     double step_;  ///< s
     Contacts contacts_;
     std::vector<LayerMask> collision_masks_;
+    std::vector<char> touched_;  ///< one per body; empty when touches are not noted
     std::uint64_t contact_steps_ = 0;
     std::vector<Pose2> poses_before_;                    ///< before the current step
     std::vector<char> reverted_;                         ///< whether a body is put back to its pose before

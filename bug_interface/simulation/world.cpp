@@ -31,6 +31,7 @@ void World::step() {
 /// targets.
 void World::advance_bodies() {
     const std::uint64_t last = substeps_before(cycle_ + 1);
+    physics_->forget_touches();
     if (drive_freely(last)) substep_ = last;
     for (; substep_ < last; ++substep_) {
         for (std::size_t i = 0; i < robots_.size(); ++i) {

@@ -114,6 +114,9 @@ class World final : public Environment {
     Trial current_trial(std::size_t bug) const override;
     std::vector<Pose2> start_poses() const override { return plan_ ? plan_->starts : std::vector<Pose2>(); }
     bool has_targets() const override { return !targets_.empty(); }
+    bool at_target(std::size_t bug) const override;
+    void note_touches() override { physics_->note_touches(); }
+    bool touched(std::size_t bug) const override { return physics_->touched(bug); }
 
     /// The patches are found by the first call. Throws std::runtime_error when the picture of a floor cannot
     /// be read.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -82,6 +83,13 @@ std::string World::score_csv() const {
                            d.good ? "good" : "bad", d.points, score[0], score[1]);
     }
     return out;
+}
+
+bool World::at_target(std::size_t bug) const {
+    const Pose2& at = robots_[bug].pose;
+    return std::any_of(targets_.begin(), targets_.end(), [&](const Eigen::Vector2d& target) {
+        return (target - Eigen::Vector2d(at.x, at.y)).norm() < TrialLog::reach;
+    });
 }
 
 Trial World::current_trial(std::size_t bug) const {

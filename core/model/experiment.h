@@ -1,6 +1,7 @@
-// The content of an experiment file: one system that is run many times, and what is measured.
+// The content of an experiment file: systems that are run many times, and what is measured.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -9,6 +10,9 @@
 #include "core/model/expression.h"
 
 namespace forage::model {
+
+/// What can be measured of a robot, see docs/reference/experiment.md.
+inline constexpr std::array robot_quantities = {"path length", "displacement", "collisions", "target visits"};
 
 /// A number that is measured in every run.
 struct Measure {
@@ -19,10 +23,15 @@ struct Measure {
         final,     ///< a quantity at the end of the run
         trials,    ///< fraction of the trials in which a condition held, 0..1
         cycles,    ///< number of cycles, outside resets, before which a condition held
+        mean,      ///< mean of a quantity over all cycles
+        minimum,   ///< smallest value of a quantity after any cycle
+        maximum,   ///< largest value of a quantity after any cycle
+        robot,     ///< one of robot_quantities
     };
     std::string name;
     Kind kind = Kind::success;
     Expression what;                    ///< the condition or quantity
+    Expression of;                      ///< the name of the robot; empty: the first robot
     std::optional<std::uint64_t> last;  ///< only this many trials at the end are counted; empty: all
     Location at;
 };
@@ -32,10 +41,14 @@ struct RecordingSpec {
     std::uint64_t every = 1;  ///< cycles between two rows
 };
 
-/// A parameter that takes each of several values in turn.
+/// A parameter that takes each of several values in turn, or several systems that take turns.
 struct Sweep {
-    Expression parameter;  ///< "WHERE.parameter"
-    std::vector<Expression> values;
+    Expression parameter;            ///< "WHERE.parameter"; "system" for systems
+    std::vector<Expression> values;  ///< as in the file
+    std::vector<std::string> files;  ///< the systems, relative to the working directory; else empty
+    /// Sweeps with the same number take their values together: the first of each, the second of each, ...
+    /// They stand one after the other. Every value of a number is combined with every value of the others.
+    std::size_t axis = 0;
 };
 
 /// What a system must have or do in an exercise: a number within bounds.
@@ -57,9 +70,10 @@ struct Exercise {
 
 struct Experiment {
     std::string path;
-    std::string note;           ///< a remark for readers
-    std::string system, world;  ///< files, relative to the working directory; no world when empty
-    Location system_at, world_at;
+    std::string note;                 ///< a remark for readers
+    std::vector<Expression> systems;  ///< files that run together, relative to the working directory
+    std::string world;                ///< a file, relative to the working directory; empty without a world
+    Location world_at;
     /// Seconds of the world per second of the clock. Empty for the world's own rate.
     std::optional<double> real_time_factor;
     bool noise = true;
@@ -77,7 +91,8 @@ struct Experiment {
     std::vector<RecordingSpec> recordings;
     std::vector<Expression> plots;
     std::vector<Measure> measures;
-    std::vector<Sweep> sweeps;  ///< every combination of their values is run with every seed
+    /// Every combination of their values is run with every seed. A swept system runs together with `systems`.
+    std::vector<Sweep> sweeps;
     std::optional<Exercise> exercise;
 };
 

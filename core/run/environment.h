@@ -46,6 +46,13 @@ class Environment {
     virtual std::vector<Pose2> start_poses() const { return {}; }
     /// Whether trials have a target to reach.
     virtual bool has_targets() const { return false; }
+    /// Whether a robot is where it reaches a target.
+    virtual bool at_target(std::size_t /*robot*/) const { return false; }
+
+    /// Makes the world note what touched() returns, which costs time. Called before the first cycle.
+    virtual void note_touches() {}
+    /// Whether a robot touched a wall, an object or another robot in the last cycle.
+    virtual bool touched(std::size_t /*robot*/) const { return false; }
 
     /// The colours of the patches on the floor. Patch numbers are indices into this list.
     virtual std::vector<std::string> patch_colours() const { return {}; }

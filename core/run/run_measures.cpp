@@ -1,5 +1,6 @@
 #include "core/run/run_measures.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -12,6 +13,10 @@ namespace {
 using Kind = model::Measure::Kind;
 
 bool counts(Kind kind) { return kind == Kind::trials || kind == Kind::cycles; }
+
+bool is_over_cycles(Kind kind) {
+    return kind == Kind::mean || kind == Kind::minimum || kind == Kind::maximum;
+}
 
 /// A mean over the last `last` finished trials of the first robot; empty when there are none.
 std::optional<double> mean_of_trials(const model::Measure& m, const Environment& environment) {
@@ -27,15 +32,18 @@ std::optional<double> mean_of_trials(const model::Measure& m, const Environment&
 
 }  // namespace
 
-RunMeasures::RunMeasures(std::span<const model::Measure> measures, const engine::Layout& layout, bool trials,
-                         Diagnostics& diagnostics) {
+RunMeasures::RunMeasures(std::span<const model::Measure> measures, const engine::Layout& layout,
+                         Environment* environment, Diagnostics& diagnostics) {
+    const bool trials = environment && environment->has_trials(0);
     for (const auto& m : measures) {
-        Entry e{m, std::nullopt, std::nullopt, std::nullopt};
+        Entry e{m, {}, {}, {}, {}};
         if (m.kind == Kind::first || counts(m.kind)) {
             e.condition =
                 observe::parse_condition(layout, trials, m.what.text, "measure", diagnostics, m.what.at);
             ++waiting_;
-        } else if (m.kind == Kind::final) {
+        } else if (m.kind == Kind::robot) {
+            e.robot = RobotMeasure::make(m, environment, diagnostics);
+        } else if (m.kind == Kind::final || is_over_cycles(m.kind)) {
             e.quantity =
                 observe::parse_quantity(layout, trials, m.what.text, "measure", diagnostics, m.what.at);
         }
@@ -43,6 +51,7 @@ RunMeasures::RunMeasures(std::span<const model::Measure> measures, const engine:
             diagnostics.error(m.at, fmt::format("measure '{}': this experiment has no trials", m.name),
                               "trials are those of a robot that its world puts back to the start");
         }
+        follows_ = follows_ || m.kind == Kind::robot || is_over_cycles(m.kind);
         entries_.push_back(std::move(e));
     }
 }
@@ -83,6 +92,25 @@ void RunMeasures::before_cycle(RunView& run) {
     }
 }
 
+void RunMeasures::after_cycle(RunView& run) {
+    if (!follows_) return;
+    for (auto& e : entries_) {
+        if (e.robot) e.robot->after_cycle(*run.environment);
+        if (!is_over_cycles(e.spec.kind)) continue;
+        const double now = e.quantity->in(run.simulation, run.time);
+        ++e.values, e.sum += now;
+        e.low = std::min(e.low, now), e.high = std::max(e.high, now);
+    }
+}
+
+void RunMeasures::checkpoint(Archive& archive) {
+    for (auto& e : entries_) {
+        archive(e.first, e.cycles, e.trials, e.last_trial, e.values, e.sum, e.low, e.high);
+        if (e.robot) e.robot->checkpoint(archive);
+    }
+    archive(waiting_);
+}
+
 std::optional<double> RunMeasures::value(Entry& e, RunView& run) const {
     switch (e.spec.kind) {
         case Kind::success:
@@ -99,6 +127,14 @@ std::optional<double> RunMeasures::value(Entry& e, RunView& run) const {
             return e.first;
         case Kind::final:
             return e.quantity->in(run.simulation, run.time);
+        case Kind::mean:
+            return e.sum / static_cast<double>(e.values);  // NaN, which is no number, before the first cycle
+        case Kind::minimum:
+            return std::isfinite(e.sum) ? e.low : e.sum;
+        case Kind::maximum:
+            return std::isfinite(e.sum) ? e.high : e.sum;
+        case Kind::robot:
+            return e.robot->value(*run.environment);
     }
     return std::nullopt;
 }

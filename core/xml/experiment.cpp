@@ -23,8 +23,8 @@ class ExperimentReader {
         const Element root = document_.root();
         experiment_.path = document_.source->path;
         if (const Element e = root.child("note")) experiment_.note = e.text();
-        if (const Element e = root.child("system"))
-            experiment_.system = file(e["file"]), experiment_.system_at = e["file"].where();
+        for (const Element& e : root.children("system"))
+            experiment_.systems.push_back({file(e["file"]), e["file"].where()});
         if (const Element e = root.child("world")) world(e);
         if (const Element e = root.child("length")) length(e);
         if (const Element e = root.child("seeds")) seeds(e);
@@ -37,7 +37,13 @@ class ExperimentReader {
             manipulation(e);
         }
         for (const Element& e : root.children("measure")) measure(e);
-        for (const Element& e : root.children("sweep")) sweep(e);
+        for (const Element& e : root.children()) {
+            if (e.name() == "sweep") sweep(e), ++axes_;
+            if (e.name() == "together") together(e);
+        }
+        if (experiment_.systems.empty() && !sweeps_systems() && !has_unknown(root))
+            out_.error(root.where(), "<experiment> has no <system>",
+                       "name one in <system file=\"...\"/>, or several in <sweep systems=\"...\"/>");
         if (const Element e = root.child("exercise")) exercise(e);
         if (count_runs() > most_runs)
             out_.error(root.where(), fmt::format("these sweeps and seeds make more than {} runs", most_runs),
@@ -69,6 +75,14 @@ class ExperimentReader {
         const auto all = e.attributes();
         return std::any_of(all.begin(), all.end(),
                            [&](const Attribute& a) { return !rule->attribute(a.name); });
+    }
+
+    /// Whether an element holds one that check() has refused, which may be any other one with a misspelt
+    /// name.
+    static bool has_unknown(const Element& e) {
+        const auto all = e.children();
+        return std::any_of(all.begin(), all.end(),
+                           [](const Element& child) { return !experiment_format().find(child.name()); });
     }
 
     /// The one of these attributes that an element has. Reports an error when it has none or several.
@@ -146,8 +160,8 @@ class ExperimentReader {
     }
 
     /// The attributes of measures, in the order of model::Measure::Kind, and that of synapses.
-    static constexpr std::array measured = {"success", "duration", "first", "final",
-                                            "trials",  "cycles",   "to"};
+    static constexpr std::array measured = {"success", "duration", "first",   "final", "trials", "cycles",
+                                            "mean",    "minimum",  "maximum", "robot", "to"};
 
     void measure(const Element& e) {
         const char* kind = one_of(e, std::span(measured).first(measured.size() - 1));
@@ -158,11 +172,14 @@ class ExperimentReader {
     model::Measure measure_of(const Element& e, std::string_view kind, const char* name,
                               std::span<const model::Measure> others) {
         model::Measure m;
-        m.name = e[name].text(), m.at = e[name].where(), m.what = written(e[kind]);
+        m.name = e[name].text(), m.at = e[name].where(), m.what = written(e[kind]), m.of = written(e["of"]);
         if (m.name.empty() && e[name])
             out_.error(m.at, "a measure needs a name", "names are columns of the table of results");
         m.kind = static_cast<model::Measure::Kind>(std::find(measured.begin(), measured.end(), kind) -
                                                    measured.begin());
+        if (e["of"] && m.kind != model::Measure::Kind::robot)
+            out_.error(m.of.at, fmt::format("'{}' is not a measure of a robot", kind),
+                       "leave out 'of', which names a robot");
         for (const auto& other : others)
             if (other.name == m.name && !m.name.empty())
                 out_.error(m.at,
@@ -203,14 +220,24 @@ class ExperimentReader {
         experiment_.exercise = std::move(exercise);
     }
 
+    /// Reads a sweep of the current axis.
     void sweep(const Element& e) {
-        model::Sweep s{written(e["parameter"]), expressions(e["values"])};
-        if (s.values.empty())
-            out_.error(e["values"].where(), "there are no values to sweep",
-                       "for example values=\"0.1 0.01\"");
+        static constexpr std::array kinds = {"parameter", "systems"}, lists = {"values", "systems"};
+        const char* kind = one_of(e, kinds);
+        if (!kind) return;
+        const char* list = e["systems"] ? one_of(e, lists) : "values";
+        model::Sweep s{written(e[kind]), expressions(e[list]), {}, axes_};
+        if (e["systems"]) {
+            s.parameter.text = "system";
+            for (const Value& word : e[list].words()) s.files.push_back(file(word));
+        }
+        if (s.values.empty() && !misspelt(e))
+            out_.error(
+                e[list].where(), fmt::format("there are no {} to sweep", list),
+                e["systems"] ? "for example systems=\"a.iqr b.iqr\"" : "for example values=\"0.1 0.01\"");
         std::set<std::string> seen;
         for (const auto& v : s.values)
-            if (!seen.insert(v.text).second)
+            if (!seen.insert(v.text).second && e.parent().name() != "together")
                 out_.error(v.at, fmt::format("the value {} is given twice", v.text), "remove one of them");
         for (const auto& other : experiment_.sweeps)
             if (other.parameter.text == s.parameter.text && !s.parameter.empty())
@@ -219,6 +246,26 @@ class ExperimentReader {
                                        other.parameter.at.line),
                            "put all values into one sweep");
         experiment_.sweeps.push_back(std::move(s));
+    }
+
+    /// Reads sweeps that share an axis.
+    void together(const Element& e) {
+        const std::size_t first = experiment_.sweeps.size();
+        for (const Element& child : e.children("sweep")) sweep(child);
+        for (std::size_t i = first + 1; i < experiment_.sweeps.size(); ++i) {
+            const auto &s = experiment_.sweeps[i], &other = experiment_.sweeps[first];
+            if (s.values.size() != other.values.size())
+                out_.error(s.parameter.at,
+                           fmt::format("'{}' has {} values, but '{}' on line {} has {}", s.parameter.text,
+                                       s.values.size(), other.parameter.text, other.parameter.at.line,
+                                       other.values.size()),
+                           "sweeps in <together> have one value each for every combination");
+        }
+        ++axes_;
+    }
+    bool sweeps_systems() const {
+        return std::any_of(experiment_.sweeps.begin(), experiment_.sweeps.end(),
+                           [](const auto& s) { return !s.files.empty(); });
     }
 
     /// The words of a list with blanks between them.
@@ -231,7 +278,8 @@ class ExperimentReader {
     /// The number of runs, at most `most_runs` + 1.
     std::uint64_t count_runs() const {
         std::uint64_t out = experiment_.seeds.size();
-        for (const auto& s : experiment_.sweeps) out = std::min(out * s.values.size(), most_runs + 1);
+        for (std::size_t axis = 0; const auto& s : experiment_.sweeps)
+            if (s.axis == axis) out = std::min(out * s.values.size(), most_runs + 1), ++axis;
         return out;
     }
 
@@ -240,6 +288,7 @@ class ExperimentReader {
     const Document& document_;
     Diagnostics& out_;
     model::Experiment experiment_;
+    std::size_t axes_ = 0;  ///< number of complete axes of sweeps
 };
 
 std::optional<model::Experiment> build(const Document* document, Diagnostics& diagnostics) {

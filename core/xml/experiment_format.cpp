@@ -1,4 +1,5 @@
 // The elements and attributes of experiment files.
+#include "core/model/experiment.h"
 #include "core/xml/rules.h"
 
 namespace forage::xml {
@@ -33,10 +34,13 @@ Format make_format() {
         .values = {{"text", {}}},
         .elements =
             {{"experiment", "a system, run many times",
-              "note? system! world? length! seeds? set at clamp add multiply record plot measure sweep "
-              "exercise?"},
+              "note? system world? length! seeds? set at clamp add multiply record plot measure sweep "
+              "together exercise?"},
              {"note", "a text for people", ":text"},
-             {"system", "what is run", "", {file("an .iqr file, as seen from this one")}},
+             {"system",
+              "what is run; several systems run together",
+              "",
+              {file("an .iqr or .iqrProcess file, as seen from this one")}},
              {"world",
               "where the robot lives",
               "",
@@ -86,11 +90,21 @@ Format make_format() {
                text("trials", "a condition: share of the trials in which it held"),
                text("cycles", "a condition: the number of cycles in which it held"),
                text("first", "a condition: the number of cycles until it first held"),
-               text("final", "a cell, or mean, sum, min or max of a column, at the end")}},
+               text("final", "a cell, or mean, sum, min or max of a column, at the end"),
+               text("mean", "a quantity as in 'final': its mean over all cycles"),
+               text("minimum", "a quantity as in 'final': its smallest value over all cycles"),
+               text("maximum", "a quantity as in 'final': its largest value over all cycles"),
+               choice("robot", "what a robot did; summed over the trials, if there are any",
+                      {model::robot_quantities.begin(), model::robot_quantities.end()}),
+               text("of", "with 'robot': its name; without it, the first robot")}},
              {"sweep",
-              "a parameter that takes several values; several sweeps give every combination",
+              "a parameter that takes several values, or systems; several sweeps give every combination",
               "",
-              {parameter, required(text("values", "with blanks between"))}},
+              {text("parameter", parameter.value.doc), text("values", "with blanks between"),
+               text("systems",
+                    ".iqr files, as seen from this one, with blanks between: one runs at a time")}},
+             {"together",
+              "sweeps that take their values together, the first of each, the second of each, ...", "sweep+"},
              {"exercise",
               "what a system of one's own must have and do: 'forage tutorial NUMBER --system FILE'",
               "require",
@@ -102,6 +116,11 @@ Format make_format() {
                text("success", "as in a measure"), text("duration", "as in a measure"),
                text("trials", "as in a measure"), text("cycles", "as in a measure"),
                text("first", "as in a measure"), text("final", "as in a measure"),
+               text("mean", "as in a measure"), text("minimum", "as in a measure"),
+               text("maximum", "as in a measure"),
+               choice("robot", "as in a measure",
+                      {model::robot_quantities.begin(), model::robot_quantities.end()}),
+               text("of", "as in a measure"),
                text("to", "'Process/Group' or some of its cells: the number of synapses to them"),
                text("from", "where the synapses come from; without it, from anywhere"),
                choice("kind", "of the synapses", {"excitatory", "inhibitory", "modulatory"}),

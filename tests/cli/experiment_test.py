@@ -4,8 +4,10 @@
 """
 
 import csv
+import math
 import pathlib
 import re
+import shutil
 import signal
 import statistics
 import subprocess
@@ -69,6 +71,9 @@ SMALL = """<experiment>
   <measure name="end" final="sum(P/A)"/>
   <measure name="cell" final="P/A(2,1)"/>
   <measure name="above five" cycles="P/A(1,1) >= 5"/>
+  <measure name="mean" mean="P/A(1,1)"/>
+  <measure name="least" minimum="P/A(1,1)"/>
+  <measure name="most" maximum="sum(P/A)"/>
 </experiment>
 """
 
@@ -114,7 +119,88 @@ class Results(Experiment):
         self.assertEqual([r["end"] for r in rows], ["36", "18"])
         self.assertEqual([r["cell"] for r in rows], ["18", "9"])
         self.assertEqual([r["above five"] for r in rows], ["7", "5"])  # after cycles 3 to 9 and 5 to 9
+        self.assertEqual([(r["mean"], r["least"], r["most"]) for r in rows], [("9", "0", "36"), ("4.5", "0", "18")])
         self.assertEqual([(r["cycles"], r["seconds"], r["status"], r["seed"]) for r in rows], [("10", "0.4", "finished", "1")] * 2)
+
+    def test_what_a_robot_does(self):
+        (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "3"))
+        self.forage("experiment", "robot.xml", "-o", "without")
+        self.edit("robot.xml", "<sweep parameter=\"R", '''<measure name="path" robot="path length"/>
+  <measure name="away" robot="displacement" of="Bug"/>
+  <measure name="hits" robot="collisions"/>
+  <measure name="visits" robot="target visits"/>
+  <measure name="brightest" maximum="max(Bug/Light)"/>
+  <sweep parameter="R''')
+        self.forage("experiment", "robot.xml", "-o", "out")
+        for row in self.rows("out/results.csv"):
+            trials = self.rows(f"out/runs/{row['run']}/trials.csv")
+            done = [t for t in trials if t["outcome"] != "unfinished"]
+            way = sum(math.dist((float(t["start_x"]), float(t["start_y"])), (float(t["end_x"]), float(t["end_y"]))) for t in done)
+            self.assertAlmostEqual(float(row["away"]), way)
+            self.assertLess(way, float(row["path"]))
+            self.assertLess(float(row["path"]), 3 * way)
+            self.assertEqual(row["visits"], row["reached"])
+            self.assertGreaterEqual(float(row["hits"]), 0)
+            self.assertTrue(0 < float(row["brightest"]) <= 1)
+            name = f"runs/{row['run']}/trials.csv"  # measuring changes nothing
+            self.assertEqual((self.here / "without" / name).read_bytes(), (self.here / "out" / name).read_bytes())
+
+    def test_an_exercise_may_require_what_a_robot_does(self):
+        (self.here / "robot.xml").write_text(f'''<experiment><system file="{SYSTEM}"/><world file="{WORLD}"/><length trials="2"/>
+            <exercise start="{SYSTEM}">
+              <require what="drives" robot="path length" of="Bug" at-least="1">no</require>
+              <require what="sees" mean="max(Bug/Light)" at-least="2">It sees {{value}}.</require>
+            </exercise></experiment>''')
+        done = self.forage("tutorial", "robot.xml", "--system", SYSTEM, status=1)
+        self.assertRegex(done.stdout, r"yes  drives\n  no   sees\n       It sees 0\.\d+\.")
+
+    def test_systems_are_compared(self):
+        (self.here / "other").mkdir()
+        (self.here / "other/weak.iqr").write_text(SMALL_SYSTEM.replace('value="1"/></Synapse>', 'value="0.25"/></Synapse>'))
+        self.edit("small.xml", '<system file="small.iqr"/>', '<sweep systems="small.iqr other/weak.iqr"/>')
+        self.edit("small.xml", '<sweep parameter="B to A.weight" values="1 0.5"/>', "")
+        done = self.forage("experiment", "small.xml", "-o", "out")
+        rows = self.rows("out/results.csv")
+        self.assertEqual([(r["run"], r["system"], r["cell"]) for r in rows],
+                         [("system-small_seed-1", "small.iqr", "18"), ("system-weak_seed-1", "other/weak.iqr", "4.5")])
+        self.assertEqual([r["system"] for r in self.rows("out/summary.csv")], ["small.iqr", "other/weak.iqr"])
+        self.assertIn("other/weak.iqr", done.stdout)
+        before = self.made_at("out")
+        self.edit("other/weak.iqr", 'value="0.25"', 'value="0.125"')
+        self.forage("experiment", "small.xml", "-o", "out")
+        after = self.made_at("out")
+        self.assertEqual({name: after[name] == before[name] for name in before},
+                         {"system-small_seed-1": True, "system-weak_seed-1": False})
+        self.assertEqual([r["cell"] for r in self.rows("out/results.csv")], ["18", "2.25"])
+
+    def test_systems_that_run_together(self):
+        for name, weight in (("Q", 0.5), ("R", 0.1)):
+            (self.here / f"{name}.iqr").write_text(SMALL_SYSTEM.replace('name="P"', f'name="{name}"').replace("B to A", f"{name} to A")
+                                                   .replace('value="1"/></Synapse>', f'value="{weight}"/></Synapse>'))
+        (self.here / "drive.csv").write_text("-1,P,out,2\n-1,Q,out,2\n-1,R,out,2\n")
+        self.edit("small.xml", '<system file="small.iqr"/>', '<system file="small.iqr"/><system file="Q.iqr"/><set parameter="Q.file" value="drive.csv"/>')
+        self.edit("small.xml", '<measure name="five"', '<measure name="q" final="Q/A(1,1)"/><measure name="five"')
+        self.forage("experiment", "small.xml", "-o", "out")
+        self.assertEqual([(r["cell"], r["q"]) for r in self.rows("out/results.csv")], [("18", "9"), ("9", "9")])
+        self.edit("small.xml", '<system file="Q.iqr"/>', '<sweep systems="Q.iqr"/>')  # runs with the others
+        self.forage("experiment", "small.xml", "-o", "swept")
+        self.assertEqual([(r["system"], r["cell"], r["q"]) for r in self.rows("swept/results.csv")],
+                         [("Q.iqr", "18", "9"), ("Q.iqr", "9", "9")])
+        self.edit("small.xml", '"Q.iqr"', '"Q.iqr R.iqr"')
+        said = self.forage("experiment", "small.xml", status=2).stderr
+        self.assertRegex(said, r"small.xml:\d+:\d+: error: system 'R.iqr': .*'Q'")
+        self.assertNotIn("system 'Q.iqr'", said)
+
+    def test_values_vary_together(self):
+        self.edit("small.xml", '<sweep parameter="B to A.weight" values="1 0.5"/>', '''<together>
+    <sweep parameter="B to A.weight" values="1 0.5 0.5"/><sweep parameter="P/A.excGain" values="1 2 1"/>
+  </together>
+  <sweep parameter="P/A.vmPrs" values="1 0"/>''')
+        self.forage("experiment", "small.xml", "-o", "out")
+        self.assertEqual([tuple(r[k] for k in ("B to A.weight", "P/A.excGain", "P/A.vmPrs", "cell")) for r in self.rows("out/results.csv")],
+                         [("1", "1", "1", "18"), ("1", "1", "0", "2"), ("0.5", "2", "1", "18"), ("0.5", "2", "0", "2"),
+                          ("0.5", "1", "1", "9"), ("0.5", "1", "0", "1")])
+        self.assertEqual(len(self.rows("out/summary.csv")), 6)
 
     def test_until_ends_a_run(self):
         self.edit("small.xml", 'cycles="10"', 'cycles="10" until="P/A(1,1) >= 5"')
@@ -277,7 +363,6 @@ class Plots(Experiment):
         self.forage("plot", runs[0], "trajectory")
         self.assertEqual((runs[0] / "trajectory.png").read_bytes(), path)
 
-
     def test_the_results_of_all_runs_are_drawn(self):
         (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "3").replace('<measure name="never"', '<plot what="trajectory"/><measure name="never"'))
         self.forage("experiment", "robot.xml", "-o", "two")
@@ -308,6 +393,43 @@ class Plots(Experiment):
         self.assertIn("there is no column 'speed'", said)
         said = self.forage("run", SYSTEM, "--cycles", 1, "--plot", "curve:success", status=2).stderr
         self.assertIn("'forage plot DIR curve:success' draws it afterwards", said)
+
+
+class Documentation(Experiment):
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(PROJECT / "systems", self.here / "systems")
+        self.page = (PROJECT / "docs/reference/experiment.md").read_text()
+
+    def run_with(self, elements):
+        (self.here / "systems/page.xml").write_text(f'''<experiment><system file="dac_foraging.iqr"/><world file="worlds/basic_arena.world"/>
+            <length cycles="5"/>{elements}</experiment>''')
+        self.forage("experiment", "systems/page.xml", "-q")
+
+    def test_the_examples(self):
+        examples = re.findall(r"```xml\n(.*?)```", self.page, re.DOTALL)
+        self.assertGreaterEqual(len(examples), 4)
+        for example in examples:
+            if example.startswith("<experiment>"):
+                (self.here / "systems/page.xml").write_text(example)
+                self.assertEqual(self.forage("experiment", "systems/page.xml", "-q").stderr, "")
+            elif example.startswith("<exercise"):
+                (self.here / "systems/tutorial/page.xml").write_text(
+                    f'<experiment><system file="reflex.iqr"/><world file="../worlds/basic_arena.world"/><length trials="5"/>{example}</experiment>')
+                self.forage("tutorial", "systems/tutorial/page.xml", "--system", "systems/reactive_foraging.iqr")
+            else:
+                self.run_with(example)
+        self.assertIn((PROJECT / "systems/light_threshold.xml").read_text().split("-->\n")[1], examples)
+
+    def test_the_attributes_in_tables(self):
+        cells = [re.findall(r"`(.+?)`", row.split("|")[1]) for row in self.page.splitlines() if row.startswith("| `") and '="' in row.split("|")[1]]
+        texts = [t.replace("CONDITION", "cycle 3").replace("QUANTITY", "max(Bug/Light)").replace("P/A", "Bug/Light").replace("FILE", "p.txt")
+                 for row in cells for t in row]
+        self.assertGreater(len(texts), 20)
+        (self.here / "systems/p.txt").write_text("0 " * 32)
+        self.run_with("".join(f"<clamp {t}/>" if "group=" in t else
+                              f'<clamp group="Bug/Light" patterns="p.txt" {t}/>' if re.match("every|step|times|backwards|from|until", t) else
+                              f'<measure name="{i}" {t}/>' for i, t in enumerate(texts)))
 
 
 class Mistakes(Experiment):

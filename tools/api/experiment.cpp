@@ -15,14 +15,39 @@ namespace {
 /// Whether the files of an experiment can be read. Reports those that cannot, with the place where they are
 /// named.
 bool files_are_there(const model::Experiment& e, Diagnostics& diagnostics) {
-    bool all = find_file(e.system, e.system_at, diagnostics);
+    bool all = true;
+    for (const auto& system : e.systems) all &= find_file(system.text, system.at, diagnostics);
+    for (const auto& sweep : e.sweeps)
+        for (std::size_t i = 0; i < sweep.files.size(); ++i)
+            all &= find_file(sweep.files[i], sweep.values[i].at, diagnostics);
     if (e.world_at.file) all &= find_file(e.world, e.world_at, diagnostics);
     for (const auto& m : e.manipulations)
         if (!m.patterns.empty()) all &= find_file(m.patterns.text, m.patterns.at, diagnostics);
     return all;
 }
 
+/// Reads the files of all runs, each file once.
+std::map<std::string, Sources> read_all(std::vector<PlannedRun>& runs, Diagnostics& diagnostics) {
+    std::map<std::string, Sources> out;
+    std::map<std::string, std::string> digests;
+    for (auto& run : runs) {
+        const RunInput& input = run.spec.input;
+        if (!out.contains(input.system)) {
+            Sources sources = out.empty() ? read_sources(input, diagnostics)
+                                          : with_first_system(out.begin()->second, input, diagnostics);
+            if (sources.system) digests[input.system] = source_digests(input, sources);
+            out.emplace(input.system, std::move(sources));
+        }
+        run.files = digests[input.system];
+    }
+    return out;
+}
+
 }  // namespace
+
+std::optional<PreparedRun> PreparedExperiment::prepare(const RunSpec& spec, Diagnostics& diagnostics) const {
+    return forage::prepare(sources.at(spec.input.system), spec, diagnostics);
+}
 
 std::optional<PreparedExperiment> prepare_experiment(const std::string& file, std::string directory,
                                                      const std::vector<std::string>& plugins,
@@ -33,18 +58,18 @@ std::optional<PreparedExperiment> prepare_experiment(const std::string& file, st
     if (directory.empty()) directory = "forage-out/" + std::filesystem::path(file).stem().string();
     PreparedExperiment out{std::move(*wanted), std::move(directory), {}, {}, {}};
     out.runs = planned_runs(out.experiment, out.directory, plugins);
-    out.sources = read_sources(out.runs.front().spec.input, diagnostics);
+    out.sources = read_all(out.runs, diagnostics);
     if (!system.empty() && out.experiment.exercise) {
         RunInput start;
         start.system = out.experiment.exercise->start;
         const Sources begun = read_sources(start, diagnostics);
-        if (begun.system && out.sources.system)
-            check_names(out.experiment, *begun.system, *out.sources.system, diagnostics);
+        const auto& own = out.sources.begin()->second.system;
+        if (begun.system && own) check_names(out.experiment, *begun.system, *own, diagnostics);
         if (diagnostics.failed()) return std::nullopt;
     }
     check_experiment(
-        out.experiment, [&](const RunSpec& spec, Diagnostics& d) { return prepare(out.sources, spec, d); },
-        out.runs, diagnostics);
+        out.experiment, [&](const RunSpec& spec, Diagnostics& d) { return out.prepare(spec, d); }, out.runs,
+        diagnostics);
     if (!system.empty() && !diagnostics.failed()) findings(out, {}, diagnostics);  // checks the names
     if (diagnostics.failed()) return std::nullopt;
     const char* hint = "choose another directory for the results with -o";
@@ -65,9 +90,8 @@ std::optional<std::vector<RunResult>> run_experiment(const PreparedExperiment& e
     for (const auto& table : {e.results_file(), e.summary_file()})  // an existing table is complete
         std::remove(table.c_str());
     const auto results = run_experiment(
-        e.experiment, [&](const RunSpec& spec, Diagnostics& d) { return prepare(e.sources, spec, d); },
-        e.runs, source_digests(e.runs.front().spec.input, e.sources), jobs > 0 ? jobs : cores(), fresh,
-        callbacks);
+        e.experiment, [&](const RunSpec& spec, Diagnostics& d) { return e.prepare(spec, d); }, e.runs,
+        jobs > 0 ? jobs : cores(), fresh, callbacks);
     if (!results) return results;
     write_durably(e.results_file(), results_csv(e.experiment, e.runs, *results));
     write_durably(e.summary_file(), summary_csv(e.experiment, e.runs, *results));
@@ -78,7 +102,7 @@ std::vector<Finding> findings(const PreparedExperiment& e, std::span<const RunRe
                               Diagnostics& diagnostics) {
     RunSpec bare;  // names the groups and connections of the system
     bare.input = e.runs.front().spec.input;
-    const auto example = prepare(e.sources, bare, diagnostics);
+    const auto example = e.prepare(bare, diagnostics);
     if (!example) return {};
     return findings(e.experiment, results, example->run.system(), example->run.layout(), diagnostics);
 }

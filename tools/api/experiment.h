@@ -1,6 +1,7 @@
 // Experiment files: read, checked, run, and written as tables.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,8 +19,10 @@ struct PreparedExperiment {
     model::Experiment experiment;
     std::string directory;
     std::vector<PlannedRun> runs;
-    Sources sources;
+    std::map<std::string, Sources> sources;  ///< by the path of the first system of the runs
     DirectoryHold hold;
+
+    std::optional<PreparedRun> prepare(const RunSpec& spec, Diagnostics& diagnostics) const;
 
     std::string results_file() const { return directory + "/results.csv"; }
     std::string summary_file() const { return directory + "/summary.csv"; }

@@ -107,7 +107,8 @@ std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given,
     StopCondition stop = StopCondition::make(length, run, diagnostics);
     auto schedule = observe::make_schedule(spec.changes, run.system(), run.registry(), run.layout(),
                                            run.has_trials(), diagnostics);
-    auto measures = std::make_unique<RunMeasures>(spec.measures, run.layout(), run.has_trials(), diagnostics);
+    auto measures =
+        std::make_unique<RunMeasures>(spec.measures, run.layout(), run.environment(), diagnostics);
     auto manipulations =
         observe::make_manipulations(spec.manipulations, run.layout(), run.has_trials(), diagnostics);
     auto recorded = recorded_files(spec.recordings, spec.record, run.layout(), diagnostics);

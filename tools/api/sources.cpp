@@ -119,27 +119,31 @@ Registry known_types(const std::vector<plugin::Plugin>& plugins) {
     return registry;
 }
 
+Sources with_first_system(Sources sources, const RunInput& input, Diagnostics& diagnostics) {
+    auto& system = sources.system = read_any(input.system, diagnostics);
+    for (const auto& other : sources.more) {
+        if (!system) continue;
+        if (other.cycles_per_second != system->cycles_per_second)
+            diagnostics.error(other.at,
+                              fmt::format("this system runs at {} cycles per second, '{}' at {}",
+                                          other.cycles_per_second, input.system, system->cycles_per_second),
+                              "systems that run together need the same cyclesPerSecond");
+        model::join(*system, other);
+    }
+    const int errors_before = diagnostics.errors();
+    sources.plugins = load_plugins(input.plugins, input.system, diagnostics);
+    sources.plugins_failed = diagnostics.errors() > errors_before;
+    return sources;
+}
+
 Sources read_sources(const RunInput& input, Diagnostics& diagnostics) {
     diagnostics.lenient = input.lenient;
     Sources out;
-    out.system = read_any(input.system, diagnostics);
-    for (const std::string& path : input.more) {
-        auto other = read_any(path, diagnostics);
-        if (!out.system || !other) continue;
-        if (other->cycles_per_second != out.system->cycles_per_second)
-            diagnostics.error(
-                other->at,
-                fmt::format("this system runs at {} cycles per second, '{}' at {}", other->cycles_per_second,
-                            input.system, out.system->cycles_per_second),
-                "systems that run together need the same cyclesPerSecond");
-        model::join(*out.system, std::move(*other));
-    }
+    for (const std::string& path : input.more)
+        if (auto other = read_any(path, diagnostics)) out.more.push_back(std::move(*other));
     if (!input.world.empty()) out.world = bug::read_world(input.world, diagnostics);
     out.replay = read_table(input.replay, diagnostics);
-    const int errors_before = diagnostics.errors();
-    out.plugins = load_plugins(input.plugins, input.system, diagnostics);
-    out.plugins_failed = diagnostics.errors() > errors_before;
-    return out;
+    return with_first_system(std::move(out), input, diagnostics);
 }
 
 std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Diagnostics& diagnostics) {
@@ -187,7 +191,9 @@ InputFiles input_files(const RunSpec& spec, const Sources& sources) {
 }
 
 std::string source_digests(const RunInput& input, const Sources& sources) {
-    const std::string system = without_paths(files_of_system(sources));
+    std::string system = without_paths(files_of_system(sources));
+    for (const auto& other : sources.more)  // their order matters
+        system += " " + without_paths(system_files(other));
     if (!sources.world) return system;
     return fmt::format("{} {} {}", system, file_digest(input.world), without_paths(files_of_world(sources)));
 }

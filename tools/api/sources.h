@@ -19,7 +19,8 @@ namespace forage {
 
 /// The content of the files of a run. It can be assembled any number of times.
 struct Sources {
-    std::optional<model::System> system;         ///< empty when it could not be read
+    std::optional<model::System> system;         ///< all systems, joined; empty when the first is not read
+    std::vector<model::System> more;             ///< the systems besides the first
     std::optional<bug::WorldDescription> world;  ///< empty without a world, and when it could not be read
     std::optional<DriveTable> replay;            ///< empty without a table
     std::vector<plugin::Plugin> plugins;
@@ -45,6 +46,9 @@ Registry known_types(const std::vector<plugin::Plugin>& plugins);
 
 /// Reads the files. Reports those that cannot be read.
 Sources read_sources(const RunInput& input, Diagnostics& diagnostics);
+/// The sources of a run whose input differs from that of `sources` only in its first system. Only this and
+/// its plugins are read.
+Sources with_first_system(Sources sources, const RunInput& input, Diagnostics& diagnostics);
 /// Assembles types, world and system, with the settings of the input. Empty when `diagnostics` has an error,
 /// also from before.
 std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Diagnostics& diagnostics);

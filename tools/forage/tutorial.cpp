@@ -58,7 +58,7 @@ std::vector<Exercise> exercises(Diagnostics& diagnostics) {
         Exercise exercise{name.substr(0, dash),
                           entry.path(),
                           experiment->exercise ? path(experiment->exercise->start) : fs::path(),
-                          path(experiment->system),
+                          experiment->systems.empty() ? fs::path() : path(experiment->systems.front().text),
                           {},
                           {}};
         read_note(experiment->note, exercise);

@@ -98,7 +98,8 @@ std::string joined(std::string_view text) {
 }  // namespace
 
 model::Experiment with_system(model::Experiment e, const std::string& system) {
-    e.system = system, e.system_at = {};
+    if (e.systems.empty()) e.systems.emplace_back();
+    e.systems.front() = {system};
     e.sweeps.clear();
     if (e.exercise)
         for (const auto& r : e.exercise->requirements)

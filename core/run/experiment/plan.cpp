@@ -1,6 +1,7 @@
 #include "core/run/experiment/plan.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include <fmt/format.h>
@@ -14,7 +15,8 @@ namespace {
 /// The part of the spec that all runs share.
 RunSpec common(const model::Experiment& e) {
     RunSpec o;
-    o.input.system = e.system, o.input.world = e.world, o.input.settings = e.settings;
+    o.input.world = e.world, o.input.settings = e.settings;
+    for (const auto& system : e.systems) o.input.more.push_back(system.text);
     o.input.real_time_factor = e.real_time_factor, o.input.noise = e.noise;
     o.length = {e.cycles, e.seconds, e.trials, e.trial_timeout, e.until, e.length_at};
     o.recordings = e.recordings, o.changes = e.changes, o.measures = e.measures;
@@ -35,17 +37,31 @@ std::vector<PlannedRun> planned_runs(const model::Experiment& e, const std::stri
                                      const std::vector<std::string>& plugins) {
     std::vector<PlannedRun> out;
     std::set<std::string> names;
-    std::vector<std::size_t> chosen(e.sweeps.size(), 0);
+    std::vector<std::size_t> sizes;  // of the axes
+    for (const auto& sweep : e.sweeps)
+        if (sweep.axis == sizes.size()) sizes.push_back(sweep.values.size());
+    std::vector<std::size_t> chosen(sizes.size(), 0);
     for (bool more = true; more;) {
         PlannedRun combination;
         combination.spec = common(e);
         combination.spec.input.plugins = plugins;
-        for (std::size_t i = 0; i < chosen.size(); ++i) {
-            const auto& parameter = e.sweeps[i].parameter;
-            const auto& value = e.sweeps[i].values[chosen[i]];
+        RunInput& input = combination.spec.input;
+        for (const auto& sweep : e.sweeps) {
+            const std::size_t n = chosen[sweep.axis];
+            const auto& value = sweep.values[n];
+            const auto& parameter = sweep.parameter.text;
             combination.values.push_back(value.text);
-            combination.spec.input.settings.push_back({parameter.text + "=" + value.text, value.at});
-            combination.name += file_name(fmt::format("{}-{}_", short_name(parameter.text), value.text));
+            if (sweep.files.empty())
+                input.settings.push_back({parameter + "=" + value.text, value.at});
+            else
+                input.system = sweep.files[n];
+            const std::string shown =
+                sweep.files.empty() ? value.text : std::filesystem::path(value.text).stem().string();
+            combination.name += file_name(fmt::format("{}-{}_", short_name(parameter), shown));
+        }
+        if (input.system.empty()) {
+            input.system = input.more.front();
+            input.more.erase(input.more.begin());
         }
         for (const auto seed : e.seeds) {
             PlannedRun run = combination;
@@ -58,7 +74,7 @@ std::vector<PlannedRun> planned_runs(const model::Experiment& e, const std::stri
         }
         more = false;
         for (std::size_t i = chosen.size(); i-- > 0 && !more;)
-            if (++chosen[i] < e.sweeps[i].values.size())
+            if (++chosen[i] < sizes[i])
                 more = true;
             else
                 chosen[i] = 0;

@@ -33,11 +33,11 @@ std::optional<T> or_empty(const Json& json) {
 
 }  // namespace
 
-std::string key_of(const PlannedRun& run, const model::Experiment& experiment, const std::string& digests) {
+std::string key_of(const PlannedRun& run, const model::Experiment& experiment) {
     const RunSpec& o = run.spec;
     Json key;
     key["forage"] = FORAGE_VERSION;
-    key["files"] = digests;
+    key["files"] = run.files;
     key["seed"] = run.spec.input.seed;
     key["noise"] = o.input.noise;
     key["pace"] = or_null(o.input.real_time_factor);
@@ -53,8 +53,10 @@ std::string key_of(const PlannedRun& run, const model::Experiment& experiment, c
                                      or_null(m.times), m.backwards, m.from.text, m.until.text});
     for (const auto& r : o.recordings) key["record"].push_back({r.column.text, r.every});
     for (const auto& each : o.plots) key["plot"].push_back(each.text);
-    for (const auto& m : experiment.measures)
-        key["measure"].push_back({static_cast<int>(m.kind), m.what.text});
+    for (const auto& m : experiment.measures) {
+        auto& measure = key["measure"].emplace_back(Json{static_cast<int>(m.kind), m.what.text});
+        if (!m.of.empty()) measure.push_back(m.of.text);
+    }
     return key.dump();
 }
 

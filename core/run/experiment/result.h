@@ -21,8 +21,8 @@ struct RunResult {
 };
 
 /// A text that holds everything that decides the numbers of a run. A result belongs to a run when it has the
-/// same key. `digests` are those of the files of system and world.
-std::string key_of(const PlannedRun& run, const model::Experiment& experiment, const std::string& digests);
+/// same key.
+std::string key_of(const PlannedRun& run, const model::Experiment& experiment);
 
 /// The result in a run's directory; empty when there is none with this key.
 std::optional<RunResult> read_result(const PlannedRun& run, const std::string& key);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <map>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include <fmt/format.h>
@@ -48,12 +50,11 @@ RunResult failed(std::string why) {
 class Work {
   public:
     Work(const model::Experiment& experiment, const PrepareRun& prepare, std::span<const PlannedRun> runs,
-         const std::string& digests, bool fresh, const ExperimentCallbacks& callbacks)
+         bool fresh, const ExperimentCallbacks& callbacks)
         : experiment_(experiment),
           prepare_(prepare),
           runs_(runs),
           results_(runs.size()),
-          digests_(digests),
           callbacks_(callbacks) {
         for (std::size_t i = 0; i < runs.size(); ++i) {
             if (!fresh) results_[i] = read_result(runs[i], key(i));
@@ -99,7 +100,7 @@ class Work {
     }
 
   private:
-    std::string key(std::size_t run) const { return key_of(runs_[run], experiment_, digests_); }
+    std::string key(std::size_t run) const { return key_of(runs_[run], experiment_); }
     bool interrupted() const { return callbacks_.interrupted && callbacks_.interrupted(); }
 
     /// The results, or nothing when the experiment was interrupted.
@@ -160,7 +161,6 @@ class Work {
     const PrepareRun& prepare_;
     std::span<const PlannedRun> runs_;
     std::vector<std::optional<RunResult>> results_;
-    std::string digests_;
     const ExperimentCallbacks& callbacks_;
     std::vector<std::size_t> open_;  ///< runs that have no result yet
     std::size_t earlier_ = 0;        ///< runs that had one at the start
@@ -170,11 +170,10 @@ class Work {
     std::mutex results_mutex_;
 };
 
-}  // namespace
-
-void check_experiment(const model::Experiment& e, const PrepareRun& prepare, std::span<const PlannedRun> runs,
-                      Diagnostics& diagnostics) {
-    RunSpec spec = runs.front().spec;
+/// Checks the first of the runs of one system, and the values of parameters that only the others have.
+void check_runs(const model::Experiment& e, const PrepareRun& prepare,
+                std::span<const PlannedRun* const> runs, Diagnostics& diagnostics) {
+    RunSpec spec = runs.front()->spec;
     spec.directory.clear();  // nothing is written
     auto prepared = prepare(spec, diagnostics);
     if (!prepared) {  // the swept values are checked nevertheless
@@ -183,18 +182,53 @@ void check_experiment(const model::Experiment& e, const PrepareRun& prepare, std
         Diagnostics told;
         prepared = prepare(bare, told);
     }
-    if (prepared)
-        for (const auto& sweep : e.sweeps)
-            for (const auto& value : sweep.values)
-                if (&value != &sweep.values.front()) check_value(sweep, value, prepared->run, diagnostics);
+    for (std::size_t i = 0; prepared && i < e.sweeps.size(); ++i) {
+        if (!e.sweeps[i].files.empty()) continue;
+        std::set<std::string> open;
+        for (const auto* run : runs) open.insert(run->values[i]);
+        open.erase(runs.front()->values[i]);
+        for (const auto& value : e.sweeps[i].values)
+            if (open.erase(value.text)) check_value(e.sweeps[i], value, prepared->run, diagnostics);
+    }
+}
+
+/// Whether `all` has the same message at the same place.
+bool contains(const Diagnostics& all, const Diagnostic& d) {
+    return std::any_of(all.all().begin(), all.all().end(), [&](const Diagnostic& other) {
+        return other.message == d.message && other.where.file == d.where.file &&
+               other.where.line == d.where.line && other.where.column == d.where.column;
+    });
+}
+
+}  // namespace
+
+void check_experiment(const model::Experiment& e, const PrepareRun& prepare, std::span<const PlannedRun> runs,
+                      Diagnostics& diagnostics) {
+    std::map<std::string, std::vector<const PlannedRun*>> by_system;
+    for (const auto& run : runs) by_system[run.spec.input.system].push_back(&run);
+    if (by_system.size() == 1) return check_runs(e, prepare, by_system.begin()->second, diagnostics);
+    if (diagnostics.failed()) return;  // a system is missing
+    std::vector<Diagnostics> found;
+    for (const auto& [system, its_runs] : by_system) check_runs(e, prepare, its_runs, found.emplace_back());
+    // What is wrong with all systems is reported once; otherwise the message names the system.
+    for (auto system = by_system.begin(); const Diagnostics& of_system : found) {
+        for (Diagnostic d : of_system.all()) {
+            const bool in_all = std::all_of(found.begin(), found.end(),
+                                            [&](const Diagnostics& other) { return contains(other, d); });
+            if (in_all && &of_system != &found.front()) continue;
+            if (!in_all && (!d.where.file || d.where.file->path == e.path))
+                d.message = fmt::format("system '{}': {}", system->first, d.message);
+            diagnostics.add(std::move(d));
+        }
+        ++system;
+    }
 }
 
 std::optional<std::vector<RunResult>> run_experiment(const model::Experiment& experiment,
                                                      const PrepareRun& prepare,
-                                                     std::span<const PlannedRun> runs,
-                                                     const std::string& digests, int jobs, bool fresh,
+                                                     std::span<const PlannedRun> runs, int jobs, bool fresh,
                                                      const ExperimentCallbacks& callbacks) {
-    Work work(experiment, prepare, runs, digests, fresh, callbacks);
+    Work work(experiment, prepare, runs, fresh, callbacks);
     std::vector<std::atomic<double>> parts(std::min(static_cast<std::size_t>(jobs), work.open()));
     std::atomic<std::size_t> busy = parts.size();
     std::vector<std::thread> threads;

@@ -17,7 +17,7 @@ namespace forage {
 /// thread at a time.
 using PrepareRun = std::function<std::optional<PreparedRun>(const RunSpec&, Diagnostics&)>;
 
-/// Reports all mistakes in what the file says about its system and world, for every swept value, before the
+/// Reports all mistakes in what the file says about its systems and world, for every swept value, before the
 /// first run.
 void check_experiment(const model::Experiment& experiment, const PrepareRun& prepare,
                       std::span<const PlannedRun> runs, Diagnostics& diagnostics);
@@ -36,12 +36,11 @@ struct ExperimentCallbacks {
 };
 
 /// Executes the runs that have no result yet, `jobs` at a time, each on one thread. Each result is written
-/// into its run's directory at once. `digests` are those of the files that decide all runs. With `fresh`,
-/// finished runs are repeated. Returns all results in order; empty when it was interrupted.
+/// into its run's directory at once. With `fresh`, finished runs are repeated. Returns all results in order;
+/// empty when it was interrupted.
 std::optional<std::vector<RunResult>> run_experiment(const model::Experiment& experiment,
                                                      const PrepareRun& prepare,
-                                                     std::span<const PlannedRun> runs,
-                                                     const std::string& digests, int jobs, bool fresh,
+                                                     std::span<const PlannedRun> runs, int jobs, bool fresh,
                                                      const ExperimentCallbacks& callbacks);
 
 }  // namespace forage
