@@ -197,7 +197,7 @@ std::vector<std::string> usual_plots(const RunTable& table, const std::string& d
     const auto all = combinations(table);
     const auto n = dimensions(all, table.parameters.size());
     for (const auto& m : table.measures)
-        if (n > 0 && (n != 1 || all.size() > 1)) out.push_back((n == 2 ? "heat:" : "curve:") + m);
+        if (all.size() > 1) out.push_back((n == 2 && table.parameters.size() == 2 ? "heat:" : "curve:") + m);
     const auto any = [&](const char* file) {
         return std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
             return fs::exists(fmt::format("{}/runs/{}/{}", directory, row.run, file));

@@ -90,7 +90,9 @@ Picture lines_plot(const LinesPlot& plot) {
     }
     const Axes axes{
         {lines_left, lines_top, lines_width, lines_height}, with_margin(x, false), with_margin(y, true)};
-    const double right = plot.lines.size() > 1 ? 52 + names : 24;
+    const double last =
+        plot.x_ticks.empty() ? 0 : measure.canvas().width_of(plot.x_ticks.back().second, 12) / 2;
+    const double right = std::max(plot.lines.size() > 1 ? 52 + names : 24, last);
     const double width =
         std::max({lines_left + lines_width + right, 24 + measure.canvas().width_of(plot.title, 15, true),
                   24 + measure.canvas().width_of(plot.subtitle, 12)});

@@ -54,7 +54,7 @@ TEST_CASE(
     std::filesystem::create_directories(folder);
     ResultFiles files(folder.string());
     run.finish(files);
-    CHECK(files.names() == std::vector<std::string>{"witness.txt", "second.txt"});
+    CHECK(files.names() == std::vector<std::string>{"second.txt", "witness.txt"});
     CHECK(files.problems() == std::vector<std::string>{"cannot"});
     std::string line;
     std::getline(std::ifstream(folder / "witness.txt"), line);
