@@ -45,8 +45,8 @@ void finish(const std::string& path) {
 
 std::vector<std::string> remove_unfinished(const std::string& directory) {
     namespace fs = std::filesystem;
-    const std::set<fs::path> kinds = {".csv",  ".npy", ".unpacked", ".npz", ".h5",    ".dat",
-                                      ".json", ".png", ".svg",      ".pdf", ".forage"};
+    const std::set<fs::path> kinds = {".csv", ".npy", ".unpacked", ".npz",    ".h5",  ".dat", ".json",
+                                      ".png", ".svg", ".pdf",      ".forage", ".txt", ".log"};
     std::vector<std::string> out;
     std::error_code none;
     for (const auto& entry : fs::directory_iterator(directory, none)) {

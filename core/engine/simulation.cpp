@@ -68,9 +68,7 @@ std::optional<Simulation> Simulation::build(const model::System& system, const R
 
 std::optional<Simulation> Simulation::build(const model::System& system, Layout layout, const Demand& demand,
                                             const Options& options, Diagnostics& diagnostics) {
-    auto compiled =
-        compile(system, std::move(layout), demand, options.seed,
-                options.general_forms ? Forms::general : Forms::fastest, options.environment, diagnostics);
+    auto compiled = compile(system, std::move(layout), demand, options, diagnostics);
     if (!compiled.plan) return std::nullopt;
     return Simulation(std::make_unique<Parts>(std::move(compiled), options));
 }

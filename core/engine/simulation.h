@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -56,6 +57,9 @@ class Simulation {
         /// No part of a group that is shared takes less than this on one thread, ns.
         double min_task_ns = 1'250;
         Environment* environment = nullptr;  ///< given to the modules; must outlive the simulation
+        std::string directory = {};          ///< of the results, for the modules
+        /// Opens the file `name` of the module of a process. Without it, modules cannot open files.
+        std::function<std::ostream&(const std::string& process, const std::string& name)> open = {};
         bool general_forms =
             false;  ///< compile every connection to a list of synapses (slower, same numbers)
     };

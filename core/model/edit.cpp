@@ -1,7 +1,6 @@
 #include "core/model/edit.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -61,12 +60,6 @@ std::string which(const std::vector<Owner>& owners, std::string_view where) {
     for (const auto& o : owners)
         names.push_back(o.kind == Assignment::Owner::group ? fmt::format("{}#{}", trim(where), o.id) : o.id);
     return fmt::format("use one of '{}'", fmt::join(names, "', '"));
-}
-
-/// A path relative to the working directory.
-std::string resolved(const std::string& path, const Location& at) {
-    if (path.empty() || !at.file) return path;
-    return (std::filesystem::path(at.file->path).parent_path() / path).string();
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "core/model/lookup.h"
 
+#include <filesystem>
+
 #include <fmt/format.h>
 
 namespace forage::model {
@@ -82,6 +84,11 @@ std::vector<GroupIndex::Entry> find_groups(const System& system, std::string_vie
         collect();
     }
     return out;
+}
+
+std::string resolved(const std::string& path, const Location& at) {
+    if (path.empty() || !at.file) return path;
+    return (std::filesystem::path(at.file->path).parent_path() / path).string();
 }
 
 }  // namespace forage::model

@@ -40,6 +40,10 @@ std::vector<GroupIndex::Entry> find_groups(const System& system, std::string_vie
 /// A hint for a path that names no group: the groups that have this name, or the most similar paths.
 std::string suggest_group(std::string_view wanted, const std::vector<std::string>& paths);
 
+/// The path of a file that is named at a place in another file, in whose folder relative paths begin. On the
+/// command line, which is no file, they begin in the working directory.
+std::string resolved(const std::string& path, const Location& at);
+
 /// `text` without blanks at its ends.
 std::string_view trim(std::string_view text);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <map>
 
 #include <fmt/format.h>
@@ -411,12 +410,6 @@ class Validator {
     GroupIndex groups_;
 };
 
-/// A path relative to the working directory.
-std::string resolved(const Setting& s) {
-    if (s.value.empty() || !s.value_at.file) return s.value;
-    return (std::filesystem::path(s.value_at.file->path).parent_path() / s.value).string();
-}
-
 }  // namespace
 
 void validate(const System& system, const Registry& registry, Diagnostics& diagnostics,
@@ -428,7 +421,7 @@ void apply(const std::vector<Setting>& settings, const std::vector<Parameter>& p
     for (const auto& s : settings)
         if (const Parameter* p = find_parameter(parameters, s.name))
             if (const auto value = parse_parameter(p->kind, s.value))
-                p->set(object, p->is_path ? ParameterValue(resolved(s)) : *value);
+                p->set(object, p->is_path ? ParameterValue(resolved(s.value, s.value_at)) : *value);
 }
 
 }  // namespace forage::model

@@ -45,7 +45,9 @@ void check_checkpoints(const engine::Layout& layout, const std::string& option, 
                 fmt::format("{}: the module type '{}' of process '{}' does not say what it keeps beside its "
                             "parameters",
                             option, m.type.name, m.process),
-                "give the type a member 'void checkpoint(forage::Archive& archive)' that lists its members");
+                "give the type a member 'void checkpoint(forage::Archive& archive)' that lists the members "
+                "that "
+                "start() does not make anew");
 }
 
 }  // namespace forage

@@ -1,12 +1,14 @@
 #include "core/run/run.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/output_files.h"
 #include "core/model/edit.h"
+#include "core/run/module_files.h"
 #include "core/run/result_files.h"
 #include "core/run/stop_condition.h"
 
@@ -52,9 +54,14 @@ Run::Run(model::System system, Registry registry, std::unique_ptr<Environment> e
       options_(options),
       seconds_per_cycle_(environment_ ? environment_->seconds_per_cycle() : 1 / cycles_per_second(system_)) {
     if (options.compute_everything) demand_ = engine::Demand::everything();
+    module_files_ = &add(std::make_unique<ModuleFiles>(options.directory));
 }
 Run::Run(Run&&) noexcept = default;
-Run& Run::operator=(Run&&) noexcept = default;
+Run& Run::operator=(Run&& other) noexcept {
+    if (this == &other) return *this;
+    std::destroy_at(this);  // its parts in the order in which they need each other
+    return *std::construct_at(this, std::move(other));
+}
 Run::~Run() = default;
 
 void Run::add_observer(std::unique_ptr<Observer> observer) {
@@ -79,13 +86,23 @@ bool Run::start(Diagnostics& diagnostics) {
     for (const auto& o : observers_) o->declare(demand_);
     simulation_ = engine::Simulation::build(
         system_, layout_, demand_,
-        {.seed = options_.seed, .threads = options_.threads, .environment = environment_.get()}, diagnostics);
-    if (!simulation_) return false;
-    for (const auto& o : observers_) o->check(*simulation_, diagnostics);
-    if (diagnostics.failed()) return simulation_.reset(), false;
-    simulation_->start();
-    simulation_->check_finite(options_.check_finite);
-    return true;
+        {.seed = options_.seed,
+         .threads = options_.threads,
+         .environment = environment_.get(),
+         .directory = options_.directory,
+         .open = [files = module_files_](const auto& process, const auto& name) -> auto& {
+             return files->open(process, name);
+}
+}  // namespace forage
+,
+        diagnostics);
+if (!simulation_) return false;
+for (const auto& o : observers_) o->check(*simulation_, diagnostics);
+if (diagnostics.failed()) return simulation_.reset(), false;
+module_files_->begin(observers_);
+simulation_->start();
+simulation_->check_finite(options_.check_finite);
+return true;
 }
 
 void Run::start() {

@@ -27,6 +27,8 @@ class InputError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+class ModuleFiles;
+
 /// Runs a system cycle by cycle in its environment and calls the observers at fixed points (observer.h). The
 /// system is compiled at the first cycle, or by start(). Until then any observer may be added; afterwards
 /// only observers whose demand is computed.
@@ -38,7 +40,8 @@ class Run {
         /// Whether all groups are computed, so that everything may be read and overwritten at any time.
         /// Otherwise only what observers and modules demand is computed, with the same numbers.
         bool compute_everything = true;
-        bool check_finite = true;  ///< whether to search for NaN and infinities, see divergence()
+        bool check_finite = true;    ///< whether to search for NaN and infinities, see divergence()
+        std::string directory = {};  ///< for the files of modules; they are not written when it is empty
     };
     /// Checks the system. Empty when `diagnostics` got an error. `environment` may be null.
     static std::optional<Run> make(model::System system, Registry registry,
@@ -134,8 +137,9 @@ class Run {
     Options options_;
     double seconds_per_cycle_;
     engine::Demand demand_;  ///< the demand for which the system is compiled
-    std::optional<engine::Simulation> simulation_;
     std::vector<std::unique_ptr<Observer>> observers_;
+    ModuleFiles* module_files_;                     ///< one of the observers
+    std::optional<engine::Simulation> simulation_;  ///< destroyed first: its modules use the streams
     std::string divergence_;
 };
 

@@ -11,11 +11,16 @@
 //
 // A module reads the activity of its input groups in the same cycle. What it writes into an output is
 // excitatory input of that group in the next cycle. An output keeps its values until it is written again.
+//
+// A module may have members that cannot be copied, such as a socket. It opens them in start(): Forage makes
+// further objects of a type to check parameters, and destroys them without starting them.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <ostream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -41,8 +46,8 @@ struct ModulePort {
     int cells = 0;              ///< required number of cells; 0 for any number
 };
 
-/// The groups that are connected to a module's ports, in order of declaration. An unset optional port has 0
-/// cells.
+/// What a module learns about its place in the system and about its run: the groups that are connected to its
+/// ports, in order of declaration (an unset optional port has 0 cells), and the files of the run.
 struct ModulePorts {
     struct Group {
         std::string port;  ///< the cross reference's name
@@ -54,6 +59,19 @@ struct ModulePorts {
     std::vector<Group> outputs;
     RandomStream random;                 ///< the module's own random stream
     Environment* environment = nullptr;  ///< core/run/environment.h; null in a run, or a check, without one
+
+    // For start(); check() is called outside a run.
+    std::string system;      ///< name of the system
+    std::uint64_t seed = 0;  ///< of the run
+    std::string directory;   ///< of the results, made before the first update; empty in a run without results
+    /// Opens the file "Process_name" of the results, and replaces a file of an earlier run. What is written
+    /// until the last cycle has ended is kept, and a resumed run continues the file where the checkpoint was
+    /// written. The stream lives longer than the module; without a directory it forgets what is written.
+    /// Throws std::runtime_error when the run has another file of that name, and std::logic_error after
+    /// start().
+    std::function<std::ostream&(const std::string& name)> open = [](const std::string&) -> std::ostream& {
+        throw std::logic_error("a module opens its files in start(), in a run");
+    };
 };
 
 /// The inputs and outputs of a module in one cycle.
@@ -172,7 +190,8 @@ namespace detail {
 template <class T>
 class ModuleModel final : public ModuleInstance {
   public:
-    explicit ModuleModel(T value) : value_(std::move(value)) {}
+    template <class... Prototype>
+    explicit ModuleModel(const Prototype&... copied) : value_{copied...} {}
     void* parameters() override { return &value_; }
     void check(const ModulePorts& ports, Diagnostics& diagnostics) override {
         if constexpr (requires { value_.check(ports, diagnostics); }) value_.check(ports, diagnostics);
@@ -194,10 +213,9 @@ class ModuleModel final : public ModuleInstance {
 
 }  // namespace detail
 
-/// The descriptor of module type T. Every module of a system starts as a copy of `prototype`, which holds
-/// values that are not parameters, such as a world or the content of a file.
+/// The descriptor of module type T. Every module of a system starts as T{}.
 template <class T>
-ModuleType module_type(T prototype = {}) {
+ModuleType module_type() {
     static_assert(
         requires(T t, ModuleFrame & f) { t.update(f); }, "a module type needs void update(ModuleFrame&)");
     ModuleType type;
@@ -205,6 +223,15 @@ ModuleType module_type(T prototype = {}) {
     T::describe(spec);
     type.checkpoints = requires(T t, Archive a) { t.checkpoint(a); }
     || only_parameters<T>(type.parameters);
+    type.make = [] { return std::make_unique<detail::ModuleModel<T>>(); };
+    return type;
+}
+
+/// As above, but every module starts as a copy of `prototype`, which holds values that are not parameters,
+/// such as the content of a file.
+template <class T>
+ModuleType module_type(const T& prototype) {
+    ModuleType type = module_type<T>();
     type.make = [prototype] { return std::make_unique<detail::ModuleModel<T>>(prototype); };
     return type;
 }

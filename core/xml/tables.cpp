@@ -84,8 +84,9 @@ void add_rows(std::string& out, const std::vector<Parameter>& parameters) {
     for (const auto& p : parameters) {
         const std::string value = to_text(p.default_value);
         out += fmt::format(
-            "| `{}` | {}{} | {} | {} | {} |\n", p.name, cell(p.doc), p.at_start ? " Read at start." : "",
-            p.unit, value.empty() ? "empty" : fmt::format("`{}`", value),
+            "| `{}` | {}{}{} | {} | {} | {} |\n", p.name, cell(p.doc),
+            p.is_path ? " Relative to the folder of the file that sets it." : "",
+            p.at_start ? " Read at start." : "", p.unit, value.empty() ? "empty" : fmt::format("`{}`", value),
             p.range ? fmt::format("{} to {}", to_text(p.range->low), to_text(p.range->high)) : "");
     }
 }

@@ -64,12 +64,15 @@ class HowTo(unittest.TestCase):
         return commands
 
     def test_every_page_is_followed_to_its_last_block(self):
-        for page in ("write-a-neuron", "three-factor-learning", "embed", "write-an-observer"):
+        for page in ("write-a-neuron", "write-a-module", "three-factor-learning", "embed", "write-an-observer"):
             text = (PAGES / f"{page}.md").read_text()
             self.assertEqual(len(re.findall(r"^```\w+$", text, re.MULTILINE)), len(list(BLOCK.finditer(text))), page)
 
     def test_write_a_neuron(self):
         self.assertGreaterEqual(self.follow("write-a-neuron"), 15)
+
+    def test_write_a_module(self):
+        self.assertGreaterEqual(self.follow("write-a-module"), 12)
 
     def test_three_factor_learning(self):
         self.assertGreaterEqual(self.follow("three-factor-learning"), 3)

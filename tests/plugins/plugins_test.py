@@ -8,6 +8,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -34,7 +35,7 @@ CORPUS = {
     "restless_parameter": (r"'synapseRestlessParameter' that does not work: it promises event_driven\(\), and changes "
                            r"state 'weight' while its source is silent: \S+ becomes \S+, with rate = 0\.", ""),
     "other_size": (r"'neuronOtherSize' that does not work: it computes with columns of different sizes", ""),
-    "other_version": (r"was built with version 8 of the SDK, this program has version 7", "build the plugin again"),
+    "other_version": (r"was built with version 9 of the SDK, this program has version 8", "build the plugin again"),
     "shipped_name": (r"has a neuron type 'neuronLinearThreshold', and so has Forage itself", "another name"),
     "restless": (r"'synapseRestless' that does not work: it promises event_driven\(\), and changes state 'weight'", ""),
     "restless_output": (r"'synapseRestlessOutput' that does not work: it promises event_driven\(\), and puts out something", ""),
@@ -200,6 +201,90 @@ class Twins(Plugins):
             self.assertEqual((self.here / "out" / name).read_bytes(), (self.here / "whole" / name).read_bytes(), name)
         states = [json.loads((self.here / d / "run.json").read_text())["result"]["state"] for d in ("out", "whole")]
         self.assertEqual(states[0], states[1])
+
+
+class Files(Plugins):
+    """Files that modules write (diary.cpp)."""
+
+    DIARY = BROKEN.parent / "diary.so"
+    CYCLES = 60
+
+    def setUp(self):
+        super().setUp()
+        (self.here / "systems").mkdir()
+        (self.here / "systems/script.txt").write_text("the first line\n")
+        self.write()
+
+    def write(self, parameters=""):
+        module = ('<Module name="moduleDiary"><Parameter name="script" value="script.txt"/>' + parameters +
+                  '<XRefHolder name="InputFromGroup"><XRef name="in" target="a"/></XRefHolder></Module>')
+        text = SYSTEM.format(neuron="neuronRandomSpike", module=module)
+        (self.here / "systems/diary.iqr").write_text(text)
+
+    def run_diary(self, *more, cycles=CYCLES, status=0):
+        return self.forage("run", "systems/diary.iqr", "--plugin", self.DIARY, "-c", cycles, *more, status=status)
+
+    def diary(self, folder, name="P_diary.log"):
+        return (self.here / folder / name).read_text()
+
+    def stop(self, end, folder):
+        """Stops a run with a signal, some cycles after a checkpoint."""
+        command = [FORAGE, "run", "systems/diary.iqr", "--plugin", self.DIARY, "-c", str(self.CYCLES), "--realtime",
+                   "--checkpoint-every", "7", "-o", folder]
+        run = subprocess.Popen(command, cwd=self.here, stdout=subprocess.DEVNULL)
+        while not (self.here / folder / "checkpoint.forage").exists():
+            self.assertIsNone(run.poll())
+            time.sleep(0.02)
+        time.sleep(0.1)
+        run.send_signal(end)
+        run.wait()
+
+    def test_a_module_writes_a_file_of_its_run(self):
+        self.run_diary("-o", "out", "--seed", 7)
+        lines = self.diary("out").splitlines()
+        self.assertEqual(lines[0], "small P seed 7 the first line")  # of a file beside the system's
+        self.assertEqual([line.split()[0] for line in lines[1:]], [str(c) for c in range(self.CYCLES)])
+        self.assertIn("P_diary.log", json.loads((self.here / "out/run.json").read_text())["result"]["files"])
+        self.assertFalse(list((self.here / "out").glob("*.part")))
+
+    def test_a_run_without_results_writes_no_file(self):
+        self.run_diary("-o", "")
+        self.assertEqual([p.name for p in self.here.iterdir()], ["systems"])
+
+    def test_a_resumed_run_keeps_every_line(self):
+        self.run_diary("-o", "whole")
+        for end in (signal.SIGKILL, signal.SIGINT):
+            with self.subTest(end):
+                self.stop(end, end.name)
+                self.assertEqual((self.here / end.name / "P_diary.log.part").exists(), end == signal.SIGKILL)
+                self.forage("resume", end.name)
+                self.assertEqual(self.diary(end.name), self.diary("whole"))
+                self.assertFalse(list((self.here / end.name).glob("*.part")))
+
+    def test_a_file_that_lost_lines_is_not_continued(self):
+        self.stop(signal.SIGKILL, "out")
+        (self.here / "out/P_diary.log.part").write_text("")
+        self.assertRegex(self.forage("resume", "out", status=2).stderr, "the file '.*P_diary.log' of a module should have")
+
+    def test_runs_of_an_experiment_write_files_of_their_own(self):
+        (self.here / "e.xml").write_text('<experiment><system file="systems/diary.iqr"/><length cycles="50"/><seeds first="1" count="4"/>'
+                                         '<measure name="x" final="mean(P/A)"/></experiment>')
+        self.forage("experiment", "e.xml", "--plugin", self.DIARY, "-o", "out", "--jobs", 4)
+        diaries = sorted(p.read_text() for p in self.here.glob("out/**/P_diary.log"))
+        self.assertEqual([d.split("\n")[0].split()[3] for d in diaries], ["1", "2", "3", "4"])
+        self.assertEqual([d.count("\n") for d in diaries], [51] * 4)
+
+    def test_files_that_cannot_be_opened(self):
+        for name, message in (("diary.log", "the run already writes a file 'P_diary.log'"),
+                              ("A_act.csv", "the run already writes a file 'P_A_act.csv'")):
+            self.write(f'<Parameter name="other" value="{name}"/>')
+            done = self.run_diary("-o", "out", "--record", "P/A", status=2)
+            self.assertIn(f"error: moduleDiary of process 'P' could not start: {message}", done.stderr)
+            self.assertFalse((self.here / "out").exists())
+        self.write('<Parameter name="name" value="late"/>')
+        done = self.run_diary("-o", "late", status=1)
+        self.assertIn("failed in cycle 2: a module opens its files in start()", done.stderr)
+        self.assertEqual(len(self.diary("late", "P_late").splitlines()), 3)  # a line per cycle that ended
 
 
 class Found(Plugins):

@@ -100,7 +100,8 @@ std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given,
                           {.seed = spec.input.seed,
                            .threads = std::min(spec.threads, cores()),
                            .compute_everything = false,
-                           .check_finite = spec.on_nan != OnNan::ignore},
+                           .check_finite = spec.on_nan != OnNan::ignore,
+                           .directory = spec.directory},
                           diagnostics);
     if (!made) return std::nullopt;
     Run& run = *made;

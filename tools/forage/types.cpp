@@ -41,7 +41,8 @@ void describe(const Type& type) {
                                      p.range ? fmt::format(", usual range {} to {}", to_text(p.range->low),
                                                            to_text(p.range->high))
                                              : "",
-                                     p.at_start ? "; read at start" : ""));
+                                     p.at_start ? "; read at start" : "") +
+                             (p.is_path ? " Relative to the folder of the file that sets it." : ""));
     }
     rows.print();
 }

@@ -42,13 +42,13 @@ class Budget {
 
 class Compiler {
   public:
-    Compiler(const model::System& system, Layout layout, const Demand& demand, std::uint64_t seed,
-             Forms forms, Environment* environment, Diagnostics& diagnostics)
-        : order_(system),
+    Compiler(const model::System& system, Layout layout, const Demand& demand,
+             const Simulation::Options& options, Diagnostics& diagnostics)
+        : system_(system),
+          order_(system),
           demand_(demand),
-          seed_(seed),
-          forms_(forms),
-          environment_(environment),
+          options_(options),
+          forms_(options.general_forms ? Forms::general : Forms::fastest),
           diagnostics_(diagnostics),
           plan_(std::make_unique<Plan>()),
           state_(std::make_unique<State>()),
@@ -108,7 +108,7 @@ class Compiler {
             plan.pruned = pruned_.groups[i];
             plan.keeps_input = demand_.reads_input(i);
             plan.overwritten = demand_.overwrites(i);
-            plan.random = RandomStream(seed_, about.id);
+            plan.random = RandomStream(options_.seed, about.id);
             for (const auto& s : about.type.states) plan.states.push_back({0, s.history});
             double rows = 2 * input_kinds;
             for (const auto& s : plan.states) rows += static_cast<double>(s.depth);
@@ -126,8 +126,16 @@ class Compiler {
             const auto& use = *order_.modules[i]->module;
             auto& plan = plan_->modules.emplace_back();
             plan.ports = about.ports;
-            plan.ports.random = RandomStream(seed_, about.process_id);
-            plan.ports.environment = environment_;
+            plan.ports.random = RandomStream(options_.seed, about.process_id);
+            plan.ports.environment = options_.environment;
+            plan.ports.system = system_.name;
+            plan.ports.seed = options_.seed;
+            plan.ports.directory = options_.directory;
+            if (options_.open)
+                plan.ports.open = [open = options_.open,
+                                   process = about.process](const std::string& name) -> std::ostream& {
+                    return open(process, name);
+                };
             state_->modules.emplace_back().module = make(about.type, use);
             const auto references = cross_references(use, about.type, true);
             for (int port = 0; port < std::ssize(references); ++port) {
@@ -186,8 +194,8 @@ class Compiler {
 
     /// Without a kernel when it is pruned, or cannot be made: reported.
     void make_list(const model::Connection& c, const Layout::Connection& about, ConnectionPlan& plan) {
-        auto synapses =
-            connectivity::connect(c, topology_of(plan.source), topology_of(plan.target), seed_, diagnostics_);
+        auto synapses = connectivity::connect(c, topology_of(plan.source), topology_of(plan.target),
+                                              options_.seed, diagnostics_);
         if (synapses.size() == 0) return;
         synapses.distance = std::vector<double>();  // attenuation and delay say it all
         plan.synapses = synapses.size();
@@ -278,11 +286,11 @@ class Compiler {
                 plan_->modules[i].outputs.push_back(rows.reserve(g < 0 ? 0 : plan_->groups[g].cells));
     }
 
+    const model::System& system_;
     UpdateOrder order_;
     const Demand& demand_;
-    std::uint64_t seed_;
+    const Simulation::Options& options_;
     Forms forms_;
-    Environment* environment_;
     Diagnostics& diagnostics_;
     std::unique_ptr<Plan> plan_;
     std::unique_ptr<State> state_;
@@ -293,9 +301,9 @@ class Compiler {
 
 }  // namespace
 
-Compiled compile(const model::System& system, Layout layout, const Demand& demand, std::uint64_t seed,
-                 Forms forms, Environment* environment, Diagnostics& diagnostics) {
-    return Compiler(system, std::move(layout), demand, seed, forms, environment, diagnostics).run();
+Compiled compile(const model::System& system, Layout layout, const Demand& demand,
+                 const Simulation::Options& options, Diagnostics& diagnostics) {
+    return Compiler(system, std::move(layout), demand, options, diagnostics).run();
 }
 
 void order_steps(Plan& plan) {
