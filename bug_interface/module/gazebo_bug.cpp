@@ -32,6 +32,8 @@ std::span<double> cells_of(Column& column) {
     return {column.data(), static_cast<std::size_t>(column.size())};
 }
 
+bool is_square(const GroupShape& s) { return s == rectangle(s.width, s.width); }
+
 std::string no_robot(const World& world, const std::string& name) {
     return fmt::format("there is no robot '{}' in the world '{}'", name, world.description().path);
 }
@@ -118,63 +120,88 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
             "Width of a head direction cell's receptive field, exp(-(distance/sigma)^2), in turns: 0.1 is 36 "
             "degrees.");
 
-    s.input("_motor", "Motor");
-    s.input("_gripper", "Gripper").optional();
-    s.input("_audio_out", "Shout").optional().cells(36);
-    s.output("_proximity", "Proximity sensor").optional().size(32, 1);
-    s.output("_target", "Target sensor").optional().size(32, 1);
-    s.output("_proximityGripper", "Gripper proximity sensor").optional();
-    s.output("_gps", "GPS").optional().size(3, 1);
-    s.output("_image_RH", "Image red or hue").optional();
-    s.output("_image_GS", "Image green or saturation").optional();
-    s.output("_image_BV", "Image blue or value").optional();
-    s.output("placeCell", "Place cells").optional();
-    s.output("headCell", "Head direction cells").optional();
-    s.output("_audio_in", "Listen").optional().cells(36);
+    s.input("_motor", "Motor")
+        .size("a square with an odd number of rows, at least 3, such as 9 x 9",
+              [](const auto&, PortSizes&, const GroupShape& given) {
+                  return is_square(given) && given.width % 2 == 1 && given.width > 1 ? given
+                                                                                     : rectangle(9, 9);
+              })
+        .tolerate([](PortSizes&, const GroupShape& given) { return is_square(given) && given.width > 1; })
+        .doc(
+            "The most active cell is the velocity, whatever its activity. Rows: top transSpeed, middle 0, "
+            "bottom -transSpeed. Columns: left rotSpeed (a left turn), middle 0, right -rotSpeed. No active "
+            "cell, or all cells equal: the robot stops.");
+    s.input("_gripper", "Gripper")
+        .optional()
+        .size("1 cell if 'gripper' is true",
+              [](const GazeboBug& module, PortSizes&, const GroupShape& given) {
+                  return !module.gripper || given.cells == 1 ? given : rectangle(1, 1);
+              })
+        .doc("Above 0.5 the gripper closes, otherwise it opens.");
+    s.input("_audio_out", "Shout")
+        .optional()
+        .cells(36)
+        .doc("The message to the robots with the same comkey.");
+    s.output("_proximity", "Proximity sensor")
+        .optional()
+        .size(32, 1)
+        .doc(
+            "One cell per ray of the sensor 'laser', from left to right: 1 - distance / range, or 0 if "
+            "nothing is in range.");
+    s.output("_target", "Target sensor")
+        .optional()
+        .size(32, 1)
+        .doc("The same for the sensor 'laser_target', which sees the light.");
+    s.output("_proximityGripper", "Gripper proximity sensor")
+        .optional()
+        .size("16 x 1 cells if 'gripper' is true",
+              [](const GazeboBug& module, PortSizes&, const GroupShape& given) {
+                  return module.gripper ? rectangle(16, 1) : given;
+              })
+        .doc("The same for the sensor 'laser_gripper' between the fingers; the outer cells see the palm.");
+    s.output("_gps", "GPS")
+        .optional()
+        .size(3, 1)
+        .doc(
+            "The place, x + placeXMax and y + placeYMax in m, and heading + pi in rad (0 to 2 pi; east is "
+            "pi).");
+    const auto image = [&](const char* port, const char* label, const char* doc,
+                           std::vector<const char*> before) {
+        s.output(port, label)
+            .optional()
+            .size(fmt::format("a full rectangle of at most {} x {} cells, the same for all image groups",
+                              max_image_width, max_image_height),
+                  [before = std::move(before)](const auto&, PortSizes& of, const GroupShape& given) {
+                      for (const char* other : before)
+                          if (of.has(other) && !(of[other] == given)) return of[other];
+                      return rectangle(std::min(given.width, max_image_width),
+                                       std::min(given.height, max_image_height));
+                  })
+            .doc(doc);
+    };
+    image("_image_RH", "Image red or hue",
+          "Red, hue if hsv is true, or grey if grayscale is true, 0 to 1. The top row is far away.", {});
+    image("_image_GS", "Image green or saturation", "Green, saturation or grey.", {"_image_RH"});
+    image("_image_BV", "Image blue or value", "Blue, value or grey.", {"_image_RH", "_image_GS"});
+    s.output("placeCell", "Place cells")
+        .optional()
+        .full_rectangle()
+        .doc(
+            "The position: 1 at the cell whose field is nearest. Columns from -placeXMax to placeXMax, rows "
+            "from placeYMax (top) to -placeYMax.");
+    s.output("headCell", "Head direction cells")
+        .optional()
+        .doc("The heading: cell 1 of n is west, n/4 + 1 south, n/2 + 1 east, 3n/4 + 1 north.");
+    s.output("_audio_in", "Listen")
+        .optional()
+        .cells(36)
+        .doc("The sum of the messages of the other robots, each attenuated with its distance.");
 }
 
 void GazeboBug::check(const ModulePorts& ports, Diagnostics& diagnostics) {
     const auto report = [&](const ModulePorts::Group& group, std::string message, std::string hint) {
         diagnostics.error(at_port(group.port), std::move(message), std::move(hint));
     };
-    const auto size = [](const ModulePorts::Group& group) {
-        return fmt::format("'{}' is {} x {}", group.path, group.shape.width, group.shape.height);
-    };
-
-    const auto& m = ports.inputs[motor];
-    if (m.shape.cells > 0 && (m.shape.width != m.shape.height || m.shape.width < 2 ||
-                              m.shape.cells != m.shape.width * m.shape.height))
-        report(m, fmt::format("the motor group {}, but must be square and at least 2 cells wide", size(m)),
-               "9 x 9 gives four speeds in each direction");
-
-    const ModulePorts::Group* first = nullptr;
-    for (const std::size_t port : {image_first, image_second, image_third}) {
-        const auto& g = ports.outputs[port];
-        if (g.shape.cells == 0) continue;
-        if (!first) first = &g;
-        if (g.shape.cells != g.shape.width * g.shape.height)
-            report(g, fmt::format("the image group '{}' must be a full rectangle", g.path), {});
-        else if (g.shape.width > max_image_width || g.shape.height > max_image_height)
-            report(g,
-                   fmt::format("the image group {}, but must be at most {} x {}", size(g), max_image_width,
-                               max_image_height),
-                   "the camera has no more pixels");
-        else if (!(g.shape == first->shape))
-            report(g, fmt::format("the image groups differ in size: {}, {}", size(g), size(*first)),
-                   "give all three the same size");
-    }
-    const auto& p = ports.outputs[place_group];
-    if (p.shape.cells != p.shape.width * p.shape.height)
-        report(p, fmt::format("the place cell group '{}' must be a full rectangle", p.path), {});
-    if (gripper) {
-        const auto &command = ports.inputs[gripper_command], &scan = ports.outputs[gripper_scan];
-        if (command.shape.cells > 0 && command.shape.cells != 1)
-            report(command, fmt::format("the gripper group {}, but must be 1 x 1", size(command)),
-                   "change its size, or set 'gripper' to false");
-        if (scan.shape.cells > 0 && (scan.shape.width != 16 || scan.shape.height != 1))
-            report(scan, fmt::format("the gripper proximity group {}, but must be 16 x 1", size(scan)),
-                   "change its size, or set 'gripper' to false");
-    }
     if (!(place_x_max > 0 && place_y_max > 0 && place_sigma > 0 && head_sigma > 0))
         diagnostics.error(at_parameter(!(place_x_max > 0)   ? "placeXMax"
                                        : !(place_y_max > 0) ? "placeYMax"

@@ -13,23 +13,8 @@
 namespace forage::bug {
 
 /// Module "moduleGazeboBug". In every cycle it decodes its input groups into commands to the robot, and
-/// copies what the robot sensed at the end of the previous cycle into its output groups.
-///
-/// Inputs:
-///   _motor                the velocity command, see decode_motor(): a square of at least 2 x 2 cells
-///   _gripper              closes the gripper above 0.5, else opens it: 1 cell
-///   _audio_out            the message to robots with the same communication key: 36 cells
-///
-/// Outputs:
-///   _proximity, _target   range scans of "laser" and "laser_target", which sees the light: 32 cells, 0..1,
-///                         near is high; cell 0 is the leftmost ray (at 3 rad), the last the rightmost
-///   _proximityGripper     range scan of "laser_gripper" between the fingers: 16 cells, as above; the outer
-///                         cells see the robot's own palm
-///   _gps                  x + placeXMax and y + placeYMax in m, heading + pi in rad: 3 cells
-///   _image_RH, _GS, _BV   the channels of the camera's image, row 0 at the top (far): at most 32 x 28 cells
-///   placeCell             the position of the robot, see place_cells()
-///   headCell              the heading of the robot, see head_direction_cells()
-///   _audio_in             the sum of the received messages, attenuated with distance: 36 cells
+/// copies what the robot sensed at the end of the previous cycle into its output groups. describe() says what
+/// their cells mean.
 ///
 /// A group at _gripper or _proximityGripper is an error for a robot without a gripper, unless the parameter
 /// `gripper` is false. The parameter `cps`, the rate of the module's own clock in the original, has no

@@ -31,6 +31,7 @@ class Validator {
 
     void run() {
         unique_ids();
+        ambiguous_paths();
         for (const auto& process : system_.processes) {
             for (const auto& group : process.groups) check_group(group);
             if (process.module) check_module(process);
@@ -57,6 +58,21 @@ class Validator {
             for (const auto& g : p.groups) see(g.id, g.at, "group");
         }
         for (const auto& c : system_.connections) see(c.id, c.at, "connection");
+    }
+
+    void ambiguous_paths() {
+        std::map<std::string, const Group*> first;
+        for (const auto& p : system_.processes)
+            for (const auto& g : p.groups) {
+                const std::string path = fmt::format("{}/{}", trim(p.name), trim(g.name));
+                const auto [it, fresh] = first.emplace(path, &g);
+                if (!fresh && it->second->id != g.id)
+                    out_.warning(
+                        g.at,
+                        fmt::format("there is already a group '{}', on line {}", path, it->second->at.line),
+                        fmt::format("rename one of them; options tell them apart by id: '{}#{}'", path,
+                                    g.id));
+            }
     }
 
     /// A sentence without its full stop, for use within another sentence.
@@ -184,15 +200,17 @@ class Validator {
         ModulePorts ports;
         ports.process = process.name;
         ports.environment = environment_;
-        check_ports(use, *type, use.inputs, false, process.module_enabled, ports.inputs);
-        check_ports(use, *type, use.outputs, true, process.module_enabled, ports.outputs);
+        check_ports(process, *type, use.inputs, false, ports.inputs);
+        check_ports(process, *type, use.outputs, true, ports.outputs);
         // All modules report their errors, but each of them checks only what has no other error.
-        if (process.module_enabled && out_.errors() == found_by_modules_) check_with_type(use, *type, ports);
+        check_with_type(use, *type, ports, process.module_enabled, out_.errors() == found_by_modules_);
     }
 
-    void check_ports(const ModuleUse& use, const ModuleType& type,
-                     const std::vector<CrossReference>& references, bool outputs, bool enabled,
+    void check_ports(const Process& process, const ModuleType& type,
+                     const std::vector<CrossReference>& references, bool outputs,
                      std::vector<ModulePorts::Group>& found) {
+        const ModuleUse& use = *process.module;
+        const bool enabled = process.module_enabled;
         const std::string_view holder = outputs ? "OutputToGroup" : "InputFromGroup";
         std::vector<ModulePort> ports;
         std::vector<std::string> known;
@@ -242,28 +260,41 @@ class Validator {
             }
             const auto entry = groups_.find(it->target);
             if (!entry.group) continue;
-            const GroupShape size = shape(entry.group->topology);
             found.back().path =
                 std::string(trim(entry.process->name)) + "/" + std::string(trim(entry.group->name));
-            found.back().shape = size;
-            const bool fits = (port.width == 0 || (port.width == size.width && port.height == size.height)) &&
-                              (port.cells == 0 || port.cells == size.cells);
-            if (!fits && enabled)
-                out_.error(it->at,
-                           fmt::format("group '{}' for '{}' has {} x {} cells", entry.group->name, port.name,
-                                       size.width, size.height),
-                           port.cells ? fmt::format("it must have {} cells", port.cells)
-                                      : fmt::format("it must have {} x {} cells", port.width, port.height));
+            found.back().shape = shape(entry.group->topology);
+            if (outputs && enabled) check_single_writer(process, *it, found.back().path);
         }
     }
 
-    /// Lets a module type check its parameters and groups.
-    void check_with_type(const ModuleUse& use, const ModuleType& type, const ModulePorts& ports) {
+    /// A group receives the sum of all outputs that lead to it, which is rarely meant.
+    void check_single_writer(const Process& process, const CrossReference& output, const std::string& path) {
+        const auto [it, fresh] = writers_.emplace(output.target, std::pair{&process, &output});
+        if (fresh) return;
+        const auto& [other, first] = it->second;
+        const bool same = other == &process;
+        const Severity severity = same || out_.lenient ? Severity::warning : Severity::error;
+        found_by_modules_ += severity == Severity::error;
+        out_.add({severity,
+                  output.at,
+                  fmt::format(
+                      "'{}' writes to '{}', to which '{}' of {} writes, too", output.name, path, first->name,
+                      same ? "the same module" : fmt::format("the module of '{}'", trim(other->name))),
+                  "give each output a group of its own; connections can add their activities",
+                  {},
+                  {}});
+    }
+
+    /// Checks the sizes of a module's groups and, when they are right, lets an enabled module check itself.
+    void check_with_type(const ModuleUse& use, const ModuleType& type, const ModulePorts& ports, bool enabled,
+                         bool alone) {
         Diagnostics found;
+        found.lenient = out_.lenient;
         try {
             const auto module = type.make();
             apply(use.settings, type.parameters, module->parameters());
-            module->check(ports, found);
+            check_sizes(type, ports, module->parameters(), found);
+            if (enabled && alone && !found.failed()) module->check(ports, found);
         } catch (const FileError& e) {
             ++found_by_modules_;
             return report(e, out_);
@@ -273,6 +304,7 @@ class Validator {
         }
         for (Diagnostic d : found.all()) {
             d.where = place_of(d, use);
+            if (!enabled) d.severity = Severity::warning, d.message += "; the module is disabled";
             for (const auto* references : {&use.inputs, &use.outputs})
                 for (const auto& r : *references)
                     if (r.name == d.port) d.where = r.at;
@@ -407,6 +439,8 @@ class Validator {
     Diagnostics& out_;
     Environment* environment_;
     int found_by_modules_ = 0;  ///< errors
+    /// The first output that leads to a group, by the group's id, of the enabled modules.
+    std::map<std::string_view, std::pair<const Process*, const CrossReference*>> writers_;
     GroupIndex groups_;
 };
 

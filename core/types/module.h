@@ -3,7 +3,7 @@
 // A module type is a plain struct whose members are its parameters. It has these functions, too:
 //
 //     static void describe(ModuleSpec<T>&);          // declares name, parameters, inputs and outputs
-//     void check(const ModulePorts&, Diagnostics&);  // optional: reports sizes that do not fit together
+//     void check(const ModulePorts&, Diagnostics&);  // optional: reports mistakes that no size rule finds
 //     void start(const ModulePorts&);                // optional: called once, before the first cycle
 //     void start(const ModulePorts&, ModuleFrame&);  // instead of it: what it writes is received in cycle 0
 //     void update(ModuleFrame&);                     // once per cycle, between groups and connections
@@ -16,12 +16,14 @@
 // further objects of a type to check parameters, and destroys them without starting them.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/archive.h"
@@ -35,16 +37,6 @@
 namespace forage {
 
 class Environment;
-
-/// A cross reference that a module declares, to which a file connects one group.
-struct ModulePort {
-    std::string name;           ///< as in the file's `<XRef name="..">`
-    std::string label;          ///< as shown to users
-    bool is_output = false;     ///< written by the module (`<XRefHolder name="OutputToGroup">`)
-    bool optional = false;      ///< may be absent or unset; the original refuses a system with an unset one
-    int width = 0, height = 0;  ///< required size of the group; 0 for any size
-    int cells = 0;              ///< required number of cells; 0 for any number
-};
 
 /// What a module learns about its place in the system and about its run: the groups that are connected to its
 /// ports, in order of declaration (an unset optional port has 0 cells), and the files of the run.
@@ -73,6 +65,64 @@ struct ModulePorts {
         throw std::logic_error("a module opens its files in start(), in a run");
     };
 };
+
+/// The sizes of the groups at a module's ports, for size rules.
+class PortSizes {
+  public:
+    explicit PortSizes(const ModulePorts& ports) : ports_(ports) {}
+    /// The size of the group at an input or, when no input has this name, at an output. 1 x 1 for an unset
+    /// port; a rule that reads the size of an unset port has no effect.
+    GroupShape operator[](std::string_view port) {
+        const auto* group = find(port);
+        if (!group) return complete_ = false, GroupShape{1, 1, 1};
+        if (std::find(read_.begin(), read_.end(), group) == read_.end()) read_.push_back(group);
+        return group->shape;
+    }
+    bool has(std::string_view port) const { return find(port) != nullptr; }  ///< whether the port is set
+    bool complete() const { return complete_; }  ///< whether all ports that were read are set
+    const std::vector<const ModulePorts::Group*>& read() const { return read_; }  ///< in the order of reading
+
+  private:
+    const ModulePorts::Group* find(std::string_view port) const {
+        for (const auto* side : {&ports_.inputs, &ports_.outputs})
+            for (const auto& group : *side)
+                if (group.port == port && group.shape.cells > 0) return &group;
+        return nullptr;
+    }
+    const ModulePorts& ports_;
+    std::vector<const ModulePorts::Group*> read_;
+    bool complete_ = true;
+};
+
+/// What a port requires of the size of its group. It is declared once and used by `forage types`, by the
+/// check of a system and by the documentation.
+struct SizeRule {
+    std::string text;  ///< completes "needs ...": "32 x 1 cells", "the size of 'input'"; empty: any size fits
+    /// Returns `given`, the size of the group, when it fits, and otherwise a size that does. `module` holds
+    /// the parameters.
+    std::function<GroupShape(const void* module, PortSizes&, const GroupShape& given)> nearest;
+    /// Whether a size that does not fit is only a warning when a system is read leniently, because the
+    /// original accepts it. Null when it never is.
+    std::function<bool(PortSizes&, const GroupShape& given)> tolerates;
+};
+
+/// A cross reference that a module declares, to which a file connects one group.
+struct ModulePort {
+    std::string name;        ///< as in the file's `<XRef name="..">`
+    std::string label;       ///< as shown to users
+    bool is_output = false;  ///< written by the module (`<XRefHolder name="OutputToGroup">`)
+    bool optional = false;   ///< may be absent or unset; the original refuses a system with an unset one
+    std::string doc;         ///< sentences that say what the cells mean
+    SizeRule size;
+};
+
+/// A full rectangle of cells. Sides and areas above 2^31 - 1 become that number.
+inline GroupShape rectangle(std::int64_t width, std::int64_t height) {
+    constexpr std::int64_t most = 2147483647;
+    width = std::min(width, most), height = std::min(height, most);
+    return {static_cast<int>(width), static_cast<int>(height),
+            static_cast<int>(std::min(width * height, most))};
+}
 
 /// The inputs and outputs of a module in one cycle.
 class ModuleFrame {
@@ -137,17 +187,56 @@ struct ModuleType {
     std::function<std::unique_ptr<ModuleInstance>()> make;
 };
 
+/// Declares one port of module type T. Without a size rule, the group may have any size.
+template <class T>
 class PortBuilder {
   public:
     PortBuilder(std::vector<ModulePort>& all, std::size_t index) : all_(all), index_(index) {}
-    PortBuilder& label(std::string text) { return all_[index_].label = std::move(text), *this; }
-    PortBuilder& optional() { return all_[index_].optional = true, *this; }
-    PortBuilder& cells(int n) { return all_[index_].cells = n, *this; }
+    PortBuilder& label(std::string text) { return port().label = std::move(text), *this; }
+    PortBuilder& doc(std::string text) { return port().doc = std::move(text), *this; }
+    PortBuilder& optional() { return port().optional = true, *this; }
     PortBuilder& size(int width, int height) {
-        return all_[index_].width = width, all_[index_].height = height, *this;
+        return size(std::to_string(width) + " x " + std::to_string(height) + " cells",
+                    [=](const T&, PortSizes&, const GroupShape&) { return rectangle(width, height); });
+    }
+    /// The group has n cells, in any shape.
+    PortBuilder& cells(int n) {
+        return size(std::to_string(n) + (n == 1 ? " cell" : " cells"),
+                    [=](const T&, PortSizes&, const GroupShape& given) {
+                        return given.cells == n ? given : rectangle(n, 1);
+                    });
+    }
+    PortBuilder& full_rectangle() {
+        return size("a full rectangle", [](const T&, PortSizes&, const GroupShape& given) {
+            return rectangle(given.width, given.height);
+        });
+    }
+    /// The group has the size of the group at another port, as PortSizes finds it.
+    PortBuilder& same_size_as(std::string other) {
+        std::string text = "the size of '" + other + "'";
+        return size(std::move(text), [other = std::move(other)](const T&, PortSizes& of, const GroupShape&) {
+            const GroupShape shape = of[other];
+            return rectangle(shape.width, shape.height);
+        });
+    }
+    /// A rule of one's own: `nearest(module, sizes, given)`, as in SizeRule.
+    template <class Nearest>
+    PortBuilder& size(std::string text, Nearest nearest) {
+        port().size.text = std::move(text);
+        port().size.nearest = [nearest = std::move(nearest)](const void* module, PortSizes& of,
+                                                             const GroupShape& given) {
+            return nearest(*static_cast<const T*>(module), of, given);
+        };
+        return *this;
+    }
+    /// Sizes that the original accepts although they do not fit: `accepts(sizes, given)`.
+    template <class Accepts>
+    PortBuilder& tolerate(Accepts accepts) {
+        return port().size.tolerates = std::move(accepts), *this;
     }
 
   private:
+    ModulePort& port() { return all_[index_]; }
     std::vector<ModulePort>& all_;
     std::size_t index_;
 };
@@ -165,16 +254,16 @@ class ModuleSpec {
         type_.parameters.push_back(detail::make_parameter<T>(std::move(name), member));
         return {type_.parameters, type_.parameters.size() - 1};
     }
-    PortBuilder input(std::string name, std::string label) {
+    PortBuilder<T> input(std::string name, std::string label) {
         return port(std::move(name), std::move(label), false);
     }
-    PortBuilder output(std::string name, std::string label) {
+    PortBuilder<T> output(std::string name, std::string label) {
         return port(std::move(name), std::move(label), true);
     }
     ModuleSpec& any_ports() { return type_.any_ports = true, *this; }
 
   private:
-    PortBuilder port(std::string name, std::string label, bool is_output) {
+    PortBuilder<T> port(std::string name, std::string label, bool is_output) {
         ModulePort p;
         p.name = std::move(name);
         p.label = std::move(label);
@@ -212,6 +301,10 @@ class ModuleModel final : public ModuleInstance {
 };
 
 }  // namespace detail
+
+/// Reports the groups that do not fit the size rules of their ports. `module` is an instance's parameters().
+void check_sizes(const ModuleType& type, const ModulePorts& ports, const void* module,
+                 Diagnostics& diagnostics);
 
 /// The descriptor of module type T. Every module of a system starts as T{}.
 template <class T>

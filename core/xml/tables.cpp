@@ -74,10 +74,6 @@ void add(std::string& out, const ElementRule& rule) {
     out += "<!-- end -->\n";
 }
 
-std::string cells_of(const ModulePort& p) {
-    return p.width ? fmt::format("{} x {}", p.width, p.height) : p.cells ? fmt::format("{}", p.cells) : "any";
-}
-
 void add_rows(std::string& out, const std::vector<Parameter>& parameters) {
     if (parameters.empty()) return;
     out += "\n| parameter | meaning | unit | default | usual range |\n|---|---|---|---|---|\n";
@@ -115,11 +111,12 @@ void add_rows(std::string& out, const SynapseType& type) {
 void add_rows(std::string& out, const ModuleType& type) {
     if (type.any_ports) out += "\nIt takes cross references of any name.\n";
     if (type.ports.empty()) return;
-    out += "\n| cross reference | in | meaning | cells | |\n|---|---|---|---|---|\n";
+    out += "\n| cross reference | in | size of the group | meaning | |\n|---|---|---|---|---|\n";
     for (const auto& p : type.ports)
-        out += fmt::format("| `{}` | {} | {} | {} | {} |\n", p.name,
-                           p.is_output ? "OutputToGroup" : "InputFromGroup", cell(p.label), cells_of(p),
-                           p.optional ? "optional" : "required");
+        out += fmt::format("| `{}` | {} | {} | {}{}{} | {} |\n", p.name,
+                           p.is_output ? "OutputToGroup" : "InputFromGroup",
+                           p.size.text.empty() ? "Any" : cell(p.size.text), cell(p.label),
+                           p.doc.empty() ? "" : ": ", cell(p.doc), p.optional ? "optional" : "required");
 }
 
 template <class Types>

@@ -14,20 +14,6 @@ namespace {
 enum In : std::size_t { input, condition };
 enum Out : std::size_t { prototype, output, discrepancy, display };
 
-bool is_rectangle(const GroupShape& s) { return s.cells == s.width * s.height; }
-
-std::string size(const GroupShape& s) { return fmt::format("{} x {}", s.width, s.height); }
-
-void require(const ModulePorts::Group& group, int width, int height, const std::string& why,
-             Diagnostics& diagnostics) {
-    if (group.shape == GroupShape{width, height, width * height}) return;
-    diagnostics.error(
-        at_port(group.port),
-        fmt::format("'{}' needs {} x {} cells, {}; '{}' has {}", group.port, width, height, why, group.path,
-                    is_rectangle(group.shape) ? size(group.shape) : "another number"),
-        fmt::format("make the group {} x {}", width, height));
-}
-
 }  // namespace
 
 void AdaptiveLayerModule::describe(ModuleSpec<AdaptiveLayerModule>& s) {
@@ -65,41 +51,34 @@ void AdaptiveLayerModule::describe(ModuleSpec<AdaptiveLayerModule>& s) {
     s.param("read", &T::read)
         .label("Read Weight File")
         .doc("Reads the weights from the file at the end of the next update.");
-    s.input("input", "Input");
-    s.input("condition", "Condition");
-    s.output("prototype", "Prototype");
-    s.output("output", "Output");
-    s.output("descripancy", "Descripancy");
-    s.output("weight display", "Weight Display").optional();
+    s.input("input", "Input").full_rectangle().doc("The conditioned stimuli (CS).");
+    s.input("condition", "Condition").full_rectangle().doc("The unconditioned response (UR).");
+    s.output("prototype", "Prototype")
+        .same_size_as("input")
+        .doc("The estimate of the stimuli that is computed from the conditioned response.");
+    s.output("output", "Output").same_size_as("condition").doc("The conditioned response (CR).");
+    s.output("descripancy", "Descripancy")
+        .cells(1)
+        .tolerate([](PortSizes&, const GroupShape&) { return true; })
+        .doc("The running average of the difference between stimuli and prototype; other cells stay 0.");
+    s.output("weight display", "Weight Display")
+        .optional()
+        .size("one picture of 'input' for each cell of 'condition', side by side",
+              [](const auto&, PortSizes& of, const GroupShape&) {
+                  const auto cs = of["input"], ur = of["condition"];
+                  return rectangle(static_cast<std::int64_t>(ur.cells) * cs.width, cs.height);
+              })
+        .doc("The k-th picture shows the weights from the stimuli to cell k of the response.");
 }
 
 void AdaptiveLayerModule::check(const ModulePorts& ports, Diagnostics& diagnostics) const {
-    const auto& cs = ports.inputs[input];
-    const auto& ur = ports.inputs[condition];
-    for (const auto* group : {&cs, &ur})
-        if (!is_rectangle(group->shape))
-            diagnostics.error(
-                at_port(group->port),
-                fmt::format("'{}' needs a rectangular group; '{}' is sparse", group->port, group->path),
-                "give the group a TopologyRect");
-    if (diagnostics.failed()) return;
-    require(ports.outputs[prototype], cs.shape.width, cs.shape.height,
-            fmt::format("the size of '{}' ({})", cs.port, cs.path), diagnostics);
-    const auto& picture = ports.outputs[display];
-    if (picture.shape.cells > 0)
-        require(picture, ur.shape.cells * cs.shape.width, cs.shape.height,
-                fmt::format("one {} picture of '{}' for each of the {} cells of '{}', side by side",
-                            size(cs.shape), cs.port, ur.shape.cells, ur.port),
-                diagnostics);
-    require(ports.outputs[output], ur.shape.width, ur.shape.height,
-            fmt::format("the size of '{}' ({})", ur.port, ur.path), diagnostics);
     if ((read || write) && file_name.empty())
         diagnostics.error(at_parameter("File Name"),
                           fmt::format("'{}' is set, but 'File Name' is empty", read ? "read" : "write"),
                           "set it to the path of the file with the weights");
     else if (read) {
         try {
-            read_weights(file_name, cs.shape.cells, ur.shape.cells);
+            read_weights(file_name, ports.inputs[input].shape.cells, ports.inputs[condition].shape.cells);
         } catch (const FileError& e) {
             auto errors = e.errors();
             for (auto& error : errors)

@@ -8,10 +8,8 @@
 
 namespace forage::adaptive {
 
-/// Inputs: `input` (CS, w x h cells) and `condition` (UR, K cells). Outputs: `prototype` (w x h), `output`
-/// (CR, K), `descripancy` (its first cell) and, optionally, `weight display` (K w x h): K pictures side by
-/// side, the k-th with the weights to CR cell k. When `read` or `write` is set, the file of the weights is
-/// read or written at the end of the next update, and the flag is cleared.
+/// describe() says what its groups hold. When `read` or `write` is set, the file of the weights is read or
+/// written at the end of the next update, and the flag is cleared.
 class AdaptiveLayerModule {
   public:
     double eta = 0.1, zeta = 0, rho = 0, init = 0.1, disc_time = 0.001;

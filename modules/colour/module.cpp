@@ -2,8 +2,6 @@
 
 #include <cstring>
 
-#include <fmt/format.h>
-
 namespace forage::colour {
 namespace {
 
@@ -14,31 +12,23 @@ bool same(const double* a, const Eigen::ArrayXd& b) {
 
 }  // namespace
 
-void ColourModule::check(const ModulePorts& ports, Diagnostics& diagnostics) const {
-    const auto &hue = ports.inputs[0], &value = ports.inputs[1], &colour = ports.outputs[0];
-    const auto rectangular = [](const GroupShape& s) { return s.cells == s.width * s.height; };
-    for (const auto* group : {&hue, &colour})
-        if (!rectangular(group->shape)) {
-            diagnostics.error(
-                at_port(group->port),
-                fmt::format("'{}' needs a rectangular group; '{}' is sparse", group->port, group->path),
-                "give the group a TopologyRect");
-            return;
-        }
-    if (colour.shape.width != hue.shape.width || colour.shape.height % hue.shape.height != 0)
-        diagnostics.error(
-            at_port("_color"),
-            fmt::format("'_color' needs the width of '_hue' and a multiple of its height: '{}' has {} x {} "
-                        "cells, '{}' has {} x {}",
-                        colour.path, colour.shape.width, colour.shape.height, hue.path, hue.shape.width,
-                        hue.shape.height),
-            fmt::format("make it {} x {} for 12 colours", hue.shape.width, 12 * hue.shape.height));
-    if (value.shape.cells < hue.shape.cells)
-        diagnostics.error(
-            at_port("_value"),
-            fmt::format("'_value' needs a value for each of the {} cells of '_hue'; '{}' has {}",
-                        hue.shape.cells, value.path, value.shape.cells),
-            fmt::format("make the group {} x {}", hue.shape.width, hue.shape.height));
+void ColourModule::describe(ModuleSpec<ColourModule>& s) {
+    s.name("moduleColor", "Color Module").doc("Separates a picture by hue: one picture per colour, stacked.");
+    s.input("_hue", "Hue").full_rectangle().doc("The hue of each pixel, 0 to 1.");
+    s.input("_value", "Value")
+        .same_size_as("_hue")
+        .tolerate([](PortSizes& of, const GroupShape& given) { return given.cells >= of["_hue"].cells; })
+        .doc("The number of each pixel that is passed on, such as its saturation.");
+    s.output("_color", "Color")
+        .size("the width of '_hue' and a multiple of its height",
+              [](const auto&, PortSizes& of, const GroupShape& given) {
+                  const auto hue = of["_hue"];
+                  return rectangle(hue.width,
+                                   given.height % hue.height == 0 ? given.height : 12 * hue.height);
+              })
+        .doc(
+            "One picture per bin of hues, from top to bottom; bin b of n, counted from 0, has its middle at "
+            "b/n. A picture holds the values of the pixels whose hue is in its bin, and 0 elsewhere.");
 }
 
 void ColourModule::start(const ModulePorts& ports) {

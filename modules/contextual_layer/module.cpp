@@ -12,6 +12,9 @@ namespace {
 enum In : std::size_t { action_in, prototype, stats, discrepancy_in };
 enum Out : std::size_t { action_out, empty, collector, distance, selected, trigger };
 
+/// Whether the memory may have this width or height.
+bool possible(double extent) { return extent >= 1 && extent < 1e6; }
+
 }  // namespace
 
 void ContextualLayerModule::describe(ModuleSpec<ContextualLayerModule>& s) {
@@ -55,55 +58,56 @@ void ContextualLayerModule::describe(ModuleSpec<ContextualLayerModule>& s) {
         .label("Discrepancy Threshold")
         .range(0, 2)
         .doc("The layer opens, permanently, when the discrepancy is between 1e-6 and this value.");
-    s.input("action", "Action");
-    s.input("prototype", "Prototype");
-    s.input("stats", "Stats");
-    s.input("discrepancy", "Discrepancy");
-    s.output("action", "Action");
-    s.output("empty", "Empty").optional();
-    s.output("collector", "Collector").optional();
-    s.output("distance", "Distance").optional();
-    s.output("selected", "Selected").optional();
-    s.output("trigger", "Trigger").optional();
+    s.input("action", "Action").doc("The action of this cycle, which the memory stores.");
+    s.input("prototype", "Prototype")
+        .doc("The prototype of this cycle, which the memory stores and compares.");
+    s.input("stats", "Stats")
+        .size("at least 2 cells",
+              [](const auto&, PortSizes&, const GroupShape& given) {
+                  return given.cells >= 2 ? given : rectangle(2, 1);
+              })
+        .doc(
+            "Cell 1 is active when a positive goal is reached, cell 2 when a negative one is; others have no "
+            "effect.");
+    s.input("discrepancy", "Discrepancy")
+        .cells(1)
+        .tolerate([](PortSizes&, const GroupShape&) { return true; })
+        .doc("The discrepancy that opens the layer; other cells have no effect.");
+    s.output("action", "Action")
+        .size("at most as many cells as the input 'action'",
+              [](const auto&, PortSizes& of, const GroupShape& given) {
+                  const auto action = of["action"];
+                  return given.cells <= action.cells ? given : action;
+              })
+        .doc("The sum of the actions of the selected segments; a smaller group gets the first cells.");
+    const auto picture = [&](const char* name, const char* label, const char* doc, bool larger) {
+        s.output(name, label)
+            .optional()
+            .size(larger ? "at least 'Memory Width' x 'Memory Height' cells"
+                         : "'Memory Width' x 'Memory Height' cells",
+                  [larger](const auto& m, PortSizes&, const GroupShape& given) {
+                      if (!possible(m.width) || !possible(m.height)) return given;  // check() reports it
+                      const auto memory =
+                          rectangle(static_cast<std::int64_t>(m.width), static_cast<std::int64_t>(m.height));
+                      const bool fits = given.cells == memory.cells || (larger && given.cells > memory.cells);
+                      return fits ? given : memory;
+                  })
+            .doc(std::string(doc) + " Row: sequence; column: segment, the last before the goal first.");
+    };
+    picture("empty", "Empty", "1 for each unused segment of the memory.", true);
+    picture("collector", "Collector", "How well each segment matches, times its trigger.", false);
+    picture("distance", "Distance", "The distance of each segment to the prototype, 0 to 1.", true);
+    picture("selected", "Selected", "1 for each selected segment.", true);
+    picture("trigger", "Trigger", "The trigger of each segment.", true);
 }
 
-void ContextualLayerModule::check(const ModulePorts& ports, Diagnostics& diagnostics) const {
-    const auto report = [&](const ModulePorts::Group& group, std::string message, std::string hint) {
-        diagnostics.error(at_port(group.port), std::move(message), std::move(hint));
-    };
-    bool sized = true;
+void ContextualLayerModule::check(const ModulePorts&, Diagnostics& diagnostics) const {
     for (const auto& [name, value] : {std::pair{"Memory Height", height}, std::pair{"Memory Width", width}})
-        if (!(value >= 1 && value < 1e6)) {
-            diagnostics.error(at_parameter(name),
-                              fmt::format("'{}' is {}, which is not a possible size of the memory", name, value),
-                              "use 1 to 1000");
-            sized = false;
-        }
-    if (sized) {
-        const auto rows = static_cast<std::int64_t>(height), columns = static_cast<std::int64_t>(width);
-        for (std::size_t i = empty; i <= trigger; ++i) {
-            const auto& group = ports.outputs[i];
-            const std::int64_t cells = group.shape.cells;
-            if (cells == 0 || cells == rows * columns || (cells > rows * columns && i != collector)) continue;
-            report(group,
-                   fmt::format("'{}' shows a memory of {} x {} segments, but '{}' has {} cells", group.port,
-                               columns, rows, group.path, cells),
-                   fmt::format("make the group {} x {}, or change 'Memory Width' and 'Memory Height'",
-                               columns, rows));
-        }
-    }
-    const auto& source = ports.inputs[action_in];
-    const auto& target = ports.outputs[action_out];
-    if (target.shape.cells > source.shape.cells)
-        report(target,
-               fmt::format("output 'action' receives the {} cells of input 'action' ({}), but '{}' has {}",
-                           source.shape.cells, source.path, target.path, target.shape.cells),
-               "give both groups the same size");
-    if (const auto& goals = ports.inputs[stats]; goals.shape.cells < 2)
-        report(goals,
-               fmt::format("'stats' needs 2 cells, for the positive and the negative goal; '{}' has {}",
-                           goals.path, goals.shape.cells),
-               "make the group 2 x 1");
+        if (!possible(value))
+            diagnostics.error(
+                at_parameter(name),
+                fmt::format("'{}' is {}, which is not a possible size of the memory", name, value),
+                "use 1 to 1000");
 }
 
 void ContextualLayerModule::start(const ModulePorts& ports) {

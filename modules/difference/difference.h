@@ -14,18 +14,24 @@ namespace forage::goal {
 void show_difference(const std::optional<GridPosition>& location, const std::optional<GridPosition>& goal,
                      Index width, Index height, Eigen::Ref<Eigen::ArrayXd> out);
 
-/// Inputs: `_location` and `_goal` (W x H cells). Output: `_diff` ((2 W - 1) x (2 H - 1)); its centre stands
-/// for the current location.
+/// Shows where the goal is, seen from the current location.
 class DifferenceModule {
   public:
     static void describe(ModuleSpec<DifferenceModule>& s) {
         s.name("differenceModule", "Difference")
             .doc("Shows the position of the goal relative to the current location.");
-        s.input("_location", "Current location");
-        s.input("_goal", "Goal location");
-        s.output("_diff", "Difference");
+        s.input("_location", "Current location")
+            .full_rectangle()
+            .doc("The most active cell is the current location.");
+        s.input("_goal", "Goal location").same_size_as("_location").doc("The most active cell is the goal.");
+        s.output("_diff", "Difference")
+            .size("twice the width and height of '_location' less one",
+                  [](const auto&, PortSizes& of, const GroupShape&) {
+                      const auto location = of["_location"];
+                      return rectangle(2 * location.width - 1, 2 * location.height - 1);
+                  })
+            .doc("1 at the goal, 0 elsewhere; the middle stands for the current location.");
     }
-    void check(const ModulePorts& ports, Diagnostics& diagnostics) const;
     void start(const ModulePorts& ports) { size_ = ports.inputs[0].shape; }
     void update(ModuleFrame& frame) {
         show_difference(peak_position(frame.input(0), size_.width),

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <fmt/format.h>
-
 namespace forage::goal {
 namespace {
 
@@ -42,23 +40,25 @@ double turn(double bearing, double orientation) {
     return forwards ? 0.5 + step : 0.5 - step;
 }
 
-void DirectionModule::check(const ModulePorts& ports, Diagnostics& diagnostics) const {
-    const auto &location = ports.inputs[location_in], &goal = ports.inputs[goal_in];
-    if (location.shape.cells != location.shape.width * location.shape.height)
-        diagnostics.error(at_port("_location"),
-                          fmt::format("'_location' needs a rectangular group; '{}' is sparse", location.path),
-                          "give the group a TopologyRect");
-    if (!(goal.shape == location.shape))
-        diagnostics.error(at_port("_goal"),
-                          fmt::format("'_goal' needs {} x {} cells, the size of '_location' ({}); '{}' has {} x {}",
-                                      location.shape.width, location.shape.height, location.path, goal.path,
-                                      goal.shape.width, goal.shape.height),
-                          "give both groups the same size");
-    if (const auto& orientation = ports.inputs[orientation_in]; orientation.shape.cells < 2)
-        diagnostics.error(at_port("_ori"),
-                          fmt::format("'_ori' needs at least 2 cells, which cover a full turn; '{}' has {}",
-                                      orientation.path, orientation.shape.cells),
-                          "use one cell per direction, as for head direction cells");
+void DirectionModule::describe(ModuleSpec<DirectionModule>& s) {
+    s.name("directionModule", "Goal direction").doc("Shows the turn towards the goal, and its distance.");
+    s.param("_sigma", &DirectionModule::sigma).label("Sigma").doc("Has no effect, as in the original.");
+    s.input("_location", "Current location")
+        .full_rectangle()
+        .doc("The most active cell is the current location.");
+    s.input("_ori", "Current orientation")
+        .size("at least 2 cells, which cover a full turn",
+              [](const auto&, PortSizes&, const GroupShape& given) {
+                  return given.cells >= 2 ? given : rectangle(2, 1);
+              })
+        .doc("The most active cell is the orientation, as in a group of head direction cells.");
+    s.input("_goal", "Goal location").same_size_as("_location").doc("The most active cell is the goal.");
+    s.output("_dir", "Goal direction")
+        .doc("1 at the turn towards the goal, 0 elsewhere; the middle stands for straight ahead.");
+    s.output("_dist", "Goal distance")
+        .cells(1)
+        .tolerate([](PortSizes&, const GroupShape&) { return true; })
+        .doc("The distance to the goal in cells; other cells stay 0.");
 }
 
 void DirectionModule::update(ModuleFrame& frame) const {

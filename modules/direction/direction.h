@@ -18,23 +18,12 @@ double bearing(const GridPosition& from, const GridPosition& to);
 /// below 0.15, else 0.45. It is above 0.5 when the bearing is at most half a turn ahead of the orientation.
 double turn(double bearing, double orientation);
 
-/// Inputs: `_location` and `_goal` (of the same size), `_ori` (n cells that cover a full turn). Outputs:
-/// `_dir` (m cells; cell number (1 - turn) m is 1, the others 0) and `_dist` (the distance, in cells). All
-/// outputs are 0 when a position is unknown.
+/// Shows the turn towards the goal and its distance. All outputs are 0 when a position is unknown.
 class DirectionModule {
   public:
     double sigma = 0.2;
 
-    static void describe(ModuleSpec<DirectionModule>& s) {
-        s.name("directionModule", "Goal direction").doc("Shows the turn towards the goal, and its distance.");
-        s.param("_sigma", &DirectionModule::sigma).label("Sigma").doc("Has no effect, as in the original.");
-        s.input("_location", "Current location");
-        s.input("_ori", "Current orientation");
-        s.input("_goal", "Goal location");
-        s.output("_dir", "Goal direction");
-        s.output("_dist", "Goal distance");
-    }
-    void check(const ModulePorts& ports, Diagnostics& diagnostics) const;
+    static void describe(ModuleSpec<DirectionModule>& s);
     void start(const ModulePorts& ports) { width_ = ports.inputs[0].shape.width; }
     void update(ModuleFrame& frame) const;
     void checkpoint(Archive&) {}  // it has no state

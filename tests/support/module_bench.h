@@ -53,7 +53,8 @@ class ModuleBench {
 
     std::vector<Diagnostic> problems() {
         Diagnostics diagnostics;
-        module_->check(ports_, diagnostics);
+        check_sizes(type_, ports_, module_->parameters(), diagnostics);
+        if (!diagnostics.failed()) module_->check(ports_, diagnostics);
         return diagnostics.all();
     }
     /// Starts the module with outputs of 0, as in a run. The groups must have been bound before, in order of

@@ -72,10 +72,9 @@ void describe_ports(const ModuleType& type) {
         Rows rows(outputs ? "Writes to groups" : "Reads from groups");
         for (const auto& p : type.ports) {
             if (p.is_output != outputs) continue;
-            const std::string size = p.width   ? fmt::format(", {} x {} cells", p.width, p.height)
-                                     : p.cells ? fmt::format(", {} cell{}", p.cells, p.cells == 1 ? "" : "s")
-                                               : "";
-            rows.add(p.name, p.label + size + (p.optional ? " (optional)" : ""));
+            rows.add(p.name,
+                     fmt::format("{}: {}{}.{}{}", p.label, p.size.text.empty() ? "any size" : p.size.text,
+                                 p.optional ? " (optional)" : "", p.doc.empty() ? "" : " ", p.doc));
         }
         rows.print();
     }

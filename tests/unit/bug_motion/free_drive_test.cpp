@@ -12,7 +12,7 @@ using namespace forage::bug;
 
 namespace {
 
-constexpr double step = 0.001, speed_noise = 0.005;
+constexpr double step = 0.001;
 
 /// The reference, substep by substep: the velocity plugin, then the motion.
 Pose2 stepped(Pose2 at, const MotorCommand& command, std::uint64_t steps, const RandomStream* random,

@@ -26,9 +26,11 @@ struct Bench {
     explicit Bench(World* world) : type(gazebo_bug_type()), module(type.make()) {
         ports.environment = world;
         for (const ModulePort& p : type.ports) {
-            const bool large = p.width > 0;
+            const std::map<std::string_view, GroupShape> sensors = {
+                {"_proximity", shape(32, 1)}, {"_target", shape(32, 1)}, {"_gps", shape(3, 1)}};
+            const auto it = sensors.find(p.name);
             (p.is_output ? ports.outputs : ports.inputs)
-                .push_back({p.name, "Bug/" + p.name, large ? shape(p.width, p.height) : GroupShape{}});
+                .push_back({p.name, "Bug/" + p.name, it == sensors.end() ? GroupShape{} : it->second});
         }
         group("_motor") = shape(9, 9);
         set("device_name", std::string("Bug"));
@@ -51,9 +53,11 @@ struct Bench {
             if (p.name == name) return p.set(module->parameters(), value);
         FAIL("no parameter " << name);
     }
-    std::string problem() {
+    std::string problem(bool lenient = false) {
         Diagnostics diagnostics;
-        module->check(ports, diagnostics);
+        diagnostics.lenient = lenient;
+        check_sizes(type, ports, module->parameters(), diagnostics);
+        if (!diagnostics.failed()) module->check(ports, diagnostics);
         if (diagnostics.all().empty()) return {};
         CHECK(diagnostics.all().size() == 1);
         const auto& p = diagnostics.all().front();
@@ -128,15 +132,27 @@ TEST_CASE("The module reports errors of its groups and parameters") {
     {
         Bench b(world.get());
         b.group("_motor") = shape(9, 5);
-        CHECK(b.problem() ==
-              "the motor group 'Bug/_motor' is 9 x 5, but must be square and at least 2 cells wide | 9 x 9 "
-              "gives "
-              "four speeds in each direction @_motor");
+        CHECK(
+            b.problem() ==
+            "'_motor' needs a square with an odd number of rows, at least 3, such as 9 x 9; 'Bug/_motor' is "
+            "9 x 5 | make the group 9 x 9 @_motor");
+        CHECK_THAT(b.problem(true), ContainsSubstring("is 9 x 5"));
     }
     {
         Bench b(world.get());
         b.group("_motor") = shape(1, 1);
-        CHECK_FALSE(b.problem().empty());
+        CHECK_FALSE(b.problem(true).empty());
+    }
+    {
+        Bench b(world.get());
+        b.group("_motor") = shape(10, 10);  // without a middle cell; the original accepts it
+        CHECK_THAT(b.problem(), ContainsSubstring("| make the group 9 x 9; --lenient accepts it"));
+        CHECK_THAT(b.problem(true), ContainsSubstring("is 10 x 10 | make the group 9 x 9 @_motor"));
+    }
+    {
+        Bench b(world.get());  // the green channel is unset
+        b.group("_image_RH") = shape(28, 28), b.group("_image_BV") = shape(28, 27);
+        CHECK_THAT(b.problem(), ContainsSubstring("'Bug/_image_BV' is 28 x 27, 'Bug/_image_RH' 28 x 28"));
     }
     {
         Bench b(world.get());
@@ -149,20 +165,21 @@ TEST_CASE("The module reports errors of its groups and parameters") {
         all_groups(b);
         b.set("gripper", false);
         b.group("_image_GS") = shape(28, 27);
+        b.group("_image_BV") = {};
         CHECK(b.problem() ==
-              "the image groups differ in size: 'Bug/_image_GS' is 28 x 27, 'Bug/_image_RH' is 28 x 28 | "
-              "give all three the same size @_image_GS");
+              "'_image_GS' needs a full rectangle of at most 32 x 28 cells, the same for all image groups; "
+              "'Bug/_image_GS' is 28 x 27, 'Bug/_image_RH' 28 x 28 | make the group 28 x 28 @_image_GS");
     }
     {
         Bench b(world.get());
         b.group("_image_RH") = shape(33, 28);
-        CHECK(b.problem().find("is 33 x 28, but must be at most 32 x 28") != std::string::npos);
+        CHECK_THAT(b.problem(),
+                   ContainsSubstring("at most 32 x 28 cells") && ContainsSubstring("is 33 x 28"));
     }
     {
         Bench b(world.get());
         b.group("_gripper") = shape(2, 1);
-        CHECK(b.problem().find("must be 1 x 1 | change its size, or set 'gripper' to false @_gripper") !=
-              std::string::npos);
+        CHECK_THAT(b.problem(), ContainsSubstring("'_gripper' needs 1 cell if 'gripper' is true"));
     }
     {
         Bench b(world.get());

@@ -95,7 +95,8 @@ TEST_CASE("Parameters with an unexpected meaning give warnings") {
     model::System system;
     const auto p = model::add_process(system, "P");
     const auto add = [&](const char* type, const char* parameter, const char* value) {
-        auto& neuron = model::find_group(system, model::add_group(system, p, "G", 1, 1, type))->neuron;
+        const std::string name = "G" + std::to_string(model::find_process(system, p)->groups.size());
+        auto& neuron = model::find_group(system, model::add_group(system, p, name, 1, 1, type))->neuron;
         model::set_parameter(neuron, parameter, value);
         return &neuron;
     };

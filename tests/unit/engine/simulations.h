@@ -40,10 +40,11 @@ inline Registry registry() {
     return r;
 }
 
-/// Built, and started.
+/// Built leniently, and started.
 inline engine::Simulation run(const model::System& system, const Registry& types,
                               engine::Simulation::Options options = {}) {
     Diagnostics diagnostics;
+    diagnostics.lenient = true;
     auto simulation =
         engine::Simulation::build(system, types, engine::Demand::everything(), options, diagnostics);
     INFO(format(diagnostics));

@@ -25,7 +25,7 @@ std::vector<fs::path> systems_below(const fs::path& folder) {
 }
 
 /// Reads and checks a system, and builds its connections. Only modules may be unknown, because this test does
-/// not include their rooms.
+/// not include their rooms. A system of the original has two groups of one name.
 void check_system(const fs::path& file) {
     INFO(file.string());
     Diagnostics diagnostics;
@@ -42,7 +42,8 @@ void check_system(const fs::path& file) {
     model::validate(*system, registry, checked);
     for (const auto& d : checked.all()) {
         INFO(format(d));
-        CHECK(d.message.starts_with("there is no module type"));
+        CHECK((d.message.starts_with("there is no module type") ||
+               d.message == "there is already a group 'Selection/Approach', on line 637"));
     }
     const model::GroupIndex groups(*system);
     for (const auto& c : system->connections) {

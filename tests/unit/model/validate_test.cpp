@@ -188,7 +188,7 @@ TEST_CASE("A module's cross references must be set, known, once, and lead to gro
 
 TEST_CASE("A group of a size that a module cannot use is reported with the size that it needs") {
     CHECK(one("<XRef name=\"_out\" target=\"\"/>", "<XRef name=\"_out\" target=\"b\"/>", true) ==
-          "9:40: error: group 'B' for '_out' has 4 x 2 cells | it must have 3 x 2 cells");
+          "9:40: error: '_out' needs 3 x 2 cells; 'P/B' is 2 cells in 4 x 2 | make the group 3 x 2");
     CHECK(validated(replaced(replaced(good(true), "source=\"a\" target=\"b\"", to_a),
                              "<XRef name=\"_out\" target=\"\"/>", "<XRef name=\"_out\" target=\"a\"/>"))
               .all()

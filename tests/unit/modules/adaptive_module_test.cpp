@@ -17,12 +17,12 @@ struct Bench : ModuleBench {
 };
 
 /// CS 2 x 3, UR 4 x 1.
-void bind(ModuleBench& b, bool display = true) {
+void bind(ModuleBench& b, bool display = true, int discrepancies = 1) {
     b.in("input", 2, 3)
         .in("condition", 4, 1)
         .out("prototype", 2, 3)
         .out("output", 4, 1)
-        .out("descripancy", 2, 2);
+        .out("descripancy", discrepancies, 1);
     if (display)
         b.out("weight display", 8, 3);
     else
@@ -57,8 +57,9 @@ TEST_CASE("moduleAL shows its weights as one picture of the stimulus per respons
 
 TEST_CASE("moduleAL writes only the first cell of the discrepancy, and works without a display") {
     Bench b;
-    bind(b, false);
-    CHECK(b.problems().empty());
+    bind(b, false, 4);
+    CHECK_THAT(only_problem(b), ContainsSubstring("'descripancy' needs 1 cell; 'P/descripancy' is 4 x 1") &&
+                                    ContainsSubstring("--lenient accepts it"));
     b.start();
     b.update();
     CHECK(b.outputs[2][0] == 1);
@@ -131,17 +132,18 @@ TEST_CASE("moduleAL reports groups of the wrong size and the required size") {
     bound(transposed, 3, 2, 8, 4);
     CHECK_THAT(
         only_problem(transposed),
-        ContainsSubstring("'prototype' needs 2 x 3 cells, the size of 'input' (P/input); 'P/prototype' has 3 x 2"));
+        ContainsSubstring("'prototype' needs the size of 'input'; 'P/prototype' is 3 x 2, 'P/input' 2 x 3"));
     bound(narrow, 2, 3, 7, 4);
-    CHECK_THAT(only_problem(narrow),
-               ContainsSubstring("'weight display' needs 8 x 3 cells, one 2 x 3 picture") &&
-                   ContainsSubstring("has 7 x 3"));
+    CHECK_THAT(
+        only_problem(narrow),
+        ContainsSubstring("'weight display' needs one picture of 'input' for each cell of 'condition'") &&
+            ContainsSubstring("is 7 x 3") && ContainsSubstring("make the group 8 x 3"));
     bound(short_output, 2, 3, 8, 3);
-    CHECK_THAT(only_problem(short_output), ContainsSubstring("'output' needs 4 x 1 cells"));
+    CHECK_THAT(only_problem(short_output), ContainsSubstring("make the group 4 x 1"));
     bound(all, 1, 1, 1, 1);
     CHECK(all.problems().size() == 3);
     Bench sparse;
     sparse.bind("input", false, 4, 4, 3).in("condition", 4, 1).out("prototype", 2, 3).out("output", 4, 1);
     sparse.out("descripancy", 1, 1).out("weight display", 8, 3);
-    CHECK_THAT(only_problem(sparse), ContainsSubstring("rectangular"));
+    CHECK_THAT(only_problem(sparse), ContainsSubstring("a full rectangle"));
 }

@@ -88,7 +88,10 @@ TEST_CASE("A registry refuses types with inconsistent declarations") {
     CHECK_THROWS_WITH(registry.add(synapse), "synapse type 's' declares the feedback 'back' twice");
     ModuleType module;
     module.name = "m";
-    module.ports = {{"a", "", false}, {"a", "", true}, {"a", "", true}};
+    for (const bool is_output : {false, true, true}) {
+        module.ports.emplace_back().name = "a";
+        module.ports.back().is_output = is_output;
+    }
     CHECK_THROWS_WITH(registry.add(module), "module type 'm' declares the output 'a' twice");
     module.ports.pop_back();  // an input and an output may share a name
     CHECK_NOTHROW(registry.add(module));
