@@ -15,10 +15,11 @@ struct RunInput {
     std::string system, world;                ///< paths; no world when empty
     std::vector<std::string> more;            ///< further systems that run together with the first
     std::vector<model::Expression> settings;  ///< "Process/Group.parameter=value"
+    std::vector<std::string> robots;          ///< "NAME=NAME": the system's robot, the world's robot
     std::string replay;                       ///< table for moduleReplay; none when empty
     /// Shared objects and folders of them, in addition to those that are found.
     std::vector<std::string> plugins;
-    bool lenient = false;    ///< unknown parameters and attributes are warnings, not errors
+    bool lenient = false;    ///< whether mistakes that the original accepts are warnings, not errors
     std::uint64_t seed = 1;  ///< decides everything random
     /// Seconds of the world per second of the clock. Empty for the world's own rate.
     std::optional<double> real_time_factor;

@@ -12,6 +12,7 @@
 #include "core/base/output_files.h"
 #include "core/model/build.h"
 #include "core/model/edit.h"
+#include "core/model/lookup.h"
 #include "core/model/validate.h"
 #include "core/plugin/search.h"
 #include "core/xml/reader.h"
@@ -78,6 +79,53 @@ void play(const DriveTable& table, model::System& system) {
             settings.push_back({"file", table.file()->path, {}, {}});
         else if (file->value.empty())
             file->value = table.file()->path, file->value_at = {};
+    }
+}
+
+/// Binds modules to robots, as --robot says: "NAME=ROBOT" binds the first module with the device_name NAME
+/// that is not yet bound.
+void bind_robots(const std::vector<std::string>& bindings, const Registry& registry, model::System& system,
+                 Diagnostics& diagnostics) {
+    struct Driver {
+        model::ModuleUse* module;
+        std::string robot;
+        bool bound;
+    };
+    std::vector<Driver> drivers;
+    for (auto& process : system.processes) {
+        const ModuleType* type = process.module ? registry.module(process.module->type) : nullptr;
+        if (!type || !process.module_enabled) continue;
+        for (const auto& p : type->parameters) {
+            if (p.name != "device_name") continue;
+            std::string robot = to_text(p.default_value);
+            for (const auto& s : process.module->settings)
+                if (s.name == p.name) robot = s.value;
+            drivers.push_back({&*process.module, std::move(robot), false});
+        }
+    }
+    for (const auto& binding : bindings) {
+        const auto equals = binding.find('=');
+        const std::string name(model::trim(binding.substr(0, equals)));
+        if (equals == std::string::npos || name.empty() || model::trim(binding.substr(equals + 1)).empty()) {
+            diagnostics.error({}, fmt::format("--robot: '{}' does not name two robots", binding),
+                              "write the system's robot, '=', and the world's robot: Bug=A_1");
+            continue;
+        }
+        const auto driver = std::find_if(drivers.begin(), drivers.end(),
+                                         [&](const auto& d) { return !d.bound && d.robot == name; });
+        if (driver == drivers.end()) {
+            std::vector<std::string> names;
+            for (const auto& d : drivers)
+                if (!d.bound) names.push_back(d.robot);
+            diagnostics.error({},
+                              fmt::format("--robot: '{}': no module{} drives a robot '{}'", binding,
+                                          names.size() < drivers.size() ? " that is left" : "", name),
+                              names.empty() ? "every --robot binds one module" : suggest(name, names));
+            continue;
+        }
+        driver->bound = true;
+        model::set_parameter(*driver->module, "device_name",
+                             std::string(model::trim(binding.substr(equals + 1))));
     }
 }
 
@@ -165,6 +213,7 @@ std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Di
     plugin::add(sources.plugins, out.registry);
     for (const auto& p : sources.plugins) out.plugins.push_back(p.path);
     if (sources.system && !sources.plugins_failed) {
+        bind_robots(input.robots, out.registry, out.system, diagnostics);
         for (const auto& setting : input.settings)
             model::set(out.system, out.registry, setting.text, diagnostics, setting.at);
         if (diagnostics.failed())

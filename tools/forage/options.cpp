@@ -115,9 +115,16 @@ void add_input(CLI::App& command, RunInput& input) {
             "Change a parameter: 'Process/Group.parameter=value', 'Process.parameter=value' for a module, "
             "'Connection.parameter=value' for a synapse; may be repeated"))
         ->option_text("WHERE=VALUE");
+    repeated(
+        command.add_option("--robot", input.robots,
+                           "Let the system's robot NAME (device_name) be another robot of the world; when "
+                           "several systems have a robot NAME, it is the first one that no earlier --robot "
+                           "has bound; may be repeated"))
+        ->option_text("NAME=ROBOT");
     add_plugins(command, input.plugins);
     command.add_flag("--lenient", input.lenient,
-                     "Unknown parameters and attributes are warnings, not errors");
+                     "Warnings instead of errors for what the original accepts: unknown parameters and "
+                     "attributes, unusual sizes of groups, several modules that write to one group");
 }
 
 void add_tutorial(CLI::App& app, TutorialOptions& o) {

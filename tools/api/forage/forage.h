@@ -33,7 +33,7 @@ struct OpenOptions {
     std::vector<std::string> settings = {};  ///< "Process/Group.parameter=value", as for `forage run --set`
     std::vector<std::string> plugins = {};   ///< shared objects and folders of them; nothing else is searched
     int threads = 1;                         ///< largest number of threads; the results do not depend on it
-    bool lenient = false;  ///< whether unknown parameters and attributes of files are warnings, not errors
+    bool lenient = false;  ///< whether mistakes that the original accepts are warnings, not errors
     bool noise = true;     ///< whether motors and sensors are noisy
     /// Seconds of the world per second of the clock. Empty for the world's own rate.
     std::optional<double> real_time_factor = {};
