@@ -15,6 +15,10 @@ struct MotorCommand {
     friend bool operator==(const MotorCommand&, const MotorCommand&) = default;
 };
 
+/// In every physics step a random speed between plus and minus this is added to both speeds of a robot, m/s
+/// and rad/s, also when it stands still.
+inline constexpr double speed_noise = 0.005;
+
 /// Decodes the command by winner-takes-all: the most active cell of a `width` x `height` group (row by row
 /// from the top) is the command, whatever its activity. The middle cell means standing still, the top row
 /// +`forward_speed` (m/s), the bottom row -`forward_speed`, the left column +`turn_speed` (rad/s), the right

@@ -9,8 +9,6 @@
 namespace forage::bug {
 namespace {
 
-constexpr double speed_noise = 0.005;  ///< m/s and rad/s; the velocity plugin adds at most this
-
 /// Random numbers of whole control steps have other indices than those of substeps.
 constexpr std::uint64_t first_free_index = std::uint64_t{1} << 62;
 

@@ -66,6 +66,11 @@ struct RangeSensor {
     double min_range = 0, max_range = 1;     ///< m; nearer surfaces are invisible
     double noise = 0;                        ///< standard deviation, m
     double rate = 0;  ///< scans per second of the world; 0 for a scan whenever it is requested
+
+    /// The angle of the ray behind a cell of the scan's group, rad to the left; cell 0 is the last ray.
+    double cell_angle(int cell) const {
+        return rays > 1 ? last_angle - cell * (last_angle - first_angle) / (rays - 1) : first_angle;
+    }
 };
 
 /// A pinhole camera that looks along its x axis.

@@ -119,8 +119,8 @@ class World(unittest.TestCase):
         self.assertTrue(min(x for x, _ in path) < -3 and max(x for x, _ in path) > 3)
         self.assertTrue((out / "duel/score.csv").is_file())
 
-    def test_the_page_on_the_robot_names_existing_tests(self):
-        rows = re.findall(r"^\| (.+?) \| (.+?) \|$", (PROJECT / "docs/reference/robot.md").read_text(), re.MULTILINE)[1:]
+    def test_the_page_on_the_rules_of_the_robot_names_existing_tests(self):
+        rows = re.findall(r"^\| (.+?) \| (.+?) \|$", (PROJECT / "docs/reference/robot-tests.md").read_text(), re.MULTILINE)[1:]
         self.assertGreater(len(rows), 25)
         files = ""
         for what, where in rows:

@@ -58,8 +58,9 @@ struct ExperimentOptions {
 
 struct WorldCommand {
     std::string file;     ///< .world
-    std::string picture;  ///< .png, .svg or .pdf; empty: the world's name with .png, in the working directory
+    std::string picture;  ///< .png, .svg or .pdf; empty: the name of the world or robot with .png
     bool game = false;
+    std::string robot;  ///< prints and draws the data sheet of this robot instead of the world
 };
 
 struct TutorialOptions {

@@ -86,15 +86,22 @@ int program(int argc, char** argv) {
     check_command.footer(
         "Example:\n  forage check systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world");
     WorldCommand world_options;
-    auto& world_command =
-        *app.add_subcommand("world", "Check a world, list its contents and draw it from above");
+    auto& world_command = *app.add_subcommand(
+        "world", "Check a world, list its contents and draw it from above; or the data sheet of a robot");
     world_command.footer(
-        "Example:\n  forage world systems/worlds/basic_arena.world -o forage-out/basic_arena.png");
+        "Example:\n"
+        "  forage world systems/worlds/basic_arena.world -o forage-out/basic_arena.png\n"
+        "  forage world systems/worlds/basic_arena.world --robot Bug -o forage-out/bug.png");
     world_command.add_option("FILE", world_options.file, "World file (.world)")->required()->option_text(" ");
     world_command
         .add_option("-o,--output", world_options.picture,
-                    "Picture (.png, .svg or .pdf) [FILE's name with .png]")
+                    "Picture (.png, .svg or .pdf) [FILE's or ROBOT's name with .png]")
         ->option_text("PICTURE");
+    world_command
+        .add_option(
+            "--robot", world_options.robot,
+            "Print and draw the data sheet of this robot: what every cell of its motors and sensors means")
+        ->option_text("ROBOT");
     world_command.add_flag("--game", world_options.game, "With the robotics challenge's resources");
     std::string directory = "forage-out";
     auto& view_command =

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include "bug_interface/simulation/data_sheet.h"
 #include "bug_interface/world/sdf_reader.h"
 #include "core/base/output_files.h"
 #include "tools/forage/commands.h"
+#include "tools/plot/robot_plot.h"
 #include "tools/plot/world_map.h"
 
 namespace forage::tool {
@@ -13,7 +15,9 @@ namespace forage::tool {
 int world(const WorldCommand& o) {
     Diagnostics diagnostics;
     const std::string picture =
-        o.picture.empty() ? std::filesystem::path(o.file).stem().string() + ".png" : o.picture;
+        !o.picture.empty()
+            ? o.picture
+            : (o.robot.empty() ? std::filesystem::path(o.file).stem().string() : file_name(o.robot)) + ".png";
     const auto format_of_picture = plot::format_of(picture);
     if (!format_of_picture)
         diagnostics.error({}, fmt::format("-o: '{}' is not the name of a picture", picture),
@@ -30,12 +34,26 @@ int world(const WorldCommand& o) {
         } catch (const std::exception& e) {
             diagnostics.error({}, e.what());
         }
+    const bool sheet = !o.robot.empty();
+    std::size_t robot = 0;
+    if (made && sheet) {
+        if (const auto found = made->find(o.robot))
+            robot = *found;
+        else
+            diagnostics.error({}, fmt::format("--robot: there is no robot '{}' in '{}'", o.robot, o.file),
+                              suggest(o.robot, made->robot_names()));
+    }
     fmt::print(stderr, "{}", format(diagnostics));
     if (diagnostics.failed() || !made) return bad_input;
-    fmt::print("{}", bug::describe(*made));
-    write_file(picture,
-               plot::render(plot::world_plot(*made, std::filesystem::path(o.file).filename().string()),
-                            *format_of_picture));
+    fmt::print("{}", sheet ? bug::data_sheet(*made, robot) : bug::describe(*made));
+    write_file(picture, plot::render(sheet ? plot::robot_plot(*made, robot)
+                                           : plot::world_plot(
+                                                 *made, std::filesystem::path(o.file).filename().string()),
+                                     *format_of_picture));
+    if (sheet) {
+        fmt::print("\n![The robot {}]({})\n", o.robot, picture);
+        return fine;
+    }
     fmt::print("  {:<11} {}\n", "picture", picture);
     return fine;
 }

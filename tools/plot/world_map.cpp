@@ -233,13 +233,11 @@ void WorldMap::draw_rays(Canvas& canvas, std::size_t robot) const {
             continue;
         canvas.colour(light ? light_ray : near_ray, 0.9);
         cairo_set_line_width(c, light ? 1.8 : 1.1);
-        const double n = std::max(1, sensor.rays - 1);
         const double nothing =
             std::max(0.03, 5 * sensor.noise / sensor.max_range);  // the noise of a ray that meets nothing
         for (std::size_t k = 0; k < cells.size(); ++k) {
             if (cells[k] < nothing) continue;
-            const double angle = pose.yaw + sensor.last_angle -
-                                 static_cast<double>(k) * (sensor.last_angle - sensor.first_angle) / n;
+            const double angle = pose.yaw + sensor.cell_angle(static_cast<int>(k));
             const double range = sensor.max_range * (1 - cells[k]);
             const auto to = [&](double r) {
                 return std::pair(px(pose.x + r * std::cos(angle)), py(pose.y + r * std::sin(angle)));

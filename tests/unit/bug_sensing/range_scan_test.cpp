@@ -161,3 +161,21 @@ TEST_CASE("Noise of a scan has the sensor's deviation, never exceeds the range, 
     CHECK(noisy(7, 4) != noisy(7, 5));
     CHECK(noisy(7, 4) != noisy(8, 4));
 }
+
+TEST_CASE("A cell sees what stands at its angle") {
+    RangeSensor sensor;
+    sensor.rays = 32, sensor.first_angle = -3, sensor.last_angle = 3, sensor.min_range = 0.2,
+    sensor.max_range = 2;
+    const RangeScanner scanner(sensor, Pose::Identity());
+    for (int cell = 0; cell < sensor.rays; ++cell) {
+        const double angle = sensor.cell_angle(cell);
+        Outline post;
+        post.round = true, post.radius = 0.02, post.x = std::cos(angle), post.y = std::sin(angle);
+        std::vector<double> ranges(32), cells(32);
+        scanner.scan({}, {&post, 1}, ranges);
+        scanner.to_activity(ranges, cells);
+        CAPTURE(cell);
+        CHECK(cells[static_cast<std::size_t>(cell)] == Approx(0.51));
+    }
+    CHECK((sensor.cell_angle(0) == 3 && sensor.cell_angle(31) == -3));
+}
