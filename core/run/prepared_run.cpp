@@ -65,8 +65,9 @@ void write_results(PreparedRun& p, RunOutcome& outcome) {
     const auto earlier = read_run_json(p.spec.directory);
     p.run.finish(files);
     files.write("run.json", [&] { return run_json(p, outcome); });
+    const auto written = files.names();
     for (const auto& name : earlier ? earlier->files : std::vector<std::string>())
-        if (std::find(files.names().begin(), files.names().end(), name) == files.names().end())
+        if (std::find(written.begin(), written.end(), name) == written.end())
             std::remove(files.path(name).c_str());
 }
 
