@@ -93,6 +93,10 @@ std::vector<DrawnSolid> drawing_of(const WorldDescription& world) {
                 for (const Visual& v : link.visuals)
                     if (v.shape.kind != ShapeKind::plane)
                         out.push_back({{v.shape.kind, pose * v.pose, v.shape.size}, v.material.diffuse});
+                if (!link.visuals.empty()) return;
+                for (const Collision& c : link.collisions)  // so that no wall is invisible
+                    if (c.shape.kind != ShapeKind::plane)
+                        out.push_back({{c.shape.kind, pose * c.pose, c.shape.size}, Material{}.diffuse});
             });
     return out;
 }

@@ -179,6 +179,8 @@ std::vector<std::string> draw(Results& results, std::vector<std::string> plots, 
             written.push_back(directory == "." ? spec.file(format) : directory + "/" + spec.file(format));
         } catch (const FileError& e) {
             report(e, diagnostics);
+        } catch (const std::exception& e) {
+            diagnostics.error({}, fmt::format("'{}': {}", spec.text, e.what()));
         }
     return written;
 }

@@ -77,10 +77,19 @@ std::vector<double> places_of(const std::vector<std::string>& values) {
     return numbers;
 }
 
+/// The name of a parameter without its owner, unless another one has the same.
+std::string short_name(const RunTable& table, std::size_t parameter) {
+    const auto last = [](const std::string& name) { return name.substr(name.rfind('.') + 1); };
+    const std::string out = last(table.parameters[parameter]);
+    const auto same = std::count_if(table.parameters.begin(), table.parameters.end(),
+                                    [&](const std::string& other) { return last(other) == out; });
+    return same == 1 ? out : table.parameters[parameter];
+}
+
 std::string named(const RunTable& table, const std::vector<std::string>& values, std::size_t from) {
     std::vector<std::string> parts;
     for (std::size_t i = from; i < values.size(); ++i)
-        parts.push_back(fmt::format("{} = {}", table.parameters[i], values[i]));
+        parts.push_back(fmt::format("{} = {}", short_name(table, i), values[i]));
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -97,6 +106,10 @@ plot::Picture curve(const RunTable& table, std::size_t measure, const std::strin
     plot::LinesPlot out{title, runs_each(all), table.parameters[0], table.measures[measure], {}, {}};
     for (std::size_t i = 0; i < values.size(); ++i) out.x_ticks.emplace_back(places[i], values[i]);
     const bool together = dimensions(all, table.parameters.size()) == 1;  // other parameters make no lines
+    if (together && table.parameters.size() > 1)
+        out.x_title = fmt::format("{}", fmt::join(table.parameters, ", "));
+    for (std::size_t i = 0; together && i < all.size(); ++i)
+        out.x_ticks[i].second = fmt::format("{}", fmt::join(all[i].values, ", "));
     for (const auto& c : all) {
         const std::string name = together ? "" : named(table, c.values, 1);
         auto line =
@@ -172,7 +185,8 @@ RunTable read_run_table(const std::string& directory) {
     const std::vector<std::string> names(in.fields().begin(), in.fields().end());
     const auto seed = static_cast<std::size_t>(std::find(names.begin(), names.end(), "seed") - names.begin());
     auto first = seed + 4;  // seed, status, cycles, seconds
-    if (names.size() > first && names[first] == "trials") first += 2;
+    out.trials = names.size() > first && names[first] == "trials";
+    if (out.trials) first += 2;
     if (names.size() <= first || names.front() != "run" || names.back() != "remark")
         in.refuse("this is not the table of an experiment");
     out.parameters.assign(names.begin() + 1, names.begin() + static_cast<std::ptrdiff_t>(seed));
@@ -203,7 +217,7 @@ std::vector<std::string> usual_plots(const RunTable& table, const std::string& d
             return fs::exists(fmt::format("{}/runs/{}/{}", directory, row.run, file));
         });
     };
-    if (any("trials.csv") && all.size() <= most_lines) out.emplace_back("learning");
+    if (table.trials && any("trials.csv") && all.size() <= most_lines) out.emplace_back("learning");
     if (any("trajectory.csv")) out.emplace_back("occupancy");
     return out;
 }

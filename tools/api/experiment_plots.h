@@ -20,6 +20,7 @@ struct RunTable {
     };
     std::vector<std::string> parameters, measures;
     std::vector<Row> rows;
+    bool trials = false;  ///< whether the runs have trials
 };
 
 /// Whether a directory holds the results of an experiment.

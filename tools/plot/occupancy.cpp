@@ -36,8 +36,8 @@ Points resampled(const Points& path) {
 
 /// The mean of the paths from each start pose.
 std::vector<Points> mean_paths(const bug::World& world, const std::vector<Path>& paths) {
-    auto starts = world.start_poses();
-    if (starts.empty()) starts.emplace_back();
+    const auto starts = world.start_poses();
+    if (starts.empty()) return {};
     std::vector<Points> sums(starts.size(), Points(mean_points, Eigen::Vector2d::Zero()));
     std::vector<double> counts(starts.size());
     for (const auto& p : paths) {
@@ -111,8 +111,8 @@ Picture occupancy_plot(const bug::World& world, const std::vector<Path>& paths, 
     ColourScale scale;
     for (const double v : crossed) scale.include(v);
     const Box box{occupancy_left, occupancy_top, map->width(), map->height()};
-    const std::string subtitle =
-        fmt::format("{} paths; cells of {:.2g} m; white: the mean path from each start", paths.size(), cell);
+    const std::string subtitle = fmt::format("{} paths; cells of {:.2g} m{}", paths.size(), cell,
+                                             means.empty() ? "" : "; white: the mean path from each start");
     return {
         box.right() + 22 + 16 + colour_bar_labels, box.bottom() + occupancy_bottom, [=](Canvas& canvas) {
             canvas.text(12, 22, title, 15, 0, black, true);
