@@ -223,11 +223,10 @@ class Page:
         return block
 
     def summary_line(self, commands, span):
-        for command in commands:
-            line = re.search(rf"^  {span[1]} +([^:(\n]*[^:(\n ])", self.said[command], re.MULTILINE)
-            if line:
-                return f"`{span[1]}  {line[1]}`"
-        self.test.fail(f"no command prints '{span[1]}'")
+        label = rf"^  {span[1]} +([^:(\n]*[^:(\n ])"
+        lines = [line[1] for command in commands for line in re.finditer(label, self.said[command], re.MULTILINE)]
+        self.test.assertEqual(len(lines), 1, f"not one command prints '{span[1]}': 'made by' should name the one")
+        return f"`{span[1]}  {lines[0]}`"
 
     def table(self, experiment, block):
         header, rule, *lines = block.split("\n")

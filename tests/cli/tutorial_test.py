@@ -124,6 +124,32 @@ class OwnSystem(Commands):
         said = self.check("1.2", text[:begin] + text[begin:].replace("<Synapse", '<Pattern><PatternMapped type="all"/></Pattern><Synapse', 1), 1)
         self.assertIn("a cell of Motor In was active that means a turn", said)
 
+    def test_a_connection_of_the_wrong_kind_is_recognised(self):
+        text = (PROJECT / "systems/tutorial/explore.iqr").read_text()
+        begin = text.index('name="Const Speed to Explore"')
+        said = self.check("1.2", text[:begin] + text[begin:].replace('type="excitatory"', 'type="inhibitory"', 1), 1)
+        self.assertIn('It is connected, but inhibitory: the `type` of the connection should be "excitatory".', said)
+        self.assertRegex(said, "No trial ended: .* `forage explain mine.iqr --world .*basic_arena.world --seconds 20` says why")
+        self.assertIn("results in forage-out/tutorial/1.2-own", said)
+
+    def test_a_light_in_front_must_not_turn_the_robot(self):
+        text = (PROJECT / "systems/reactive_foraging.iqr").read_text()
+        begin = text.index('name="US to Approach"')
+        wrong = text[begin:].replace('<TargetList><Point x="5" y="1"/>', '<TargetList><Point x="5" y="1"/><Point x="1" y="1"/>', 1)
+        self.assertIn("Cell 4 of US (front) drives a cell of Approach that turns left", self.check("2.1", text[:begin] + wrong, 1))
+
+    def test_one_to_one_inhibition_is_explained(self):
+        text = (PROJECT / "systems/tutorial/reflex.iqr").read_text()
+        for pattern, status in (("PatternMapped type=\"all\"", 1), ("PatternForeach", 0)):
+            own = f"""<Connection id="own" name="Approach to Explore" type="inhibitory" source="selection.approach" target="selection.explore">
+              <Pattern><{pattern}/></Pattern><Synapse name="synapseFixedWeight"/></Connection></System>"""
+            said = self.check("2.2", text.replace("</System>", own), status)
+            self.assertEqual("PatternForeach connects every pair" in said, status == 1)
+
+    def test_a_learning_rate_that_is_too_large_is_recognised(self):
+        text = self.edited((PROJECT / "systems/tutorial/adaptive.iqr").read_text(), 'name="eta" value="0.02"', 'name="eta" value="0.5"')
+        self.assertIn("Is the learning rate, or a weight, too large?", self.check("3.1", text, 1))
+
     def test_a_renamed_group_is_reported_once(self):
         text = self.edited((PROJECT / "systems/reactive_foraging.iqr").read_text(), 'name="UR"', 'name="Reflex"')
         said = self.check("2.2", text, 2)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <span>
 
 #include <fmt/format.h>
@@ -75,7 +76,9 @@ int experiment(const ExperimentOptions& o) {
                    summary_text(wanted->experiment, runs, *results), wanted->results_file(),
                    wanted->summary_file());
     if (failures || o.system.empty()) return failures ? run_failed : fine;
-    return print_findings(o.system, findings(*wanted, *results, diagnostics));
+    const int status = print_findings(o.system, findings(*wanted, *results, diagnostics));
+    fmt::print("  results in {}\n", std::filesystem::path(wanted->results_file()).parent_path().string());
+    return status;
 }
 
 }  // namespace forage::tool

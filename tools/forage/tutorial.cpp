@@ -121,9 +121,14 @@ int tutorial(const TutorialOptions& o) {
         experiment({.file = wanted->file.string(), .directory = directory, .system = o.system});
     if (status != fine || !o.system.empty()) return status;
     fmt::print("look at\n{}", wanted->look_at);
-    for (const auto& run : fs::directory_iterator(fs::path(directory) / "runs"))
-        for (const auto& file : fs::directory_iterator(run))
-            if (file.path().extension() == ".png") fmt::print("  {}\n", file.path().string());
+    std::vector<std::string> pictures;
+    for (const auto& file : fs::recursive_directory_iterator(fs::path(directory) / "runs"))
+        if (file.path().extension() == ".png") pictures.push_back(file.path().string());
+    std::sort(pictures.begin(), pictures.end());
+    if (pictures.size() > 10)
+        fmt::print("  the {} pictures: forage view {}\n", pictures.size(), directory);
+    else
+        for (const auto& picture : pictures) fmt::print("  {}\n", picture);
     return fine;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "core/connectivity/connect.h"
 #include "core/model/lookup.h"
 #include "core/observe/source.h"
+#include "core/run/experiment/tables.h"
 
 namespace forage {
 namespace {
@@ -45,9 +47,12 @@ Number measured(const model::Requirement& r, std::size_t measure, std::span<cons
     return out;
 }
 
-/// The number of synapses between the cells that a requirement names.
-std::optional<double> synapses(const model::Requirement& r, const model::System& system,
-                               const engine::Layout& layout, Diagnostics& diagnostics) {
+constexpr std::string_view kinds[] = {"excitatory", "inhibitory", "modulatory"};
+
+/// The number of synapses of a kind, or of any when it is empty, between the cells that a requirement names.
+std::optional<double> synapses(const model::Requirement& r, std::string_view kind,
+                               const model::System& system, const engine::Layout& layout,
+                               Diagnostics& diagnostics) {
     const auto find = [&](const model::Expression& e) {
         return observe::find_source(layout, e.text, "require", diagnostics, e.at);
     };
@@ -58,11 +63,10 @@ std::optional<double> synapses(const model::Requirement& r, const model::System&
         const auto& cells = s.part.numbers;
         return std::find(cells.begin(), cells.end(), static_cast<std::size_t>(cell)) != cells.end();
     };
-    static constexpr std::string_view kinds[] = {"excitatory", "inhibitory", "modulatory"};
     const model::GroupIndex groups(system);
     double count = 0;
     for (const auto& c : system.connections) {
-        if (!r.kind.empty() && kinds[static_cast<std::size_t>(c.kind)] != r.kind) continue;
+        if (!kind.empty() && kinds[static_cast<std::size_t>(c.kind)] != kind) continue;
         if (c.target != to->what().group_id || (from && c.source != from->what().group_id)) continue;
         Diagnostics known;  // those of a connection that cannot be built stop the run
         const auto made = connectivity::connect(c, groups.find(c.source).group->topology,
@@ -80,7 +84,7 @@ std::string with_numbers(std::string text, const Number& n) {
     };
     put("{n}", fmt::format("{}", n.count));
     put("{all}", fmt::format("{}", n.all));
-    put("{value}", n.value ? fmt::format("{:.3g}", *n.value) : "no number");
+    put("{value}", n.value ? plain_number(*n.value, 3) : "no number");
     return text;
 }
 
@@ -93,6 +97,22 @@ std::string joined(std::string_view text) {
         else if (!out.ends_with(' '))
             out += ' ';
     return out;
+}
+
+/// What may be wrong when no trial ended.
+std::string no_trial(const model::Experiment& e, std::span<const RunResult> results) {
+    const auto diverged =
+        std::count_if(results.begin(), results.end(), [](const auto& r) { return !r.diverged.empty(); });
+    if (diverged > 0)
+        return fmt::format(
+            "No trial ended, and in {} of {} runs a number grew beyond all bounds. Is the learning rate, or "
+            "a weight, too large?",
+            diverged, results.size());
+    std::error_code none;
+    return fmt::format(
+        "No trial ended: the robot stands still, or never leaves the arena. `forage explain {} --world {} "
+        "--seconds 20` says why.",
+        e.systems.front().text, std::filesystem::proximate(e.world, none).string());
 }
 
 }  // namespace
@@ -154,15 +174,19 @@ std::vector<Finding> findings(const model::Experiment& experiment, std::span<con
                               all.begin(), all.end(), [](const auto& r) { return r.measure.has_value(); }));
     bool moved = true;  // until a requirement has said otherwise
     for (const auto& r : all) {
-        const Number n =
-            r.measure ? measured(r, measure++, results) : Number{synapses(r, system, layout, diagnostics)};
+        const Number n = r.measure ? measured(r, measure++, results)
+                                   : Number{synapses(r, r.kind, system, layout, diagnostics)};
         const bool met =
             n.value && (!r.at_least || *n.value >= *r.at_least) && (!r.at_most || *n.value <= *r.at_most);
         std::string advice = with_numbers(joined(r.advice), n);
         if (is_share(r) && n.all == 0)
-            advice = std::exchange(moved, false)
-                         ? "No trial ended: the robot stands still, or never leaves the arena."
-                         : "";
+            advice = std::exchange(moved, false) ? no_trial(experiment, results) : "";
+        if (!met && n.value && !r.from.empty() && !r.kind.empty() && r.at_least)
+            for (const auto kind : kinds)
+                if (kind != r.kind && synapses(r, kind, system, layout, diagnostics).value_or(0) > 0)
+                    advice =
+                        fmt::format("It is connected, but {}: the `type` of the connection should be \"{}\".",
+                                    kind, r.kind);
         out.push_back({r.what, met, met ? "" : std::move(advice)});
     }
     return out;

@@ -71,6 +71,11 @@ std::vector<Combination> combinations(const model::Experiment& e, std::span<cons
 
 }  // namespace
 
+std::string plain_number(double value, int digits) {
+    const bool whole = std::abs(value) >= std::pow(10, digits - 1) && std::abs(value) < 1e15;
+    return whole ? fmt::format("{:.0f}", value) : fmt::format("{:.{}g}", value, digits);
+}
+
 std::string results_csv(const model::Experiment& e, std::span<const PlannedRun> runs,
                         std::span<const RunResult> results) {
     const bool trials =
@@ -137,8 +142,8 @@ std::string summary_text(const model::Experiment& e, std::span<const PlannedRun>
         for (std::size_t m = 0; m < e.measures.size(); ++m) {
             const Statistics s = c.of(m);
             line.push_back(s.n == 0  ? "none"
-                           : s.n > 1 ? fmt::format("{:.4g} +- {:.2g}", s.mean, s.deviation)
-                                     : fmt::format("{:.4g}", s.mean));
+                           : s.n > 1 ? plain_number(s.mean, 4) + " +- " + plain_number(s.deviation, 2)
+                                     : plain_number(s.mean, 4));
             if (s.n && s.n < c.finished()) line.back() += fmt::format(" ({} of {})", s.n, c.finished());
         }
         line.push_back(fmt::format("{}", c.finished()));

@@ -9,6 +9,10 @@
 
 namespace forage {
 
+/// The number for readers, with this many significant digits or, when it is larger, as a whole number: no
+/// exponent (but from 1e15 on, and below 0.0001).
+std::string plain_number(double value, int digits);
+
 /// One row per run: run, the swept parameters, seed, status (finished, stopped, failed), cycles, seconds,
 /// trials and reached (in a world with trials), the measures, remark. A field without a number is empty.
 std::string results_csv(const model::Experiment& experiment, std::span<const PlannedRun> runs,
