@@ -61,6 +61,21 @@ class Tutorial(Commands):
             self.assertRegex(done.stdout, rf"(?m)^{number} ")
             self.assertIn(f"forage tutorial {number}\n", text)
 
+    def test_pictures_are_sorted_and_many_are_named_by_a_command(self):
+        with tempfile.TemporaryDirectory() as here:
+            few, many = (self.forage("tutorial", number, here=here).stdout for number in ("1.3", "3.1"))
+        pictures = re.findall(r"(?m)^  (forage-out/.*png)$", few)
+        self.assertEqual(len(pictures), 3)
+        self.assertEqual(pictures, sorted(pictures))
+        self.assertNotIn(".png\n", many)
+        self.assertIn("the 50 pictures: forage view forage-out/tutorial/3.1\n", many)
+
+    def test_numbers_have_no_exponents(self):
+        with tempfile.TemporaryDirectory() as here:
+            said = self.forage("tutorial", "3.4", here=here).stdout
+        self.assertRegex(said, r"26864 \+- 4933 ")
+        self.assertNotIn("e+", said)
+
     def test_an_unknown_exercise_is_reported(self):
         done = self.forage("tutorial", "9.9", here=PROJECT)
         self.assertEqual(done.returncode, 2)

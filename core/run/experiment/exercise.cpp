@@ -109,10 +109,12 @@ std::string no_trial(const model::Experiment& e, std::span<const RunResult> resu
             "a weight, too large?",
             diverged, results.size());
     std::error_code none;
+    const auto world = std::filesystem::path(e.world).lexically_normal();
+    const auto near = world.lexically_proximate(std::filesystem::current_path(none));
     return fmt::format(
         "No trial ended: the robot stands still, or never leaves the arena. `forage explain {} --world {} "
         "--seconds 20` says why.",
-        e.systems.front().text, std::filesystem::proximate(e.world, none).string());
+        e.systems.front().text, (near.string().starts_with("..") ? world : near).string());
 }
 
 }  // namespace
