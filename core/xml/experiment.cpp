@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -131,13 +132,19 @@ class ExperimentReader {
         const auto list = expressions(e["list"]);
         if (listed && list.empty())
             out_.error(e["list"].where(), "there are no seeds in the list", "for example list=\"1 2 3\"");
+        std::set<int> seen;
+        bool told = false;
         for (const auto& [word, where] : list) {
             const auto seed = parse_number<int>(word);
             if (!seed || *seed < 0)
                 out_.error(where, fmt::format("'{}' is not a seed", word),
                            "a seed is a whole number, at least 0");
-            else
+            else {
+                if (!seen.insert(*seed).second && !std::exchange(told, true))
+                    out_.error(where, fmt::format("the seed {} is given twice", word),
+                               "remove one of them: its runs are equal");
                 experiment_.seeds.push_back(static_cast<std::uint64_t>(*seed));
+            }
         }
     }
 

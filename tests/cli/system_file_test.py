@@ -124,7 +124,7 @@ class Reference(unittest.TestCase):
     def test_groups_that_are_too_large_for_a_wiring_plot_are_refused(self):
         (self.here / "x.iqr").write_text(system("100x100", "100x100", '<Connection id="c" name="C" source="a" target="b"><Synapse name="synapseFixedWeight"/></Connection>'))
         done = subprocess.run([FORAGE, "plot", "x.iqr", "wiring:C"], cwd=self.here, capture_output=True, text=True, timeout=60)
-        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.returncode, 2)
         self.assertIn("too large for a wiring plot; draw 'connection:C'", done.stderr)
         self.assertEqual([p.name for p in self.here.iterdir()], ["x.iqr"])
 
