@@ -40,6 +40,7 @@ def on_page_markdown(markdown, page, config, files):
         return f"{picture}[{text}]({os.path.relpath(on_site, here or '.')}{part or ''})"
 
     # Blocks of code are left as they are.
-    markdown = markdown.replace("<details>", '<details markdown="1">')  # what is folded is Markdown, too
+    # What is folded is Markdown, too.
+    markdown = markdown.replace("<details><summary>", '<details markdown="1">\n<summary markdown="span">')
     pieces = re.split(r"(```.*?```)", markdown, flags=re.DOTALL)
     return "".join(p if i % 2 else LINK.sub(moved, p) for i, p in enumerate(pieces))
