@@ -48,8 +48,8 @@ std::vector<Obstacle> obstacles_of(const WorldDescription& world, const Heights&
 /// above the floor) see and the proximity sensors (0.175 m) do not.
 std::vector<Eigen::Vector2d> targets_of(const WorldDescription& world);
 
-/// The visible solids of all models that do not move, in the order of the file; of a link without visuals, the
-/// solids that robots touch.
+/// The visible solids of all models that do not move, in the order of the file; of a link without visuals,
+/// the solids that robots touch.
 std::vector<DrawnSolid> drawing_of(const WorldDescription& world);
 
 }  // namespace forage::bug

@@ -100,8 +100,8 @@ std::string read_file(const std::string& path, std::size_t most) {
         if (count < 0) unreadable(path, fmt::format("cannot read the file: {}", std::strerror(errno)));
         if (count == 0 && pipe && text.empty()) {
             if (waited)
-                throw FileError(path, {},
-                                {error_at(0, 0, "this is a pipe that no program writes into", "name a file")});
+                throw FileError(
+                    path, {}, {error_at(0, 0, "this is a pipe that no program writes into", "name a file")});
             poll(&ready, 1, 300), waited = true;
             continue;
         }

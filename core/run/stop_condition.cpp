@@ -27,8 +27,9 @@ void check_trials(const RunLength& length, const Run& run, Diagnostics& diagnost
     };
     const Environment* environment = run.environment();
     if (!environment) {
-        refuse(trials + (in_file ? " need a world" : " needs a world"),
-               fmt::format("add {}, or {}", in_file ? "<world file=\"..\"/>" : "--world FILE.world", otherwise));
+        refuse(
+            trials + (in_file ? " need a world" : " needs a world"),
+            fmt::format("add {}, or {}", in_file ? "<world file=\"..\"/>" : "--world FILE.world", otherwise));
     } else if (environment->robot_names().empty()) {
         refuse(trials + ": there is no robot in the world", otherwise);
     } else if (environment->start_poses().empty()) {
@@ -69,7 +70,9 @@ bool StopCondition::reached(const Run& run, const Origin& origin) const {
     return holds(run);
 }
 
-bool StopCondition::holds(const Run& run) const { return until_ && until_->holds(run.simulation(), run.time()); }
+bool StopCondition::holds(const Run& run) const {
+    return until_ && until_->holds(run.simulation(), run.time());
+}
 
 std::string StopCondition::gives_up(const Run& run) const {
     if (!length_.trials || run.environment()->current_trial(0).cycles < timeout_) return {};
@@ -79,7 +82,8 @@ std::string StopCondition::gives_up(const Run& run) const {
 
 double StopCondition::fraction_done(const Run& run) const {
     if (length_.trials)
-        return static_cast<double>(run.environment()->trials(0).size()) / static_cast<double>(*length_.trials);
+        return static_cast<double>(run.environment()->trials(0).size()) /
+               static_cast<double>(*length_.trials);
     return cycles_ ? static_cast<double>(run.cycle()) / static_cast<double>(*cycles_) : 0;
 }
 
@@ -87,7 +91,8 @@ std::string StopCondition::progress(const Run& run) const {
     const Environment* environment = run.environment();
     if (!environment || environment->robot_names().empty() || environment->start_poses().empty()) return {};
     const auto& trials = environment->trials(0);
-    const auto reached = std::count_if(trials.begin(), trials.end(), [](const Trial& t) { return t.reached_target; });
+    const auto reached =
+        std::count_if(trials.begin(), trials.end(), [](const Trial& t) { return t.reached_target; });
     return fmt::format("{}{} trials, {} at the target", trials.size(),
                        length_.trials ? fmt::format("/{}", *length_.trials) : "", reached);
 }

@@ -119,7 +119,7 @@ TEST_CASE("Plugins that have no effect or are misspelt give a warning with a hin
     const std::string said = said_with(misspelt);
     CHECK_THAT(said,
                ContainsSubstring("plugin 'libvell_plugin.so' is not known and has no effect | did you mean "
-                               "libvel_plugin.so?"));
+                                 "libvel_plugin.so?"));
     CHECK_THAT(said, ContainsSubstring("'m' has a link 'bug', but no plugin that drives it"));
 }
 
@@ -159,13 +159,13 @@ TEST_CASE("Joints that do not turn, or turn without a limit, give a warning") {
 TEST_CASE("A game with inconsistent rules gives a warning") {
     CHECK_THAT(said_with(game("")),
                ContainsSubstring("no models are named Home_A and Home_B | the homes are assumed "
-                               "to be at (-10, 10) and (10, -10)"));
+                                 "to be at (-10, 10) and (10, -10)"));
     CHECK_THAT(said_with(game("<stale_after>60</stale_after>")),
                ContainsSubstring("resources dissolve before they turn yellow | <stale_after> is 60 s, "
-                               "<dissolves_after> 50 s"));
+                                 "<dissolves_after> 50 s"));
     CHECK_THAT(said_with(game("<site>0 3 0.1</site>")),
                ContainsSubstring("the site (0, 3) is occupied | resources appear at free positions within "
-                               "0.5 m"));
+                                 "0.5 m"));
 }
 
 TEST_CASE("Start poses that no robot uses give a warning") {

@@ -60,7 +60,8 @@ TEST_CASE("A picture of the size of the groups is copied cell by cell") {
     CHECK(g.third[77] == 200 / 255.0);
 }
 
-TEST_CASE("Groups with the width or the height of the picture crop it to the left columns and the bottom rows") {
+TEST_CASE(
+    "Groups with the width or the height of the picture crop it to the left columns and the bottom rows") {
     const Groups narrow(coordinates(), ColourSpace::rgb, 28, 28);
     CHECK(narrow.first[27] == 27 / 255.0);
     CHECK(narrow.second[28 * 27] == 27 / 255.0);
@@ -73,7 +74,8 @@ TEST_CASE("Groups with the width or the height of the picture crop it to the lef
 TEST_CASE("Groups that differ in width and height receive a resampled picture") {
     const Groups half(coordinates(), ColourSpace::rgb, 16, 14);
     for (std::size_t row = 2; row < 12; ++row)
-        for (std::size_t column = 2; column < 14; ++column) {  // a linear slope stays linear, except for rounding
+        for (std::size_t column = 2; column < 14;
+             ++column) {  // a linear slope stays linear, except for rounding
             CHECK(half.first[row * 16 + column] * 255 == Approx(2.0 * double(column) + 0.5).margin(0.51));
             CHECK(half.second[row * 16 + column] * 255 == Approx(2.0 * double(row) + 0.5).margin(0.51));
         }

@@ -63,7 +63,8 @@ TEST_CASE("White space between weights is ignored, and the last comma may be mis
 
 TEST_CASE("A file without valid weights is rejected, with the location and the reason") {
     CHECK_THAT(complaint("1, 2, 3"), ContainsSubstring("FILE:1:8: 3 weights") && ContainsSubstring("need 4"));
-    CHECK_THAT(complaint("1, 2, \n3, 4, \n5, "), ContainsSubstring("5 weights") && ContainsSubstring("need 4"));
+    CHECK_THAT(complaint("1, 2, \n3, 4, \n5, "),
+               ContainsSubstring("5 weights") && ContainsSubstring("need 4"));
     CHECK_THAT(complaint("1, 2, \n3, 8x, \n"), ContainsSubstring("FILE:2:4: '8x' is not a number"));
     CHECK_THAT(complaint("1, 2 \n3, 4, \n"), ContainsSubstring("FILE:1:4: '2 ?3' is not a number"));
     CHECK_THAT(complaint("1, , 3, 4"), ContainsSubstring("there is no number here"));
@@ -71,7 +72,8 @@ TEST_CASE("A file without valid weights is rejected, with the location and the r
     CHECK_THAT(complaint("1, 1e300, 3, 4"), ContainsSubstring("'1e300'"));
     CHECK_THAT(complaint(""), ContainsSubstring("0 weights"));
     CHECK_THAT(complaint("\x1b[31m"), ContainsSubstring("'?[31m'"));
-    CHECK_THAT(complaint("1, x, 3, \n4y, z"), ContainsSubstring("FILE:1:4: 'x'") && ContainsSubstring("and 2 more errors"));
+    CHECK_THAT(complaint("1, x, 3, \n4y, z"),
+               ContainsSubstring("FILE:1:4: 'x'") && ContainsSubstring("and 2 more errors"));
 }
 
 TEST_CASE("A missing file and a folder are rejected by name") {
