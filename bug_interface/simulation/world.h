@@ -114,7 +114,8 @@ class World final : public Environment {
     Trial current_trial(std::size_t bug) const override;
     std::vector<Pose2> start_poses() const override { return plan_ ? plan_->starts : std::vector<Pose2>(); }
     bool has_targets() const override { return !targets_.empty(); }
-    bool at_target(std::size_t bug) const override;
+    double target_distance(std::size_t bug) const override;
+    bool at_target(std::size_t bug) const override { return target_distance(bug) < TrialLog::reach; }
     void note_touches() override { physics_->note_touches(); }
     bool touched(std::size_t bug) const override { return physics_->touched(bug); }
 

@@ -85,11 +85,11 @@ std::string World::score_csv() const {
     return out;
 }
 
-bool World::at_target(std::size_t bug) const {
-    const Pose2& at = robots_[bug].pose;
-    return std::any_of(targets_.begin(), targets_.end(), [&](const Eigen::Vector2d& target) {
-        return (target - Eigen::Vector2d(at.x, at.y)).norm() < TrialLog::reach;
-    });
+double World::target_distance(std::size_t bug) const {
+    const Eigen::Vector2d at(robots_[bug].pose.x, robots_[bug].pose.y);
+    double out = std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector2d& target : targets_) out = std::min(out, (target - at).norm());
+    return out;
 }
 
 Trial World::current_trial(std::size_t bug) const {

@@ -12,13 +12,15 @@
 namespace forage::model {
 
 /// What can be measured of a robot, see docs/reference/experiment.md.
-inline constexpr std::array robot_quantities = {"path length", "displacement", "collisions", "target visits"};
+inline constexpr std::array robot_quantities = {"path length", "displacement", "collisions", "target visits",
+                                                "target distance"};
 
 /// A number that is measured in every run.
 struct Measure {
     enum class Kind {
         success,   ///< fraction of the trials that reached the target, 0..1
         duration,  ///< mean length of the trials, s
+        distance,  ///< mean over the trials of the smallest distance to a target, m
         first,     ///< number of cycles until a condition first holds
         final,     ///< a quantity at the end of the run
         trials,    ///< fraction of the trials in which a condition held, 0..1

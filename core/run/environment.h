@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,6 +47,10 @@ class Environment {
     virtual std::vector<Pose2> start_poses() const { return {}; }
     /// Whether trials have a target to reach.
     virtual bool has_targets() const { return false; }
+    /// The distance between the centres of a robot and of the nearest target, m; infinite without targets.
+    virtual double target_distance(std::size_t /*robot*/) const {
+        return std::numeric_limits<double>::infinity();
+    }
     /// Whether a robot is where it reaches a target.
     virtual bool at_target(std::size_t /*robot*/) const { return false; }
 

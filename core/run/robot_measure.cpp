@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -29,7 +30,9 @@ std::optional<RobotMeasure> RobotMeasure::make(const model::Measure& m, Environm
     if (robot == names.end())
         return fail(m.of.at, fmt::format("the world has no robot '{}'", m.of.text),
                     suggest(m.of.text, names));
-    if (static_cast<What>(what) == What::target_visits && !environment->has_targets())
+    const bool of_targets =
+        static_cast<What>(what) == What::target_visits || static_cast<What>(what) == What::target_distance;
+    if (of_targets && !environment->has_targets())
         return fail(m.what.at, "this world has no target", "'forage world FILE' tells what is in a world");
     if (static_cast<What>(what) == What::collisions) environment->note_touches();
     return RobotMeasure(static_cast<What>(what), static_cast<std::size_t>(robot - names.begin()),
@@ -41,13 +44,16 @@ RobotMeasure::RobotMeasure(What what, std::size_t robot, const Environment& envi
       robot_(robot),
       start_(environment.pose(robot)),
       last_(start_),
-      there_(what == What::target_visits && environment.at_target(robot)) {}
+      there_(what == What::target_visits && environment.at_target(robot)),
+      nearest_(environment.target_distance(robot)) {}
 
 void RobotMeasure::after_cycle(const Environment& environment) {
     if (what_ == What::path_length)
         follow_path(environment);
     else if (what_ == What::collisions || what_ == What::target_visits)
         count(environment);
+    else if (what_ == What::target_distance)
+        nearest_ = std::min(nearest_, environment.target_distance(robot_));
 }
 
 void RobotMeasure::follow_path(const Environment& environment) {
@@ -75,9 +81,15 @@ double RobotMeasure::value(const Environment& environment) const {
     const bool has_trials = environment.has_trials(robot_);
     if (what_ == What::collisions || (what_ == What::target_visits && !has_trials))
         return static_cast<double>(count_);
-    if (!has_trials) return distance(start_, environment.pose(robot_));
+    if (!has_trials)
+        return what_ == What::target_distance ? nearest_ : distance(start_, environment.pose(robot_));
     auto trials = environment.trials(robot_);
     if (!environment.resetting(robot_)) trials.push_back(environment.current_trial(robot_));
+    if (what_ == What::target_distance) {
+        double least = std::numeric_limits<double>::infinity();
+        for (const Trial& t : trials) least = std::min(least, t.smallest_distance);
+        return least;
+    }
     double sum = 0;
     for (const Trial& t : trials)
         sum += what_ == What::target_visits ? (t.reached_target ? 1.0 : 0.0) : distance(t.start, t.end);

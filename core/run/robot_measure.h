@@ -12,7 +12,8 @@
 namespace forage {
 
 /// Follows one of model::robot_quantities from the start of a run. In a world that resets the robot, the
-/// number is the sum over its trials, with the unfinished one; what happens during a reset does not count.
+/// number is the sum over its trials, or the smallest distance in all of them, with the unfinished one; what
+/// happens during a reset does not count.
 class RobotMeasure {
   public:
     /// The quantity of a measure of the kind `robot`. Empty when `diagnostics` got an error. `environment`
@@ -23,10 +24,11 @@ class RobotMeasure {
     /// Called after every cycle.
     void after_cycle(const Environment& environment);
     double value(const Environment& environment) const;
-    void checkpoint(Archive& archive) { archive(length_, last_, finished_, there_, count_); }
+    void checkpoint(Archive& archive) { archive(length_, last_, finished_, there_, count_, nearest_); }
 
   private:
-    enum class What { path_length, displacement, collisions, target_visits };  // as robot_quantities
+    // As robot_quantities.
+    enum class What { path_length, displacement, collisions, target_visits, target_distance };
     RobotMeasure(What what, std::size_t robot, const Environment& environment);
     void follow_path(const Environment& environment);
     void count(const Environment& environment);
@@ -39,6 +41,7 @@ class RobotMeasure {
     std::size_t finished_ = 0;   ///< number of trials whose path is complete
     bool there_ = false;  ///< whether the robot touched something, or was at a target, after the last cycle
     std::uint64_t count_ = 0;  ///< how often this began
+    double nearest_;           ///< smallest distance to a target without regard to trials, m
 };
 
 }  // namespace forage

@@ -12,6 +12,10 @@ namespace {
 
 using Kind = model::Measure::Kind;
 
+bool is_of_trials(Kind kind) {
+    return kind == Kind::success || kind == Kind::duration || kind == Kind::distance;
+}
+
 bool counts(Kind kind) { return kind == Kind::trials || kind == Kind::cycles; }
 
 bool is_over_cycles(Kind kind) {
@@ -25,8 +29,9 @@ std::optional<double> mean_of_trials(const model::Measure& m, const Environment&
     if (trials.empty()) return std::nullopt;
     double sum = 0;
     for (const auto& t : trials)
-        sum += m.kind == Kind::success ? (t.reached_target ? 1.0 : 0.0)
-                                       : static_cast<double>(t.cycles) * environment.seconds_per_cycle();
+        sum += m.kind == Kind::success    ? (t.reached_target ? 1.0 : 0.0)
+               : m.kind == Kind::distance ? t.smallest_distance
+                                          : static_cast<double>(t.cycles) * environment.seconds_per_cycle();
     return sum / static_cast<double>(trials.size());
 }
 
@@ -47,10 +52,12 @@ RunMeasures::RunMeasures(std::span<const model::Measure> measures, const engine:
             e.quantity =
                 observe::parse_quantity(layout, trials, m.what.text, "measure", diagnostics, m.what.at);
         }
-        if (!trials && (m.kind == Kind::success || m.kind == Kind::duration || m.kind == Kind::trials)) {
+        if (!trials && (is_of_trials(m.kind) || m.kind == Kind::trials))
             diagnostics.error(m.at, fmt::format("measure '{}': this experiment has no trials", m.name),
                               "trials are those of a robot that its world puts back to the start");
-        }
+        else if (m.kind == Kind::distance && !environment->has_targets())
+            diagnostics.error(m.at, fmt::format("measure '{}': this world has no target", m.name),
+                              "'forage world FILE' tells what is in a world");
         follows_ = follows_ || m.kind == Kind::robot || is_over_cycles(m.kind);
         entries_.push_back(std::move(e));
     }
@@ -115,6 +122,7 @@ std::optional<double> RunMeasures::value(Entry& e, RunView& run) const {
     switch (e.spec.kind) {
         case Kind::success:
         case Kind::duration:
+        case Kind::distance:
             return mean_of_trials(e.spec, *run.environment);
         case Kind::trials: {
             const auto finished = static_cast<int>(run.environment->trials(0).size());

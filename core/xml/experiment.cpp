@@ -167,8 +167,8 @@ class ExperimentReader {
     }
 
     /// The attributes of measures, in the order of model::Measure::Kind, and that of synapses.
-    static constexpr std::array measured = {"success", "duration", "first",   "final", "trials", "cycles",
-                                            "mean",    "minimum",  "maximum", "robot", "to"};
+    static constexpr std::array measured = {"success", "duration", "distance", "first",   "final", "trials",
+                                            "cycles",  "mean",     "minimum",  "maximum", "robot", "to"};
 
     void measure(const Element& e) {
         const char* kind = one_of(e, std::span(measured).first(measured.size() - 1));
@@ -192,7 +192,8 @@ class ExperimentReader {
                 out_.error(m.at,
                            fmt::format("there is a measure '{}' already, on line {}", m.name, other.at.line),
                            "names are columns of the table of results");
-        if (m.kind == model::Measure::Kind::success || m.kind == model::Measure::Kind::duration) {
+        using Kind = model::Measure::Kind;
+        if (m.kind == Kind::success || m.kind == Kind::duration || m.kind == Kind::distance) {
             const auto said = words(m.what.text);
             const auto n = said.size() == 2 && said[0] == "last" ? parse_number<int>(said[1]) : std::nullopt;
             if (n && *n > 0)

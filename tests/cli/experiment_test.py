@@ -129,6 +129,9 @@ class Results(Experiment):
   <measure name="away" robot="displacement" of="Bug"/>
   <measure name="hits" robot="collisions"/>
   <measure name="visits" robot="target visits"/>
+  <measure name="nearest" robot="target distance"/>
+  <measure name="near" distance="all"/>
+  <measure name="near at the end" distance="last 2"/>
   <measure name="brightest" maximum="max(Bug/Light)"/>
   <sweep parameter="R''')
         self.forage("experiment", "robot.xml", "-o", "out")
@@ -140,6 +143,10 @@ class Results(Experiment):
             self.assertLess(way, float(row["path"]))
             self.assertLess(float(row["path"]), 3 * way)
             self.assertEqual(row["visits"], row["reached"])
+            near = [float(t["smallest_distance"]) for t in done]
+            self.assertEqual(float(row["nearest"]), min(float(t["smallest_distance"]) for t in trials))
+            self.assertAlmostEqual(float(row["near"]), statistics.mean(near))
+            self.assertAlmostEqual(float(row["near at the end"]), statistics.mean(near[-2:]))
             self.assertGreaterEqual(float(row["hits"]), 0)
             self.assertTrue(0 < float(row["brightest"]) <= 1)
             name = f"runs/{row['run']}/trials.csv"  # measuring changes nothing

@@ -1,5 +1,6 @@
 #include "core/run/robot_measure.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -31,7 +32,7 @@ struct Watched {
             wanted.what.text = what;
             if (auto m = RobotMeasure::make(wanted, world.get(), diagnostics)) measures.push_back(*m);
         }
-        REQUIRE(measures.size() == 4);
+        REQUIRE(measures.size() == 5);
     }
     void drive(double forward, int cycles) {
         for (int i = 0; i < cycles; ++i) {
@@ -44,6 +45,7 @@ struct Watched {
     double displacement() const { return measures[1].value(*world); }
     double collisions() const { return measures[2].value(*world); }
     double visits() const { return measures[3].value(*world); }
+    double target_distance() const { return measures[4].value(*world); }
     void checkpoint(Archive& archive) {
         world->checkpoint(archive);
         for (auto& m : measures) m.checkpoint(archive);
@@ -91,6 +93,7 @@ TEST_CASE("The visits of a target are counted in a world without trials, and che
     CHECK(w.visits() == 0);  // the robot began there
     w.drive(1, cycles);
     CHECK(w.visits() == 1);
+    CHECK(w.target_distance() == Approx(0.2));
     Archive kept;
     w.checkpoint(kept);
     w.drive(-1, cycles), w.drive(1, cycles);
@@ -100,6 +103,7 @@ TEST_CASE("The visits of a target are counted in a world without trials, and che
     Archive archive{std::string_view(kept.bytes())};
     again.checkpoint(archive);
     CHECK(again.visits() == 1);
+    CHECK(again.target_distance() == w.target_distance());
     again.drive(-1, cycles), again.drive(1, cycles);
     CHECK(again.visits() == 2);
     CHECK(again.path() == w.path());
@@ -109,15 +113,17 @@ TEST_CASE("The visits of a target are counted in a world without trials, and che
 TEST_CASE("In a world with trials the numbers are sums over the trials, and resets do not count") {
     Watched w(description("basic_arena"));
     while (w.world->trials(0).size() < 4) w.drive(1, 1);
-    double displacement = 0, reached = 0;
+    double displacement = 0, reached = 0, nearest = 100;
     for (const Trial& t : w.world->trials(0)) {
         displacement += std::hypot(t.end.x - t.start.x, t.end.y - t.start.y);
         reached += t.reached_target;
+        nearest = std::min(nearest, t.smallest_distance);
     }
     CHECK(displacement > 4 * 4);
     CHECK(w.displacement() == displacement);
     CHECK(w.path() == Approx(displacement));  // the trials are straight
     CHECK(w.visits() == reached);
+    CHECK(w.target_distance() == nearest);
     CHECK(w.collisions() == 0);
     while (w.world->resetting(0)) w.drive(1, 1);
     w.drive(1, 5);
