@@ -1,7 +1,10 @@
 // The decoding of the motor group into a velocity command for the robot.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <span>
+#include <string>
 
 #include "core/base/archive.h"
 
@@ -31,5 +34,13 @@ inline constexpr double speed_noise = 0.005;
 /// and the height when it computes the offsets from the middle, which is correct only for square groups.
 MotorCommand decode_motor(std::span<const double> activities, int width, int height, double forward_speed,
                           double turn_speed);
+
+/// The number of the cell that wins, row by row from the top; empty when the command is to stand still
+/// because no cell is above 0 or all cells are equal.
+std::optional<std::size_t> motor_winner(std::span<const double> activities);
+
+/// What a command means: "straight ahead", "ahead in a left turn", "turn left on the spot", "stand still",
+/// ...
+std::string in_words(const MotorCommand& command);
 
 }  // namespace forage::bug

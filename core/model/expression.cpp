@@ -495,12 +495,12 @@ constexpr std::array<std::string_view, 11> plots = {"time",    "space",      "mo
                                                     "heat",    "learning",   "occupancy"};
 constexpr int most_blocks = 1000;  // lines closer than a pixel
 
-/// "100", "0..500" or "0..500/10"
-Plot::Cycles parse_cycles(std::string_view word, std::string_view text) {
+/// "100", "0..500" or "0..500/10"; `what` they are: "cycle" or "trial"
+Plot::Cycles parse_cycles(std::string_view word, std::string_view what, std::string_view text) {
     const auto read = [&](std::string_view number) {
         if (const auto value = parse_number<std::uint64_t>(trim(number))) return *value;
-        Parser::fail(fmt::format("'{}' is not a cycle", word), "cycles are N, A..B or A..B/STEP",
-                     offset(word, text));
+        Parser::fail(fmt::format("'{}' is not a {}", word, what),
+                     fmt::format("{}s are N, A..B or A..B/STEP", what), offset(word, text));
     };
     const auto dots = word.find("..");
     if (dots == word.npos) return {read(word), read(word), 1};
@@ -545,13 +545,14 @@ Plot parse_plot(std::string_view text) {
     const bool cycles = out.kind == Plot::Kind::connection
                             ? !ats.empty() && rest.substr(ats.back()).find_first_not_of("@0123456789.,/ ") ==
                                                   std::string_view::npos
-                            : out.of_cells();
+                            : out.of_cells() || out.kind == Plot::Kind::trajectory;
     if (cycles && !ats.empty()) {
         auto list = rest.substr(ats.back() + 1);
         out.cycles_text = list;
         while (!list.empty()) {
             const auto comma = std::min(list.find(','), list.size());
-            out.cycles.push_back(parse_cycles(list.substr(0, comma), text));
+            out.cycles.push_back(parse_cycles(list.substr(0, comma),
+                                              out.kind == Plot::Kind::trajectory ? "trial" : "cycle", text));
             list.remove_prefix(std::min(comma + 1, list.size()));
         }
         rest = rest.substr(0, ats.back());

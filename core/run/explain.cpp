@@ -265,10 +265,12 @@ std::string activity_table(const Layout& layout, const observe::GroupStatistics&
     return out;
 }
 
-std::vector<std::string> explanation(const model::System& system, const Layout& layout,
-                                     const observe::GroupStatistics& statistics) {
-    auto out = wiring_notes(system, layout);
-    for (auto& note : Explainer(system, layout, statistics).notes()) out.push_back(std::move(note));
+std::vector<std::string> explanation(const PreparedRun& prepared) {
+    const Run& run = prepared.run;
+    auto out = prepared.commands();
+    for (auto& note : wiring_notes(run.system(), run.layout())) out.push_back(std::move(note));
+    for (auto& note : Explainer(run.system(), run.layout(), *prepared.statistics).notes())
+        out.push_back(std::move(note));
     return out;
 }
 

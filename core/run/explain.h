@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/model/system.h"
-#include "core/observe/group_statistics.h"
+#include "core/run/prepared_run.h"
 
 namespace forage {
 
@@ -17,10 +17,9 @@ std::vector<std::string> wiring_notes(const model::System& system, const engine:
 /// activity and inputs over a run, for a terminal.
 std::string activity_table(const engine::Layout& layout, const observe::GroupStatistics& statistics);
 
-/// Returns wiring_notes(), and why groups were silent or clipped in a run, one sentence each. For a group
-/// that was silent although an enabled module reads it, such as a motor group, the sentence follows the
-/// silence back to the first silent group.
-std::vector<std::string> explanation(const model::System& system, const engine::Layout& layout,
-                                     const observe::GroupStatistics& statistics);
+/// Explains a run that was prepared with RunSpec::explain, one sentence each: what drove its robots,
+/// wiring_notes(), and why groups were silent or clipped. For a group that was silent although an enabled
+/// module reads it, such as a motor group, the sentence follows the silence back to the first silent group.
+std::vector<std::string> explanation(const PreparedRun& prepared);
 
 }  // namespace forage

@@ -29,7 +29,9 @@ struct PreparedRun {
     RunMeasures* measures;
     CheckpointWriter* checkpoints;               ///< null in a run without checkpoints
     const observe::GroupStatistics* statistics;  ///< null unless the spec asks for an explanation
-    std::vector<std::string> plugins;            ///< paths of the loaded files
+    /// Returns sentences on what drove the robots, after the run; empty like `statistics`.
+    std::function<std::vector<std::string>()> commands;
+    std::vector<std::string> plugins;  ///< paths of the loaded files
     /// Names and versions of libraries, for run.json.
     std::vector<std::pair<std::string, std::string>> libraries;
 };

@@ -3,9 +3,10 @@
     explain_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
 """
 
+import re
 import unittest
 
-from cli_test import EXERCISE, WORLD, Cli
+from cli_test import EXERCISE, SYSTEM, WORLD, Cli
 from prune_test import WEAK, connection, group
 
 NEURON = 'name="neuronLinearThreshold"><Parameter name="threshold" value="{}"/>'
@@ -52,6 +53,18 @@ class Explain(Cli):
                      "P/Full was clipped: its excitation was up to 6, and vmMax keeps its potential at 1"):
             self.assertIn("- " + note, said)
         self.assertNotIn("- P/S was", said)
+
+    def test_what_drove_a_robot_that_moves(self):
+        def drove(system, *options):
+            said = self.forage("explain", system, "--world", WORLD, *options).stdout
+            return re.search(r"(?m)^- Bug/Motor drove the robot Bug: (.*)$", said)[1]
+
+        said = drove(SYSTEM, "--trials", 10)
+        self.assertRegex(said, r"^\(5,1\) straight ahead \d\d %, \(9,4\) ahead in a right turn \d %, \(1,4\) ahead in a left turn \d %, no command 1 % of")
+        self.assertEqual(drove(SYSTEM, "--seconds", 2, "--clamp", "Bug/Motor(5,9)=1", "--no-noise"), "(5,9) straight back 100 % of the cycles")
+        self.assertEqual(drove(SYSTEM, "--seconds", 2, "--clamp", "Bug/Motor=0; from cycle 4", "--clamp", "Bug/Motor(2,1)=1 (3,5)=1; until cycle 4"),
+                         "(2,1) ahead in a left turn 16 %, no command 84 % of the cycles; in 16 %, several cells were equally active, "
+                         "and only their order decided which one won")
 
     def test_check_notes_what_is_known_without_a_run(self):
         (self.here / "small.iqr").write_text(system([group("A", NEURON.format(0)), group("B", NEURON.format(0))],

@@ -247,6 +247,16 @@ class Pictures(Cli):
         self.forage("run", "small.iqr", "--cycles", 5, "-o", "small")
         self.assertIn("results of a run in a world", self.forage("plot", "small", "trajectory", status=2).stderr)
 
+    def test_a_trajectory_of_some_trials(self):
+        self.run_robot("--trials", 4, "-p", "trajectory@2..3", "-p", "trajectory", "-p", "trajectory@1..4")
+        pictures = [(self.here / "out" / f"trajectory{trials}.png").read_bytes() for trials in ("", "_1..4", "_2..3")]
+        self.assertEqual(pictures[0], pictures[1])
+        self.assertNotEqual(pictures[0], pictures[2])
+        self.forage("plot", "out", "trajectory@2..3", "-o", "again")
+        self.assertEqual((self.here / "again/trajectory_2..3.png").read_bytes(), pictures[2])
+        self.assertIn("there are no trials 7..9", self.forage("plot", "out", "trajectory@7..9", status=2).stderr)
+        self.assertIn("'3..1' is not a trial", self.forage("plot", "out", "trajectory@3..1", status=2).stderr)
+
     def test_a_trajectory_of_damaged_tables_is_refused_with_the_place(self):
         self.run_robot("--trials", 2)
         tables = {name: (self.here / "out" / name).read_text() for name in ("trials.csv", "trajectory.csv")}

@@ -146,7 +146,8 @@ std::string draw_one(const PlotSpec& spec, Results& results, const std::optional
     else if (spec.of_results())
         picture = draw_measure(spec, *results.experiment, title, diagnostics);
     else if (spec.kind == Kind::trajectory)
-        picture = plot::trajectory_plot(*loaded->world, read_paths(results.directory), title);
+        picture = plot::trajectory_plot(*loaded->world,
+                                        plot::wanted_paths(read_paths(results.directory), spec), title);
     else
         picture =
             plot::structure_plot(spec, loaded->system, loaded->registry, nullptr, results.input.seed, title);

@@ -15,6 +15,7 @@
 #include "core/run/recordings.h"
 #include "core/run/run_json.h"
 #include "core/run/score_recorder.h"
+#include "tools/api/motor_statistics.h"
 #include "tools/api/tables.h"
 #include "tools/plot/plots.h"
 
@@ -52,8 +53,9 @@ void check_video(const RunSpec& spec, Diagnostics& diagnostics) {
                           "it ends with .gif or .png");
 }
 
-void add_world_observers(Run& run, bug::World& world, const RunSpec& spec, bool trajectory,
-                         plot::Format format, const std::string& title) {
+void add_world_observers(Run& run, bug::World& world, const RunSpec& spec,
+                         const std::vector<plot::PlotSpec>& trajectories, plot::Format format,
+                         const std::string& title) {
     for (std::size_t i = 0; i < world.robot_names().size(); ++i)
         run.add(std::make_unique<TrialRecorder>(world, i, run.layout(),
                                                 "trials" + robot_suffix(world, i) + ".csv"));
@@ -62,7 +64,12 @@ void add_world_observers(Run& run, bug::World& world, const RunSpec& spec, bool 
         for (std::size_t i = 0; i < world.robot_names().size(); ++i) {
             const std::string name = "trajectory" + robot_suffix(world, i);
             const auto& path = run.add(std::make_unique<PathRecorder>(world, i, name + ".csv"));
-            run.add(std::make_unique<plot::TrajectoryPlotter>(world, path, trajectory, name, format, title));
+            const auto draw = [&](std::optional<plot::PlotSpec> wanted) {
+                run.add(std::make_unique<plot::TrajectoryPlotter>(world, path, std::move(wanted), name,
+                                                                  format, title));
+            };
+            for (const auto& wanted : trajectories) draw(wanted);
+            if (trajectories.empty()) draw({});
         }
     if (!spec.video.empty())
         run.add(std::make_unique<plot::FilmRecorder>(world, spec.video, run.seconds_per_cycle(), title));
@@ -120,9 +127,14 @@ std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given,
     for (auto& m : manipulations) run.add(std::move(m));
     const observe::GroupStatistics* statistics =
         spec.explain ? &run.add(std::make_unique<observe::GroupStatistics>(run.layout())) : nullptr;
+    std::function<std::vector<std::string>()> commands = [] { return std::vector<std::string>(); };
+    if (spec.explain && world)
+        commands = [motors = &run.add(std::make_unique<MotorStatistics>(run, *world))] {
+            return motors->sentences();
+        };
     const plot::Format format = *plot::format_of("x." + spec.plot_format);
     const std::string title = run_title(spec.input);
-    const bool trajectory = plot::add_plots(spec.plots, run, format, title, diagnostics);
+    const auto trajectories = plot::add_plots(spec.plots, run, format, title, diagnostics);
     if (spec.checkpoint_every && spec.directory.empty())
         diagnostics.error({}, "--checkpoint-every needs a directory to write to",
                           "leave out -o '' or name one");
@@ -136,7 +148,7 @@ std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given,
     try {
         const std::vector<std::pair<std::string, std::string>> libraries = bug::library_versions();
         DirectoryHold hold;
-        if (world) add_world_observers(run, *world, spec, trajectory, format, title);
+        if (world) add_world_observers(run, *world, spec, trajectories, format, title);
         // The state of recordings is read last from a checkpoint, so that no file is changed when something
         // else does not fit.
         if (!spec.directory.empty())
@@ -147,10 +159,10 @@ std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given,
             return std::nullopt;
         CheckpointWriter* checkpoints = nullptr;
         if (spec.checkpoint_every) checkpoints = &add_checkpoints(run, spec, sources, *schedule_added);
-        return PreparedRun{std::move(spec), std::move(hold), std::move(run),
-                           std::move(stop), schedule_added,  measures_added,
-                           checkpoints,     statistics,      std::move(loaded->plugins),
-                           libraries};
+        return PreparedRun{
+            std::move(spec), std::move(hold), std::move(run), std::move(stop),     schedule_added,
+            measures_added,  checkpoints,     statistics,     std::move(commands), std::move(loaded->plugins),
+            libraries};
     } catch (const std::exception& e) {
         diagnostics.error({}, e.what());
         return std::nullopt;

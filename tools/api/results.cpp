@@ -100,7 +100,7 @@ std::vector<plot::Path> read_paths(const std::string& directory) {
         const auto outcome = trials.fields()[column];
         if (outcome != "target" && outcome != "missed" && outcome != "unfinished")
             trials.fault(outcome, fmt::format("'{}' is not an outcome of a trial", escaped(outcome)));
-        out.push_back({{}, outcome == "target", outcome != "unfinished"});
+        out.push_back({{}, outcome == "target", outcome != "unfinished", out.size() + 1});
     }
     trials.require_whole();
     TableReader points = open_table(directory + "/trajectory.csv");

@@ -177,7 +177,7 @@ void add_plot(CLI::App& app, PlotOptions& o) {
         "  connection:NAME@0,100           weights that are learned, at these cycles\n"
         "  wiring:NAME                     the receptive field of each cell of a small group\n"
         "  diagram, diagram:PROCESS        the diagram of the system or of one process\n"
-        "  trajectory                      the robot's paths\n"
+        "  trajectory, trajectory@1..50    the robot's paths, or those of these trials\n"
         "  curve:MEASURE, heat:MEASURE     a measure of an experiment over one or two parameters\n"
         "  learning, learning:COLUMN       targets, or a column of trials.csv, over the trials\n"
         "  occupancy                       where the robot was in all trials, and its mean paths\n"

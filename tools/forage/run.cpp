@@ -63,8 +63,7 @@ int run_to_end(const RunOptions& o, PreparedRun& prepared) {
     if (prepared.statistics) {
         fmt::print("\n{}", activity_table(run.layout(), *prepared.statistics));
         fmt::print("\n");
-        for (const auto& note : explanation(run.system(), run.layout(), *prepared.statistics))
-            fmt::print("- {}\n", note);
+        for (const auto& note : explanation(prepared)) fmt::print("- {}\n", note);
     }
     for (const auto& problem : outcome.problems) fmt::print(stderr, "error: {}\n", problem);
     if (!outcome.problems.empty()) return run_failed;

@@ -156,12 +156,15 @@ void TrajectoryPlotter::finish(RunView&, ResultFiles& files) {
     for (const auto& path : recorder_.paths(world_)) {
         Path& drawn = paths.emplace_back();
         for (const auto& p : path.points) drawn.points.emplace_back(p.pose.x, p.pose.y);
-        drawn.reached = path.reached, drawn.finished = path.finished;
+        drawn.reached = path.reached, drawn.finished = path.finished, drawn.trial = paths.size();
     }
     const auto leads_somewhere = [](const Path& path) { return path.points.size() > 1; };
-    if (!always_ && std::none_of(paths.begin(), paths.end(), leads_somewhere)) return;
-    files.write(name_ + std::string(ending(format_)),
-                [&] { return render(trajectory_plot(world_, std::move(paths), title_), format_); });
+    if (!spec_ && std::none_of(paths.begin(), paths.end(), leads_somewhere)) return;
+    files.write(name_ + std::string(ending(format_)), [&] {
+        return render(trajectory_plot(
+                          world_, spec_ ? wanted_paths(std::move(paths), *spec_) : std::move(paths), title_),
+                      format_);
+    });
 }
 
 FilmRecorder::FilmRecorder(bug::World& world, std::string name, double seconds_per_cycle,
@@ -184,17 +187,17 @@ void FilmRecorder::finish(RunView&, ResultFiles& files) {
     });
 }
 
-bool add_plots(const std::vector<model::Expression>& plots, Run& run, Format format, const std::string& title,
-               Diagnostics& diagnostics) {
-    bool trajectory = false;
+std::vector<PlotSpec> add_plots(const std::vector<model::Expression>& plots, Run& run, Format format,
+                                const std::string& title, Diagnostics& diagnostics) {
+    std::vector<PlotSpec> trajectories;
     for (const auto& [text, at] : plots) {
         const std::string option = at.file ? "plot" : "--plot";
         auto spec = parse_plot(text, option, diagnostics, at);
         if (!spec) continue;
         if (spec->kind == PlotSpec::Kind::trajectory) {
-            trajectory = true;
             if (!run.environment())
                 diagnostics.error(at, "a trajectory needs a world", "add --world FILE.world");
+            trajectories.push_back(std::move(*spec));
         } else if (spec->of_results()) {
             diagnostics.error(at, fmt::format("'{}' is drawn from results", text),
                               fmt::format("'forage plot DIR {}' draws it afterwards", text));
@@ -210,7 +213,7 @@ bool add_plots(const std::vector<model::Expression>& plots, Run& run, Format for
                                                            format, title));
         }
     }
-    return trajectory;
+    return trajectories;
 }
 
 }  // namespace forage::plot

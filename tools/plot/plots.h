@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bug_interface/simulation/world.h"
+#include "core/base/output_files.h"
 #include "core/model/experiment.h"
 #include "core/model/system.h"
 #include "core/observe/source.h"
@@ -101,14 +102,14 @@ class StructurePlotter final : public Observer {
 /// Draws the path of a robot.
 class TrajectoryPlotter final : public Observer {
   public:
-    /// `recorder` is an observer of the same run. With `always`, the path of a robot that did not move is
-    /// drawn, too. `name` is the file's name without its ending.
-    TrajectoryPlotter(const bug::World& world, const PathRecorder& recorder, bool always, std::string name,
-                      Format format, std::string title)
+    /// `recorder` is an observer of the same run. Without a `spec`, all paths are drawn, but not those of a
+    /// robot that did not move. `name` is the file's name without its ending.
+    TrajectoryPlotter(const bug::World& world, const PathRecorder& recorder, std::optional<PlotSpec> spec,
+                      const std::string& name, Format format, std::string title)
         : world_(world),
           recorder_(recorder),
-          always_(always),
-          name_(std::move(name)),
+          spec_(std::move(spec)),
+          name_(spec_ && !spec_->cycles_text.empty() ? file_name(name + "_" + spec_->cycles_text) : name),
           format_(format),
           title_(std::move(title)) {}
 
@@ -118,7 +119,7 @@ class TrajectoryPlotter final : public Observer {
   private:
     const bug::World& world_;
     const PathRecorder& recorder_;
-    bool always_;
+    std::optional<PlotSpec> spec_;
     std::string name_;
     Format format_;
     std::string title_;
@@ -139,9 +140,9 @@ class FilmRecorder final : public Observer {
     Film film_;
 };
 
-/// Adds the observers that draw `plots`. Reports unknown names. Returns whether `plots` contains a
-/// trajectory, which needs a PathRecorder. `title` is that of the run.
-bool add_plots(const std::vector<model::Expression>& plots, Run& run, Format format, const std::string& title,
-               Diagnostics& diagnostics);
+/// Adds the observers that draw `plots`. Reports unknown names. Returns the trajectories among them, which
+/// need a PathRecorder. `title` is that of the run.
+std::vector<PlotSpec> add_plots(const std::vector<model::Expression>& plots, Run& run, Format format,
+                                const std::string& title, Diagnostics& diagnostics);
 
 }  // namespace forage::plot

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 
 #include <cairo.h>
 #include <fmt/format.h>
@@ -135,8 +136,8 @@ class Drawing {
                     cairo_rectangle(c(), x + 2 * i, y - (end == End::reached ? 8 : 0), 2.5, 8);
                     cairo_fill(c());
                 }
-            canvas_->text(x, y + 24, "trial 1", 12);
-            canvas_->text(x + 120, y + 24, fmt::format("{}", paths_.size()), 12, 1);
+            canvas_->text(x, y + 24, fmt::format("trial {}", paths_.front().trial), 12);
+            canvas_->text(x + 120, y + 24, fmt::format("{}", paths_.back().trial), 12, 1);
             y += 54;
         }
         const auto outline = [&](double dash, auto shape) {
@@ -161,6 +162,13 @@ class Drawing {
 };
 
 }  // namespace
+
+std::vector<Path> wanted_paths(std::vector<Path> paths, const PlotSpec& spec) {
+    std::erase_if(paths, [&](const Path& p) { return !spec.wants(p.trial); });
+    if (paths.empty() && !spec.cycles.empty())
+        throw std::runtime_error(fmt::format("there are no trials {}", spec.cycles_text));
+    return paths;
+}
 
 Picture trajectory_plot(const bug::World& world, std::vector<Path> paths, const std::string& title) {
     const auto kept = std::make_shared<const std::vector<Path>>(std::move(paths));

@@ -6,6 +6,7 @@
 
 #include "bug_interface/simulation/world.h"
 #include "tools/plot/canvas.h"
+#include "tools/plot/plot_spec.h"
 
 namespace forage::plot {
 
@@ -14,11 +15,16 @@ struct Path {
     std::vector<Eigen::Vector2d> points;  ///< m
     bool reached = false;                 ///< whether the robot reached a target
     bool finished = true;                 ///< false for a trial that was interrupted by the end of the run
+    std::size_t trial = 1;                ///< the number of the trial
 };
 
+/// The paths of the trials that `spec` wants. Throws std::runtime_error when there is none.
+std::vector<Path> wanted_paths(std::vector<Path> paths, const PlotSpec& spec);
+
 /// A map of the floor, walls, start poses and targets with the paths. Paths that reached a target and paths
-/// that missed it have different colours, which are darker for earlier trials. A path ends with a dot (target
-/// reached), a cross (missed) or a square (the run ended). The world must outlive the picture.
+/// that missed it have different colours, which are darker for earlier trials of those that are drawn. A path
+/// ends with a dot (target reached), a cross (missed) or a square (the run ended). The world must outlive the
+/// picture.
 Picture trajectory_plot(const bug::World& world, std::vector<Path> paths, const std::string& title);
 
 }  // namespace forage::plot

@@ -22,7 +22,7 @@ RunSpec common(const model::Experiment& e) {
     o.recordings = e.recordings, o.changes = e.changes, o.measures = e.measures;
     o.manipulations = e.manipulations, o.plots = e.plots;
     o.paths = std::any_of(e.plots.begin(), e.plots.end(),
-                          [](const auto& plot) { return model::trim(plot.text) == "trajectory"; });
+                          [](const auto& plot) { return model::trim(plot.text).starts_with("trajectory"); });
     return o;
 }
 

@@ -6,6 +6,8 @@
 #include "tests/support/catch.h"
 
 using forage::bug::decode_motor;
+using forage::bug::in_words;
+using forage::bug::motor_winner;
 using forage::bug::MotorCommand;
 
 namespace {
@@ -33,6 +35,18 @@ TEST_CASE("Rows of the motor group stand for speeds, columns for turns, and left
         }
     CHECK(command_of(5, 5) == MotorCommand{0, 0});
     CHECK_FALSE(std::signbit(command_of(5, 5).forward));
+}
+
+TEST_CASE("Commands have words, and a group without a winner has no command") {
+    CHECK(in_words(command_of(5, 1)) == "straight ahead");
+    CHECK(in_words(command_of(5, 9)) == "straight back");
+    CHECK(in_words(command_of(4, 2)) == "ahead in a left turn");
+    CHECK(in_words(command_of(9, 8)) == "back in a right turn");
+    CHECK(in_words(command_of(1, 5)) == "turn left on the spot");
+    CHECK(in_words(command_of(5, 5)) == "stand still");
+    CHECK(motor_winner(cells_with({{4, 0.5}, {7, 0.6}})) == 7);
+    CHECK_FALSE(motor_winner(cells_with({})));
+    CHECK_FALSE(motor_winner(std::vector<double>(81, 1.0)));
 }
 
 TEST_CASE("The activity of the winner does not matter") {

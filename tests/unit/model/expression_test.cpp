@@ -197,6 +197,7 @@ TEST_CASE("Mistakes are reported with their column") {
     CHECK(plot("pie:P/A") == "1: there is no plot 'pie'");
     CHECK(plot("space:P/A@1,5..2") == "13: '5..2' is not a cycle");
     CHECK(plot("space:P/A;blocks=0x1") == "11: 'blocks=0x1' is not an option of a plot");
+    CHECK(plot("trajectory@5..2") == "12: '5..2' is not a trial");
     CHECK(plot("connection:") == "1: which connection?");
 }
 
@@ -211,6 +212,7 @@ TEST_CASE("Manipulations have cells, patterns or a table, and options") {
 TEST_CASE("Plots have a kind, a subject, cycles and blocks") {
     CHECK(plot("space:P/A(1..2,1)@0..100/10,7;blocks=3x2") == "space|P/A(1..2,1)|0-100/10 7-7/1 |3x2");
     CHECK(plot("diagram") == "diagram|||1x1");
+    CHECK(plot("trajectory@2..4") == "trajectory||2-4/1 |1x1");
     CHECK(plot("connection:A @ B") == "connection|A @ B||1x1");
     CHECK(plot("curve:trial length") == "curve|trial length||1x1");
     CHECK(plot("learning") == "learning|||1x1");
