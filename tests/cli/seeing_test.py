@@ -254,6 +254,8 @@ class Pictures(Cli):
         self.assertNotEqual(pictures[0], pictures[2])
         self.forage("plot", "out", "trajectory@2..3", "-o", "again")
         self.assertEqual((self.here / "again/trajectory_2..3.png").read_bytes(), pictures[2])
+        self.run_robot("--trials", 2, "-p", "trajectory@3..4", out="short")  # none of these trials: no picture
+        self.assertEqual([p.name for p in (self.here / "short").glob("*.png")], [])
         self.assertIn("there are no trials 7..9", self.forage("plot", "out", "trajectory@7..9", status=2).stderr)
         self.assertIn("'3..1' is not a trial", self.forage("plot", "out", "trajectory@3..1", status=2).stderr)
 

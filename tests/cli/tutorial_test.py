@@ -61,6 +61,14 @@ class Tutorial(Commands):
             self.assertRegex(done.stdout, rf"(?m)^{number} ")
             self.assertIn(f"forage tutorial {number}\n", text)
 
+    def test_a_part_lists_its_exercises(self):
+        said = self.forage("tutorial", "2", here=PROJECT).stdout
+        self.assertEqual(re.findall(r"(?m)^\d\.\d", said), ["2.1", "2.2"])
+        self.assertIn("forage tutorial 2.1 runs the first one", said)
+        done = self.forage("tutorial", "2", "--system", "systems/tutorial/reflex.iqr", here=PROJECT)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("error: which exercise?", done.stderr)
+
     def test_pictures_are_sorted_and_many_are_named_by_a_command(self):
         with tempfile.TemporaryDirectory() as here:
             few, many = (self.forage("tutorial", number, here=here).stdout for number in ("1.3", "3.1"))
@@ -103,7 +111,7 @@ class OwnSystem(Commands):
         missing = {
             "1.2": ["No excitatory connection leads from Const Speed", "No trial ended: the robot stands still"],
             "2.1": ["Cell 3 of US (front left) drives no cell of Approach that turns well to the left"],
-            "2.2": ["no inhibitory connection leads to Explore", "14 of 30 trials ended at the light."],
+            "2.2": ["no connection of type \"inhibitory\" leads to Explore", "14 of 30 trials ended at the light."],
             "3.1": ["Adaptive/UR does not get the reflex", "in only 0 of 120 trials", "18 of 60 trials (the last six of each run)"],
             "4.1": ["does not reach Selection/Contextual", "Then both layers act at once"],
         }
@@ -126,6 +134,16 @@ class OwnSystem(Commands):
         crossed = text[:begin] + pairs.replace("LEFT", '<TargetList><Point x="9"') + text[end:]
         self.assertIn("are the pairs crossed?", self.check("2.1", crossed, 1))
         self.assertIn("turned away from the light in 16 of 30 trials", self.check("2.2", crossed, 1))
+
+    def test_a_group_of_another_size_and_a_disabled_module_are_named(self):
+        text = (PROJECT / "systems/tutorial/explore.iqr").read_text()
+        begin = text.index('id="selection.explore"')
+        said = self.check("1.2", text[:begin] + text[begin:].replace('hcount="9"', 'hcount="5"', 1), 1)
+        self.assertRegex(said, r"mine.iqr:\d+:\d+: warning: group 'Selection/Explore' has 5 x 1 cells")
+        self.assertIn("hint: in the system to start from it has 9 x 1 cells", said)
+        begin = text.index('name="Bug"')
+        said = self.check("1.2", text[:begin] + text[begin:].replace('enableModule="true"', 'enableModule="false"', 1), 1)
+        self.assertIn("warning: the module of process 'Bug' is disabled", said)
 
     def test_a_weak_inhibition_is_recognised(self):
         text = (PROJECT / "systems/reactive_foraging.iqr").read_text()

@@ -102,6 +102,16 @@ std::optional<plot::Picture> draw_occupancy(const Results& results, const bug::W
     return std::nullopt;
 }
 
+/// The paths of a run. Reports trials that it does not have.
+std::optional<plot::Picture> draw_trajectory(const PlotSpec& spec, const bug::World& world,
+                                             const Results& results, Diagnostics& diagnostics) {
+    auto paths = plot::wanted_paths(read_paths(results.directory), spec);
+    if (!paths.empty() || spec.cycles.empty())
+        return plot::trajectory_plot(world, std::move(paths), results.context.run);
+    diagnostics.error({}, fmt::format("'{}': there are no trials {}", spec.text, spec.cycles_text));
+    return std::nullopt;
+}
+
 /// Loads what the pictures of a system and of its world need. Empty when no picture needs it, and when
 /// something is missing, which is reported.
 std::optional<Loaded> load_for(const std::vector<PlotSpec>& specs, const Results& results,
@@ -146,8 +156,7 @@ std::string draw_one(const PlotSpec& spec, Results& results, const std::optional
     else if (spec.of_results())
         picture = draw_measure(spec, *results.experiment, title, diagnostics);
     else if (spec.kind == Kind::trajectory)
-        picture = plot::trajectory_plot(*loaded->world,
-                                        plot::wanted_paths(read_paths(results.directory), spec), title);
+        picture = draw_trajectory(spec, *loaded->world, results, diagnostics);
     else
         picture =
             plot::structure_plot(spec, loaded->system, loaded->registry, nullptr, results.input.seed, title);

@@ -64,7 +64,7 @@ std::optional<PreparedExperiment> prepare_experiment(const std::string& file, st
         start.system = out.experiment.exercise->start;
         const Sources begun = read_sources(start, diagnostics);
         const auto& own = out.sources.begin()->second.system;
-        if (begun.system && own) check_names(out.experiment, *begun.system, *own, diagnostics);
+        if (begun.system && own) check_own(out.experiment, *begun.system, *own, diagnostics);
         if (diagnostics.failed()) return std::nullopt;
     }
     check_experiment(

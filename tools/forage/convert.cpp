@@ -4,6 +4,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/output_files.h"
 #include "core/model/build.h"
@@ -29,6 +30,19 @@ void warn_of_loss(const model::System& system, const model::ProcessFile& file, D
     if (lost)
         diagnostics.warning(
             {}, fmt::format("--extract: connections from or to other processes are not written: {}", lost));
+}
+
+/// Warns that an imported process is not connected yet, and names the ids that a connection needs.
+void tell_of_import(model::System& system, const std::string& id, Diagnostics& diagnostics) {
+    const model::Process& process = *model::find_process(system, id);
+    std::vector<std::string> groups;
+    for (const auto& g : process.groups) groups.push_back(fmt::format("{} ({})", g.id, model::trim(g.name)));
+    diagnostics.warning(
+        {},
+        fmt::format("--import: nothing connects process '{}' with the other processes yet",
+                    model::trim(process.name)),
+        fmt::format("write each <Connection> that you need into the new file; the ids of its groups are {}",
+                    fmt::join(groups, ", ")));
 }
 
 /// Links and file names are relative to the system file. Changes them so that they are valid from `to`
@@ -82,7 +96,7 @@ std::string converted(const ConvertOptions& o, Diagnostics& diagnostics) {
     if (!system) return {};
     for (const auto& path : o.imports)
         if (auto file = xml::read_process(path, diagnostics); file && !diagnostics.failed()) try {
-                model::import_process(*system, std::move(*file));
+                tell_of_import(*system, model::import_process(*system, std::move(*file)), diagnostics);
             } catch (const std::invalid_argument& e) {
                 diagnostics.error({std::make_shared<SourceFile>(SourceFile{path, {}})}, e.what());
             }

@@ -134,7 +134,7 @@ void add_tutorial(CLI::App& app, TutorialOptions& o) {
         "Example:\n"
         "  forage tutorial 3.1\n"
         "  forage tutorial 2.2 --system mine.iqr");
-    tutorial.add_option("EXERCISE", o.exercise, "Number of the exercise, or an experiment file")
+    tutorial.add_option("EXERCISE", o.exercise, "Number of an exercise or of a part, or an experiment file")
         ->option_text(" ");
     tutorial
         .add_option("--system", o.system,

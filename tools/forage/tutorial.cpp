@@ -88,8 +88,21 @@ int tutorial(const TutorialOptions& o) {
         fmt::print(stderr, "error: there are no exercises in '{}'\n", folder().string());
         return bad_input;
     }
-    if (o.exercise.empty()) {
+    const auto in_part = [&](const auto& e) {
+        return o.exercise.empty() || e.number.starts_with(o.exercise + ".");
+    };
+    const auto first = std::find_if(all.begin(), all.end(), in_part);
+    if (first != all.end() && !o.system.empty()) {
+        fmt::print(stderr,
+                   "error: which exercise?\n  hint: 'forage tutorial {} --system FILE' checks a file for the "
+                   "first one; "
+                   "without --system, the exercises are listed\n",
+                   first->number);
+        return bad_input;
+    }
+    if (first != all.end()) {
         for (const auto& e : all) {
+            if (!in_part(e)) continue;
             fmt::print("{:<5} {}\n", e.number, e.title);
             if (!e.start.empty())
                 fmt::print("      start {}, solution {}\n", shown(e.start), shown(e.solution));
@@ -98,7 +111,7 @@ int tutorial(const TutorialOptions& o) {
             "\nforage tutorial {} runs the first one; with --system FILE, on a file of your own. "
             "docs/tutorial "
             "has the text.\n",
-            all.front().number);
+            first->number);
         return fine;
     }
     if (fs::path(o.exercise).extension() == ".xml")

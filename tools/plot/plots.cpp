@@ -160,11 +160,10 @@ void TrajectoryPlotter::finish(RunView&, ResultFiles& files) {
     }
     const auto leads_somewhere = [](const Path& path) { return path.points.size() > 1; };
     if (!spec_ && std::none_of(paths.begin(), paths.end(), leads_somewhere)) return;
-    files.write(name_ + std::string(ending(format_)), [&] {
-        return render(trajectory_plot(
-                          world_, spec_ ? wanted_paths(std::move(paths), *spec_) : std::move(paths), title_),
-                      format_);
-    });
+    if (spec_) paths = wanted_paths(std::move(paths), *spec_);
+    if (paths.empty()) return;  // a run may end before the trials that are wanted
+    files.write(name_ + std::string(ending(format_)),
+                [&] { return render(trajectory_plot(world_, std::move(paths), title_), format_); });
 }
 
 FilmRecorder::FilmRecorder(bug::World& world, std::string name, double seconds_per_cycle,

@@ -18,7 +18,7 @@ struct Path {
     std::size_t trial = 1;                ///< the number of the trial
 };
 
-/// The paths of the trials that `spec` wants. Throws std::runtime_error when there is none.
+/// The paths of the trials that `spec` wants.
 std::vector<Path> wanted_paths(std::vector<Path> paths, const PlotSpec& spec);
 
 /// A map of the floor, walls, start poses and targets with the paths. Paths that reached a target and paths

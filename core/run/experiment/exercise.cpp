@@ -117,6 +117,29 @@ std::string no_trial(const model::Experiment& e, std::span<const RunResult> resu
         e.systems.front().text, (near.string().starts_with("..") ? world : near).string());
 }
 
+/// Warns of what differs from the system to start from, and probably should not.
+void warn_of_changes(const model::System& start, const model::System& own, Diagnostics& diagnostics) {
+    const auto size = [](const model::Group& g) {
+        const GroupShape shape = model::shape(g.topology);
+        return fmt::format("{} x {} cells", shape.width, shape.height);
+    };
+    for (const auto& p : own.processes)
+        for (const auto& q : start.processes) {
+            if (model::trim(p.name) != model::trim(q.name)) continue;
+            if (p.module && q.module && !p.module_enabled && q.module_enabled)
+                diagnostics.warning(
+                    p.at, fmt::format("the module of process '{}' is disabled", model::trim(p.name)),
+                    "in the system to start from it is enabled");
+            for (const auto& g : p.groups)
+                for (const auto& h : q.groups)
+                    if (model::trim(g.name) == model::trim(h.name) && size(g) != size(h))
+                        diagnostics.warning(g.at,
+                                            fmt::format("group '{}/{}' has {}", model::trim(p.name),
+                                                        model::trim(g.name), size(g)),
+                                            fmt::format("in the system to start from it has {}", size(h)));
+        }
+}
+
 }  // namespace
 
 model::Experiment with_system(model::Experiment e, const std::string& system) {
@@ -129,8 +152,9 @@ model::Experiment with_system(model::Experiment e, const std::string& system) {
     return e;
 }
 
-void check_names(const model::Experiment& e, const model::System& start, const model::System& own,
-                 Diagnostics& diagnostics) {
+void check_own(const model::Experiment& e, const model::System& start, const model::System& own,
+               Diagnostics& diagnostics) {
+    warn_of_changes(start, own, diagnostics);
     std::string texts;  // everything that may name a group or a connection
     const auto add = [&](const model::Expression& x) { texts += x.text + '\n'; };
     for (const auto& x : e.settings) add(x);

@@ -16,9 +16,10 @@ namespace forage {
 model::Experiment with_system(model::Experiment experiment, const std::string& system);
 
 /// Reports groups and connections that `start`, the system that users complete, has and `own` does not, if
-/// the experiment names them.
-void check_names(const model::Experiment& experiment, const model::System& start, const model::System& own,
-                 Diagnostics& diagnostics);
+/// the experiment names them. Warns of groups of another size, and of modules that are disabled only in
+/// `own`.
+void check_own(const model::Experiment& experiment, const model::System& start, const model::System& own,
+               Diagnostics& diagnostics);
 
 /// What became of a requirement.
 struct Finding {
