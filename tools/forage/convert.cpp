@@ -32,17 +32,15 @@ void warn_of_loss(const model::System& system, const model::ProcessFile& file, D
             {}, fmt::format("--extract: connections from or to other processes are not written: {}", lost));
 }
 
-/// Warns that an imported process is not connected yet, and names the ids that a connection needs.
-void tell_of_import(model::System& system, const std::string& id, Diagnostics& diagnostics) {
+/// Says that an imported process is not connected yet, and names the ids that a connection needs.
+std::string about_import(model::System& system, const std::string& id) {
     const model::Process& process = *model::find_process(system, id);
     std::vector<std::string> groups;
     for (const auto& g : process.groups) groups.push_back(fmt::format("{} ({})", g.id, model::trim(g.name)));
-    diagnostics.warning(
-        {},
-        fmt::format("--import: nothing connects process '{}' with the other processes yet",
-                    model::trim(process.name)),
-        fmt::format("write each <Connection> that you need into the new file; the ids of its groups are {}",
-                    fmt::join(groups, ", ")));
+    return fmt::format(
+        "imported '{}'; nothing connects it with the other processes yet\n"
+        "  write each <Connection> that it needs; the ids of its groups are {}\n",
+        model::trim(process.name), fmt::join(groups, ", "));
 }
 
 /// Links and file names are relative to the system file. Changes them so that they are valid from `to`
@@ -76,8 +74,8 @@ std::string process_id(const model::System& system, const std::string& wanted, D
     return {};
 }
 
-/// The text of the file to write. It has no meaning when there are errors.
-std::string converted(const ConvertOptions& o, Diagnostics& diagnostics) {
+/// The text of the file to write, and `notes` for users. They have no meaning when there are errors.
+std::string converted(const ConvertOptions& o, std::string& notes, Diagnostics& diagnostics) {
     const bool to_process = is_process_file(o.output);
     if (is_process_file(o.input)) {
         auto file = xml::read_process(o.input, diagnostics);
@@ -96,7 +94,7 @@ std::string converted(const ConvertOptions& o, Diagnostics& diagnostics) {
     if (!system) return {};
     for (const auto& path : o.imports)
         if (auto file = xml::read_process(path, diagnostics); file && !diagnostics.failed()) try {
-                tell_of_import(*system, model::import_process(*system, std::move(*file)), diagnostics);
+                notes += about_import(*system, model::import_process(*system, std::move(*file)));
             } catch (const std::invalid_argument& e) {
                 diagnostics.error({std::make_shared<SourceFile>(SourceFile{path, {}})}, e.what());
             }
@@ -131,10 +129,12 @@ int convert(const ConvertOptions& options) {
     Diagnostics diagnostics;
     diagnostics.lenient = options.lenient;
     check_output(options.output, "copy.iqr", diagnostics);
-    const std::string text = converted(options, diagnostics);
+    std::string notes;
+    const std::string text = converted(options, notes, diagnostics);
     fmt::print(stderr, "{}", format(diagnostics));
     if (diagnostics.failed()) return bad_input;
     write_file(options.output, text);
+    fmt::print("{}", notes);
     return fine;
 }
 
