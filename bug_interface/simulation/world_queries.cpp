@@ -80,7 +80,7 @@ std::vector<Eigen::Vector2d> targets_of(const WorldDescription& world) {
     for_each_static_solid(world, [&](const Collision&, const Solid& solid) {
         if (solid.kind == ShapeKind::cylinder && cross_section(solid, light_height) &&
             !cross_section(solid, proximity_height))
-            out.push_back(solid.pose.translation().head<2>());
+            out.emplace_back(solid.pose.translation().head<2>());
     });
     return out;
 }

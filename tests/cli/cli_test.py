@@ -580,9 +580,10 @@ class Others(Cli):
         done = subprocess.run(["xmllint", "--nowarning", "--noout", "--relaxng", schema, bad], capture_output=True, text=True)
         self.assertNotEqual(done.returncode, 0)
 
-    def test_commands_of_the_readme_and_of_the_page_on_runs_work(self):
-        readme, page = (PROJECT / "README.md").read_text(), (PROJECT / "docs/how-to/run-a-system.md").read_text()
-        commands = re.findall(r"\| `(forage .*?)`", readme) + re.findall(r"^build/release/bin/(forage .*)$", page, re.MULTILINE)
+    def test_commands_of_the_readme_and_of_pages_on_runs_work(self):
+        commands = re.findall(r"\| `(forage .*?)`", (PROJECT / "README.md").read_text())
+        for page in ("run-a-system", "why-nothing-happens"):
+            commands += re.findall(r"^(?:build/release/bin/)?(forage .*)$", (PROJECT / f"docs/how-to/{page}.md").read_text(), re.MULTILINE)
         (self.here / "forage-out").mkdir()
         self.assertGreater(len(commands), 20)
         os.symlink(PROJECT / "systems", self.here / "systems")

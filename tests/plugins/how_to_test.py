@@ -1,4 +1,4 @@
-"""Follows docs/how-to literally, in an empty folder, with a Forage that is installed from its package.
+"""Follows docs/how-to literally, in an empty folder, with a Forage that is installed from its packages.
 
     how_to_test.py BUILD_DIRECTORY HOW_TO_DIRECTORY
 
@@ -33,12 +33,19 @@ class HowTo(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.folder = pathlib.Path(folder.name)
-        run(["cpack", "--config", BUILD / "CPackConfig.cmake", "-B", cls.folder / "package"], cls.folder)
-        [cls.package] = (cls.folder / "package").glob("*.deb")
-        run(["dpkg-deb", "-x", cls.package, cls.folder / "root"], cls.folder)
+        cls.packages = cls.pack("package")
+        for name in ("forage", "forage-dev"):
+            run(["dpkg-deb", "-x", cls.packages[name], cls.folder / "root"], cls.folder)
         prefix = cls.folder / "root/usr"
         cls.environment = {"PATH": f"{prefix}/bin:/usr/local/bin:/usr/bin:/bin", "HOME": str(cls.folder),
                            "CMAKE_PREFIX_PATH": str(prefix), "LANG": "C.UTF-8"}
+
+    @classmethod
+    def pack(cls, name):
+        """The packages by name, made in a new folder."""
+        environment = {**os.environ, "SOURCE_DATE_EPOCH": "1790000000"}
+        run(["cpack", "--config", BUILD / "CPackConfig.cmake", "-B", cls.folder / name], cls.folder, environment)
+        return {file.name.split("_")[0]: file for file in (cls.folder / name).glob("*.deb")}
 
     def follow(self, page):
         """Writes the files and runs the commands of a page; returns how many commands there were."""
@@ -118,12 +125,19 @@ FORAGE_PLUGIN(Wrong);
             self.folder, self.environment)
         self.assertIn("1.1 ", run("forage tutorial", self.folder, self.environment))
 
-    def test_the_package_depends_on_libraries_and_holds_no_path_of_the_build(self):
-        depends = run(["dpkg-deb", "-f", self.package, "Depends"], self.folder)
+    def test_the_packages_depend_on_what_they_need_and_hold_no_path_of_the_build(self):
+        self.assertEqual(sorted(self.packages), ["forage", "forage-dev", "forage-doc"])
+        depends = {name: run(["dpkg-deb", "-f", file, "Depends"], self.folder) for name, file in self.packages.items()}
         for library in ("libtinyxml2", "libopencv-core", "libbullet"):
-            self.assertIn(library, depends)
-        for file in (self.folder / "root/usr/lib").rglob("*.cmake"):
-            self.assertNotIn(str(BUILD), file.read_text(), file.name)
+            self.assertIn(library, depends["forage"])
+        self.assertRegex(depends["forage-dev"], r"forage \(= .*libeigen3-dev")
+        for file in [*(self.folder / "root/usr/lib").rglob("*.cmake"), self.folder / "root/usr/bin/forage"]:
+            self.assertNotIn(str(BUILD).encode(), file.read_bytes(), file.name)
+        self.assertIn("/usr/share/doc/forage/docs/tutorial/README.md", run(["dpkg-deb", "-c", self.packages["forage-doc"]], self.folder))
+
+    def test_packages_made_again_are_the_same_byte_for_byte(self):
+        for name, file in self.pack("again").items():
+            self.assertEqual(file.read_bytes(), self.packages[name].read_bytes(), name)
 
 
 if __name__ == "__main__":

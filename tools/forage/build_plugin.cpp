@@ -5,38 +5,18 @@
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include "core/base/output_files.h"
 #include "tools/forage/commands.h"
-
-extern char** environ;
 
 namespace forage::tool {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The folders of headers and libraries, found from the path of the running program.
-struct Sdk {
-    fs::path headers, library;
-    std::vector<std::string> includes;
-};
-
-std::optional<Sdk> find_sdk() {
-    const fs::path program = fs::read_symlink("/proc/self/exe"), prefix = program.parent_path().parent_path();
-    const fs::path installed = prefix / FORAGE_INCLUDE_DIR;
-    if (fs::exists(installed / "forage/plugin.h"))
-        return Sdk{installed / "forage",
-                   prefix / FORAGE_LIBRARY_DIR / "forage/libforage_random.a",
-                   {installed.string(), (installed / "forage").string()}};
-    // The program is not installed, but where it was built.
-    const fs::path source = FORAGE_SOURCE_DIR;
-    if (fs::exists(source / "tools/api/forage/plugin.h"))
-        return Sdk{source,
-                   prefix / "core/base/libforage_random.a",
-                   {(source / "tools/api").string(), source.string()}};
-    return std::nullopt;
-}
+/// The folder of the installation, or the build tree, that the running program is in.
+fs::path prefix() { return fs::read_symlink("/proc/self/exe").parent_path().parent_path(); }
 
 /// Runs a command and waits for it. Returns its exit status, or -1 when it cannot be run.
 int run_command(std::vector<std::string> words) {
@@ -61,10 +41,11 @@ int build_plugin(const BuildPluginOptions& o) {
     if (!fs::is_regular_file(o.source))
         return refuse(fmt::format("there is no file '{}'", o.source),
                       "forage new neuron NAME writes an example");
-    const auto sdk = find_sdk();
-    if (!sdk)
-        return refuse("the headers of Forage are not where they were installed",
-                      "install Forage again: cmake --install, or its package");
+    const fs::path headers = prefix() / FORAGE_INCLUDE_DIR,
+                   library = prefix() / FORAGE_LIBRARY_DIR / "forage/libforage_random.a";
+    if (!fs::exists(headers / "forage/plugin.h") || !fs::exists(library))
+        return refuse(fmt::format("there are no headers of Forage in '{}'", headers.string()),
+                      "install them: apt install forage-dev, or build Forage and run cmake --install");
     const fs::path source = o.source;
     const std::string output =
         o.output.empty() ? (source.parent_path() / "plugins" / source.stem()).string() + ".so" : o.output;
@@ -93,11 +74,12 @@ int build_plugin(const BuildPluginOptions& o) {
                                       "-fvisibility=hidden",
                                       "-fvisibility-inlines-hidden",
                                       "-include",
-                                      (sdk->headers / "core/types/size_checks.h").string()};
-    for (const auto& headers : sdk->includes) words.push_back("-I" + headers);
+                                      (headers / "forage/core/types/size_checks.h").string(),
+                                      "-I" + headers.string(),
+                                      "-I" + (headers / "forage").string()};
     for (const std::string eigen : {FORAGE_EIGEN_DIR, "/usr/include/eigen3", "/usr/local/include/eigen3"})
         if (fs::exists(eigen)) words.insert(words.end(), {"-isystem", eigen});
-    words.insert(words.end(), {o.source, sdk->library.string(), "-o", partial(output)});
+    words.insert(words.end(), {o.source, library.string(), "-o", partial(output)});
     const int status = run_command(words);
     if (status == -1 || status == 127)
         return refuse(fmt::format("the compiler '{}' cannot be run", compiler),

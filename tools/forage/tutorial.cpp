@@ -24,12 +24,10 @@ struct Exercise {
     std::string look_at;  ///< the other lines, without leading blanks
 };
 
-/// The folder of exercises: beside the installed program, or else in the sources it was built from.
+/// The folder of exercises, in the installation or the build tree that the running program is in.
 fs::path folder() {
     std::error_code none;
-    const fs::path program = fs::read_symlink("/proc/self/exe", none);
-    const fs::path installed = program.parent_path().parent_path() / "share/forage/systems/tutorial";
-    return fs::exists(installed, none) ? installed : fs::path(FORAGE_SOURCE_DIR) / "systems/tutorial";
+    return fs::read_symlink("/proc/self/exe", none).parent_path().parent_path() / "share/forage/systems/tutorial";
 }
 
 void read_note(std::string_view note, Exercise& out) {

@@ -248,6 +248,7 @@ class PlasticBySource final : public PlasticKernel {
         Work& w = work(in);
         if (!std::isfinite(activity)) in.numbers[diverged_] = 1;  // what synapses learn from it stays
         if (source.size == 0) return;
+        // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): bits are meant
         if (std::memcmp(w.pre.data(), &activity, sizeof activity) != 0)
             std::fill(w.pre.begin(), w.pre.end(), activity);  // spikes are alike
         for (std::size_t f = 0; f < w.feedback.size(); ++f)

@@ -1,0 +1,16 @@
+#!/bin/sh
+# What a new user does with the installed packages forage and forage-dev, in an empty folder.
+set -e
+cp -r /usr/share/forage/systems .
+forage run systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world --trials 30 -o forage-out | tee said
+grep -q "30 of 30" said
+test -s forage-out/trajectory.png
+forage tutorial 1.1
+forage new neuron leaky
+cd leaky
+forage build-plugin leaky.cpp
+forage run example.iqr --cycles 20 --record Example/Cells
+rm -rf plugins
+cmake -B build
+cmake --build build
+ctest --test-dir build --output-on-failure
