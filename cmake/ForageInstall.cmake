@@ -25,21 +25,27 @@ install(TARGETS forage_api forage_base forage_types forage_model forage_connecti
         EXPORT ForageEmbedding ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/forage COMPONENT dev ${directories})
 install(EXPORT ForageSdk NAMESPACE forage:: DESTINATION ${FORAGE_CMAKE_DIR} COMPONENT dev)
 install(EXPORT ForageEmbedding NAMESPACE forage:: DESTINATION ${FORAGE_CMAKE_DIR} COMPONENT dev)
-# The file is not put beside bin/, where find_package() would find it before it is installed and can work.
-set(package ${PROJECT_BINARY_DIR}/package)
+set(package ${PROJECT_BINARY_DIR}/${FORAGE_CMAKE_DIR})
 configure_package_config_file(cmake/ForageConfig.cmake.in ${package}/ForageConfig.cmake INSTALL_DESTINATION ${FORAGE_CMAKE_DIR})
 write_basic_package_version_file(${package}/ForageConfigVersion.cmake COMPATIBILITY SameMajorVersion)
-install(FILES ${package}/ForageConfig.cmake ${package}/ForageConfigVersion.cmake
-              cmake/ForagePlugin.cmake cmake/FindForageBullet.cmake cmake/FindForageHDF5.cmake cmake/FindForageOpenCV.cmake
-        DESTINATION ${FORAGE_CMAKE_DIR} COMPONENT dev)
+set(scripts cmake/ForagePlugin.cmake cmake/FindForageBullet.cmake cmake/FindForageHDF5.cmake cmake/FindForageOpenCV.cmake)
+install(FILES ${package}/ForageConfig.cmake ${package}/ForageConfigVersion.cmake ${scripts} DESTINATION ${FORAGE_CMAKE_DIR} COMPONENT dev)
 
-# The build tree has the folders of an installation, so that the program finds its systems and headers in both in the same way.
-file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/share/forage ${PROJECT_BINARY_DIR}/${FORAGE_HEADER_DIR})
-file(CREATE_LINK ${PROJECT_SOURCE_DIR}/systems ${PROJECT_BINARY_DIR}/share/forage/systems SYMBOLIC)
-file(CREATE_LINK ${PROJECT_SOURCE_DIR}/core ${PROJECT_BINARY_DIR}/${FORAGE_HEADER_DIR}/core SYMBOLIC)
-file(GLOB headers tools/api/forage/*.h)
-foreach(header ${headers})
-  get_filename_component(name ${header} NAME)
-  file(CREATE_LINK ${header} ${PROJECT_BINARY_DIR}/${FORAGE_HEADER_DIR}/${name} SYMBOLIC)
+# The build tree has the folders of an installation: the program finds its systems and headers in both in the same way, and so
+# does find_package(Forage), which looks beside the bin/ that is in PATH.
+export(EXPORT ForageSdk NAMESPACE forage:: FILE ${package}/ForageSdk.cmake)
+export(EXPORT ForageEmbedding NAMESPACE forage:: FILE ${package}/ForageEmbedding.cmake)
+function(forage_link file folder)
+  get_filename_component(name ${file} NAME)
+  file(MAKE_DIRECTORY ${folder})
+  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${file} ${folder}/${name} SYMBOLIC)
+endfunction()
+forage_link(systems ${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_DATADIR}/forage)
+forage_link(core ${PROJECT_BINARY_DIR}/${FORAGE_HEADER_DIR})
+foreach(header plugin.h forage.h)
+  forage_link(tools/api/forage/${header} ${PROJECT_BINARY_DIR}/${FORAGE_HEADER_DIR})
+endforeach()
+foreach(script ${scripts})
+  forage_link(${script} ${package})
 endforeach()
 set_target_properties(forage_random PROPERTIES ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}/forage)

@@ -119,6 +119,13 @@ FORAGE_PLUGIN(Wrong);
                 expected.write_text(expected.read_text().replace("\n0,0", "\n0,7"))
                 run("ctest --test-dir build", here, self.environment, status=8)
 
+    def test_a_project_builds_beside_a_forage_that_is_not_installed(self):
+        here = self.folder / "beside"
+        here.mkdir()
+        environment = {"PATH": f"{BUILD}/bin:/usr/local/bin:/usr/bin:/bin", "HOME": str(here), "LANG": "C.UTF-8"}
+        run("forage new neuron leaky && cd leaky && cmake -B build && cmake --build build && ctest --test-dir build", here, environment)
+        run("forage build-plugin leaky/leaky.cpp", here, environment)
+
     def test_shipped_files_are_found_from_the_package(self):
         systems = self.folder / "root/usr/share/forage/systems"
         run(f"forage run {systems}/reactive_foraging.iqr --world {systems}/worlds/basic_arena.world --trials 1",

@@ -27,7 +27,8 @@ struct Exercise {
 /// The folder of exercises, in the installation or the build tree that the running program is in.
 fs::path folder() {
     std::error_code none;
-    return fs::read_symlink("/proc/self/exe", none).parent_path().parent_path() / "share/forage/systems/tutorial";
+    return fs::read_symlink("/proc/self/exe", none).parent_path().parent_path() /
+           "share/forage/systems/tutorial";
 }
 
 void read_note(std::string_view note, Exercise& out) {
