@@ -160,6 +160,8 @@ class Explainer {
                                    layout_.modules[at(m)].process);
             return "it received no excitation";
         }
+        if (type.reads[number_of(InputKind::excitatory)] && excitation.most <= 0)
+            return "its excitation was never above 0: a weight, or the activity of a source, is negative";
         const auto* potential = state(g, "vm");
         if (const auto threshold = parameter(g, "threshold");
             potential && threshold && potential->most < *threshold) {

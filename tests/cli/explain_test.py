@@ -42,14 +42,16 @@ class Explain(Cli):
     def test_each_reason(self):
         said = self.explain(
             [group("S", SPIKES), group("Low", NEURON.format(0.5)), group("Full", CLIPS), group("None", NEURON.format(0.1)),
-             group("Alone", NEURON.format(0.1)), group("After", NEURON.format(0.1))],
+             group("Alone", NEURON.format(0.1)), group("After", NEURON.format(0.1)), group("Minus", NEURON.format(0.1))],
             [connection("1", "S", "Low", WEAK), connection("2", "S", "Full", STRONG), connection("3", "S", "None", ZERO),
              connection("4", "Alone", "After", STRONG),
+             connection("6", "S", "Minus", STRONG.replace('"3"', '"-3"')),
              connection("5", "S", "After", WEAK).replace('"excitatory"', '"modulatory"')])
         for note in ("nothing drives group 'P/Alone'",
                      "connection '5' delivers modulatory input to group 'P/After', and neuronLinearThreshold does not read that",
                      "P/Low was silent: its potential vm was 0.2 at most, and its threshold is 0.5",
                      "P/None was silent: it received no excitation, although P/S was active",
+                     "P/Minus was silent: its excitation was never above 0: a weight, or the activity of a source, is negative",
                      "P/Full was clipped: its excitation was up to 6, and vmMax keeps its potential at 1"):
             self.assertIn("- " + note, said)
         self.assertNotIn("- P/S was", said)
