@@ -4,6 +4,7 @@
 """
 
 import csv
+import itertools
 import math
 import pathlib
 import re
@@ -376,6 +377,9 @@ class Plots(Experiment):
         drawn = self.forage("plot", "two").stdout.split()
         self.assertIn("two/heat_success.png", drawn)
         self.assertEqual(drawn[-2:], ["two/learning.png", "two/occupancy.png"])
+        self.forage("plot", "two", "occupancy", "--where", "threshold=0.2", "--where", "weight=1")
+        heights = [int.from_bytes((self.here / f"two/occupancy{part}.png").read_bytes()[20:24], "big") for part in ("", "_threshold_0.2__weight_1")]
+        self.assertGreater(*heights)  # two rows of maps, and one map
         self.edit("robot.xml", '<sweep parameter="Motor In to Motor.weight" values="1 0.9"/>', "")
         self.forage("experiment", "robot.xml", "-o", "one")
         self.forage("plot", "one", "curve:success", "learning:cycles", "--plot-format", "svg", "-o", "svg")
@@ -387,6 +391,58 @@ class Plots(Experiment):
         run = sorted((self.here / "one/runs").iterdir())[0]
         self.forage("plot", run, "learning", "occupancy")
         self.assertTrue((run / "occupancy.png").exists())
+
+    def table(self, sweeps, number=lambda values: 1):
+        """A table of results, in which number() has the measure of a run with these values and this seed."""
+        (self.here / "table/runs").mkdir(parents=True, exist_ok=True)
+        names = [name for sweep in sweeps for name in sweep[0]]
+        with (self.here / "table/results.csv").open("w") as file:
+            print("run", *names, "seed", "status", "cycles", "seconds", "m", "never", "remark", sep=",", file=file)
+            for values in itertools.product(*(sweep[1] for sweep in sweeps), ["1", "2"]):
+                values = [v for one in values for v in one.split()]
+                print("r", *values, "finished", 1, 1, number(values), "", "", sep=",", file=file)
+
+    def test_sweeps_that_vary_together_are_one_axis_of_a_heat_map(self):
+        together = [["A.x", "A.y"], ["1 1", "1 2", "2 2"]]
+        self.table([together, [["B.z"], ["5", "6"]]])
+        self.assertEqual(self.forage("plot", "table").stdout, "table/heat_m.png\n")  # 'never' has no numbers
+        self.table([[["B.z"], ["5", "6"]], together, [["system"], ["a.iqr", "b.iqr"]]])
+        self.assertEqual(self.forage("plot", "table").stdout, "table/curve_m.png\n")
+        said = self.forage("plot", "table", "heat:m", status=2).stderr
+        self.assertIn("here 3 vary: 'B.z', 'A.x, A.y', 'system'", said)
+        self.assertIn("--where 'system=a.iqr'", said)
+        said = self.forage("plot", "table", "heat:m", "--where", "system=a.iqr", "--where", "z=5", status=2).stderr
+        self.assertIn("only 'A.x, A.y' varies", said)
+
+    def test_a_part_of_the_runs_is_drawn(self):
+        self.table([[["A.x"], ["1", "2", "3"]], [["B.x"], ["1", "2", "4"]], [["C.w"], ["7", "8"]]], lambda values: sum(map(float, values)))
+        drawn = self.forage("plot", "table", "heat:m", "curve:m", "--where", "w=7.0", "--where", "A.x=1", "--where", "A.x=3")
+        self.assertEqual(drawn.stdout.split(), [f"table/{kind}_m_w_7__A.x_1__A.x_3.png" for kind in ("heat", "curve")])
+        part = (self.here / "table/heat_m_w_7__A.x_1__A.x_3.png").read_bytes()
+        self.table([[["A.x"], ["1", "3"]], [["B.x"], ["1", "2", "4"]], [["C.w"], ["7"]]], lambda values: sum(map(float, values)))
+        self.forage("plot", "table", "heat:m", "--where", "C.w=7", "--where", "A.x=1", "--where", "A.x=3")
+        self.assertEqual((self.here / "table/heat_m_w_7__A.x_1__A.x_3.png").read_bytes(), part)
+        self.forage("plot", "table", "heat:m", "--where", "seed=2")
+        self.assertTrue((self.here / "table/heat_m_seed_2.png").exists())
+        for where, message in (("x=1", "no parameter 'x' was swept"), ("w=9", "no run has this value"), ("w", "no run has this value")):
+            self.assertIn(message, self.forage("plot", "table", "heat:m", "--where", where, status=2).stderr)
+        self.assertIn("--where chooses runs of an experiment", self.forage("plot", "small.iqr", "--where", "seed=1", status=2).stderr)
+
+    def test_missing_numbers_are_shown(self):
+        sweeps = [[["A.x"], ["1", "2", "3"]], [["B.y"], ["1", "2"]]]
+        pictures = set()
+        for missing in ([], ["1", "1", "1"], ["1", "1"], ["", "1"]):  # of one run, a cell, a row
+            self.table(sweeps, lambda values: "" if missing and all(m in ("", v) for m, v in zip(missing, values)) else values[0])
+            self.forage("plot", "table", "heat:m", "curve:m", "--plot-format", "svg")
+            pictures |= {(self.here / f"table/{kind}_m.svg").read_text() for kind in ("heat", "curve")}
+        self.assertEqual(len(pictures), 8)
+        self.assertIn("no run has a number", self.forage("plot", "table", "curve:never", status=2).stderr)
+
+    def test_too_many_lines_are_drawn_with_a_warning(self):
+        self.table([[["A.x"], ["1", "2", "3"]], [["B.y"], [str(i) for i in range(12)]]])
+        said = self.forage("plot", "table", "curve:m").stderr
+        self.assertIn("'curve:m' has 12 lines in 10 colours", said)
+        self.assertIn("--where 'B.y=0'", said)
 
     def test_what_cannot_be_drawn(self):
         self.forage("experiment", "robot.xml", "-o", "out")

@@ -56,8 +56,8 @@ const Results::Entry* find_recording(const Results& results, const PlotSpec& spe
 }
 
 /// A picture of recorded rows; reports an error and returns nothing when there is no such recording.
-std::string draw_rows(const Results& results, const PlotSpec& spec, plot::Format format,
-                      Diagnostics& diagnostics) {
+std::string draw_rows(const Results& results, const PlotSpec& spec, const std::optional<Loaded>& loaded,
+                      plot::Format format, Diagnostics& diagnostics) {
     const auto wanted =
         expression::Context{spec.source(), "forage plot", diagnostics}.parsed(&expression::parse_source);
     if (!wanted) return {};
@@ -71,7 +71,7 @@ std::string draw_rows(const Results& results, const PlotSpec& spec, plot::Format
             names.empty() ? how_to_record : fmt::format("there are '{}'", fmt::join(names, "', '")));
         return {};
     }
-    plot::RowPlot drawn(spec, part->what);
+    plot::RowPlot drawn(spec, part->what, loaded ? &loaded->system : nullptr);
     std::vector<double> row, taken(part->what.size());
     entry->rows->rewind();
     for (std::uint64_t cycle = 0; entry->rows->next(cycle, row);) {
@@ -82,23 +82,37 @@ std::string draw_rows(const Results& results, const PlotSpec& spec, plot::Format
 }
 
 /// The runs of an experiment, or the one whose results these are.
-std::vector<TrialSeries> runs_of(const Results& results) {
-    if (results.experiment) return trial_series(*results.experiment, results.directory);
+std::vector<RunSeries> runs_of(const Results& results) {
+    if (results.experiment) return run_series(*results.experiment, results.directory);
     return {{"", {results.directory}}};
 }
 
-/// Where the robot was in all runs. Reports results without paths.
+/// Which part of the runs the pictures of an experiment show.
+std::string part_of(const Results& results) {
+    return results.experiment ? results.experiment->part : std::string();
+}
+
+/// Where the robot was in all runs, by condition. Reports results without paths.
 std::optional<plot::Picture> draw_occupancy(const Results& results, const bug::World& world,
                                             Diagnostics& diagnostics) {
-    std::vector<plot::Path> paths;
-    for (const auto& series : runs_of(results))
+    std::vector<plot::PathsOf> conditions;
+    for (const auto& series : runs_of(results)) {
+        plot::PathsOf condition{series.name, {}};
         for (const auto& directory : series.directories)
             if (fs::exists(directory + "/trajectory.csv"))
-                for (auto& path : read_paths(directory)) paths.push_back(std::move(path));
-    if (!paths.empty()) return plot::occupancy_plot(world, paths, results.context.run);
-    diagnostics.error({}, fmt::format("'{}' holds no paths of a robot", results.path),
-                      results.experiment ? "write <plot what=\"trajectory\"/> in the experiment"
-                                         : "runs in a world have a trajectory.csv");
+                for (auto& path : read_paths(directory)) condition.paths.push_back(std::move(path));
+        if (!condition.paths.empty()) conditions.push_back(std::move(condition));
+    }
+    if (conditions.empty())
+        diagnostics.error({}, fmt::format("'{}' holds no paths of a robot", results.path),
+                          results.experiment ? "write <plot what=\"trajectory\"/> in the experiment"
+                                             : "runs in a world have a trajectory.csv");
+    else if (conditions.size() > plot::most_maps)
+        diagnostics.error(
+            {}, fmt::format("'occupancy': {} conditions are too many for a picture", conditions.size()),
+            "draw some of them, with --where 'PARAMETER=VALUE'");
+    else
+        return plot::occupancy_plot(world, conditions, results.context.run, part_of(results));
     return std::nullopt;
 }
 
@@ -140,11 +154,11 @@ std::optional<Loaded> load_for(const std::vector<PlotSpec>& specs, const Results
 /// A picture as the content of a file; empty when there was an error.
 std::string draw_one(const PlotSpec& spec, Results& results, const std::optional<Loaded>& loaded,
                      plot::Format format, Diagnostics& diagnostics) {
-    if (spec.of_cells()) return draw_rows(results, spec, format, diagnostics);
+    if (spec.of_cells()) return draw_rows(results, spec, loaded, format, diagnostics);
     const std::string& title = results.context.run;
     std::optional<plot::Picture> picture;
     if (spec.kind == Kind::learning)
-        picture = draw_learning(spec, runs_of(results), title, diagnostics);
+        picture = draw_learning(spec, runs_of(results), title, part_of(results), diagnostics);
     else if (spec.kind == Kind::occupancy && !loaded->world)
         diagnostics.error({}, fmt::format("'{}': these runs have no world", spec.text));
     else if (spec.kind == Kind::occupancy)
@@ -166,10 +180,20 @@ std::string draw_one(const PlotSpec& spec, Results& results, const std::optional
 }  // namespace
 
 std::vector<std::string> draw(Results& results, std::vector<std::string> plots, std::string directory,
-                              plot::Format format, Diagnostics& diagnostics) {
+                              plot::Format format, Diagnostics& diagnostics,
+                              const std::vector<std::string>& where) {
+    if (results.experiment)
+        keep_runs(*results.experiment, where, diagnostics);
+    else if (!where.empty())
+        diagnostics.error(
+            {}, fmt::format("--where chooses runs of an experiment, and '{}' is none", results.path));
+    if (diagnostics.failed()) return {};
     std::vector<PlotSpec> specs;
     for (const auto& text : plots.empty() ? usual_plots(results) : plots)
-        if (auto spec = plot::parse_plot(text, "forage plot", diagnostics)) specs.push_back(std::move(*spec));
+        if (auto spec = plot::parse_plot(text, "forage plot", diagnostics)) {
+            if (spec->of_results()) spec->part = part_of(results);
+            specs.push_back(std::move(*spec));
+        }
     if (specs.empty() && !diagnostics.failed())
         diagnostics.error({}, fmt::format("there is nothing to draw in '{}'", results.path), how_to_record);
     std::optional<Loaded> loaded;

@@ -12,6 +12,7 @@
 #include "core/base/table.h"
 #include "tools/plot/heat.h"
 #include "tools/plot/lines.h"
+#include "tools/plot/occupancy.h"
 
 namespace forage {
 namespace {
@@ -22,131 +23,93 @@ using plot::PlotSpec;
 constexpr std::size_t most_lines = 10;   ///< that can be told apart
 constexpr std::size_t most_blocks = 25;  ///< of trials, in a picture of learning
 
-/// Rows with the same values of the parameters, in the order of the table.
-struct Combination {
-    std::vector<std::string> values;
-    std::vector<const RunTable::Row*> rows;
-
-    std::vector<double> of(std::size_t measure) const {
-        std::vector<double> out;
-        for (const auto* r : rows)
-            if (r->measures[measure]) out.push_back(*r->measures[measure]);
-        return out;
-    }
+/// Places of values on an axis, and whether they are logarithms.
+struct Places {
+    std::vector<double> at;
+    bool logarithmic = false;
 };
 
-std::vector<Combination> combinations(const RunTable& table) {
-    std::vector<Combination> out;
-    for (const auto& row : table.rows) {
-        auto at = std::find_if(out.begin(), out.end(), [&](const auto& c) { return c.values == row.values; });
-        if (at == out.end()) at = out.insert(out.end(), {row.values, {}});
-        at->rows.push_back(&row);
-    }
-    return out;
-}
-
-/// The different values of a parameter, in the order of the table.
-std::vector<std::string> values_of(const std::vector<Combination>& all, std::size_t parameter) {
-    std::vector<std::string> out;
-    for (const auto& c : all)
-        if (std::find(out.begin(), out.end(), c.values[parameter]) == out.end())
-            out.push_back(c.values[parameter]);
-    return out;
-}
-
-/// The number of parameters that vary on their own: those that vary together with the first one count once.
-std::size_t dimensions(const std::vector<Combination>& all, std::size_t parameters) {
-    std::size_t product = 1, out = 0;
-    for (std::size_t p = 0; p < parameters && product < all.size(); ++p)
-        product *= values_of(all, p).size(), ++out;
-    return out;
-}
-
-/// Places of values on an axis: the numbers themselves, their logarithms when they span more than a factor
-/// of 30, or 0, 1, 2... for texts.
-std::vector<double> places_of(const std::vector<std::string>& values) {
+/// The numbers themselves, their logarithms when they span more than a factor of 30, or 0, 1, 2... for texts
+/// and for parameters that vary together.
+Places places_of(const Axis& axis) {
     std::vector<double> numbers, order;
-    for (const auto& v : values) {
+    for (const auto& v : axis.values) {
         order.push_back(static_cast<double>(order.size()));
         if (const auto n = parse_number<double>(v)) numbers.push_back(*n);
     }
-    if (numbers.size() < values.size()) return order;
+    if (numbers.size() < order.size()) return {order};
     const auto [least, most] = std::minmax_element(numbers.begin(), numbers.end());
-    if (*least > 0 && *most > 30 * *least)
-        for (double& n : numbers) n = std::log10(n);
-    return numbers;
+    const bool logarithmic = *least > 0 && *most > 30 * *least;
+    for (double& n : numbers) n = logarithmic ? std::log10(n) : n;
+    return {numbers, logarithmic};
 }
 
-/// The name of a parameter without its owner, unless another one has the same.
-std::string short_name(const RunTable& table, std::size_t parameter) {
-    const auto last = [](const std::string& name) { return name.substr(name.rfind('.') + 1); };
-    const std::string out = last(table.parameters[parameter]);
-    const auto same = std::count_if(table.parameters.begin(), table.parameters.end(),
-                                    [&](const std::string& other) { return last(other) == out; });
-    return same == 1 ? out : table.parameters[parameter];
+std::size_t index_of(const std::vector<std::string>& values, const std::string& value) {
+    return static_cast<std::size_t>(std::find(values.begin(), values.end(), value) - values.begin());
 }
 
-std::string named(const RunTable& table, const std::vector<std::string>& values, std::size_t from) {
-    std::vector<std::string> parts;
-    for (std::size_t i = from; i < values.size(); ++i)
-        parts.push_back(fmt::format("{} = {}", short_name(table, i), values[i]));
-    return fmt::format("{}", fmt::join(parts, ", "));
+/// "threshold = 0.2; means of 2 to 3 runs", from the part of the table and the estimates in a picture.
+std::string subtitle_of(const std::string& part,
+                        const std::vector<std::optional<plot::Estimate>>& estimates) {
+    std::size_t fewest = std::numeric_limits<std::size_t>::max(), most = 0;
+    for (const auto& e : estimates)
+        if (e) fewest = std::min(fewest, e->count), most = std::max(most, e->count);
+    return fmt::format("{}{}{}", part, part.empty() ? "" : "; ",
+                       most == 1        ? "one run each"
+                       : fewest == most ? fmt::format("means of {} runs", most)
+                                        : fmt::format("means of {} to {} runs", fewest, most));
 }
 
-std::string runs_each(const std::vector<Combination>& all) {
-    std::size_t most = 0;
-    for (const auto& c : all) most = std::max(most, c.rows.size());
-    return most > 1 ? fmt::format("means of {} runs with their 95 % intervals", most) : "one run each";
+std::string with_intervals(const std::string& subtitle) {
+    return subtitle.ends_with("one run each") ? subtitle : subtitle + ", with their 95 % intervals";
 }
 
-plot::Picture curve(const RunTable& table, std::size_t measure, const std::string& title) {
-    const auto all = combinations(table);
-    const auto values = values_of(all, 0);
-    const auto places = places_of(values);
-    plot::LinesPlot out{title, runs_each(all), table.parameters[0], table.measures[measure], {}, {}};
-    for (std::size_t i = 0; i < values.size(); ++i) out.x_ticks.emplace_back(places[i], values[i]);
-    const bool together = dimensions(all, table.parameters.size()) == 1;  // other parameters make no lines
-    if (together && table.parameters.size() > 1)
-        out.x_title = fmt::format("{}", fmt::join(table.parameters, ", "));
-    for (std::size_t i = 0; together && i < all.size(); ++i)
-        out.x_ticks[i].second = fmt::format("{}", fmt::join(all[i].values, ", "));
-    for (const auto& c : all) {
-        const std::string name = together ? "" : named(table, c.values, 1);
+/// The number of lines in a curve over the first axis.
+std::size_t lines_of(const std::vector<Axis>& axes) {
+    std::size_t out = 1;
+    for (std::size_t a = 1; a < axes.size(); ++a) out *= axes[a].values.size();
+    return out;
+}
+
+plot::Picture curve(const RunTable& table, const std::vector<Axis>& axes, std::size_t measure,
+                    const std::string& title) {
+    const Axis& x = axes.front();
+    const auto places = places_of(x);
+    plot::LinesPlot out{
+        title, {}, x.name + (places.logarithmic ? " (logarithmic)" : ""), table.measures[measure], {}, {}};
+    for (std::size_t i = 0; i < x.values.size(); ++i) out.x_ticks.emplace_back(places.at[i], x.values[i]);
+    std::vector<std::optional<plot::Estimate>> estimates;
+    for (const auto& c : conditions_of(table)) {
+        const std::string name = name_of(c, {axes.begin() + 1, axes.end()}, table);
         auto line =
             std::find_if(out.lines.begin(), out.lines.end(), [&](const auto& l) { return l.name == name; });
         if (line == out.lines.end()) line = out.lines.insert(out.lines.end(), {name, {}});
-        const auto i = std::find(values.begin(), values.end(), c.values[0]) - values.begin();
-        if (const auto y = plot::estimate(c.of(measure)))
-            line->points.push_back({places[static_cast<std::size_t>(i)], *y});
+        estimates.push_back(plot::estimate(c.numbers(measure)));
+        line->points.push_back({places.at[index_of(x.values, x.value_of(c))], estimates.back()});
     }
     for (auto& line : out.lines)
         std::sort(line.points.begin(), line.points.end(),
                   [](const auto& a, const auto& b) { return a.x < b.x; });
     std::sort(out.x_ticks.begin(), out.x_ticks.end());
+    out.subtitle = with_intervals(subtitle_of(table.part, estimates));
     return plot::lines_plot(out);
 }
 
-plot::Picture heat(const RunTable& table, std::size_t measure, const std::string& title) {
-    const auto all = combinations(table);
-    plot::HeatMap out{title,
-                      runs_each(all),
-                      table.measures[measure],
-                      table.parameters[0],
-                      table.parameters[1],
-                      values_of(all, 0),
-                      values_of(all, 1),
-                      {}};
-    out.numbers.assign(out.x_names.size() * out.y_names.size(), std::numeric_limits<double>::quiet_NaN());
-    for (const auto& c : all) {
-        const auto at = [&](const std::vector<std::string>& names, const std::string& value) {
-            return static_cast<std::size_t>(std::find(names.begin(), names.end(), value) - names.begin());
-        };
-        if (const auto mean = plot::estimate(c.of(measure)))
-            out.numbers[at(out.y_names, c.values[1]) * out.x_names.size() + at(out.x_names, c.values[0])] =
-                mean->mean;
-    }
-    if (all.front().rows.size() > 1) out.subtitle = fmt::format("means of {} runs", all.front().rows.size());
+plot::Picture heat(const RunTable& table, const std::vector<Axis>& axes, std::size_t measure,
+                   const std::string& title) {
+    const Axis &x = axes[0], &y = axes[1];
+    plot::HeatMap out{title, {}, table.measures[measure], x.name, y.name, x.values, y.values, {}};
+    out.cells.resize(x.values.size() * y.values.size());
+    for (const auto& c : conditions_of(table))
+        out.cells[index_of(y.values, y.value_of(c)) * x.values.size() + index_of(x.values, x.value_of(c))] =
+            plot::estimate(c.numbers(measure));
+    out.subtitle = subtitle_of(table.part, out.cells);
     return plot::heat_map(out);
+}
+
+bool has_numbers(const RunTable& table, std::size_t measure) {
+    return std::any_of(table.rows.begin(), table.rows.end(),
+                       [&](const auto& row) { return row.measures[measure].has_value(); });
 }
 
 /// The numbers of a run's finished trials: a column of trials.csv, or 1 for a target and 0 for a miss.
@@ -173,96 +136,80 @@ std::vector<std::optional<double>> numbers_of_trials(const std::string& director
 
 }  // namespace
 
-bool holds_experiment(const std::string& directory) {
-    return fs::exists(directory + "/results.csv") && fs::is_directory(directory + "/runs");
-}
-
-RunTable read_run_table(const std::string& directory) {
-    const std::string path = directory + "/results.csv";
-    TableReader in(open_file(path), path);
-    RunTable out;
-    if (!in.read_header()) in.require_whole(), in.refuse("it is empty");
-    const std::vector<std::string> names(in.fields().begin(), in.fields().end());
-    const auto seed = static_cast<std::size_t>(std::find(names.begin(), names.end(), "seed") - names.begin());
-    auto first = seed + 4;  // seed, status, cycles, seconds
-    out.trials = names.size() > first && names[first] == "trials";
-    if (out.trials) first += 2;
-    if (names.size() <= first || names.front() != "run" || names.back() != "remark")
-        in.refuse("this is not the table of an experiment");
-    out.parameters.assign(names.begin() + 1, names.begin() + static_cast<std::ptrdiff_t>(seed));
-    out.measures.assign(names.begin() + static_cast<std::ptrdiff_t>(first), names.end() - 1);
-    while (in.next()) {
-        const auto& fields = in.fields();
-        auto& row = out.rows.emplace_back();
-        row.run = fields[0];
-        row.values.assign(fields.begin() + 1, fields.begin() + static_cast<std::ptrdiff_t>(seed));
-        for (std::size_t m = 0; m < out.measures.size(); ++m) {
-            const auto field = fields[first + m];
-            row.measures.push_back(field.empty() ? std::nullopt : std::optional(in.number(field)));
-        }
-    }
-    in.require_whole();
-    if (out.rows.empty()) in.refuse("it has no runs");
-    return out;
-}
-
 std::vector<std::string> usual_plots(const RunTable& table, const std::string& directory) {
     std::vector<std::string> out;
-    const auto all = combinations(table);
-    const auto n = dimensions(all, table.parameters.size());
-    for (const auto& m : table.measures)
-        if (all.size() > 1) out.push_back((n == 2 && table.parameters.size() == 2 ? "heat:" : "curve:") + m);
+    const auto axes = axes_of(table);
+    for (std::size_t m = 0; m < table.measures.size(); ++m)
+        if (!axes.empty() && has_numbers(table, m))
+            out.push_back((axes.size() == 2 ? "heat:" : "curve:") + table.measures[m]);
     const auto any = [&](const char* file) {
         return std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
             return fs::exists(fmt::format("{}/runs/{}/{}", directory, row.run, file));
         });
     };
-    if (table.trials && any("trials.csv") && all.size() <= most_lines) out.emplace_back("learning");
-    if (any("trajectory.csv")) out.emplace_back("occupancy");
+    const auto conditions = conditions_of(table).size();
+    if (table.trials && any("trials.csv") && conditions <= most_lines) out.emplace_back("learning");
+    if (any("trajectory.csv") && conditions <= plot::most_maps) out.emplace_back("occupancy");
     return out;
 }
 
 std::optional<plot::Picture> draw_measure(const PlotSpec& spec, const RunTable& table,
                                           const std::string& title, Diagnostics& diagnostics) {
-    const auto found = std::find(table.measures.begin(), table.measures.end(), spec.what);
-    const int errors_before = diagnostics.errors();
-    const auto n = table.parameters.size();
+    const auto measure = index_of(table.measures, spec.what);
+    const auto axes = axes_of(table);
+    std::vector<std::string> names;
+    for (const auto& axis : axes) names.push_back(axis.name);
     const bool as_heat = spec.kind == PlotSpec::Kind::heat;
-    if (found == table.measures.end())
-        diagnostics.error({}, fmt::format("'{}': there is no measure '{}'", spec.text, spec.what),
-                          fmt::format("the experiment has '{}'", fmt::join(table.measures, "', '")));
-    else if (n == 0)
-        diagnostics.error({}, fmt::format("'{}': this experiment sweeps no parameter", spec.text),
-                          "'learning' and 'occupancy' need no parameter");
-    else if (as_heat && n != 2)
-        diagnostics.error(
-            {}, fmt::format("'{}': a heat map needs two swept parameters, and there are {}", spec.text, n),
-            fmt::format("use 'curve:{}'", spec.what));
-    if (diagnostics.errors() > errors_before) return std::nullopt;
-    const auto measure = static_cast<std::size_t>(found - table.measures.begin());
-    return as_heat ? heat(table, measure, title) : curve(table, measure, title);
+    const auto example_of = [&](const Axis& axis) {
+        const std::size_t p = axis.parameters.front();
+        return fmt::format("{}={}", table.parameters[p], table.rows.front().values[p]);
+    };
+    const auto refuse = [&](const std::string& why, const std::string& hint) {
+        diagnostics.error({}, fmt::format("'{}': {}", spec.text, why), hint);
+        return std::nullopt;
+    };
+    if (measure == table.measures.size())
+        return refuse(fmt::format("there is no measure '{}'", spec.what),
+                      fmt::format("the experiment has '{}'", fmt::join(table.measures, "', '")));
+    if (axes.empty())
+        return refuse("no parameter varies among these runs", "'learning' and 'occupancy' need no parameter");
+    if (!has_numbers(table, measure))
+        return refuse("no run has a number", "the column 'remark' of results.csv may say why");
+    if (as_heat && axes.size() == 1)
+        return refuse(fmt::format("a heat map needs two parameters, and only '{}' varies", names.front()),
+                      fmt::format("use 'curve:{}'", spec.what));
+    if (as_heat && axes.size() > 2)
+        return refuse(fmt::format("a heat map has two parameters, and here {} vary: '{}'", axes.size(),
+                                  fmt::join(names, "', '")),
+                      fmt::format("fix the others: --where '{}'", example_of(axes[2])));
+    if (!as_heat && lines_of(axes) > most_lines)
+        diagnostics.warning(
+            {}, fmt::format("'{}' has {} lines in {} colours", spec.text, lines_of(axes), most_lines),
+            fmt::format("draw a part: --where '{}'", example_of(axes[1])));
+    return as_heat ? heat(table, axes, measure, title) : curve(table, axes, measure, title);
 }
 
-std::vector<TrialSeries> trial_series(const RunTable& table, const std::string& directory) {
-    std::vector<TrialSeries> out;
-    for (const auto& c : combinations(table)) {
+std::vector<RunSeries> run_series(const RunTable& table, const std::string& directory) {
+    std::vector<RunSeries> out;
+    for (const auto& c : conditions_of(table)) {
         auto& series = out.emplace_back();
-        series.name = named(table, c.values, 0);
+        series.name = name_of(c, axes_of(table), table);
         for (const auto* row : c.rows) series.directories.push_back(directory + "/runs/" + row->run);
     }
     return out;
 }
 
-std::optional<plot::Picture> draw_learning(const PlotSpec& spec, const std::vector<TrialSeries>& series,
-                                           const std::string& title, Diagnostics& diagnostics) {
+std::optional<plot::Picture> draw_learning(const PlotSpec& spec, const std::vector<RunSeries>& series,
+                                           const std::string& title, const std::string& part,
+                                           Diagnostics& diagnostics) {
     if (series.size() > most_lines) {
         diagnostics.error(
-            {}, fmt::format("'{}': {} combinations are too many for a picture", spec.text, series.size()),
-            "draw a run: forage plot DIR/runs/NAME learning");
+            {}, fmt::format("'{}': {} conditions are too many for a picture", spec.text, series.size()),
+            "draw some of them, with --where 'PARAMETER=VALUE'");
         return std::nullopt;
     }
     std::vector<std::vector<std::vector<std::optional<double>>>> trials;  // by series, run, trial
-    std::size_t longest = 0, runs = 0;
+    std::size_t longest = 0;
     for (const auto& s : series) {
         auto& all = trials.emplace_back();
         for (const auto& directory : s.directories) {
@@ -270,7 +217,6 @@ std::optional<plot::Picture> draw_learning(const PlotSpec& spec, const std::vect
             all.push_back(numbers_of_trials(directory, spec.what));
             longest = std::max(longest, all.back().size());
         }
-        runs = std::max(runs, all.size());
     }
     if (longest == 0) {
         diagnostics.error({}, fmt::format("'{}': there are no finished trials", spec.text),
@@ -278,14 +224,9 @@ std::optional<plot::Picture> draw_learning(const PlotSpec& spec, const std::vect
         return std::nullopt;
     }
     const std::size_t block = (longest + most_blocks - 1) / most_blocks;
-    plot::LinesPlot out{
-        title,
-        fmt::format("{} of {}", block > 1 ? fmt::format("blocks of {} trials", block) : "trials",
-                    runs > 1 ? fmt::format("{} runs, with their 95 % intervals", runs) : "one run"),
-        "trial",
-        spec.what.empty() ? "share of trials at the target" : spec.what,
-        {},
-        {}};
+    plot::LinesPlot out{title, {}, "trial", spec.what.empty() ? "share of trials at the target" : spec.what,
+                        {},    {}};
+    std::vector<std::optional<plot::Estimate>> estimates;
     for (std::size_t s = 0; s < series.size(); ++s) {
         auto& line = out.lines.emplace_back();
         line.name = series[s].name;
@@ -299,12 +240,19 @@ std::optional<plot::Picture> draw_learning(const PlotSpec& spec, const std::vect
             }
             const auto last = std::min(first + block, longest);
             auto y = plot::estimate(means);
-            if (!y) continue;
-            if (spec.what.empty())
+            if (y && spec.what.empty())
                 y->low = std::max(y->low, 0.0), y->high = std::min(y->high, 1.0);  // a share
-            line.points.push_back({static_cast<double>(first + last + 1) / 2, *y});
+            line.points.push_back({static_cast<double>(first + last + 1) / 2, y});
+            estimates.push_back(y);
         }
     }
+    if (std::none_of(estimates.begin(), estimates.end(), [](const auto& e) { return e.has_value(); })) {
+        diagnostics.error({}, fmt::format("'{}': no trial has a number", spec.text),
+                          "docs/reference/results.md says when a column of trials.csv is empty");
+        return std::nullopt;
+    }
+    out.subtitle = with_intervals(subtitle_of(part, estimates));
+    if (block > 1) out.subtitle += fmt::format("; blocks of {} trials", block);
     return plot::lines_plot(out);
 }
 

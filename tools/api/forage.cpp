@@ -67,14 +67,15 @@ RunOutcome run(const RunSpec& spec, const RunCallbacks& callbacks) {
 }
 
 std::vector<std::string> draw(const std::string& from, const std::vector<std::string>& plots,
-                              const std::string& directory, const std::string& format) {
+                              const std::string& directory, const std::string& format,
+                              const std::vector<std::string>& where) {
     Diagnostics diagnostics;
     std::vector<std::string> out;
     const auto picture = plot::format_of("x." + format);
     if (!picture) diagnostics.error({}, "'" + format + "' is not a format of pictures", "png, svg or pdf");
     try {
         Results results = open_results(from);
-        if (picture) out = draw(results, plots, directory, *picture, diagnostics);
+        if (picture) out = draw(results, plots, directory, *picture, diagnostics, where);
     } catch (const FileError& e) {
         report(e, diagnostics);
     }

@@ -28,8 +28,8 @@ struct Results {
     std::optional<RunTable> experiment;  ///< the table of an experiment's runs
 };
 
-/// Opens a directory of results of a run or an experiment, a recording (.csv, .npy, .h5) or a system file.
-/// Throws FileError.
+/// Opens a directory of results of a run or an experiment, a recording (.csv, .npy, .npz, .h5) or a system
+/// file. Throws FileError.
 Results open_results(const std::string& path);
 
 /// The robot's path in each trial. Throws FileError for tables that are damaged or do not belong together.
@@ -37,9 +37,11 @@ std::vector<plot::Path> read_paths(const std::string& directory);
 
 /// Draws `plots` ("time:Process/Group", "trajectory"), or the usual pictures of these results when there are
 /// none, into `directory` (empty: beside the results, or the working directory for a system). Reports
-/// mistakes in `plots`. Returns the paths of the written files.
+/// mistakes in `plots`. Of an experiment, only the runs that `where` keeps are drawn, see keep_runs().
+/// Returns the paths of the written files.
 std::vector<std::string> draw(Results& results, std::vector<std::string> plots, std::string directory,
-                              plot::Format format, Diagnostics& diagnostics);
+                              plot::Format format, Diagnostics& diagnostics,
+                              const std::vector<std::string>& where = {});
 
 /// Writes index.html, a page of the pictures and tables in a directory of results and of the pictures below
 /// it, and returns its path. Draws the usual pictures of an experiment first. The page needs nothing from the

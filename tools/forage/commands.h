@@ -42,6 +42,7 @@ struct ConvertOptions {
 struct PlotOptions {
     std::string source;              ///< a directory of results, a recording, or a system
     std::vector<std::string> plots;  ///< the pictures to draw
+    std::vector<std::string> where;  ///< which runs of an experiment to draw: "PARAMETER=VALUE"
     std::string directory;           ///< empty: beside the source; for a system, the working directory
     std::string plot_format = "png";
 };

@@ -174,23 +174,28 @@ void add_plot(CLI::App& app, PlotOptions& o) {
         "  space:SOURCE@0..1000/100        at every 100th cycle; ';blocks=9x1' at the end divides the group\n"
         "  movie:SOURCE@0..500/5           the same as an animated PNG\n"
         "  connection:NAME                 the synapses between two groups, with strength and delay\n"
-        "  connection:NAME@0,100           weights that are learned, at these cycles\n"
         "  wiring:NAME                     the receptive field of each cell of a small group\n"
+        "  connection:NAME@0,100           weights that are learned, at these cycles; also 'wiring:NAME@0,100'\n"
         "  diagram, diagram:PROCESS        the diagram of the system or of one process\n"
         "  trajectory, trajectory@1..50    the robot's paths, or those of these trials\n"
-        "  curve:MEASURE, heat:MEASURE     a measure of an experiment over one or two parameters\n"
+        "  curve:MEASURE, heat:MEASURE     a measure of an experiment over one or two swept parameters\n"
         "  learning, learning:COLUMN       targets, or a column of trials.csv, over the trials\n"
-        "  occupancy                       where the robot was in all trials, and its mean paths\n"
+        "  occupancy                       where the robot was in all trials, and its mean paths, by condition\n"
         "A source is 'Process/Group:state(x1..x2,y1..y2)'; state and cells are optional. 'NAME:weight(3,1)'\n"
         "is the synapse of a connection from the third cell of its source to the first of its target. See\n"
         "docs/reference/expressions.md.\n"
         "Example:\n"
         "  forage plot systems/reactive_foraging.iqr diagram 'connection:US to Approach' --plot-format svg");
-    plot.add_option("FROM", o.source, "Directory of results, recording (.csv, .npy, .h5) or system (.iqr)")
+    plot.add_option("FROM", o.source,
+                    "Directory of results, recording (.csv, .npy, .npz, .h5) or system (.iqr)")
         ->required()
         ->option_text("DIR|FILE");
     plot.add_option("PLOT", o.plots, "Plots to draw; without any, all that are possible")
         ->option_text("PLOT...");
+    repeated(plot.add_option("--where", o.where,
+                             "Of an experiment, draw only the runs with this value of a swept parameter or "
+                             "of the seed: 'threshold=0.5', 'seed=1'; may be repeated"))
+        ->option_text("NAME=VALUE");
     plot.add_option("-o,--output", o.directory, "Directory for pictures [beside FROM]")->option_text("DIR");
     add_plot_format(plot, o.plot_format);
 }

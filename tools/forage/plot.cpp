@@ -17,12 +17,13 @@ int plot(const PlotOptions& o) {
     } catch (const FileError& e) {
         report(e, diagnostics);
     } catch (const std::exception& e) {
-        diagnostics.error({}, e.what(),
-                          "name a directory of results, a recording (.csv, .npy, .h5) or a system (.iqr)");
+        diagnostics.error(
+            {}, e.what(),
+            "name a directory of results, a recording (.csv, .npy, .npz, .h5) or a system (.iqr)");
     }
     if (results)
-        for (const auto& file :
-             draw(*results, o.plots, o.directory, *plot::format_of("x." + o.plot_format), diagnostics))
+        for (const auto& file : draw(*results, o.plots, o.directory, *plot::format_of("x." + o.plot_format),
+                                     diagnostics, o.where))
             fmt::print("{}\n", file);
     fmt::print(stderr, "{}", format(diagnostics));
     return diagnostics.failed() ? bad_input : fine;

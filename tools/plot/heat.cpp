@@ -1,7 +1,6 @@
 #include "tools/plot/heat.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -16,39 +15,54 @@ Picture heat_map(const HeatMap& map) {
     for (const auto& n : map.x_names) wide = std::max(wide, measure.canvas().width_of(n, 12));
     for (const auto& n : map.y_names) beside = std::max(beside, measure.canvas().width_of(n, 12));
     const double cell = std::clamp(std::max(560.0 / std::max(columns, rows), wide + 10), 12.0, 90.0);
-    const double left = beside + 50, top = 62;
+    const double top = 62, title = measure.canvas().width_of(map.x_title, 13);
+    const double left = std::max(beside + 50, 12 + (title - cell * columns) / 2);
     const Box box{left, top, cell * columns, cell * rows};
     const Axes axes{box, {0.5, columns + 0.5}, {0.5, rows + 0.5}};
     ColourScale scale;
-    for (const double v : map.numbers) scale.include(v);
+    std::size_t most = 0;
+    for (const auto& e : map.cells)
+        if (e) scale.include(e->mean), most = std::max(most, e->count);
     const auto ticks = [](const std::vector<std::string>& names) {
         std::vector<std::pair<double, std::string>> out;
         for (const auto& n : names) out.emplace_back(static_cast<double>(out.size() + 1), n);
         return out;
     };
     const double bar = std::max(box.height, 110.0);
-    const double width = std::max({box.right() + 22 + 16 + colour_bar_labels,
-                                   24 + measure.canvas().width_of(map.title, 15, true),
-                                   24 + measure.canvas().width_of(map.subtitle, 12)});
-    return {width, top + bar + 50, [=, x = ticks(map.x_names), y = ticks(map.y_names)](Canvas& canvas) {
+    const double width =
+        std::max({box.right() + 22 + 16 + colour_bar_labels, box.x + (box.width + title) / 2 + 12,
+                  24 + measure.canvas().width_of(map.title, 15, true),
+                  24 + measure.canvas().width_of(map.subtitle, 12)});
+    return {width, top + bar + 50,
+            [=, x_ticks = ticks(map.x_names), y_ticks = ticks(map.y_names)](Canvas& canvas) {
                 canvas.text(12, 22, map.title, 15, 0, black, true);
                 canvas.text(12, 40, map.subtitle, 12, 0, grey);
-                const auto at = [&](int column, int row) {
-                    return map.numbers[static_cast<std::size_t>((rows - 1 - row) * columns + column)];
+                const auto at = [&](int column, int row) -> const auto& {
+                    return map.cells[static_cast<std::size_t>((rows - 1 - row) * columns + column)];
                 };
                 draw_cells(canvas, box, columns, rows, [&](int column, int row) {
-                    return std::isnan(at(column, row)) ? pale : scale(at(column, row));
+                    const auto& e = at(column, row);
+                    return e ? scale(e->mean) : pale;
                 });
-                for (int row = 0; row < rows && cell >= 34; ++row)
+                for (int row = 0; row < rows; ++row)
                     for (int column = 0; column < columns; ++column) {
-                        const double v = at(column, row);
-                        const Colour c = std::isnan(v) ? pale : scale(v);
-                        const bool dark = 0.3 * c.r + 0.59 * c.g + 0.11 * c.b < 0.5;
-                        canvas.text(box.x + (column + 0.5) * cell, box.y + (row + 0.5) * cell + 4,
-                                    std::isnan(v) ? "none" : fmt::format("{:.3g}", v), 12, 0.5,
-                                    dark ? white : black);
+                        const auto& e = at(column, row);
+                        const double x = box.x + column * cell, y = box.y + row * cell;
+                        if (!e) {
+                            canvas.line(x, y, x + cell, y + cell, grey);
+                            canvas.line(x, y + cell, x + cell, y, grey);
+                        }
+                        if (!e || cell < 34) continue;
+                        const Colour c = scale(e->mean);
+                        const bool dark = 0.3 * c.r + 0.59 * c.g + 0.11 * c.b < 0.5, few = e->count < most;
+                        canvas.text(x + cell / 2, y + cell / 2 + (few ? -1 : 4),
+                                    fmt::format("{:.3g}", e->mean), 12, 0.5, dark ? white : black);
+                        if (few)
+                            canvas.text(x + cell / 2, y + cell / 2 + 12, fmt::format("n = {}", e->count), 9,
+                                        0.5, dark ? white : black);
                     }
-                draw_axes(canvas, axes, {map.x_title, false, true, x}, {map.y_title, false, true, y});
+                draw_axes(canvas, axes, {map.x_title, false, true, x_ticks},
+                          {canvas.fitted(map.y_title, 13, bar + 40), false, true, y_ticks});
                 draw_colour_bar(canvas, scale, {box.right() + 22, top, 16, bar}, map.quantity);
             }};
 }

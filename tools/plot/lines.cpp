@@ -1,9 +1,10 @@
 #include "tools/plot/lines.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+
+#include <fmt/format.h>
 
 #include "tools/plot/axes.h"
 
@@ -11,19 +12,7 @@ namespace forage::plot {
 namespace {
 
 constexpr double lines_left = 84, lines_top = 62, lines_width = 560, lines_height = 340, lines_bottom = 50;
-constexpr std::size_t most_bars = 20;  ///< a line of more points has a band
-
-/// The 97.5 % quantile of Student's t distribution.
-double student(std::size_t degrees) {
-    static constexpr std::array table = {12.706, 4.303, 3.182, 2.776, 2.571,
-                                         2.447,  2.365, 2.306, 2.262, 2.228};
-    if (degrees <= table.size()) return table[degrees - 1];
-    // The first terms of its expansion around the normal quantile (Abramowitz and Stegun, 26.7.5); exact to 3
-    // digits.
-    constexpr double z = 1.959964, z3 = z * z * z;
-    const double n = static_cast<double>(degrees);
-    return z + (z3 + z) / (4 * n) + (5 * z3 * z * z + 16 * z3 + 3 * z) / (96 * n * n);
-}
+constexpr std::size_t most_bars = 20;  // a line of more points has a band
 
 Interval with_margin(Interval i, bool zero) {
     if (i.low > i.high) return {0, 1};
@@ -33,82 +22,121 @@ Interval with_margin(Interval i, bool zero) {
 }
 
 void draw_interval(Canvas& canvas, const Axes& axes, const LinesPlot::Line& line, const Colour& colour) {
-    cairo_t* c = canvas.cairo();
     if (line.points.size() <= most_bars) {
         for (const auto& p : line.points) {
-            const double x = axes.px(p.x), low = axes.py(p.y.low), high = axes.py(p.y.high);
+            if (!p.y) continue;
+            const double x = axes.px(p.x), low = axes.py(p.y->low), high = axes.py(p.y->high);
             canvas.line(x, low, x, high, colour, 1.4);
             for (const double y : {low, high}) canvas.line(x - 4, y, x + 4, y, colour, 1.4);
         }
         return;
     }
-    for (const auto& p : line.points) cairo_line_to(c, axes.px(p.x), axes.py(p.y.high));
-    for (auto p = line.points.rbegin(); p != line.points.rend(); ++p)
-        cairo_line_to(c, axes.px(p->x), axes.py(p->y.low));
-    cairo_close_path(c);
+    cairo_t* c = canvas.cairo();
     canvas.colour(colour, 0.2);
-    cairo_fill(c);
+    for (auto from = line.points.begin(); from != line.points.end(); ++from) {  // a band up to each gap
+        const auto gap = std::find_if(from, line.points.end(), [](const auto& p) { return !p.y; });
+        for (auto p = from; p != gap; ++p) cairo_line_to(c, axes.px(p->x), axes.py(p->y->high));
+        for (auto p = gap; p != from; --p) cairo_line_to(c, axes.px((p - 1)->x), axes.py((p - 1)->y->low));
+        cairo_close_path(c);
+        cairo_fill(c);
+        if ((from = gap) == line.points.end()) break;
+    }
 }
 
 void draw_line(Canvas& canvas, const Axes& axes, const LinesPlot::Line& line, const Colour& colour) {
     cairo_t* c = canvas.cairo();
     canvas.colour(colour);
     cairo_set_line_width(c, 1.8);
-    for (const auto& p : line.points) cairo_line_to(c, axes.px(p.x), axes.py(p.y.mean));
+    bool pen_down = false;
+    for (const auto& p : line.points) {
+        if (p.y) (pen_down ? cairo_line_to : cairo_move_to)(c, axes.px(p.x), axes.py(p.y->mean));
+        pen_down = p.y.has_value();
+    }
     cairo_stroke(c);
     if (line.points.size() > most_bars) return;
     for (const auto& p : line.points) {
-        cairo_arc(c, axes.px(p.x), axes.py(p.y.mean), 3.4, 0, 2 * M_PI);
+        if (!p.y) continue;
+        cairo_arc(c, axes.px(p.x), axes.py(p.y->mean), 3.4, 0, 2 * M_PI);
         cairo_fill(c);
+    }
+}
+
+void draw_cross(Canvas& canvas, double x, double y, const Colour& colour) {
+    canvas.line(x - 3.5, y - 3.5, x + 3.5, y + 3.5, colour, 1.6);
+    canvas.line(x - 3.5, y + 3.5, x + 3.5, y - 3.5, colour, 1.6);
+}
+
+bool has_numbers(const LinesPlot::Line& line) {
+    return std::any_of(line.points.begin(), line.points.end(), [](const auto& p) { return p.y; });
+}
+
+/// Crosses on the axis where a line has no number, side by side when several lines have none, and the numbers
+/// of runs beside points of fewer runs than `most`.
+void draw_missing(Canvas& canvas, const Axes& axes, const LinesPlot& plot, std::size_t most) {
+    for (std::size_t i = 0; i < plot.lines.size(); ++i) {
+        const auto& line = plot.lines[i];
+        if (!has_numbers(line) || line.points.size() > most_bars) continue;
+        const double aside = 9 * (static_cast<double>(i) - static_cast<double>(plot.lines.size() - 1) / 2);
+        for (const auto& p : line.points)
+            if (!p.y)
+                draw_cross(canvas, axes.px(p.x) + aside, axes.box.bottom() - 8, category(i));
+            else if (p.y->count < most)
+                canvas.text(axes.px(p.x) + 7, axes.py(p.y->mean) - 6, fmt::format("n = {}", p.y->count), 10,
+                            0, category(i));
     }
 }
 
 }  // namespace
 
-std::optional<Estimate> estimate(const std::vector<double>& numbers) {
-    if (numbers.empty()) return std::nullopt;
-    const auto n = static_cast<double>(numbers.size());
-    double mean = 0, squares = 0;
-    for (const double v : numbers) mean += v / n;
-    for (const double v : numbers) squares += (v - mean) * (v - mean);
-    if (numbers.size() == 1) return Estimate{mean, mean, mean};
-    const double half = student(numbers.size() - 1) * std::sqrt(squares / (n - 1) / n);
-    return Estimate{mean, mean - half, mean + half};
-}
-
 Picture lines_plot(const LinesPlot& plot) {
-    constexpr double most = std::numeric_limits<double>::max();
-    Interval x{most, -most}, y{most, -most};
-    Measure measure;
-    double names = 0;
+    constexpr double far = std::numeric_limits<double>::max();
+    Interval x{far, -far}, y{far, -far};
+    std::size_t most = 0;
+    bool missing = false;
+    std::vector<std::string> names;
     for (const auto& line : plot.lines) {
-        names = std::max(names, measure.canvas().width_of(line.name, 12));
+        const bool any = has_numbers(line);
+        names.push_back(any ? line.name : line.name + ": no data");
         for (const auto& p : line.points) {
             x = {std::min(x.low, p.x), std::max(x.high, p.x)};
-            y = {std::min(y.low, p.y.low), std::max(y.high, p.y.high)};
+            if (p.y) y = {std::min(y.low, p.y->low), std::max(y.high, p.y->high)};
+            if (p.y) most = std::max(most, p.y->count);
+            missing = missing || (any && !p.y && line.points.size() <= most_bars);
         }
     }
+    const bool legend = plot.lines.size() > 1;
+    Measure measure;
+    double wide = missing ? measure.canvas().width_of("no data", 12) : 0;
+    for (const auto& name : names)
+        if (legend) wide = std::max(wide, measure.canvas().width_of(name, 12));
     const Axes axes{
         {lines_left, lines_top, lines_width, lines_height}, with_margin(x, false), with_margin(y, true)};
     const double last =
         plot.x_ticks.empty() ? 0 : measure.canvas().width_of(plot.x_ticks.back().second, 12) / 2;
-    const double right = std::max(plot.lines.size() > 1 ? 52 + names : 24, last);
+    const double right = std::max(wide > 0 ? 52 + wide : 24, last);
+    const double tall = 10 + 20 * static_cast<double>(names.size() + 1);
     const double width =
         std::max({lines_left + lines_width + right, 24 + measure.canvas().width_of(plot.title, 15, true),
                   24 + measure.canvas().width_of(plot.subtitle, 12)});
-    return {width, lines_top + lines_height + lines_bottom, [=](Canvas& canvas) {
+    return {width, lines_top + std::max(lines_height + lines_bottom, legend ? tall : 0), [=](Canvas& canvas) {
                 canvas.text(12, 22, plot.title, 15, 0, black, true);
                 canvas.text(12, 40, plot.subtitle, 12, 0, grey);
                 for (std::size_t i = 0; i < plot.lines.size(); ++i)
                     draw_interval(canvas, axes, plot.lines[i], category(i));
                 for (std::size_t i = 0; i < plot.lines.size(); ++i)
                     draw_line(canvas, axes, plot.lines[i], category(i));
+                draw_missing(canvas, axes, plot, most);
                 draw_axes(canvas, axes, {plot.x_title, false, true, plot.x_ticks}, {plot.y_title});
                 double at = lines_top + 10;
-                for (std::size_t i = 0; plot.lines.size() > 1 && i < plot.lines.size(); ++i, at += 20) {
-                    canvas.line(axes.box.right() + 14, at, axes.box.right() + 34, at, category(i), 2.5);
-                    canvas.text(axes.box.right() + 41, at + 4, plot.lines[i].name, 12);
+                const double left = axes.box.right() + 14;
+                for (std::size_t i = 0; legend && i < names.size(); ++i, at += 20) {
+                    const bool any = has_numbers(plot.lines[i]);
+                    if (any) canvas.line(left, at, left + 20, at, category(i), 2.5);
+                    canvas.text(left + 27, at + 4, names[i], 12, 0, any ? black : grey);
                 }
+                if (!missing) return;
+                draw_cross(canvas, left + 10, at, grey);
+                canvas.text(left + 27, at + 4, "no data", 12);
             }};
 }
 

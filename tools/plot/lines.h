@@ -1,27 +1,20 @@
 // Lines plot: means with their intervals, over a parameter or over trials.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "tools/plot/canvas.h"
+#include "tools/plot/estimate.h"
 
 namespace forage::plot {
-
-/// A mean, and the interval that holds the true one with 95 % confidence (Student's t).
-struct Estimate {
-    double mean = 0, low = 0, high = 0;
-};
-/// The estimate from independent numbers; empty when there are none. That of one number has no width.
-std::optional<Estimate> estimate(const std::vector<double>& numbers);
 
 struct LinesPlot {
     struct Point {
         double x;
-        Estimate y;
+        std::optional<Estimate> y;  ///< empty: there is no number at this place
     };
     struct Line {
         std::string name;
@@ -32,7 +25,9 @@ struct LinesPlot {
     std::vector<Line> lines;
 };
 
-/// Lines with a legend. Intervals are bars beside few points and bands around many.
+/// Lines with a legend. Intervals are bars beside few points and bands around many. A line has a gap, and a
+/// cross on the axis, where there is no number. The legend says which lines have no numbers at all. Among few
+/// points, those of fewer numbers than the others have their number written beside them.
 Picture lines_plot(const LinesPlot& plot);
 
 }  // namespace forage::plot

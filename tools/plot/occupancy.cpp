@@ -15,7 +15,7 @@ namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
 
-constexpr int occupancy_left = 62, occupancy_top = 58, occupancy_bottom = 52, cells_across = 75;
+constexpr int occupancy_left = 62, occupancy_top = 58, occupancy_bottom = 52;
 constexpr std::size_t mean_points = 80;  ///< of a mean path
 
 /// Places on a path after equal shares of its length.
@@ -86,6 +86,21 @@ std::vector<double> shares(const std::vector<Path>& paths, const WorldMap::Box& 
     return out;
 }
 
+/// Colours the cells that were crossed.
+void draw_shares(Canvas& canvas, const std::vector<double>& crossed, const Box& box, int columns, int rows,
+                 const ColourScale& scale) {
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column) {
+            const double v = crossed[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                                     static_cast<std::size_t>(column)];
+            if (v == 0) continue;
+            canvas.colour(scale(v), 0.85);
+            cairo_rectangle(canvas.cairo(), box.x + box.width * column / columns,
+                            box.y + box.height * row / rows, box.width / columns, box.height / rows);
+            cairo_fill(canvas.cairo());
+        }
+}
+
 void draw_path(Canvas& canvas, const WorldMap& map, const Points& path) {
     for (const bool halo : {true, false}) {
         canvas.colour(halo ? black : white);
@@ -97,50 +112,75 @@ void draw_path(Canvas& canvas, const WorldMap& map, const Points& path) {
 
 }  // namespace
 
-Picture occupancy_plot(const bug::World& world, const std::vector<Path>& paths, const std::string& title) {
+Picture occupancy_plot(const bug::World& world, const std::vector<PathsOf>& conditions,
+                       const std::string& title, const std::string& part) {
+    struct Panel {
+        std::string name, count;
+        std::shared_ptr<const WorldMap> map;
+        std::vector<double> crossed;
+        std::vector<Points> means;
+        Box box;
+    };
     Eigen::AlignedBox2d all;
-    for (const auto& p : paths)
-        for (const auto& point : p.points) all.extend(point);
-    const auto map = std::make_shared<const WorldMap>(world, all, 640, occupancy_left, occupancy_top);
-    const auto& view = map->view();
-    const double cell = view.sizes().maxCoeff() / cells_across;
+    for (const auto& c : conditions)
+        for (const auto& p : c.paths)
+            for (const auto& point : p.points) all.extend(point);
+    const bool one = conditions.size() == 1;
+    const double side = one ? 640 : 300, top = one ? occupancy_top : occupancy_top + 34;
+    const WorldMap first(world, all, side, 0, 0);
+    const auto view = first.view();
+    const double step_x = occupancy_left + first.width() + 12,
+                 step_y = first.height() + occupancy_bottom + 38;
+    // The number of columns gives the sheet an aspect ratio of about 4 to 3.
+    const auto n = static_cast<double>(conditions.size());
+    const auto across =
+        static_cast<std::size_t>(std::clamp(std::round(std::sqrt(n * step_y / step_x * 4 / 3)), 1.0, n));
+    const double cell = view.sizes().maxCoeff() / (one ? 75 : 50);
     const int columns = std::max(1, static_cast<int>(view.sizes().x() / cell + 0.5)),
               rows = std::max(1, static_cast<int>(view.sizes().y() / cell + 0.5));
-    const auto crossed = shares(paths, view, columns, rows);
-    const auto means = mean_paths(world, paths);
     ColourScale scale;
-    for (const double v : crossed) scale.include(v);
-    const Box box{occupancy_left, occupancy_top, map->width(), map->height()};
-    const std::string subtitle = fmt::format("{} paths; cells of {:.2g} m{}", paths.size(), cell,
-                                             means.empty() ? "" : "; white: the mean path from each start");
-    return {
-        box.right() + 22 + 16 + colour_bar_labels, box.bottom() + occupancy_bottom, [=](Canvas& canvas) {
-            canvas.text(12, 22, title, 15, 0, black, true);
-            canvas.text(12, 40, subtitle, 12, 0, grey);
-            cairo_save(canvas.cairo());
-            cairo_rectangle(canvas.cairo(), box.x, box.y, box.width, box.height);
-            cairo_clip(canvas.cairo());
-            map->draw_ground(canvas);
-            for (int row = 0; row < rows; ++row)
-                for (int column = 0; column < columns; ++column) {
-                    const double v =
-                        crossed[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-                                static_cast<std::size_t>(column)];
-                    if (v == 0) continue;
-                    canvas.colour(scale(v), 0.85);
-                    cairo_rectangle(canvas.cairo(), box.x + box.width * column / columns,
-                                    box.y + box.height * row / rows, box.width / columns, box.height / rows);
-                    cairo_fill(canvas.cairo());
+    std::vector<Panel> panels;
+    Measure measure;
+    for (std::size_t i = 0; i < conditions.size(); ++i) {
+        const auto& c = conditions[i];
+        const double x = occupancy_left + static_cast<double>(i % across) * step_x,
+                     y = top + static_cast<double>(i / across) * step_y;
+        panels.push_back({measure.canvas().fitted(c.name, 12, first.width() + 40),
+                          fmt::format("{} paths", c.paths.size()),
+                          std::make_shared<const WorldMap>(world, all, side, x, y),
+                          shares(c.paths, view, columns, rows),
+                          mean_paths(world, c.paths),
+                          {x, y, first.width(), first.height()}});
+        for (const double v : panels.back().crossed) scale.include(v);
+    }
+    const double right = panels[std::min(across, panels.size()) - 1].box.right(),
+                 bottom = panels.back().box.bottom();
+    const std::string subtitle = fmt::format(
+        "{}{}{}cells of {:.2g} m{}", part, part.empty() ? "" : "; ", one ? panels[0].count + "; " : "", cell,
+        panels[0].means.empty() ? "" : "; white: the mean path from each start");
+    return {right + 22 + 16 + colour_bar_labels, bottom + occupancy_bottom, [=](Canvas& canvas) {
+                canvas.text(12, 22, title, 15, 0, black, true);
+                canvas.text(12, 40, subtitle, 12, 0, grey);
+                for (const auto& p : panels) {
+                    if (!one) canvas.text(p.box.x, p.box.y - 21, p.name, 12);
+                    if (!one) canvas.text(p.box.x, p.box.y - 7, p.count, 11, 0, grey);
+                    cairo_save(canvas.cairo());
+                    cairo_rectangle(canvas.cairo(), p.box.x, p.box.y, p.box.width, p.box.height);
+                    cairo_clip(canvas.cairo());
+                    p.map->draw_ground(canvas);
+                    draw_shares(canvas, p.crossed, p.box, columns, rows, scale);
+                    p.map->draw_movable_objects(canvas);
+                    p.map->draw_marks(canvas);
+                    for (const auto& path : p.means) draw_path(canvas, *p.map, path);
+                    p.map->draw_targets(canvas);
+                    cairo_restore(canvas.cairo());
+                    draw_axes(canvas,
+                              {p.box, {view.min().x(), view.max().x()}, {view.min().y(), view.max().y()}},
+                              {"x (m)"}, {"y (m)"});
                 }
-            map->draw_movable_objects(canvas);
-            map->draw_marks(canvas);
-            for (const auto& path : means) draw_path(canvas, *map, path);
-            map->draw_targets(canvas);
-            cairo_restore(canvas.cairo());
-            draw_axes(canvas, {box, {view.min().x(), view.max().x()}, {view.min().y(), view.max().y()}},
-                      {"x (m)"}, {"y (m)"});
-            draw_colour_bar(canvas, scale, {box.right() + 22, box.y, 16, box.height}, "share of the paths");
-        }};
+                const Box bar{right + 22, top, 16, panels[0].box.height};
+                draw_colour_bar(canvas, scale, bar, "share of the paths");
+            }};
 }
 
 }  // namespace forage::plot

@@ -13,8 +13,8 @@ bool PlotSpec::wants(std::uint64_t cycle) const {
 
 std::string PlotSpec::file(Format format) const {
     std::string out(name(kind));
-    for (const std::string& part : {what, cycles_text})
-        if (!part.empty()) out += "_" + part;
+    for (const std::string& text_part : {what, cycles_text, part})
+        if (!text_part.empty()) out += "_" + text_part;
     return file_name(out) + std::string(ending(kind == Kind::movie ? Format::png : format));
 }
 
@@ -22,7 +22,7 @@ std::optional<PlotSpec> parse_plot(std::string_view text, std::string_view optio
                                    Location at) {
     auto plot = expression::Context{text, option, diagnostics, std::move(at)}.parsed(&expression::parse_plot);
     if (!plot) return std::nullopt;
-    return PlotSpec{std::move(*plot), std::string(text)};
+    return PlotSpec{std::move(*plot), std::string(text), {}};
 }
 
 }  // namespace forage::plot

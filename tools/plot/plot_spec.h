@@ -13,6 +13,7 @@ namespace forage::plot {
 /// A picture, as written on the command line (docs/reference/expressions.md).
 struct PlotSpec : expression::Plot {
     std::string text;  ///< the whole text
+    std::string part;  ///< the part of the results that it shows; empty for all
 
     /// The source of the rows of numbers. A connection at given cycles is its weights.
     std::string source() const { return of_connection() ? "\"" + what + "\":weight" : what; }

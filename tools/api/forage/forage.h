@@ -56,12 +56,14 @@ Run open(model::System system, Registry types, std::unique_ptr<Environment> envi
 /// the spec and its files, and std::runtime_error when the directory cannot be written to.
 RunOutcome run(const RunSpec& spec, const RunCallbacks& callbacks = {});
 
-/// Draws pictures, as `forage plot` does, of a directory of results, a recording (.csv, .npy, .h5) or a
+/// Draws pictures, as `forage plot` does, of a directory of results, a recording (.csv, .npy, .npz, .h5) or a
 /// system file (.iqr): `plots` such as "time:Process/Group" and "trajectory", or all that are possible when
 /// there are none. They are written into `directory`, or beside the results when it is empty, in a format
-/// that is png, svg or pdf. Returns the names of the files. Throws InputError.
+/// that is png, svg or pdf. Of an experiment, `where` ("seed=1") chooses runs. Returns the names of the
+/// files. Throws InputError.
 std::vector<std::string> draw(const std::string& from, const std::vector<std::string>& plots = {},
-                              const std::string& directory = {}, const std::string& format = "png");
+                              const std::string& directory = {}, const std::string& format = "png",
+                              const std::vector<std::string>& where = {});
 
 struct ExperimentOutcome {
     std::vector<PlannedRun> runs;

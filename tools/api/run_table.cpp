@@ -1,0 +1,172 @@
+#include "tools/api/run_table.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/number.h"
+#include "core/base/table.h"
+
+namespace forage {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The name of a parameter without its owner, unless another one has the same.
+std::string short_name(const RunTable& table, std::size_t parameter) {
+    const auto last = [](const std::string& name) { return name.substr(name.rfind('.') + 1); };
+    const std::string out = last(table.parameters[parameter]);
+    const auto same = std::count_if(table.parameters.begin(), table.parameters.end(),
+                                    [&](const std::string& other) { return last(other) == out; });
+    return same == 1 ? out : table.parameters[parameter];
+}
+
+std::string joined(const std::vector<std::string>& values, const std::vector<std::size_t>& parameters) {
+    std::vector<std::string> out;
+    for (const std::size_t p : parameters) out.push_back(values[p]);
+    return fmt::format("{}", fmt::join(out, ", "));
+}
+
+/// The different values of some parameters, in the order of the table.
+std::vector<std::string> values_of(const RunTable& table, const std::vector<std::size_t>& parameters) {
+    std::vector<std::string> out;
+    for (const auto& row : table.rows)
+        if (auto value = joined(row.values, parameters);
+            std::find(out.begin(), out.end(), value) == out.end())
+            out.push_back(std::move(value));
+    return out;
+}
+
+}  // namespace
+
+bool holds_experiment(const std::string& directory) {
+    return fs::exists(directory + "/results.csv") && fs::is_directory(directory + "/runs");
+}
+
+RunTable read_run_table(const std::string& directory) {
+    const std::string path = directory + "/results.csv";
+    TableReader in(open_file(path), path);
+    RunTable out;
+    if (!in.read_header()) in.require_whole(), in.refuse("it is empty");
+    const std::vector<std::string> names(in.fields().begin(), in.fields().end());
+    const auto seed = static_cast<std::size_t>(std::find(names.begin(), names.end(), "seed") - names.begin());
+    auto first = seed + 4;  // seed, status, cycles, seconds
+    out.trials = names.size() > first && names[first] == "trials";
+    if (out.trials) first += 2;
+    if (names.size() <= first || names.front() != "run" || names.back() != "remark")
+        in.refuse("this is not the table of an experiment");
+    out.parameters.assign(names.begin() + 1, names.begin() + static_cast<std::ptrdiff_t>(seed));
+    out.measures.assign(names.begin() + static_cast<std::ptrdiff_t>(first), names.end() - 1);
+    while (in.next()) {
+        const auto& fields = in.fields();
+        auto& row = out.rows.emplace_back();
+        row.run = fields[0], row.seed = fields[seed];
+        row.values.assign(fields.begin() + 1, fields.begin() + static_cast<std::ptrdiff_t>(seed));
+        for (std::size_t m = 0; m < out.measures.size(); ++m) {
+            const auto field = fields[first + m];
+            row.measures.push_back(field.empty() ? std::nullopt : std::optional(in.number(field)));
+        }
+    }
+    in.require_whole();
+    if (out.rows.empty()) in.refuse("it has no runs");
+    return out;
+}
+
+void keep_runs(RunTable& table, const std::vector<std::string>& where, Diagnostics& diagnostics) {
+    const std::size_t seed = table.parameters.size();  // the seed stands behind the parameters
+    const auto value_of = [&](const RunTable::Row& row, std::size_t p) {
+        return p == seed ? row.seed : row.values[p];
+    };
+    std::vector<std::pair<std::size_t, std::string>> wanted;
+    std::vector<std::string> parts;
+    for (const auto& text : where) {
+        const auto equals = std::min(text.rfind('='), text.size());
+        const std::string name = text.substr(0, equals),
+                          value = text.substr(std::min(equals + 1, text.size()));
+        std::size_t p = 0;
+        while (p < seed && name != table.parameters[p] && name != short_name(table, p)) ++p;
+        if (p == seed && name != "seed") {
+            diagnostics.error({}, fmt::format("--where '{}': no parameter '{}' was swept", text, name),
+                              fmt::format("there are '{}{}seed'", fmt::join(table.parameters, "', '"),
+                                          seed > 0 ? "', '" : ""));
+            continue;
+        }
+        std::vector<std::string> values;
+        for (const auto& row : table.rows)
+            if (std::find(values.begin(), values.end(), value_of(row, p)) == values.end())
+                values.push_back(value_of(row, p));
+        const auto number = parse_number<double>(value);
+        const auto found = std::find_if(values.begin(), values.end(), [&](const std::string& v) {
+            return v == value || (number && parse_number<double>(v) == number);
+        });
+        if (found == values.end()) {
+            diagnostics.error({}, fmt::format("--where '{}': no run has this value", text),
+                              fmt::format("there are '{}'", fmt::join(values, "', '")));
+            continue;
+        }
+        wanted.emplace_back(p, *found);
+        parts.push_back(fmt::format("{}={}", p == seed ? "seed" : short_name(table, p), *found));
+    }
+    if (diagnostics.failed()) return;
+    table.part = fmt::format("{}", fmt::join(parts, ", "));
+    std::erase_if(table.rows, [&](const RunTable::Row& row) {
+        return !std::all_of(wanted.begin(), wanted.end(), [&](const auto& w) {
+            return std::any_of(wanted.begin(), wanted.end(), [&](const auto& other) {
+                return other.first == w.first && other.second == value_of(row, w.first);
+            });
+        });
+    });
+    if (table.rows.empty())
+        diagnostics.error({}, fmt::format("no run has {}", table.part), "these values do not occur together");
+}
+
+std::vector<double> Condition::numbers(std::size_t measure) const {
+    std::vector<double> out;
+    for (const auto* r : rows)
+        if (r->measures[measure]) out.push_back(*r->measures[measure]);
+    return out;
+}
+
+std::vector<Condition> conditions_of(const RunTable& table) {
+    std::vector<Condition> out;
+    for (const auto& row : table.rows) {
+        auto at = std::find_if(out.begin(), out.end(), [&](const auto& c) { return c.values == row.values; });
+        if (at == out.end()) at = out.insert(out.end(), {row.values, {}});
+        at->rows.push_back(&row);
+    }
+    return out;
+}
+
+std::string Axis::value_of(const Condition& condition) const { return joined(condition.values, parameters); }
+
+std::vector<Axis> axes_of(const RunTable& table) {
+    std::vector<Axis> out;
+    for (std::size_t p = 0; p < table.parameters.size(); ++p) {
+        const auto alone = values_of(table, {p});
+        if (alone.size() == 1) continue;
+        if (!out.empty()) {  // sweeps that vary together stand one after the other
+            Axis& last = out.back();
+            auto parameters = last.parameters;
+            parameters.push_back(p);
+            auto values = values_of(table, parameters);
+            if (values.size() < last.values.size() * alone.size()) {
+                last = {std::move(parameters), last.name + ", " + table.parameters[p], std::move(values)};
+                continue;
+            }
+        }
+        out.push_back({{p}, table.parameters[p], alone});
+    }
+    return out;
+}
+
+std::string name_of(const Condition& condition, const std::vector<Axis>& axes, const RunTable& table) {
+    std::vector<std::string> parts;
+    for (const auto& axis : axes)
+        for (const std::size_t p : axis.parameters)
+            parts.push_back(fmt::format("{} = {}", short_name(table, p), condition.values[p]));
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+}  // namespace forage

@@ -1,0 +1,34 @@
+#include "tools/plot/estimate.h"
+
+#include <array>
+#include <cmath>
+
+namespace forage::plot {
+namespace {
+
+/// The 97.5 % quantile of Student's t distribution.
+double student(std::size_t degrees) {
+    static constexpr std::array table = {12.706, 4.303, 3.182, 2.776, 2.571,
+                                         2.447,  2.365, 2.306, 2.262, 2.228};
+    if (degrees <= table.size()) return table[degrees - 1];
+    // The first terms of its expansion around the normal quantile (Abramowitz and Stegun, 26.7.5); exact to 3
+    // digits.
+    constexpr double z = 1.959964, z3 = z * z * z;
+    const double n = static_cast<double>(degrees);
+    return z + (z3 + z) / (4 * n) + (5 * z3 * z * z + 16 * z3 + 3 * z) / (96 * n * n);
+}
+
+}  // namespace
+
+std::optional<Estimate> estimate(const std::vector<double>& numbers) {
+    if (numbers.empty()) return std::nullopt;
+    const auto n = static_cast<double>(numbers.size());
+    double mean = 0, squares = 0;
+    for (const double v : numbers) mean += v / n;
+    for (const double v : numbers) squares += (v - mean) * (v - mean);
+    if (numbers.size() == 1) return Estimate{mean, mean, mean};
+    const double half = student(numbers.size() - 1) * std::sqrt(squares / (n - 1) / n);
+    return Estimate{mean, mean - half, mean + half, numbers.size()};
+}
+
+}  // namespace forage::plot
