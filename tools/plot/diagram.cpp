@@ -9,6 +9,7 @@
 
 #include "core/model/lookup.h"
 #include "tools/plot/axes.h"
+#include "tools/plot/layers.h"
 
 namespace forage::plot {
 namespace {
@@ -170,12 +171,70 @@ void draw(Canvas& canvas, const DiagramSheet& sheet) {
     for (const auto& n : sheet.nodes) draw(canvas, n);
 }
 
-Box box_of(const std::optional<model::Icon>& icon, std::size_t number) {
-    if (icon)
-        return {icon->x * diagram_scale, icon->y * diagram_scale, std::max(icon->width, 20) * diagram_scale,
-                std::max(icon->height, 20) * diagram_scale};
-    return {static_cast<double>(number % 6) * 100 * diagram_scale,
-            static_cast<double>(number / 6) * 90 * diagram_scale, 50 * diagram_scale, 50 * diagram_scale};
+constexpr double box_side = 50 * diagram_scale;
+
+Box box_of(const std::optional<model::Icon>& icon) {
+    if (!icon) return {0, 0, box_side, box_side};  // place_in_layers() moves it
+    return {icon->x * diagram_scale, icon->y * diagram_scale, std::max(icon->width, 20) * diagram_scale,
+            std::max(icon->height, 20) * diagram_scale};
+}
+
+/// Moves `points` to the left of their direction.
+void shift(std::vector<Point2>& points, double by) {
+    const Point2 a = points.front(), b = points.back();
+    const double length = std::max(std::hypot(b.x - a.x, b.y - a.y), 1.0);
+    for (auto& p : points) p.x += (b.y - a.y) / length * by, p.y -= (b.x - a.x) / length * by;
+}
+
+/// Moves a point along the side of the box on which it lies.
+void slide(Point2& p, const Box& box, double by) {
+    if (p.x > box.x + 0.5 && p.x < box.right() - 0.5)
+        p.x = std::min(p.x + by, box.right() - 4);
+    else
+        p.y = std::min(p.y + by, box.bottom() - 4);
+}
+
+/// Loops above the upper right corner; further ones of a box are larger.
+std::vector<Point2> loop(const Node& n, int number) {
+    const double r = n.box.right(), t = n.box.y, by = 10.0 * number;
+    return {{r - 10 - by, t},
+            {r - 10 - by, t - 18 - by},
+            {r + 18 + by, t - 18 - by},
+            {r + 18 + by, t + 12 + by},
+            {r, t + 12 + by}};
+}
+
+/// Places the boxes of a sheet, and draws its edges between the pairs of boxes in `arrows`, which has one
+/// pair per edge. Edges between the same boxes are side by side.
+void place_in_layers(DiagramSheet& sheet, const std::vector<std::pair<std::size_t, std::size_t>>& arrows) {
+    const Layers layers = layered(sheet.nodes.size(), arrows);
+    const auto centre = [](const Layers::Place& p) {
+        return Point2{p.column * 95 * diagram_scale, p.row * 95 * diagram_scale};
+    };
+    for (std::size_t i = 0; i < sheet.nodes.size(); ++i) {
+        Box& box = sheet.nodes[i].box;
+        const Point2 c = centre(layers.boxes[i]);
+        box.x = c.x - box.width / 2, box.y = c.y - box.height / 2;
+    }
+    std::map<std::pair<std::size_t, std::size_t>, int> drawn;
+    for (std::size_t i = 0; i < arrows.size(); ++i) {
+        const auto& [from, to] = arrows[i];
+        auto& points = sheet.edges[i].points;
+        const int number = drawn[std::minmax(from, to)]++;
+        if (from == to) {
+            points = loop(sheet.nodes[from], number);
+            continue;
+        }
+        const Node &a = sheet.nodes[from], &b = sheet.nodes[to];
+        for (const auto& bend : layers.bends[i]) points.push_back(centre(bend));
+        const bool straight = points.empty();
+        const Point2 start = a.border(straight ? b.centre() : points.front()),
+                     end = b.border(straight ? a.centre() : points.back());
+        points.insert(points.begin(), start);
+        points.push_back(end);
+        if (straight && number > 0)
+            slide(points.front(), a.box, 12 * number), slide(points.back(), b.box, 12 * number);
+    }
 }
 
 std::string size_of(const model::Group& group) {
@@ -194,9 +253,11 @@ DiagramSheet system_sheet(const model::System& system) {
         node_of[&p] = out.nodes.size();
         const std::string size = fmt::format("{} group{}", p.groups.size(), p.groups.size() == 1 ? "" : "s");
         const std::string below = p.module ? p.module->type + (p.module_enabled ? "" : " (off)") : "";
-        out.nodes.push_back({box_of(p.icon, out.nodes.size()), trimmed(p.name), size, below, true, false,
-                             p.module && !p.module_enabled});
+        out.nodes.push_back(
+            {box_of(p.icon), trimmed(p.name), size, below, true, false, p.module && !p.module_enabled});
     }
+    const bool placed =
+        std::all_of(system.processes.begin(), system.processes.end(), [](const auto& p) { return p.icon; });
     // One arrow stands for all connections of a kind between two processes.
     std::map<std::tuple<std::size_t, std::size_t, InputKind>, int> counts;
     const model::GroupIndex groups(system);
@@ -205,19 +266,21 @@ DiagramSheet system_sheet(const model::System& system) {
         if (source.group && target.group && source.process != target.process)
             ++counts[{node_of[source.process], node_of[target.process], c.kind}];
     }
+    std::vector<std::pair<std::size_t, std::size_t>> arrows;
     for (const auto& [key, count] : counts) {
         const auto& [from, to, kind] = key;
+        const std::string label = count > 1 ? fmt::format("{}", count) : "";
+        if (!placed) {
+            out.edges.push_back({{}, kind, label});
+            arrows.emplace_back(from, to);
+            continue;
+        }
         const Point2 a = out.nodes[from].centre(), b = out.nodes[to].centre();
-        const double length = std::max(std::hypot(b.x - a.x, b.y - a.y), 1.0);
-        const double shift =
-            9 +
-            12 * static_cast<double>(kind);  // beside the arrows of the opposite direction and of other kinds
-        const double dx = -(b.y - a.y) / length * shift, dy = (b.x - a.x) / length * shift;
-        Point2 start = out.nodes[from].border(b), end = out.nodes[to].border(a);
-        out.edges.push_back({{{start.x + dx, start.y + dy}, {end.x + dx, end.y + dy}},
-                             kind,
-                             count > 1 ? fmt::format("{}", count) : ""});
+        out.edges.push_back({{out.nodes[from].border(b), out.nodes[to].border(a)}, kind, label});
+        // beside the arrows of the opposite direction and of other kinds
+        shift(out.edges.back().points, -9 - 12 * static_cast<double>(kind));
     }
+    if (!placed) place_in_layers(out, arrows);
     return out;
 }
 
@@ -256,21 +319,17 @@ void add_outside(DiagramSheet& sheet, const model::System& system,
     }
 }
 
-DiagramSheet process_sheet(const model::System& system, const model::Process& process) {
-    DiagramSheet out;
-    out.title = trimmed(process.name) + (process.module ? "  –  " + process.module->type : "");
-    std::map<std::string_view, std::size_t> node_of;
-    for (const auto& g : process.groups) {
-        node_of[g.id] = out.nodes.size();
-        out.nodes.push_back({box_of(g.icon, out.nodes.size()), trimmed(g.name), size_of(g), ""});
-    }
-    const std::size_t own = out.nodes.size();
-    add_outside(out, system, node_of);
+/// The sheet of a process whose file places all groups.
+void draw_connections(DiagramSheet& sheet, const model::System& system,
+                      std::map<std::string_view, std::size_t>& node_of) {
+    const std::size_t own = sheet.nodes.size();
+    add_outside(sheet, system, node_of);
+    std::map<std::size_t, int> loops;
     for (const auto& c : system.connections) {
         const auto from = node_of.find(c.source), to = node_of.find(c.target);
         if (from == node_of.end() || to == node_of.end() || (from->second >= own && to->second >= own))
             continue;
-        const Node &a = out.nodes[from->second], &b = out.nodes[to->second];
+        const Node &a = sheet.nodes[from->second], &b = sheet.nodes[to->second];
         Edge e{{}, c.kind, {}};
         const model::Line line = c.line.value_or(model::Line{});
         if (a.outside || b.outside) {
@@ -279,18 +338,57 @@ DiagramSheet process_sheet(const model::System& system, const model::Process& pr
             const Point2 end{std::clamp(inner.x, outer.box.x + 12, outer.box.right() - 12),
                              outer.box.bottom()};
             e.points = a.outside ? std::vector{end, inner} : std::vector{inner, end};
-        } else if (from->second == to->second &&
-                   line.vertices.empty()) {  // a self-connection is a loop above the upper right corner
-            const double r = b.box.right(), t = b.box.y;
-            e.points = {{r - 10, t}, {r - 10, t - 18}, {r + 18, t - 18}, {r + 18, t + 12}, {r, t + 12}};
+        } else if (from->second == to->second && line.vertices.empty()) {
+            e.points = loop(b, loops[to->second]++);
         } else {
             e.points.push_back(c.line ? a.anchor(line.source_anchor) : a.border(b.centre()));
             for (const auto& v : line.vertices)
                 e.points.push_back({v.x * diagram_scale, v.y * diagram_scale});
             e.points.push_back(c.line ? b.anchor(line.target_anchor) : b.border(a.centre()));
         }
-        out.edges.push_back(std::move(e));
+        sheet.edges.push_back(std::move(e));
     }
+}
+
+/// The same in layers. `process` is that of the sheet.
+void draw_in_layers(DiagramSheet& sheet, const model::System& system, const model::Process& process,
+                    std::map<std::string_view, std::size_t>& node_of) {
+    const model::GroupIndex groups(system);
+    std::vector<std::pair<std::size_t, std::size_t>> arrows;
+    const auto node = [&](const model::GroupIndex::Entry& entry) {
+        const auto [at, added] = node_of.emplace(entry.group->id, sheet.nodes.size());
+        if (added)
+            sheet.nodes.push_back({{0, 0, 62 * diagram_scale, 36 * diagram_scale},
+                                   trimmed(entry.process->name) + " / " + trimmed(entry.group->name),
+                                   size_of(*entry.group),
+                                   "",
+                                   false,
+                                   true});
+        return at->second;
+    };
+    for (const auto& c : system.connections) {
+        const auto source = groups.find(c.source), target = groups.find(c.target);
+        if (!source.group || !target.group || (source.process != &process && target.process != &process))
+            continue;
+        const auto from = node(source);
+        arrows.emplace_back(from, node(target));
+        sheet.edges.push_back({{}, c.kind, {}});
+    }
+    place_in_layers(sheet, arrows);
+}
+
+DiagramSheet process_sheet(const model::System& system, const model::Process& process) {
+    DiagramSheet out;
+    out.title = trimmed(process.name) + (process.module ? "  –  " + process.module->type : "");
+    std::map<std::string_view, std::size_t> node_of;
+    for (const auto& g : process.groups) {
+        node_of[g.id] = out.nodes.size();
+        out.nodes.push_back({box_of(g.icon), trimmed(g.name), size_of(g), ""});
+    }
+    if (std::all_of(process.groups.begin(), process.groups.end(), [](const auto& g) { return g.icon; }))
+        draw_connections(out, system, node_of);
+    else
+        draw_in_layers(out, system, process, node_of);
     return out;
 }
 
