@@ -5,6 +5,7 @@
 #include <fstream>
 #include <memory>
 #include <stdexcept>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <zip.h>
@@ -44,6 +45,19 @@ void join_npz(const std::string& path, const std::vector<std::pair<std::string, 
     }
     fs::remove_all(folder, ignored);
     if (!reason.empty()) throw std::runtime_error(fmt::format("cannot write '{}': {}", path, reason));
+}
+
+std::vector<std::string> names_in_npz(const std::string& path) {
+    int error = 0;
+    const std::unique_ptr<zip_t, decltype(&zip_discard)> archive(zip_open(path.c_str(), ZIP_RDONLY, &error),
+                                                                 zip_discard);
+    if (!archive) throw std::runtime_error("it is no archive, or a damaged one");
+    std::vector<std::string> out;
+    for (zip_int64_t i = 0; i < zip_get_num_entries(archive.get(), 0); ++i)
+        if (const char* name = zip_get_name(archive.get(), static_cast<zip_uint64_t>(i), 0);
+            name && std::string_view(name).ends_with(".npy"))
+            out.emplace_back(name, std::string_view(name).size() - 4);
+    return out;
 }
 
 void extract_npz(const std::string& path, const std::string& name, const std::string& npy) {

@@ -11,6 +11,9 @@ namespace forage::observe {
 /// std::runtime_error when a file cannot be read or the archive cannot be written.
 void join_npz(const std::string& path, const std::vector<std::pair<std::string, std::string>>& arrays);
 
+/// The names of the arrays in an .npz file. Throws std::runtime_error.
+std::vector<std::string> names_in_npz(const std::string& path);
+
 /// Extracts the array `name` from an .npz file as a .npy file. Throws std::runtime_error.
 void extract_npz(const std::string& path, const std::string& name, const std::string& npy);
 

@@ -1,6 +1,7 @@
 #include "core/observe/recording.h"
 
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "core/base/table.h"
 #include "core/observe/hdf5_recording.h"
+#include "core/observe/npz.h"
 
 namespace forage::observe {
 namespace {
@@ -102,8 +104,10 @@ class CsvRecording final : public Recording {
 
 class NpyRecording final : public Recording {
   public:
-    explicit NpyRecording(const std::string& path) : path_(path), in_(open_file(path)) {
-        what_.name = final_name(path).stem().string();
+    /// Reads `file`. Messages name `path`, which is the archive if the file was in one.
+    NpyRecording(const std::string& file, const std::string& path, std::string name)
+        : path_(path), in_(open_file(file)) {
+        what_.name = std::move(name);
         char start[10] = {};
         in_.read(start, sizeof start);
         if (!in_ || std::string_view(start, 8) != std::string_view("\x93NUMPY\x01\x00", 8))
@@ -166,23 +170,49 @@ class NpyRecording final : public Recording {
     std::uint64_t rows_ = 0, row_ = 0;
 };
 
+/// The arrays of an .npz file. Each is unpacked into a temporary file, of which the name is removed at once.
+std::vector<std::unique_ptr<Recording>> open_npz(const std::string& path) {
+    namespace fs = std::filesystem;
+    std::vector<std::unique_ptr<Recording>> out;
+    std::string folder = (fs::temp_directory_path() / "forage-XXXXXX").string();
+    if (!mkdtemp(folder.data())) no_recording(path, "there is no temporary folder in which to unpack it");
+    const auto remove = [](const std::string* f) {
+        std::error_code ignored;
+        fs::remove_all(*f, ignored);
+    };
+    const std::unique_ptr<std::string, decltype(remove)> remover(&folder, remove);
+    try {
+        for (const auto& name : names_in_npz(path)) {
+            extract_npz(path, name, folder + "/array.npy");
+            out.push_back(std::make_unique<NpyRecording>(folder + "/array.npy", path, name));
+            fs::remove(folder + "/array.npy");
+        }
+    } catch (const FileError&) {
+        throw;
+    } catch (const std::exception& e) {
+        no_recording(path, e.what());
+    }
+    return out;
+}
+
 }  // namespace
 
 bool is_recording(const std::string& path) {
     const auto extension = final_name(path).extension();
-    return extension == ".csv" || extension == ".npy" || extension == ".h5";
+    return extension == ".csv" || extension == ".npy" || extension == ".npz" || extension == ".h5";
 }
 
 std::vector<std::unique_ptr<Recording>> open_recording(const std::string& path) {
     const auto extension = final_name(path).extension();
     std::vector<std::unique_ptr<Recording>> out;
     if (extension == ".h5") return open_hdf5_recording(path);
+    if (extension == ".npz") return open_npz(path);
     if (extension == ".npy")
-        out.push_back(std::make_unique<NpyRecording>(path));
+        out.push_back(std::make_unique<NpyRecording>(path, path, final_name(path).stem().string()));
     else if (extension == ".csv")
         out.push_back(std::make_unique<CsvRecording>(path));
     else
-        no_recording(path, "its name ends neither in .csv nor in .npy nor in .h5");
+        no_recording(path, "its name ends in none of .csv, .npy, .npz and .h5");
     return out;
 }
 

@@ -24,8 +24,8 @@ class Recording {
     Recorded what_;
 };
 
-/// Opens the sources of a .csv, .npy or .h5 file, also of an unfinished one whose name ends with ".part".
-/// Throws FileError when the file is not a recording.
+/// Opens the sources of a .csv, .npy, .npz or .h5 file, also of an unfinished one whose name ends with
+/// ".part". Throws FileError when the file is not a recording.
 std::vector<std::unique_ptr<Recording>> open_recording(const std::string& path);
 
 /// Whether the ending of a name is that of a recording.

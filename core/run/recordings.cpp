@@ -8,6 +8,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/output_files.h"
 #include "core/observe/npz.h"
@@ -190,12 +191,16 @@ void Recordings::checkpoint(Archive& archive) {
     for (auto& f : all_) archive(*f.recorder);
 }
 
-void Recordings::finish(RunView&, ResultFiles& files) {
+void Recordings::finish(RunView& run, ResultFiles& files) {
+    std::vector<std::string> empty;
     for (const auto& name : file_names()) files.attempt([] {}, {name});
     for (const auto& e : entries_) files.add_recording(e);
     const auto attempt = [&](const auto& action) { files.attempt(action); };
     std::map<std::string, std::vector<std::pair<std::string, std::string>>> archives;
     for (auto& f : all_) {
+        const auto first = options_.from + (options_.mean ? f.file.every - 1 : 0);  // when a row is complete
+        if (first >= run.time.cycle || (options_.until && first > *options_.until))
+            for (const auto& s : f.file.sources) empty.push_back(s.what().name);
         attempt([&] { f.recorder->close(); });
         // Its rows are complete in any case.
         if (f.file.archive.empty())
@@ -209,6 +214,17 @@ void Recordings::finish(RunView&, ResultFiles& files) {
             observe::join_npz(path, arrays);
             for (const auto& [array, file] : arrays) std::remove(file.c_str());
         });
+    if (empty.empty()) return;
+    files.warn(
+        fmt::format("no row was recorded of '{}': the run had {} cycles", fmt::join(empty, "', '"),
+                    run.time.cycle),
+        options_.until && *options_.until < options_.from
+            ? fmt::format("--record-until {} is before --record-from {}", *options_.until, options_.from)
+        : options_.from >= run.time.cycle
+            ? fmt::format("the recording would begin in cycle {}: choose a smaller --record-from, or a "
+                          "longer run",
+                          options_.from)
+            : "a mean needs all cycles of --record-every");
 }
 
 std::vector<std::string> Recordings::file_names() const {

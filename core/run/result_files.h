@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/diagnostic.h"
+
 namespace forage {
 
 /// Collects the files that observers write at the end of a run. When one file cannot be written, the others
@@ -34,6 +36,10 @@ class ResultFiles {
     /// Adds a line to the summary of the run, such as "film" and "a.gif: 30 frames".
     void note(std::string name, std::string text) { notes_.emplace_back(std::move(name), std::move(text)); }
 
+    /// Adds a warning for the user.
+    void warn(std::string text, std::string hint) { warnings_.warning({}, std::move(text), std::move(hint)); }
+    const Diagnostics& warnings() const { return warnings_; }
+
     const std::vector<std::pair<std::string, std::string>>& notes() const { return notes_; }
     /// The names of the written files, in alphabetical order.
     std::vector<std::string> names() const {
@@ -49,6 +55,7 @@ class ResultFiles {
     std::vector<std::string> names_, problems_;
     std::vector<std::pair<std::string, std::string>> notes_;
     std::vector<Recording> recordings_;
+    Diagnostics warnings_;
 };
 
 }  // namespace forage

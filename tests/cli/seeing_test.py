@@ -109,6 +109,18 @@ class Formats(Cli):
         for row, numbers in zip(rows, self.light[:, 1:]):
             self.assertEqual(row[1:33], ["%g" % v for v in numbers])  # as C++ streams print a double
 
+    def test_npz_files_are_drawn_as_csv_files(self):
+        self.run_robot(*self.ARGUMENTS, "--format", "npz")
+        for out in ("csv", "out"):
+            self.forage("plot", out, "time:Bug/Light", "time:mean:Bug/Light(1..8,1)", "-o", out + "/seen")
+        self.assertEqual(*(sorted((p.name, p.read_bytes()) for p in (self.here / out / "seen").iterdir()) for out in ("csv", "out")))
+        self.assertEqual(len(self.forage("plot", "out/recording.npz", "-o", "all").stdout.split()), 4)  # the motors in space, too
+        whole = (self.here / "out/recording.npz").read_bytes()
+        (self.here / "half.npz").write_bytes(whole[:len(whole) // 2])
+        self.assertIn("half.npz: error: this is not a recording: it is no archive", self.forage("plot", "half.npz", status=2).stderr)
+        numpy.savez(self.here / "other.npz", a=numpy.zeros(3))
+        self.assertIn("other.npz: error: this is not a recording: its records", self.forage("plot", "other.npz", status=2).stderr)
+
     def test_the_same_run_gives_the_same_bytes(self):
         for form in ("npy", "npz", "h5", "dat"):
             for out in ("a", "b"):
@@ -206,6 +218,15 @@ class Mistakes(Cli):
             self.assertIn(message, done.stderr)
         self.assertEqual(list(self.here.iterdir()), [])
 
+    def test_recordings_without_rows(self):
+        for arguments, hint in ((["--record-from", 9], "begin in cycle 9"), (["--record-from", 4, "--record-until", 2], "--record-until 2 is before"),
+                                (["--record-every", 7, "--record-mean"], "a mean needs all cycles")):
+            for form in ("csv", "npz", "h5"):
+                done = self.run_robot("--cycles", 5, "-r", "Bug/Light", "-r", "Bug/GPS", "--format", form, *arguments)
+                self.assertIn("warning: no row was recorded of 'Bug/Light:act', 'Bug/GPS:act': the run had 5 cycles", done.stderr)
+                self.assertIn(hint, done.stderr)
+        self.assertNotIn("warning", self.run_robot("--cycles", 5, "-r", "Bug/Light", "--record-from", 4).stderr)
+
     def test_plots_of_cycles_that_were_not_run(self):
         done = self.run_robot("--cycles", 5, "-p", "space:Bug/Light@7", "-p", "time:Bug/Light", status=1)
         self.assertIn("none of these cycles is there; there are 5 of 0 to 4", done.stderr)
@@ -283,6 +304,17 @@ class Pictures(Cli):
         self.forage("plot", "out", "trajectory", "-o", "again")
         (self.here / "out/trials.csv").unlink()
         self.assertIn("out/trials.csv: error: ", self.forage("plot", "out", "trajectory", status=2).stderr)
+
+    def test_learned_weights_are_drawn_as_receptive_fields(self):
+        system = pathlib.Path(SYSTEM).parent / "cookbook/hebbian_association.iqr"
+        plot = "wiring:CS to Response@0,65,159"
+        self.forage("run", system, "--cycles", 160, "-p", plot, "-r", "CS to Response:weight", "-o", "out")
+        picture = (self.here / "out/wiring_CS_to_Response_0_65_159.png").read_bytes()
+        self.forage("plot", system, "wiring:CS to Response", "-o", "one")
+        heights = [png_size(p)[1] for p in (picture, (self.here / "one/wiring_CS_to_Response.png").read_bytes())]
+        self.assertEqual(heights[0], 3 * heights[1])
+        self.forage("plot", "out", plot, "-o", "again")
+        self.assertEqual((self.here / "again/wiring_CS_to_Response_0_65_159.png").read_bytes(), picture)
 
     def test_a_time_plot_of_many_cells_takes_little_memory(self):
         system = re.sub("<Module.*</Module>", "", SMALL_SYSTEM, flags=re.DOTALL)

@@ -47,7 +47,9 @@ void add_recording(const fs::path& path, const std::vector<ResultFiles::Recordin
     auto all = observe::open_recording(path.string());
     for (auto& rows : all) {
         observe::Recorded what = rows->what();
-        if (named.size() == 1 && all.size() == 1) what.name = named[0]->source, what.label = named[0]->label;
+        if (named.size() == 1 && all.size() == 1) what.name = named[0]->source;
+        for (const auto* n : named)
+            if (n->source == what.name) what.label = n->label;
         out.recordings.push_back({std::move(rows), std::move(what)});
     }
 }

@@ -60,6 +60,7 @@ int run_to_end(const RunOptions& o, PreparedRun& prepared) {
     if (prepared.checkpoints && finished) remove_checkpoints(directory);
     const bool resumable = prepared.checkpoints && !finished && has_checkpoint(directory);
     if (!o.quiet) fmt::print("{}", summary(prepared, outcome, resumable));
+    if (!o.quiet) fmt::print(stderr, "{}", format(outcome.files.warnings()));
     if (prepared.statistics) {
         fmt::print("\n{}", activity_table(run.layout(), *prepared.statistics));
         fmt::print("\n");
