@@ -542,7 +542,7 @@ Plot parse_plot(std::string_view text) {
     }
     const auto ats = find_unquoted(rest, "@");
     // A connection may have an '@' in its name.
-    const bool cycles = out.kind == Plot::Kind::connection
+    const bool cycles = out.of_connection()
                             ? !ats.empty() && rest.substr(ats.back()).find_first_not_of("@0123456789.,/ ") ==
                                                   std::string_view::npos
                             : out.of_cells() || out.kind == Plot::Kind::trajectory;

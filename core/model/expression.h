@@ -155,10 +155,10 @@ struct Plot {
     std::string cycles_text;  ///< the text after '@'
     int blocks_across = 1, blocks_down = 1;
 
-    /// Whether the picture is made of rows of numbers. That of a connection at given cycles is, too.
+    /// Whether the picture is made of rows of numbers. Those of a connection at given cycles are, too.
     bool of_cells() const {
         return kind == Kind::time || kind == Kind::space || kind == Kind::movie ||
-               (kind == Kind::connection && !cycles.empty());
+               (of_connection() && !cycles.empty());
     }
     /// Whether the picture is drawn from the results of several runs or trials.
     bool of_results() const { return kind >= Kind::curve; }

@@ -66,6 +66,7 @@ void draw_axes(Canvas& canvas, const Axes& axes, const AxisStyle& x, const AxisS
     }
     double widest = 0, last = -1e9;
     for (const auto& [v, name] : ticks_of(y, axes.y, static_cast<int>(b.height / (y.whole ? 30 : 50)) + 1)) {
+        if (!y.ticks.empty() && std::abs(axes.py(v) - last) < 13) continue;
         canvas.line(b.x - 0.5, axes.py(v), b.x - 5, axes.py(v), black);
         if (!y.named || std::abs(axes.py(v) - last) < 13) continue;
         last = axes.py(v);
@@ -117,6 +118,12 @@ void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const Box& box, c
     }
     canvas.text_upwards(box.right() + widest + 25, box.y + box.height / 2,
                         canvas.fitted(title, title_size, std::max(box.height, 80.0)), title_size);
+}
+
+CellSize cell_size(int columns, int rows, int room_x, int room_y, int largest, int least) {
+    const int square = std::clamp(std::min(room_x / columns, room_y / rows), 1, largest);
+    return {std::max(square, std::min(largest, least / columns)),
+            std::max(square, std::min(largest, least / rows))};
 }
 
 void draw_cells(Canvas& canvas, const Box& box, int columns, int rows,

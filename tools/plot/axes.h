@@ -78,6 +78,14 @@ void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const Box& box, c
 /// The width of the ticks and the title to the right of a colour bar's box.
 inline constexpr double colour_bar_labels = 78;
 
+/// The size of the cells of a table in pixels.
+struct CellSize {
+    int width, height;
+};
+/// Squares of at most `largest` pixels with which a table fits into a room, or, in a table of which a side
+/// would be shorter than `least` pixels, rectangles.
+CellSize cell_size(int columns, int rows, int room_x, int room_y, int largest, int least);
+
 /// Draws a rectangle of `columns` x `rows` cells, each with a uniform colour.
 void draw_cells(Canvas& canvas, const Box& box, int columns, int rows,
                 const std::function<Colour(int column, int row)>& colour);

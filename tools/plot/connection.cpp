@@ -76,8 +76,9 @@ Picture connection_plot(const ConnectionPlot& plot) {
     for (auto& p : panels)
         for (const double v : p.table.numbers) p.scale.include(v);
     const SynapseTable& t = panels[0].table;
-    const int cell = std::clamp(longest_side / std::max(t.columns, t.rows), 1, 28);
-    const double width = cell * t.columns, height = cell * t.rows, tall = std::max(height, 110.0);
+    const CellSize cell = cell_size(t.columns, t.rows, longest_side, longest_side, 28, 60);
+    const double width = cell.width * t.columns, height = cell.height * t.rows,
+                 tall = std::max(height, 110.0);
     Measure measure;
     // The label below a narrow table is wider than the table, on both sides.
     const std::string below = measure.canvas().fitted(cells_of(plot.source, plot.source_shape), 13, 320);

@@ -22,7 +22,9 @@ constexpr double film_frame = 0.1;  ///< s of the world, about
 
 }  // namespace
 
-RowPlot::RowPlot(PlotSpec spec, const observe::Recorded& what) : spec_(std::move(spec)), what_(what) {
+RowPlot::RowPlot(PlotSpec spec, const observe::Recorded& what, const model::System* system)
+    : spec_(std::move(spec)), what_(what) {
+    if (spec_.kind == PlotSpec::Kind::wiring) wiring_ = wiring_of(spec_, *system);
     if (spec_.kind != PlotSpec::Kind::time) return;
     const bool as_lines = what_.size() <= most_lines;
     cells_per_row_ = (what_.size() + most_rows - 1) / most_rows;
@@ -90,9 +92,12 @@ std::string RowPlot::draw(Format format, const PlotContext& context) const {
         if (curves_.empty() || curves_[0].bins().empty()) throw nothing();
         TimePlot p;
         p.title = title, p.subtitle = context.run, p.quantity = quantity;
-        p.cells = what_.synapses                              ? "synapse, target by target"
-                  : what_.cells.height > 1 && !what_.numbered ? "cell, row by row"
-                                                              : "cell";
+        const model::Region& cells = what_.cells;
+        const bool places = cells.height > 1 && !what_.numbered;
+        p.cells = what_.synapses ? "synapse (source, target)" : places ? "cell (column, row)" : "cell";
+        if (!places) p.first_cell = cells.x;
+        for (int row = 0; places && row < cells.height; ++row)
+            p.cell_ticks.emplace_back(1 + row * cells.width, fmt::format("({}, {})", cells.x, cells.y + row));
         p.curves = curves_;
         p.cells_per_row = cells_per_row_;
         p.seconds_per_cycle = context.seconds_per_cycle;
@@ -101,6 +106,7 @@ std::string RowPlot::draw(Format format, const PlotContext& context) const {
         return render(time_plot(p), format);
     }
     if (frames_.empty()) throw nothing();
+    if (wiring_) return render(wiring(quantity), format);
     SpacePlot p;
     p.title = title, p.subtitle = context.run, p.quantity = quantity;
     p.grid = {what_.cells.x,
@@ -113,6 +119,23 @@ std::string RowPlot::draw(Format format, const PlotContext& context) const {
     p.frames = frames_;
     if (spec_.kind != PlotSpec::Kind::movie) return render(space_plot(p), format);
     return render_animation(space_animation(p), seconds_per_frame);
+}
+
+/// The weights at each cycle. The rows are matrices with a column per source cell and a row per target cell.
+Picture RowPlot::wiring(const std::string& quantity) const {
+    const int columns = wiring_->source_shape.cells;
+    if (what_.size() !=
+        static_cast<std::size_t>(columns) * static_cast<std::size_t>(wiring_->target_shape.cells))
+        throw std::runtime_error(fmt::format("'{}' needs a recording of all synapses", spec_.text));
+    std::vector<WiringPlot> plots;
+    for (const auto& f : frames_) {
+        WiringPlot& p = plots.emplace_back(*wiring_);
+        p.subtitle = fmt::format("cycle {}", f.cycle), p.quantity = quantity;
+        for (int i = 0; i < static_cast<int>(f.values.size()); ++i)
+            if (const double v = f.values[static_cast<std::size_t>(i)]; !std::isnan(v))
+                p.pre.push_back(i % columns), p.post.push_back(i / columns), p.strength.push_back(v);
+    }
+    return wiring_plot(plots);
 }
 
 void RowPlotter::after_cycle(RunView& run) {
@@ -162,8 +185,9 @@ void TrajectoryPlotter::finish(RunView&, ResultFiles& files) {
     if (!spec_ && std::none_of(paths.begin(), paths.end(), leads_somewhere)) return;
     if (spec_) paths = wanted_paths(std::move(paths), *spec_);
     if (paths.empty()) return;  // a run may end before the trials that are wanted
-    files.write(name_ + std::string(ending(format_)),
-                [&] { return render(trajectory_plot(world_, std::move(paths), title_), format_); });
+    files.write(name_ + std::string(ending(format_)), [&] {
+        return render(trajectory_plot(world_, std::move(paths), title_, recorder_.robot()), format_);
+    });
 }
 
 FilmRecorder::FilmRecorder(bug::World& world, std::string name, double seconds_per_cycle,
@@ -203,7 +227,8 @@ std::vector<PlotSpec> add_plots(const std::vector<model::Expression>& plots, Run
         } else if (spec->of_cells()) {
             auto source = observe::find_source(run.layout(), spec->source(), option, diagnostics, at);
             if (source)
-                run.add(std::make_unique<RowPlotter>(std::move(*spec), std::move(*source), format, title));
+                run.add(std::make_unique<RowPlotter>(std::move(*spec), std::move(*source), run.system(),
+                                                     format, title));
         } else {
             const int errors = diagnostics.errors();
             check_structure(*spec, run.system(), option, diagnostics, at);

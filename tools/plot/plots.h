@@ -17,6 +17,7 @@
 #include "tools/plot/plot_spec.h"
 #include "tools/plot/space.h"
 #include "tools/plot/time.h"
+#include "tools/plot/wiring.h"
 
 namespace forage::plot {
 
@@ -32,7 +33,8 @@ struct PlotContext {
 /// skips frames. A space plot keeps only the given cycles.
 class RowPlot {
   public:
-    RowPlot(PlotSpec spec, const observe::Recorded& what);
+    /// `system` is used by wiring plots.
+    RowPlot(PlotSpec spec, const observe::Recorded& what, const model::System* system = nullptr);
     void add(std::uint64_t cycle, std::span<const double> numbers);
     /// The picture as the content of a file. Throws std::runtime_error when it cannot be drawn, and when
     /// there was no row of the given cycles.
@@ -47,10 +49,12 @@ class RowPlot {
 
   private:
     void add_frame(std::uint64_t cycle, std::span<const double> numbers);
+    Picture wiring(const std::string& quantity) const;
 
     PlotSpec spec_;
     observe::Recorded what_;
-    std::vector<Curve> curves_;  ///< one per cell, or per cells_per_row_ neighbours
+    std::optional<WiringPlot> wiring_;  ///< the groups of a wiring plot
+    std::vector<Curve> curves_;         ///< one per cell, or per cells_per_row_ neighbours
     std::size_t cells_per_row_ = 1;
     std::vector<SpaceFrame> frames_;
     std::uint64_t rows_ = 0, keep_every_ = 1, first_ = 0, last_ = 0;
@@ -60,8 +64,9 @@ class RowPlot {
 class RowPlotter final : public Observer {
   public:
     /// `title` is that of the run.
-    RowPlotter(PlotSpec spec, observe::Source source, Format format, std::string title)
-        : plot_(std::move(spec), source.what()),
+    RowPlotter(PlotSpec spec, observe::Source source, const model::System& system, Format format,
+               std::string title)
+        : plot_(std::move(spec), source.what(), &system),
           source_(std::move(source)),
           format_(format),
           title_(std::move(title)) {}

@@ -20,35 +20,39 @@ ColourScale scale_of(const SpacePlot& plot) {
 /// The layout of the sheet, in pixels.
 struct PanelSheet {
     static constexpr double left = 66, top = 76, bar = 16, bar_gap = 22, bottom = 46;
-    int cell, across, down;
-    double step_x, step_y, panel_width, panel_height, width, height;
+    int across, down;
+    double step_x, step_y, panel_width, panel_height, panels_width, panels_height, width, height;
 
     PanelSheet(const CellGrid& grid, std::size_t frames) {
         const auto n = static_cast<int>(frames);
-        const int room_x = n == 1 ? 640 : 210, room_y = n == 1 ? 480 : 170;
-        cell = std::clamp(std::min(room_x / grid.width, room_y / grid.height), 1, n == 1 ? 48 : 20);
-        panel_width = cell * grid.width;
-        panel_height = cell * grid.height;
+        const CellSize cell = n == 1 ? cell_size(grid.width, grid.height, 640, 480, 48, 20)
+                                     : cell_size(grid.width, grid.height, 210, 170, 20, 20);
+        panel_width = cell.width * grid.width;
+        panel_height = cell.height * grid.height;
         step_x = n == 1 ? panel_width : std::max(panel_width + 46, 96.0);
         step_y = panel_height + (n == 1 ? 0 : 56);
         // The number of columns gives the sheet an aspect ratio of about 4 to 3.
         across = std::clamp(static_cast<int>(std::lround(std::sqrt(n * step_y / step_x * 4 / 3))), 1, n);
         down = (n + across - 1) / across;
         across = (n + down - 1) / down;
-        const double panels_x = (across - 1) * step_x + panel_width;
-        width = left + panels_x + bar_gap + bar + colour_bar_labels;
-        height = top + std::max((down - 1) * step_y + panel_height, 90.0) + bottom;
+        panels_width = (across - 1) * step_x + panel_width;
+        panels_height = (down - 1) * step_y + panel_height;
+        width = left + panels_width + bar_gap + bar + colour_bar_labels;
+        height = top + std::max(panels_height, 90.0) + bottom;
     }
     Box panel(std::size_t i) const {
         return {left + static_cast<int>(i) % across * step_x, top + static_cast<int>(i) / across * step_y,
                 panel_width, panel_height};
     }
     Box colour_bar() const {
-        const double tall = (down - 1) * step_y + panel_height;
-        return {left + (across - 1) * step_x + panel_width + bar_gap, top, bar,
-                std::clamp(tall, 90.0, 480.0)};
+        return {left + panels_width + bar_gap, top, bar, std::clamp(panels_height, 90.0, 480.0)};
     }
 };
+
+const char* name_across(const CellGrid& g) {
+    return g.synapses ? "source cell" : g.numbered ? "cell" : "column of cells";
+}
+const char* name_down(const CellGrid& g) { return g.synapses ? "target cell" : g.numbered ? "" : "row"; }
 
 void draw_panel(Canvas& canvas, const SpacePlot& plot, const SpaceFrame& frame, const ColourScale& scale,
                 const Box& box, bool single) {
@@ -69,9 +73,8 @@ void draw_panel(Canvas& canvas, const SpacePlot& plot, const SpaceFrame& frame, 
     divide(plot.blocks_across, true);
     divide(plot.blocks_down, false);
     const Axes axes{box, {g.x - 0.5, g.x + g.width - 0.5}, {g.y - 0.5, g.y + g.height - 0.5}, true};
-    const char* across = g.synapses ? "source cell" : g.numbered ? "cell" : "column of cells";
-    const char* down = g.synapses ? "target cell" : g.numbered ? "" : "row";
-    draw_axes(canvas, axes, {single ? across : "", true}, {single ? down : "", true, !g.numbered});
+    draw_axes(canvas, axes, {single ? name_across(g) : "", true},
+              {single ? name_down(g) : "", true, !g.numbered});
     if (!single) canvas.text(box.x + box.width / 2, box.y - 6, fmt::format("cycle {}", frame.cycle), 12, 0.5);
 }
 
@@ -89,6 +92,12 @@ Picture sheet_of(const SpacePlot& plot, std::vector<SpaceFrame> frames, const Co
                 canvas.text(12, 40, subtitle, 12, 0, grey);
                 for (std::size_t i = 0; i < frames.size(); ++i)
                     draw_panel(canvas, plot, frames[i], scale, sheet.panel(i), frames.size() == 1);
+                if (frames.size() > 1) {
+                    canvas.text(sheet.left + sheet.panels_width / 2, sheet.top + sheet.panels_height + 37,
+                                name_across(plot.grid), 13, 0.5);
+                    canvas.text_upwards(sheet.left - 40, sheet.top + sheet.panels_height / 2,
+                                        name_down(plot.grid), 13);
+                }
                 draw_colour_bar(canvas, scale, sheet.colour_bar(), plot.quantity);
             }};
 }

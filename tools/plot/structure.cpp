@@ -60,33 +60,43 @@ std::vector<int> places(const model::Topology& topology) {
     return out;
 }
 
+/// The two groups of a connection. Throws std::runtime_error when one is missing.
+WiringPlot groups_of(const model::Connection& c, const model::System& system) {
+    const model::GroupIndex groups(system);
+    const auto source = groups.find(c.source), target = groups.find(c.target);
+    if (!source.group || !target.group)
+        throw std::runtime_error(
+            fmt::format("connection '{}' is not complete: 'forage check' says what is wrong", c.name));
+    WiringPlot p;
+    p.title = c.name;
+    p.source = model::trim(source.group->name), p.target = model::trim(target.group->name);
+    p.source_shape = model::shape(source.group->topology),
+    p.target_shape = model::shape(target.group->topology);
+    p.source_places = places(source.group->topology), p.target_places = places(target.group->topology);
+    return p;
+}
+
 /// A connection plot, or a wiring plot if `wiring` is set.
 Picture picture_of(const model::Connection& c, bool wiring, const model::System& system,
                    const Registry& registry, const engine::Simulation* simulation, std::uint64_t seed) {
+    WiringPlot p = groups_of(c, system);
     const model::GroupIndex groups(system);
     const auto source = groups.find(c.source), target = groups.find(c.target);
     const SynapseType* type = c.synapse ? registry.synapse(c.synapse->type) : nullptr;
-    if (!source.group || !target.group || !type)
+    if (!type)
         throw std::runtime_error(
             fmt::format("connection '{}' is not complete: 'forage check' says what is wrong", c.name));
     Diagnostics diagnostics;
     auto synapses =
         connectivity::connect(c, source.group->topology, target.group->topology, seed, diagnostics);
     if (diagnostics.failed()) throw std::runtime_error(format(diagnostics));
-    WiringPlot p;
-    p.source = model::trim(source.group->name), p.target = model::trim(target.group->name);
-    p.source_shape = model::shape(source.group->topology),
-    p.target_shape = model::shape(target.group->topology);
-    p.title = c.name;
     p.subtitle =
         fmt::format("{} {} to {}, {} synapses of {}", name_of(c.kind),
                     model::path(system, *source.process, *source.group),
                     model::path(system, *target.process, *target.group), synapses.size(), type->label);
     p.strength = strengths(c, synapses, *type, simulation);
     p.pre = std::move(synapses.pre), p.post = std::move(synapses.post), p.delay = std::move(synapses.delay);
-    if (!wiring) return connection_plot(p);
-    p.source_places = places(source.group->topology), p.target_places = places(target.group->topology);
-    return wiring_plot(p);
+    return wiring ? wiring_plot({p}) : connection_plot(p);
 }
 
 }  // namespace
@@ -118,6 +128,13 @@ void check_structure(const PlotSpec& spec, const model::System& system, std::str
     for (const auto& p : system.processes) names.emplace_back(model::trim(p.name));
     diagnostics.error(at, fmt::format("{} '{}': there is no process '{}'", option, spec.text, spec.what),
                       suggest(spec.what, names));
+}
+
+WiringPlot wiring_of(const PlotSpec& spec, const model::System& system) {
+    Diagnostics diagnostics;
+    const auto* connection = find_connection(system, spec.what, "wiring", diagnostics);
+    if (!connection) throw std::runtime_error(format(diagnostics));
+    return groups_of(*connection, system);
 }
 
 Picture structure_plot(const PlotSpec& spec, const model::System& system, const Registry& registry,

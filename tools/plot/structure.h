@@ -8,6 +8,7 @@
 #include "core/model/system.h"
 #include "tools/plot/canvas.h"
 #include "tools/plot/plot_spec.h"
+#include "tools/plot/wiring.h"
 
 namespace forage::plot {
 
@@ -19,6 +20,10 @@ void check_structure(const PlotSpec& spec, const model::System& system, std::str
 /// this name.
 const model::Connection* find_connection(const model::System& system, std::string_view name,
                                          std::string_view option, Diagnostics& diagnostics, Location at = {});
+
+/// The groups of a connection that check_structure() has accepted, without synapses. Throws
+/// std::runtime_error.
+WiringPlot wiring_of(const PlotSpec& spec, const model::System& system);
 
 /// The picture of a diagram or a connection that check_structure() has accepted. A connection plot shows the
 /// strengths in the file; for plastic synapses those of `simulation`, or 0 when it is null. `run` is the

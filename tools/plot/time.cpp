@@ -154,7 +154,9 @@ Picture rows(const TimePlot& plot) {
     ColourScale scale;
     for (const auto& c : plot.curves)
         for (const auto& b : c.bins()) scale.include(b.high), scale.include(b.low);
-    const Interval cells{0.5, static_cast<double>(plot.curves.size() * plot.cells_per_row) + 0.5};
+    const Interval cells{
+        plot.first_cell - 0.5,
+        plot.first_cell - 0.5 + static_cast<double>(plot.curves.size() * plot.cells_per_row)};
     const Axes axes{{time_left, time_top, time_width, tall}, cycles_of(plot), cells, true};
     const double bar = std::max(tall, 90.0);
     std::vector<std::vector<double>> values;
@@ -164,17 +166,18 @@ Picture rows(const TimePlot& plot) {
     if (plot.cells_per_row > 1)
         shown.cells +=
             fmt::format("; a row shows the value furthest from zero of {} cells", plot.cells_per_row);
-    return {time_left + time_width + 22 + 16 + colour_bar_labels, time_top + bar + time_bottom,
-            [=](Canvas& canvas) {
-                draw_titles(canvas, shown);
-                draw_cells(canvas, axes.box, static_cast<int>(time_width), count, [&](int column, int r) {
-                    const auto& row_of = values[static_cast<std::size_t>(r)];
-                    return row_of.empty() ? grey : scale(row_of[static_cast<std::size_t>(column)]);
-                });
-                draw_marks(canvas, shown, axes, scale.interval().low < 0 ? grey : white);
-                draw_axes(canvas, axes, {time_title(shown), true}, {shown.cells, true});
-                draw_colour_bar(canvas, scale, {axes.box.right() + 22, time_top, 16, bar}, shown.quantity);
-            }};
+    return {
+        time_left + time_width + 22 + 16 + colour_bar_labels, time_top + bar + time_bottom,
+        [=](Canvas& canvas) {
+            draw_titles(canvas, shown);
+            draw_cells(canvas, axes.box, static_cast<int>(time_width), count, [&](int column, int r) {
+                const auto& row_of = values[static_cast<std::size_t>(r)];
+                return row_of.empty() ? grey : scale(row_of[static_cast<std::size_t>(column)]);
+            });
+            draw_marks(canvas, shown, axes, scale.interval().low < 0 ? grey : white);
+            draw_axes(canvas, axes, {time_title(shown), true}, {shown.cells, true, true, shown.cell_ticks});
+            draw_colour_bar(canvas, scale, {axes.box.right() + 22, time_top, 16, bar}, shown.quantity);
+        }};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/archive.h"
@@ -52,7 +53,9 @@ struct TimePlot {
     std::string cells = "cell";     ///< name of what a curve shows
     std::span<const Curve> curves;  ///< all for the same cycles
     std::size_t cells_per_row = 1;  ///< number of cells that each curve stands for
-    std::vector<double> marks;      ///< cycles at which a line is drawn, such as the starts of trials
+    double first_cell = 1;          ///< number of the first cell, for the axis of rows
+    std::vector<std::pair<double, std::string>> cell_ticks;  ///< names of cells; empty: their numbers
+    std::vector<double> marks;  ///< cycles at which a line is drawn, such as the starts of trials
     std::string mark_name;
     double seconds_per_cycle = 0;  ///< 0 if unknown
 };

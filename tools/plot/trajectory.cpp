@@ -167,11 +167,14 @@ std::vector<Path> wanted_paths(std::vector<Path> paths, const PlotSpec& spec) {
     return paths;
 }
 
-Picture trajectory_plot(const bug::World& world, std::vector<Path> paths, const std::string& title) {
+Picture trajectory_plot(const bug::World& world, std::vector<Path> paths, const std::string& title,
+                        std::size_t robot) {
+    const auto names = world.robot_names();
+    const std::string heading = names.size() > 1 ? names[robot] + ": " + title : title;
     const auto kept = std::make_shared<const std::vector<Path>>(std::move(paths));
     const auto drawing = std::make_shared<Drawing>(world, *kept);
     return {drawing->width(), drawing->height(),
-            [kept, drawing, title](Canvas& canvas) { drawing->draw(canvas, title); }};
+            [kept, drawing, heading](Canvas& canvas) { drawing->draw(canvas, heading); }};
 }
 
 }  // namespace forage::plot

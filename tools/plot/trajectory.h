@@ -23,8 +23,9 @@ std::vector<Path> wanted_paths(std::vector<Path> paths, const PlotSpec& spec);
 
 /// A map of the floor, walls, start poses and targets with the paths. Paths that reached a target and paths
 /// that missed it have different colours, which are darker for earlier trials of those that are drawn. A path
-/// ends with a dot (target reached), a cross (missed) or a square (the run ended). The world must outlive the
-/// picture.
-Picture trajectory_plot(const bug::World& world, std::vector<Path> paths, const std::string& title);
+/// ends with a dot (target reached), a cross (missed) or a square (the run ended). In a world with several
+/// robots, the title begins with the name of the robot. The world must outlive the picture.
+Picture trajectory_plot(const bug::World& world, std::vector<Path> paths, const std::string& title,
+                        std::size_t robot = 0);
 
 }  // namespace forage::plot

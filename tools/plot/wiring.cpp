@@ -52,9 +52,7 @@ void draw_field(Canvas& canvas, const WiringPlot& plot, std::span<const double> 
     cairo_stroke(c);
 }
 
-}  // namespace
-
-Picture wiring_plot(const WiringPlot& plot) {
+Picture drawn_with(const ColourScale& scale, const WiringPlot& plot, std::vector<double> fields) {
     constexpr double left = 14, top = 76, bottom = 34, bar_gap = 20, bar_width = 14;  // pixels
     constexpr int most_pixels = 640, largest_cell = 22, smallest_cell = 3;
     constexpr double frame = 6;  // between two panels
@@ -72,15 +70,13 @@ Picture wiring_plot(const WiringPlot& plot) {
             plot.title, source.width, source.height, target.width, target.height, plot.title));
     const double step_x = cell * source.width + frame, step_y = cell * source.height + frame;
     const double width = step_x * target.width, height = step_y * target.height;
-    std::vector<double> fields = fields_of(plot);
-    ColourScale scale;
-    for (const double v : fields) scale.include(v);
     const std::string legend = fmt::format(
         "each panel is a cell of {} and shows {}: coloured are the cells "
         "from which it receives",
         plot.target, plot.source);
     return {
-        std::max(left + width + bar_gap + bar_width + colour_bar_labels, 560.0),
+        std::max({left + width + bar_gap + bar_width + colour_bar_labels, 560.0,
+                  24 + Measure().canvas().width_of(legend, 12)}),
         top + std::max(height, 110.0) + bottom, [=, fields = std::move(fields)](Canvas& canvas) {
             canvas.text(12, 22, plot.title, 15, 0, black, true);
             canvas.text(12, 40, plot.subtitle, 12, 0, grey);
@@ -98,8 +94,29 @@ Picture wiring_plot(const WiringPlot& plot) {
                                scale, box, cell);
                 }
             draw_colour_bar(canvas, scale, {left + width + bar_gap, top, bar_width, std::max(height, 110.0)},
-                            "strength");
+                            plot.quantity);
         }};
+}
+
+}  // namespace
+
+Picture wiring_plot(const std::vector<WiringPlot>& plots) {
+    std::vector<std::vector<double>> fields;
+    ColourScale scale;
+    for (const auto& p : plots) {
+        fields.push_back(fields_of(p));
+        for (const double v : fields.back()) scale.include(v);
+    }
+    std::vector<Picture> all;
+    for (std::size_t i = 0; i < plots.size(); ++i)
+        all.push_back(drawn_with(scale, plots[i], std::move(fields[i])));
+    const double tall = all.front().height;
+    return {all.front().width, tall * static_cast<double>(all.size()), [=](Canvas& canvas) {
+                for (const auto& p : all) {
+                    p.draw(canvas);
+                    cairo_translate(canvas.cairo(), 0, tall);
+                }
+            }};
 }
 
 }  // namespace forage::plot

@@ -216,6 +216,7 @@ TEST_CASE("Plots have a kind, a subject, cycles and blocks") {
     CHECK(plot("connection:A @ B") == "connection|A @ B||1x1");
     CHECK(plot("curve:trial length") == "curve|trial length||1x1");
     CHECK(plot("learning") == "learning|||1x1");
+    CHECK(plot("wiring:A@3") == "wiring|A|3-3/1 |1x1");
     CHECK(plot("connection:A @ B@0,10..20/5") == "connection|A @ B|0-0/1 10-20/5 |1x1");
 }
 

@@ -3,8 +3,12 @@
 #include "tests/support/catch.h"
 #include "tools/plot/apng.h"
 #include "tools/plot/axes.h"
+#include "tools/plot/cairo_handle.h"
 #include "tools/plot/connection.h"
+#include "tools/plot/heat.h"
+#include "tools/plot/layers.h"
 #include "tools/plot/lines.h"
+#include "tools/plot/plots.h"
 #include "tools/plot/space.h"
 #include "tools/plot/time.h"
 
@@ -40,6 +44,25 @@ SpacePlot small_group(std::size_t frames) {
     for (std::size_t i = 0; i < frames; ++i)
         p.frames.push_back({i * 10, {0, 1, 2, 3, 4, static_cast<double>(i)}});
     return p;
+}
+
+/// The number of pixels of a picture in which no part differs from a colour by more than `tolerance`, 0..255.
+int pixels_of(const Picture& picture, const Colour& colour, int tolerance = 0) {
+    const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(picture.width),
+                                                          static_cast<int>(picture.height)));
+    const CairoContext context(cairo_create(surface.get()));
+    Canvas canvas(context.get());
+    picture.draw(canvas);
+    cairo_surface_flush(surface.get());
+    const int stride = cairo_image_surface_get_stride(surface.get());
+    int out = 0;
+    for (int y = 0; y < static_cast<int>(picture.height); ++y)
+        for (int x = 0; x < static_cast<int>(picture.width); ++x) {
+            const unsigned char* bgr = cairo_image_surface_get_data(surface.get()) + y * stride + 4 * x;
+            const auto near = [&](int i, double v) { return std::abs(bgr[i] - v * 255) <= tolerance + 0.5; };
+            out += near(2, colour.r) && near(1, colour.g) && near(0, colour.b);
+        }
+    return out;
 }
 
 }  // namespace
@@ -182,4 +205,79 @@ TEST_CASE("An estimate is a mean with the 95 % interval of Student's t") {
     double squares = 0;
     for (const double v : many) squares += (v - e.mean) * (v - e.mean);
     CHECK(e.high - e.mean == Approx(2.0423 * std::sqrt(squares / 30 / 31)).epsilon(2e-4));
+}
+
+TEST_CASE("Where a line has no number there is a gap, and a line without any number is not drawn") {
+    const auto drawn = [](std::optional<Estimate> middle, std::optional<Estimate> second) {
+        LinesPlot p;
+        p.title = "a";
+        p.lines = {{"x", {{0, Estimate{1, 1, 1}}, {1, middle}, {2, Estimate{1, 1, 1}}}},
+                   {"y", {{0, second}, {1, second}, {2, second}}}};
+        return lines_plot(p);
+    };
+    const Estimate one{1, 1, 1}, two{2, 2, 2};
+    CHECK(pixels_of(drawn(one, two), category(0), 90) > 2 * pixels_of(drawn({}, two), category(0), 90));
+    CHECK(pixels_of(drawn(one, two), category(1), 90) > 500);
+    CHECK(pixels_of(drawn(one, {}), category(1), 60) == 0);
+}
+
+TEST_CASE("A heat map marks the cells without a number") {
+    HeatMap map;
+    map.x_names = {"1", "2"}, map.y_names = {"3"};
+    map.cells = {Estimate{0.5, 0, 1, 3}, Estimate{1, 1, 1, 3}};
+    CHECK(pixels_of(heat_map(map), pale) == 0);
+    map.cells[0].reset();
+    CHECK(pixels_of(heat_map(map), pale) > 5000);
+    const int with_all = pixels_of(heat_map(map), black);
+    map.cells[1]->count = 2, map.cells[0] = Estimate{0.5, 0, 1, 3};
+    CHECK(pixels_of(heat_map(map), black) != with_all);
+}
+
+TEST_CASE("The cells of a narrow table are rectangles that can be seen") {
+    const auto wide = cell_size(400, 5, 560, 560, 28, 60), square = cell_size(20, 20, 560, 560, 28, 60);
+    CHECK((wide.width == 1 && wide.height == 12));
+    CHECK((square.width == 28 && square.height == 28));
+    CHECK(cell_size(1, 5000, 560, 560, 28, 60).width == 28);
+}
+
+TEST_CASE("The rows of a time plot have the names of their cells") {
+    const auto drawn = [](int x, int y) {
+        forage::observe::Recorded what;
+        what.name = "P/G:act", what.cells = {x, y, 4, 3, {}}, what.group_width = 9;
+        RowPlot plot(
+            *[] {
+                forage::Diagnostics diagnostics;
+                return parse_plot("time:P/G", "plot", diagnostics);
+            }(),
+            what);
+        plot.add(0, std::vector<double>(12, 1));
+        plot.add(1, std::vector<double>(12, 2));
+        return plot.draw(Format::svg, {});
+    };
+    CHECK(drawn(1, 1) == drawn(1, 1));
+    CHECK(drawn(1, 1) != drawn(1, 2));
+    CHECK(drawn(1, 1) != drawn(2, 1));
+}
+
+TEST_CASE("Layers put a box below all boxes from which arrows lead to it") {
+    const auto rows = [](const Layers& layers) {
+        std::vector<int> out;
+        for (const auto& p : layers.boxes) out.push_back(p.row);
+        return out;
+    };
+    const auto chain =
+        layered(4, {{2, 0}, {0, 1}, {2, 1}, {1, 1}, {1, 3}, {3, 0}});  // 3 to 0 closes a circle
+    CHECK(rows(chain) == std::vector{1, 2, 0, 3});
+    CHECK(chain.bends[0].empty());
+    REQUIRE(chain.bends[2].size() == 1);  // from 2 to 1, past 0
+    CHECK(chain.bends[2][0].row == 1);
+    CHECK(chain.bends[2][0].column != chain.boxes[0].column);
+    CHECK(rows(layered(2, {{0, 1}, {1, 0}})) == std::vector{0, 1});
+    std::vector<std::pair<std::size_t, std::size_t>> star;
+    for (std::size_t i = 1; i < 15; ++i) star.emplace_back(0, i);
+    const auto wide = rows(layered(15, star));
+    CHECK(*std::max_element(wide.begin(), wide.end()) == 3);
+    // Arrows do not cross when they need not.
+    const auto pairs = layered(4, {{0, 3}, {1, 2}});
+    CHECK((pairs.boxes[0].column < pairs.boxes[1].column) == (pairs.boxes[3].column < pairs.boxes[2].column));
 }
