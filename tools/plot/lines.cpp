@@ -126,7 +126,7 @@ Picture lines_plot(const LinesPlot& plot) {
                 for (std::size_t i = 0; i < plot.lines.size(); ++i)
                     draw_line(canvas, axes, plot.lines[i], category(i));
                 draw_missing(canvas, axes, plot, most);
-                draw_axes(canvas, axes, {plot.x_title, false, true, plot.x_ticks}, {plot.y_title});
+                draw_axes(canvas, axes, {plot.x_title, plot.x_ticks.empty(), true, plot.x_ticks}, {plot.y_title});
                 double at = lines_top + 10;
                 const double left = axes.box.right() + 14;
                 for (std::size_t i = 0; legend && i < names.size(); ++i, at += 20) {
