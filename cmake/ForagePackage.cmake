@@ -1,7 +1,7 @@
 # The packages that `cpack` makes: forage (the program and its systems), forage-dev (to write plugins and programs) and forage-doc.
 # `./tools/package` builds them so that they are the same byte for byte wherever they are built.
 set(CPACK_GENERATOR DEB)
-set(CPACK_PACKAGE_CONTACT "The Forage authors <forage@localhost>")
+set(CPACK_PACKAGE_CONTACT "The Forage authors <forage@forage.invalid>")
 set(CPACK_PACKAGE_NAME forage)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
@@ -15,20 +15,21 @@ set(same "(= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME forage)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "${PROJECT_DESCRIPTION}
- Forage reads the system files of iqr, in which brain models are wired as
- System, Process, Group and Connection, and runs them much faster than real
- time, with the same result in every run. It contains the robot and the arenas
- of the tutorial of Distributed Adaptive Control.")
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION
+"Forage reads the system files of iqr, in which brain models are wired as
+System, Process, Group and Connection, and runs them much faster than real
+time, with the same result in every run. It contains the robot and the arenas
+of the tutorial of Distributed Adaptive Control.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS fonts-dejavu-core)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "forage-dev, forage-doc")
 set(CPACK_STRIP_FILES ON)
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME forage-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEV_DESCRIPTION "Headers and libraries for plugins of Forage, and for programs with it
- With this package `forage build-plugin` compiles new types of neurons,
- synapses and modules, and CMake finds the package Forage.")
+set(CPACK_DEBIAN_DEV_DESCRIPTION
+"This package contains headers and libraries. With it, `forage build-plugin`
+compiles new types of neurons, synapses and modules, and CMake finds the
+package Forage, with which programs run systems and robots.")
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "forage ${same}, g++ | clang, libeigen3-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "cmake, make | ninja-build")
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "libfmt-dev, libtinyxml2-dev, libbullet-dev, libopencv-core-dev, libopencv-imgproc-dev, libpng-dev, libcairo2-dev, libgif-dev, zlib1g-dev, libhdf5-dev, libzip-dev, pkg-config")
@@ -37,20 +38,23 @@ set(CPACK_DEBIAN_DOC_PACKAGE_NAME forage-doc)
 set(CPACK_DEBIAN_DOC_PACKAGE_SECTION doc)
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DOC_PACKAGE_SHLIBDEPS OFF)
-set(CPACK_DEBIAN_DOC_DESCRIPTION "Tutorial, how-to pages and references of Forage
- The pages as text and, in html/, as a site with search and the reference of
- the interface for programs.")
+set(CPACK_DEBIAN_DOC_DESCRIPTION
+"This package contains the tutorial, how-to pages and references as text and,
+in html/, as a site with search and the reference of the interface for
+programs.")
 
-# What every package of Debian has in share/doc.
+# What every package of Debian has in share/doc, and the manual page.
 file(WRITE ${PROJECT_BINARY_DIR}/package/changelog "forage (${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}) unstable; urgency=medium
 
-  * The changes are in CHANGELOG.md of the sources, and of the package forage-doc.
+  * The changes are in CHANGELOG.md, which forage-doc contains.
 
  -- ${CPACK_PACKAGE_CONTACT}  Mon, 23 Nov 2026 12:00:00 +0000
 ")
-find_program(GZIP gzip)
-add_custom_target(package_changelog ALL COMMAND ${GZIP} -9nk -f changelog COMMAND ${CMAKE_COMMAND} -E rename changelog.gz changelog.Debian.gz
-                  WORKING_DIRECTORY ${PROJECT_BINARY_DIR}/package)
+find_program(GZIP gzip REQUIRED)
+add_custom_target(package_files ALL COMMAND ${GZIP} -9nk -f changelog COMMAND ${CMAKE_COMMAND} -E rename changelog.gz changelog.Debian.gz
+                                    COMMAND forage man > forage.1 COMMAND ${GZIP} -9n -f forage.1
+                  WORKING_DIRECTORY ${PROJECT_BINARY_DIR}/package VERBATIM)
+install(FILES ${PROJECT_BINARY_DIR}/package/forage.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 foreach(component ${CPACK_COMPONENTS_ALL})
   string(TOUPPER ${component} name)
   set(folder ${CMAKE_INSTALL_DATAROOTDIR}/doc/${CPACK_DEBIAN_${name}_PACKAGE_NAME})
