@@ -2,11 +2,13 @@
 #
 # The static library where there is one: the shared one of Debian brings curl, Kerberos, LDAP and 25 more with it,
 # for files in the cloud, and loading those took a third of the time in which `forage --version` answers.
-find_package(PkgConfig REQUIRED)
-pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5)
+find_package(PkgConfig)
+if(PkgConfig_FOUND)
+  pkg_check_modules(HDF5 QUIET IMPORTED_TARGET hdf5)
+endif()
 find_library(HDF5_HL_LIBRARY NAMES hdf5_hl hdf5_serial_hl HINTS ${HDF5_LIBRARY_DIRS})
 include(FindPackageHandleStandardArgs)
-find_package_handle_standard_args(ForageHDF5 REQUIRED_VARS HDF5_HL_LIBRARY)
+find_package_handle_standard_args(ForageHDF5 REQUIRED_VARS HDF5_HL_LIBRARY HDF5_FOUND)
 
 # The static library is looked for beside the shared one, so that the headers fit. The other libraries that it needs differ, so it is tried.
 find_library(HDF5_STATIC_LIBRARY NAMES libhdf5.a PATHS ${HDF5_LIBRARY_DIRS} NO_DEFAULT_PATH)
@@ -14,7 +16,7 @@ find_library(HDF5_STATIC_HL_LIBRARY NAMES libhdf5_hl.a PATHS ${HDF5_LIBRARY_DIRS
 find_library(SZ_LIBRARY sz)
 mark_as_advanced(HDF5_HL_LIBRARY HDF5_STATIC_LIBRARY HDF5_STATIC_HL_LIBRARY SZ_LIBRARY)
 find_package(ZLIB)
-find_package(Threads REQUIRED)
+find_package(Threads)
 if(HDF5_STATIC_LIBRARY AND HDF5_STATIC_HL_LIBRARY AND SZ_LIBRARY AND ZLIB_FOUND)
   set(FORAGE_HDF5_STATIC ${HDF5_STATIC_HL_LIBRARY} ${HDF5_STATIC_LIBRARY} ${SZ_LIBRARY} ZLIB::ZLIB Threads::Threads ${CMAKE_DL_LIBS} m)
   include(CheckCXXSourceCompiles)
