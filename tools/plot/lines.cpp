@@ -118,26 +118,27 @@ Picture lines_plot(const LinesPlot& plot) {
     const double width =
         std::max({lines_left + lines_width + right, 24 + measure.canvas().width_of(plot.title, 15, true),
                   24 + measure.canvas().width_of(plot.subtitle, 12)});
-    return {width, lines_top + std::max(lines_height + lines_bottom, legend ? tall : 0), [=](Canvas& canvas) {
-                canvas.text(12, 22, plot.title, 15, 0, black, true);
-                canvas.text(12, 40, plot.subtitle, 12, 0, grey);
-                for (std::size_t i = 0; i < plot.lines.size(); ++i)
-                    draw_interval(canvas, axes, plot.lines[i], category(i));
-                for (std::size_t i = 0; i < plot.lines.size(); ++i)
-                    draw_line(canvas, axes, plot.lines[i], category(i));
-                draw_missing(canvas, axes, plot, most);
-                draw_axes(canvas, axes, {plot.x_title, plot.x_ticks.empty(), true, plot.x_ticks}, {plot.y_title});
-                double at = lines_top + 10;
-                const double left = axes.box.right() + 14;
-                for (std::size_t i = 0; legend && i < names.size(); ++i, at += 20) {
-                    const bool any = has_numbers(plot.lines[i]);
-                    if (any) canvas.line(left, at, left + 20, at, category(i), 2.5);
-                    canvas.text(left + 27, at + 4, names[i], 12, 0, any ? black : grey);
-                }
-                if (!missing) return;
-                draw_cross(canvas, left + 10, at, grey);
-                canvas.text(left + 27, at + 4, "no data", 12);
-            }};
+    return {
+        width, lines_top + std::max(lines_height + lines_bottom, legend ? tall : 0), [=](Canvas& canvas) {
+            canvas.text(12, 22, plot.title, 15, 0, black, true);
+            canvas.text(12, 40, plot.subtitle, 12, 0, grey);
+            for (std::size_t i = 0; i < plot.lines.size(); ++i)
+                draw_interval(canvas, axes, plot.lines[i], category(i));
+            for (std::size_t i = 0; i < plot.lines.size(); ++i)
+                draw_line(canvas, axes, plot.lines[i], category(i));
+            draw_missing(canvas, axes, plot, most);
+            draw_axes(canvas, axes, {plot.x_title, plot.x_ticks.empty(), true, plot.x_ticks}, {plot.y_title});
+            double at = lines_top + 10;
+            const double left = axes.box.right() + 14;
+            for (std::size_t i = 0; legend && i < names.size(); ++i, at += 20) {
+                const bool any = has_numbers(plot.lines[i]);
+                if (any) canvas.line(left, at, left + 20, at, category(i), 2.5);
+                canvas.text(left + 27, at + 4, names[i], 12, 0, any ? black : grey);
+            }
+            if (!missing) return;
+            draw_cross(canvas, left + 10, at, grey);
+            canvas.text(left + 27, at + 4, "no data", 12);
+        }};
 }
 
 }  // namespace forage::plot

@@ -94,7 +94,8 @@ std::string RowPlot::draw(Format format, const PlotContext& context) const {
         p.title = title, p.subtitle = context.run, p.quantity = quantity;
         const model::Region& cells = what_.cells;
         const bool places = cells.height > 1 && !what_.numbered;
-        p.cells = what_.synapses ? "synapse (source, target)" : places ? "cell (column, row)" : "cell";
+        const bool pairs = places || (what_.size() <= most_lines && !what_.numbered);
+        p.cells = what_.synapses ? "synapse (source, target)" : pairs ? "cell (column, row)" : "cell";
         if (!places) p.first_cell = cells.x;
         for (int row = 0; places && row < cells.height; ++row)
             p.cell_ticks.emplace_back(1 + row * cells.width, fmt::format("({}, {})", cells.x, cells.y + row));

@@ -95,6 +95,7 @@ Picture lines(const TimePlot& plot) {
     double names = 0;
     for (const auto& c : plot.curves) names = std::max(names, measure.canvas().width_of(c.name(), 12));
     const bool legend = plot.curves.size() > 1;
+    if (legend) names = std::max(names, measure.canvas().width_of(plot.cells, 12) - 27);
     const bool marked = !plot.marks.empty() && !plot.mark_name.empty();
     if (marked) names = std::max(names, measure.canvas().width_of(plot.mark_name, 12));
     const double right = legend || marked ? 52 + names : 24;
@@ -114,6 +115,7 @@ Picture lines(const TimePlot& plot) {
                 draw_axes(canvas, axes, {time_title(plot), true}, {plot.quantity});
                 double y = time_top + 10;
                 const double x = axes.box.right() + 14;
+                if (legend) canvas.text(x, y + 4, plot.cells, 12, 0, grey), y += 20;
                 for (std::size_t i = 0; legend && i < curves.size(); ++i, y += 20) {
                     canvas.line(x, y, x + 20, y, category(i), 2.5);
                     canvas.text(x + 27, y + 4, curves[i].name(), 12);

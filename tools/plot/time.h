@@ -50,7 +50,7 @@ inline constexpr std::size_t row_bins = 1520;
 struct TimePlot {
     std::string title, subtitle;
     std::string quantity;           ///< name of the values
-    std::string cells = "cell";     ///< name of what a curve shows
+    std::string cells = "cell";     ///< what a curve shows, above the legend
     std::span<const Curve> curves;  ///< all for the same cycles
     std::size_t cells_per_row = 1;  ///< number of cells that each curve stands for
     double first_cell = 1;          ///< number of the first cell, for the axis of rows
