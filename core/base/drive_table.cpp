@@ -59,7 +59,7 @@ DriveTable DriveTable::parse(std::string_view text, const std::string& name) {
     return table;
 }
 
-Diagnostic DriveTable::misfit(const Row& row, std::string_view group, const GroupShape& shape) {
+Diagnostic DriveTable::size_error(const Row& row, std::string_view group, const GroupShape& shape) {
     const std::size_t n = row.values.size();
     const std::string order =
         shape.cells == shape.width * shape.height

@@ -32,7 +32,7 @@ class DriveTable {
     static DriveTable read(const std::string& path);
 
     /// The error for a row whose number of values differs from the number of cells of its group.
-    static Diagnostic misfit(const Row& row, std::string_view group, const GroupShape& shape);
+    static Diagnostic size_error(const Row& row, std::string_view group, const GroupShape& shape);
 
     /// The file, with the first mebibyte of its text.
     const std::shared_ptr<const SourceFile>& file() const { return file_; }

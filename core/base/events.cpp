@@ -114,10 +114,10 @@ FORAGE_AVX512 void batches_by_wide_lanes(const Draw& d, const philox::Rounds& ro
 #endif
 
 /// Computes `count` batches, beginning with the `number`-th.
-void batches(philox::Way way, const Draw& d, std::size_t number, std::size_t count, const Threshold& t,
+void batches(philox::InstructionSet set, const Draw& d, std::size_t number, std::size_t count, const Threshold& t,
              double value, double* out) {
 #ifdef FORAGE_AVX2
-    if (way == philox::Way::avx512) {
+    if (set == philox::InstructionSet::avx512) {
         const philox::Rounds rounds(d, events_stream);
         constexpr std::size_t together = 2;
         for (; count >= together; number += together, count -= together, out += together * batch)
@@ -126,9 +126,9 @@ void batches(philox::Way way, const Draw& d, std::size_t number, std::size_t cou
             batches_by_wide_lanes<1>(d, rounds, number, t, value, out);
         return;
     }
-    if (way == philox::Way::avx2) return batches_by_lanes(d, number, count, t, value, out);
+    if (set == philox::InstructionSet::avx2) return batches_by_lanes(d, number, count, t, value, out);
 #endif
-    static_cast<void>(way);
+    static_cast<void>(set);
     for (; count > 0; ++number, --count, out += batch) batch_by_cell(d, number, t, value, out);
 }
 
@@ -137,18 +137,18 @@ void batches(philox::Way way, const Draw& d, std::size_t number, std::size_t cou
 void RandomStream::events(std::uint64_t cycle, double probability, std::span<double> out, double value,
                           std::uint32_t draw, std::size_t first) const {
     static_assert(grain == batch);
-    static const auto way = philox::fastest_way();
-    philox::events(way, philox::draw_of(key_, cycle, draw), probability, out, value, first);
+    static const auto set = philox::best_instruction_set();
+    philox::events(set, philox::draw_of(key_, cycle, draw), probability, out, value, first);
 }
 
-void philox::events(Way way, const Draw& d, double probability, std::span<double> out, double value,
+void philox::events(InstructionSet set, const Draw& d, double probability, std::span<double> out, double value,
                     std::size_t first) {
     const Threshold threshold(probability);
     const std::size_t whole = out.size() / batch, before = first / batch;
-    batches(way, d, before, whole, threshold, value, out.data());
+    batches(set, d, before, whole, threshold, value, out.data());
     if (const std::size_t left = out.size() % batch) {
         std::array<double, batch> last;
-        batches(way, d, before + whole, 1, threshold, value, last.data());
+        batches(set, d, before + whole, 1, threshold, value, last.data());
         std::copy_n(last.begin(), left, out.end() - static_cast<std::ptrdiff_t>(left));
     }
 }

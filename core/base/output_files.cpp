@@ -16,7 +16,7 @@
 
 namespace forage {
 
-void refuse_no_file(const std::string& path) {
+void check_regular_file(const std::string& path) {
     std::error_code none;
     if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
         throw std::runtime_error(fmt::format("cannot write '{}': it is not a file", path));
@@ -63,7 +63,7 @@ std::vector<std::string> remove_unfinished(const std::string& directory) {
 namespace {
 
 void write_partial(const std::string& path, std::string_view text) {
-    refuse_no_file(path);
+    check_regular_file(path);
     std::ofstream out(partial(path), std::ios::binary);
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
     out.close();

@@ -11,7 +11,7 @@
 namespace forage {
 
 /// Throws std::runtime_error when `path` is a directory or a device instead of a file.
-void refuse_no_file(const std::string& path);
+void check_regular_file(const std::string& path);
 /// Reports, before any work is done, why a file cannot be written at `path`: its directory is missing or not
 /// writable, or `path` is not a file. `example` is a file name for the hint.
 void check_output(const std::string& path, const std::string& example, Diagnostics& diagnostics);

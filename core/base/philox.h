@@ -28,15 +28,15 @@ inline Draw draw_of(std::uint64_t key, std::uint64_t cycle, std::uint32_t draw) 
             draw};
 }
 
-/// Implementations for different processors. All give the same numbers.
-enum class Way { one_by_one, avx2, avx512 };
-/// The fastest implementation that this processor supports.
-Way fastest_way();
+/// The instructions of an implementation. All implementations give the same numbers.
+enum class InstructionSet { scalar, avx2, avx512 };
+/// The largest set that this processor supports.
+InstructionSet best_instruction_set();
 
 /// Computes RandomStream::bits() for any draw, beginning with number `first`, which must be even.
-void bits(Way way, const Draw& draw, std::span<std::uint64_t> out, std::size_t first = 0);
+void bits(InstructionSet set, const Draw& draw, std::span<std::uint64_t> out, std::size_t first = 0);
 /// Computes RandomStream::events() for any draw.
-void events(Way way, const Draw& draw, double probability, std::span<double> out, double value,
+void events(InstructionSet set, const Draw& draw, double probability, std::span<double> out, double value,
             std::size_t first);
 
 /// Computes one block. `stream` separates different uses of one draw.

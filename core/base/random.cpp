@@ -89,24 +89,24 @@ double RandomStream::uniform(std::uint64_t cycle, std::uint32_t index, std::uint
     return to_unit(index % 2 ? b : a);
 }
 
-philox::Way philox::fastest_way() {
+philox::InstructionSet philox::best_instruction_set() {
 #ifdef FORAGE_AVX2
-    if (__builtin_cpu_supports("avx512f")) return Way::avx512;
-    if (__builtin_cpu_supports("avx2")) return Way::avx2;
+    if (__builtin_cpu_supports("avx512f")) return InstructionSet::avx512;
+    if (__builtin_cpu_supports("avx2")) return InstructionSet::avx2;
 #endif
-    return Way::one_by_one;
+    return InstructionSet::scalar;
 }
 
-void philox::bits(Way way, const Draw& d, std::span<std::uint64_t> out, std::size_t first) {
+void philox::bits(InstructionSet set, const Draw& d, std::span<std::uint64_t> out, std::size_t first) {
     const auto pair = static_cast<std::uint32_t>(first / 2);
     std::size_t i = 0;
 #ifdef FORAGE_AVX2
-    if (way == Way::avx512)
+    if (set == InstructionSet::avx512)
         i = words_by_wide_lanes(d, pair, out.data(), out.size());
-    else if (way == Way::avx2)
+    else if (set == InstructionSet::avx2)
         i = words_by_lanes(d, pair, out.data(), out.size());
 #else
-    static_cast<void>(way);
+    static_cast<void>(set);
 #endif
     for (; i < out.size(); i += 2) {
         const auto [a, b] = words(d, pair + static_cast<std::uint32_t>(i / 2));
@@ -116,18 +116,18 @@ void philox::bits(Way way, const Draw& d, std::span<std::uint64_t> out, std::siz
 }
 
 void RandomStream::bits(std::uint64_t cycle, std::span<std::uint64_t> out) const {
-    static const auto way = philox::fastest_way();
-    philox::bits(way, philox::draw_of(key_, cycle, 0), out);
+    static const auto set = philox::best_instruction_set();
+    philox::bits(set, philox::draw_of(key_, cycle, 0), out);
 }
 
 void RandomStream::uniform(std::uint64_t cycle, std::span<double> out, std::uint32_t draw,
                            std::size_t first) const {
-    static const auto way = philox::fastest_way();
+    static const auto set = philox::best_instruction_set();
     const Draw d = philox::draw_of(key_, cycle, draw);
     std::array<std::uint64_t, 256> words;
     for (std::size_t i = 0; i < out.size(); i += words.size()) {
         const std::size_t count = std::min(words.size(), out.size() - i);
-        philox::bits(way, d, {words.data(), count}, first + i);
+        philox::bits(set, d, {words.data(), count}, first + i);
         for (std::size_t k = 0; k < count; ++k) out[i + k] = to_unit(words[k]);
     }
 }

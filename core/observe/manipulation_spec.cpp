@@ -123,7 +123,7 @@ class ManipulationReader {
                 for (const int group : groups_of(row, {table.file(), row.line, row.column})) {
                     const auto& [path, id, shape, type] = layout_.groups[group];
                     if (row.values.size() != static_cast<std::size_t>(shape.cells)) {
-                        auto error = DriveTable::misfit(row, path, shape);
+                        auto error = DriveTable::size_error(row, path, shape);
                         error.where.file = table.file();
                         diagnostics_.add(std::move(error));
                         continue;

@@ -54,7 +54,7 @@ std::string loop(PreparedRun& p, const RunCallbacks& callbacks, DirectoryWatch& 
             if (p.checkpoints) p.checkpoints->write(run);
             return why;
         }
-        if (auto why = p.stop.gives_up(run); !why.empty()) return why;
+        if (auto why = p.stop.timeout_reason(run); !why.empty()) return why;
     }
     return {};
 }

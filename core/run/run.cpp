@@ -84,25 +84,23 @@ void Run::remove(const Observer& observer) {
 bool Run::start(Diagnostics& diagnostics) {
     if (simulation_) return true;
     for (const auto& o : observers_) o->declare(demand_);
-    simulation_ = engine::Simulation::build(
-        system_, layout_, demand_,
-        {.seed = options_.seed,
-         .threads = options_.threads,
-         .environment = environment_.get(),
-         .directory = options_.directory,
-         .open = [files = module_files_](const auto& process, const auto& name) -> auto& {
-             return files->open(process, name);
-}
-}  // namespace forage
-,
-        diagnostics);
-if (!simulation_) return false;
-for (const auto& o : observers_) o->check(*simulation_, diagnostics);
-if (diagnostics.failed()) return simulation_.reset(), false;
-module_files_->begin(observers_);
-simulation_->start();
-simulation_->check_finite(options_.check_finite);
-return true;
+    const auto open = [files = module_files_](const auto& process, const auto& name) -> std::ostream& {
+        return files->open(process, name);
+    };
+    simulation_ = engine::Simulation::build(system_, layout_, demand_,
+                                            {.seed = options_.seed,
+                                             .threads = options_.threads,
+                                             .environment = environment_.get(),
+                                             .directory = options_.directory,
+                                             .open = open},
+                                            diagnostics);
+    if (!simulation_) return false;
+    for (const auto& o : observers_) o->check(*simulation_, diagnostics);
+    if (diagnostics.failed()) return simulation_.reset(), false;
+    module_files_->begin(observers_);
+    simulation_->start();
+    simulation_->check_finite(options_.check_finite);
+    return true;
 }
 
 void Run::start() {
@@ -143,7 +141,7 @@ std::string Run::until(const RunLength& length) {
     const auto origin = stop.begin(*this);
     while (!stop.reached(*this, origin)) {
         step();
-        if (auto why = stop.gives_up(*this); !why.empty()) return why;
+        if (auto why = stop.timeout_reason(*this); !why.empty()) return why;
     }
     return stop.holds(*this) ? fmt::format("'{}' held", length.until.text) : std::string();
 }

@@ -74,7 +74,7 @@ bool StopCondition::holds(const Run& run) const {
     return until_ && until_->holds(run.simulation(), run.time());
 }
 
-std::string StopCondition::gives_up(const Run& run) const {
+std::string StopCondition::timeout_reason(const Run& run) const {
     if (!length_.trials || run.environment()->current_trial(0).cycles < timeout_) return {};
     return fmt::format("trial {} did not end within {:g} s (--trial-timeout)",
                        run.environment()->trials(0).size() + 1, length_.trial_timeout);

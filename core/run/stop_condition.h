@@ -31,7 +31,7 @@ class StopCondition {
     /// Whether the condition holds.
     bool holds(const Run& run) const;
     /// The reason for an early end: a trial took too long. Empty when the run may continue.
-    std::string gives_up(const Run& run) const;
+    std::string timeout_reason(const Run& run) const;
     double fraction_done(const Run& run) const;  ///< 0..1
     /// The progress in words, such as "12/30 trials, 11 at the target"; empty for a run without trials.
     std::string progress(const Run& run) const;

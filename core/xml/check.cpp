@@ -87,7 +87,7 @@ class Checker {
     void children(const Element& e, const ElementRule& rule) {
         std::vector<int> count(rule.children.size());
         int chosen = 0;
-        bool strangers = false;
+        bool unknown_children = false;
         for (const Element& child : e.children()) {
             if (out_.errors() >= most_errors) {
                 sound_ = false;
@@ -96,7 +96,7 @@ class Checker {
             const auto known = std::find_if(rule.children.begin(), rule.children.end(),
                                             [&](const ChildRule& c) { return c.name == child.name(); });
             if (known == rule.children.end()) {
-                strangers |= unknown(child, rule);
+                unknown_children |= unknown(child, rule);
                 continue;
             }
             const int n = ++count[static_cast<std::size_t>(known - rule.children.begin())];
@@ -110,7 +110,7 @@ class Checker {
                            "keep one of them");
             element(child, *known);
         }
-        if (strangers) return;  // a missing element is probably the misspelt one
+        if (unknown_children) return;  // a missing element is probably the misspelt one
         if (chosen < rule.choose && !(rule.or_none && chosen == 0))
             structural(e.where(),
                        fmt::format("<{}> holds {}, it needs {}", e.name(),

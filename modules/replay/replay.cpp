@@ -15,7 +15,7 @@ void require_sizes(const DriveTable& table, const ModulePorts& ports) {
         for (const auto& output : ports.outputs)
             if (plays(row, ports.process, output) &&
                 row.values.size() != static_cast<std::size_t>(output.shape.cells))
-                errors.push_back(DriveTable::misfit(row, output.path, output.shape));
+                errors.push_back(DriveTable::size_error(row, output.path, output.shape));
     if (!errors.empty()) throw FileError(table.file(), std::move(errors));
 }
 

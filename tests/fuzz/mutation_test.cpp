@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/fuzz/whole_way.h"
+#include "tests/fuzz/pipeline.h"
 #include "tests/support/catch.h"
 #include "tests/support/golden.h"
 #include "tests/support/model_text.h"
@@ -203,9 +203,9 @@ TEST_CASE("No damaged file crashes the reader, the checks or the connections") {
     for (int i = 0; i < 2000; ++i) {
         const std::string text = mutator.next();
         INFO("mutation " << i << ":\n" << text.substr(0, 4000));
-        test::Way way;
-        REQUIRE_NOTHROW(way = test::whole_way(text, registry, i % 2 == 1));
-        read += way.read, checked += way.checked, synapses += way.synapses;
+        test::PipelineResult result;
+        REQUIRE_NOTHROW(result = test::run_pipeline(text, registry, i % 2 == 1));
+        read += result.read, checked += result.checked, synapses += result.synapses;
     }
     // Damage that never gets past the parser would test little.
     CHECK(read > 200);

@@ -1,11 +1,11 @@
 // Tries all steps from a text to synapses.
 #include <cstdint>
 
-#include "tests/fuzz/whole_way.h"
+#include "tests/fuzz/pipeline.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const forage::Registry registry = forage::test::shipped_types();
     const std::string text(reinterpret_cast<const char*>(data), size);
-    forage::test::whole_way(text, registry, size % 2 == 1);
+    forage::test::run_pipeline(text, registry, size % 2 == 1);
     return 0;
 }

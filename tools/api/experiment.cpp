@@ -75,7 +75,7 @@ std::optional<PreparedExperiment> prepare_experiment(const std::string& file, st
     const char* hint = "choose another directory for the results with -o";
     try {
         make_directory(out.directory + "/runs");
-        for (const auto& table : {out.results_file(), out.summary_file()}) refuse_no_file(table);
+        for (const auto& table : {out.results_file(), out.summary_file()}) check_regular_file(table);
         hint = held_hint;
         out.hold = DirectoryHold(out.directory);
     } catch (const std::exception& e) {

@@ -189,9 +189,9 @@ void clear_directory(const RunSpec& spec, Diagnostics& diagnostics) {
 void begin(PreparedRun& p) {
     if (p.spec.directory.empty()) return;
     ResultFiles files(p.spec.directory);
-    refuse_no_file(files.path("run.json"));
+    check_regular_file(files.path("run.json"));
     for (const auto& o : p.run.observers())
-        for (const auto& name : o->file_names()) refuse_no_file(files.path(name));
+        for (const auto& name : o->file_names()) check_regular_file(files.path(name));
     for (const auto& o : p.run.observers()) o->begin_files(files);
 }
 

@@ -132,7 +132,7 @@ class Work {
             run.step();
             part.store(prepared.stop.fraction_done(run), std::memory_order_relaxed);
             stopped_by_user = interrupted();
-            result.stopped = prepared.stop.gives_up(run);
+            result.stopped = prepared.stop.timeout_reason(run);
         }
         result.diverged = run.divergence();
         result.cycles = run.cycle(), result.seconds = run.seconds();

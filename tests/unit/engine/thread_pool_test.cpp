@@ -13,13 +13,13 @@ TEST_CASE("Every item is processed once, with any number of threads") {
     ThreadPool pool(GENERATE(1, 2, 4));
     for (const int items : {0, 1, 2, 3, 1000}) {
         std::vector<std::atomic<int>> done(static_cast<std::size_t>(items));
-        std::atomic<int> strangers{0};  // Catch2 itself is for one thread
+        std::atomic<int> wrong_numbers{0};  // Catch2 itself is for one thread
         auto work = [&](int item, int thread) {
-            if (thread < 0 || thread >= pool.threads()) ++strangers;
+            if (thread < 0 || thread >= pool.threads()) ++wrong_numbers;
             ++done[static_cast<std::size_t>(item)];
         };
         for (int round = 0; round < 20; ++round) pool.run(items, work);
-        REQUIRE(strangers == 0);
+        REQUIRE(wrong_numbers == 0);
         for (const auto& n : done) REQUIRE(n == 20);
     }
 }

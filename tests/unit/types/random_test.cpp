@@ -133,22 +133,22 @@ TEST_CASE("A column of random numbers has the same numbers when it is computed i
 
 TEST_CASE("Every implementation gives the same random numbers") {
     using namespace forage::philox;
-    const auto ways = {Way::avx2, Way::avx512};
+    const auto sets = {InstructionSet::avx2, InstructionSet::avx512};
     const Draw draw = draw_of(0x123456789abcdef0u, 77, 2);
-    for (const Way way : ways) {
-        if (way > fastest_way()) {
-            WARN("not tested: this processor cannot go way " << static_cast<int>(way));
+    for (const InstructionSet set : sets) {
+        if (set > best_instruction_set()) {
+            WARN("not tested: this processor lacks instruction set " << static_cast<int>(set));
             continue;
         }
         for (const std::size_t size : {1, 15, 16, 17, 64, 65, 1000, 70'000}) {
             std::vector<std::uint64_t> plain_bits(size), bits(size);
-            forage::philox::bits(Way::one_by_one, draw, plain_bits, 6);
-            forage::philox::bits(way, draw, bits, 6);
+            forage::philox::bits(InstructionSet::scalar, draw, plain_bits, 6);
+            forage::philox::bits(set, draw, bits, 6);
             REQUIRE(bits == plain_bits);
             for (const double probability : {0.0, 0.3, 0x1p-16, 1.0}) {  // 70,000 cells have ties
                 std::vector<double> plain(size), fast(size);
-                events(Way::one_by_one, draw, probability, plain, 3, 64);
-                events(way, draw, probability, fast, 3, 64);
+                events(InstructionSet::scalar, draw, probability, plain, 3, 64);
+                events(set, draw, probability, fast, 3, 64);
                 REQUIRE(fast == plain);
             }
         }

@@ -14,7 +14,7 @@
 
 namespace forage::test {
 
-struct Way {
+struct PipelineResult {
     bool read = false;     ///< whether the text is a system
     bool checked = false;  ///< whether the system has no errors
     std::size_t synapses = 0;
@@ -25,16 +25,16 @@ inline void must(bool holds, const char* what) {
 }
 
 /// Reads, checks and connects. Throws when a result is impossible.
-inline Way whole_way(const std::string& text, const Registry& registry, bool lenient) {
-    Way way;
+inline PipelineResult run_pipeline(const std::string& text, const Registry& registry, bool lenient) {
+    PipelineResult result;
     Diagnostics diagnostics;
     diagnostics.lenient = lenient;
     const auto system = xml::parse_system("input.iqr", text, diagnostics);
-    way.read = system.has_value();
-    must(way.read || diagnostics.failed(), "where there is no error, a system is read");
+    result.read = system.has_value();
+    must(result.read || diagnostics.failed(), "where there is no error, a system is read");
     if (system) model::validate(*system, registry, diagnostics);
-    way.checked = !diagnostics.failed();
-    if (way.checked) {
+    result.checked = !diagnostics.failed();
+    if (result.checked) {
         const model::GroupIndex groups(*system);
         for (const auto& c : system->connections) {
             const auto *source = groups.find(c.source).group, *target = groups.find(c.target).group;
@@ -47,7 +47,7 @@ inline Way whole_way(const std::string& text, const Registry& registry, bool len
                 must(s.pre[i] >= 0 && s.pre[i] < sources && s.post[i] >= 0 && s.post[i] < targets &&
                          s.distance[i] >= 0 && s.delay.at(i) >= 0,
                      "a synapse joins cells that there are");
-            way.synapses += s.size();
+            result.synapses += s.size();
         }
     }
     const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
@@ -58,7 +58,7 @@ inline Way whole_way(const std::string& text, const Registry& registry, bool len
     }
     const std::string said = format(diagnostics);
     must(said.empty() == diagnostics.all().empty(), "what is wrong is said");
-    return way;
+    return result;
 }
 
 inline Registry shipped_types() {
