@@ -2,6 +2,9 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <set>
+
+#include <fmt/format.h>
 
 #include "core/base/cores.h"
 #include "core/base/named_file.h"
@@ -43,6 +46,21 @@ std::map<std::string, Sources> read_all(std::vector<PlannedRun>& runs, Diagnosti
     return out;
 }
 
+/// Warns about folders of runs that are not part of the experiment any more. They are kept, as they may hold
+/// the only copy of a result.
+void report_leftovers(const PreparedExperiment& e, Diagnostics& diagnostics) {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(e.directory + "/runs"))
+        if (entry.is_directory()) names.insert(entry.path().filename().string());
+    for (const auto& run : e.runs) names.erase(run.name);
+    if (names.empty()) return;
+    diagnostics.warning(
+        {},
+        fmt::format("'{}/runs' holds {} folder{} of runs that are not part of this experiment, such as '{}'",
+                    e.directory, names.size(), names.size() == 1 ? "" : "s", *names.begin()),
+        "tables and pictures leave them out; remove them if you do not need them");
+}
+
 }  // namespace
 
 std::optional<PreparedRun> PreparedExperiment::prepare(const RunSpec& spec, Diagnostics& diagnostics) const {
@@ -78,6 +96,7 @@ std::optional<PreparedExperiment> prepare_experiment(const std::string& file, st
         for (const auto& table : {out.results_file(), out.summary_file()}) check_regular_file(table);
         hint = held_hint;
         out.hold = DirectoryHold(out.directory);
+        report_leftovers(out, diagnostics);
     } catch (const std::exception& e) {
         diagnostics.error({}, e.what(), hint);
         return std::nullopt;

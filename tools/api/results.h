@@ -43,6 +43,10 @@ std::vector<std::string> draw(Results& results, std::vector<std::string> plots, 
                               plot::Format format, Diagnostics& diagnostics,
                               const std::vector<std::string>& where = {});
 
+/// The pictures in the folders below a directory, in order of their paths relative to it. Folders of runs
+/// that their experiment's table does not name any more are left out.
+std::vector<std::string> pictures_below(const std::string& directory);
+
 /// Writes index.html, a page of the pictures and tables in a directory of results and of the pictures below
 /// it, and returns its path. Draws the usual pictures of an experiment first. The page needs nothing from the
 /// network.

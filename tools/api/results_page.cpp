@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <vector>
 
 #include <fmt/format.h>
@@ -92,17 +93,6 @@ bool shows_all_runs(const fs::path& picture) {
            name.starts_with("occupancy");
 }
 
-/// The pictures in the folders below a directory, in order of their paths relative to it.
-std::vector<std::string> pictures_below(const std::string& directory) {
-    std::vector<std::string> out;
-    for (const auto& entry : fs::recursive_directory_iterator(directory))
-        if (entry.is_regular_file() && plot::format_of(entry.path().filename().string()) &&
-            entry.path().parent_path() != fs::path(directory))
-            out.push_back(entry.path().lexically_relative(directory).string());
-    std::sort(out.begin(), out.end());
-    return out;
-}
-
 std::string results_page(const std::string& directory) {
     std::vector<fs::path> pictures, tables, others, folders;
     for (const auto& entry : fs::directory_iterator(directory)) {
@@ -150,7 +140,33 @@ table {{ border-collapse: collapse; font-size: 13px; }} th, td {{ border: 1px so
     return out + "</body></html>\n";
 }
 
+/// The folders in runs/ of an experiment that its table does not name; none in other directories.
+std::set<fs::path> leftover_runs(const fs::path& directory) {
+    std::set<fs::path> out;
+    if (!holds_experiment(directory.string()) || !fs::is_directory(directory / "runs")) return out;
+    for (const auto& entry : fs::directory_iterator(directory / "runs")) out.insert(entry.path());
+    for (const auto& row : read_run_table(directory.string()).rows) out.erase(directory / "runs" / row.run);
+    return out;
+}
+
 }  // namespace
+
+std::vector<std::string> pictures_below(const std::string& directory) {
+    std::vector<std::string> out;
+    std::set<fs::path> leftover = leftover_runs(directory);
+    for (auto entry = fs::recursive_directory_iterator(directory);
+         entry != fs::recursive_directory_iterator(); ++entry) {
+        const fs::path& path = entry->path();
+        if (leftover.contains(path))
+            entry.disable_recursion_pending();
+        else if (entry->is_directory())
+            leftover.merge(leftover_runs(path));
+        else if (plot::format_of(path.filename().string()) && path.parent_path() != fs::path(directory))
+            out.push_back(path.lexically_relative(directory).string());
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
 
 std::string write_page(const std::string& directory, Diagnostics& diagnostics) {
     if (holds_experiment(directory)) {

@@ -1,4 +1,6 @@
-// The exercises of the tutorial: experiment files whose note explains them.
+// Lists and runs the exercises of the tutorial.
+#include "tools/api/tutorial.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -7,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/model/lookup.h"
-#include "core/xml/experiment.h"
+#include "tools/api/results.h"
 #include "tools/forage/commands.h"
 
 namespace forage::tool {
@@ -15,56 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Exercise {
-    std::string number;  ///< such as "3.1": the beginning of the file's name, up to '-'
-    fs::path file;
-    fs::path start;       ///< the system that users complete; empty when there is none
-    fs::path solution;    ///< the system that the exercise runs
-    std::string title;    ///< the first line of the note
-    std::string look_at;  ///< the other lines, without leading blanks
-};
-
 /// The folder of exercises, in the installation or the build tree that the running program is in.
 fs::path folder() {
     std::error_code none;
     return fs::read_symlink("/proc/self/exe", none).parent_path().parent_path() /
            "share/forage/systems/tutorial";
-}
-
-void read_note(std::string_view note, Exercise& out) {
-    while (!note.empty()) {
-        const auto end = std::min(note.find('\n'), note.size());
-        const std::string line(model::trim(note.substr(0, end)));
-        note.remove_prefix(std::min(end + 1, note.size()));
-        if (out.title.empty())
-            out.title = line;
-        else if (!line.empty() || !out.look_at.empty())
-            out.look_at += "  " + line + "\n";
-    }
-    while (out.look_at.ends_with("  \n")) out.look_at.erase(out.look_at.size() - 3);
-}
-
-std::vector<Exercise> exercises(Diagnostics& diagnostics) {
-    std::vector<Exercise> out;
-    std::error_code none;
-    for (const auto& entry : fs::directory_iterator(folder(), none)) {
-        const std::string name = entry.path().filename().string();
-        const auto dash = name.find('-');
-        if (entry.path().extension() != ".xml" || dash == std::string::npos) continue;
-        const auto experiment = xml::read_experiment(entry.path().string(), diagnostics);
-        if (!experiment) continue;
-        const auto path = [](const std::string& p) { return fs::path(p).lexically_normal(); };
-        Exercise exercise{name.substr(0, dash),
-                          entry.path(),
-                          experiment->exercise ? path(experiment->exercise->start) : fs::path(),
-                          experiment->systems.empty() ? fs::path() : path(experiment->systems.front().text),
-                          {},
-                          {}};
-        read_note(experiment->note, exercise);
-        out.push_back(std::move(exercise));
-    }
-    std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
-    return out;
 }
 
 /// The path relative to the working directory when it is below it.
@@ -78,7 +35,7 @@ std::string shown(const fs::path& path) {
 
 int tutorial(const TutorialOptions& o) {
     Diagnostics diagnostics;
-    const auto all = exercises(diagnostics);
+    const auto all = read_tutorial(folder(), diagnostics);
     if (diagnostics.failed()) {
         fmt::print(stderr, "{}", format(diagnostics));
         return bad_input;
@@ -134,9 +91,7 @@ int tutorial(const TutorialOptions& o) {
     if (status != fine || !o.system.empty()) return status;
     fmt::print("look at\n{}", wanted->look_at);
     std::vector<std::string> pictures;
-    for (const auto& file : fs::recursive_directory_iterator(fs::path(directory) / "runs"))
-        if (file.path().extension() == ".png") pictures.push_back(file.path().string());
-    std::sort(pictures.begin(), pictures.end());
+    for (const auto& picture : pictures_below(directory)) pictures.push_back(directory + "/" + picture);
     if (pictures.size() > 10)
         fmt::print("  the {} pictures: forage view {}\n", pictures.size(), directory);
     else
