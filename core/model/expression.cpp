@@ -255,6 +255,7 @@ class Parser {
         if (left.kind == Quantity::number && rest().starts_with('s') &&
             ends(rest().substr(1), in_condition)) {
             take("s");
+            if (left.value < 0) never(begin, "a run begins at 0 s");
             Quantity seconds;
             seconds.kind = Quantity::seconds, seconds.at = left.at;
             return compare(Operator::at_least, std::move(seconds), std::move(left));
@@ -272,11 +273,24 @@ class Parser {
                     fail("there is nothing to compare in it", condition_hint, time->at);
                 return compare(op, std::move(left), quantity());
             }
-        const bool assigned = rest().starts_with('=');
-        fail(assigned ? "'=' is not a comparison"
-                      : fmt::format("a comparison is missing behind '{}'",
-                                    escaped(trim(text_.substr(begin, at_ - begin)))),
-             assigned ? "write '=='" : condition_hint, at_);
+        static constexpr std::array<std::pair<std::string_view, std::string_view>, 3> misspelt = {
+            {{"=>", ">="}, {"=<", "<="}, {"=", "=="}}};
+        for (const auto& [sign, meant] : misspelt)
+            if (rest().starts_with(sign))
+                fail(fmt::format("'{}' is not a comparison", sign), fmt::format("write '{}'", meant), at_);
+        const auto behind = trim(text_.substr(begin, at_ - begin));
+        for (const auto& [word, kind] : words) {
+            if (!behind.starts_with(word)) continue;
+            const auto value = parse_number<double>(trim(behind.substr(word.size())));
+            if (value && *value < 0)
+                never(begin, kind == Quantity::trial ? "trials are counted from 1"
+                                                     : "cycles and seconds are counted from 0");
+        }
+        fail(fmt::format("a comparison is missing behind '{}'", escaped(behind)), condition_hint, at_);
+    }
+    /// Refuses the time before a run that begins at `begin` and ends here.
+    [[noreturn]] void never(std::size_t begin, const char* hint) {
+        fail(fmt::format("'{}' is before the run", trim(text_.substr(begin, at_ - begin))), hint, begin);
     }
     /// The word of "cycle 100" or "trial 7", when only a number follows it.
     std::optional<Quantity> shorthand() {

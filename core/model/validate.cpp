@@ -372,9 +372,15 @@ class Validator {
     }
 
     void check_sigma(const DistanceFunction& f) {
-        if (const auto* gaussian = std::get_if<GaussianFunction>(&f.form); gaussian && gaussian->sigma == 0)
+        const auto* gaussian = std::get_if<GaussianFunction>(&f.form);
+        if (gaussian && gaussian->sigma == 0)
             out_.warning(f.at, "sigma = 0 counts as 0.0001: only distance 0 differs from the rest",
                          "sigma is the width in cells");
+        else if (gaussian && gaussian->sigma < 0)
+            out_.warning(
+                f.at,
+                fmt::format("sigma = {0} counts as {1}", to_text(gaussian->sigma), to_text(-gaussian->sigma)),
+                "sigma is the width in cells");
     }
 
     const Group* end(const Connection& c, const std::string& id, const Location& at, std::string_view which) {

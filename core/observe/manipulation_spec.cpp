@@ -73,6 +73,13 @@ class ManipulationReader {
 
     /// The column of a group's activity.
     std::optional<ColumnRef> manipulated(const model::Expression& group) {
+        if (names_connection(layout_, {group.text})) {
+            diagnostics_.error(
+                group.at,
+                fmt::format("{} '{}': this is a connection, not a group", what(group.at), group.text),
+                "the activity of a group can be changed: 'Process/Group=value', 'Process/Group(x,y)=value'");
+            return std::nullopt;
+        }
         auto column = find_column(layout_, group.text, what(group.at), diagnostics_, group.at);
         if (!column || column->state == layout_.groups[column->group].type.output()) return column;
         diagnostics_.error(
@@ -95,10 +102,17 @@ class ManipulationReader {
 
     void add_patterns(const Spec& spec, Settings settings) {
         const GroupShape& shape = layout_.groups[settings.group].shape;
-        if (const auto value = parse_number<double>(spec.patterns.text))
+        const std::string& text = spec.patterns.text;
+        std::string_view rest = text;
+        if (const auto value = parse_number<double>(text))
             settings.patterns = {std::vector<double>(static_cast<std::size_t>(shape.cells), *value)};
+        else if (text.empty() || out_of_range(text) || (take_number<double>(rest) && rest.empty()))
+            diagnostics_.error(
+                spec.patterns.at,
+                fmt::format("{} '{}={}': {}", what(spec.patterns.at), spec.group.text, text, no_number(text)),
+                "write a finite number for all cells, or the name of a file with patterns");
         else
-            settings.patterns = read_patterns(spec.patterns.text, shape, diagnostics_);
+            settings.patterns = read_patterns(text, shape, diagnostics_);
         if (!settings.patterns.empty()) made_.push_back({&spec, std::move(settings), {}});
     }
 

@@ -53,6 +53,9 @@ std::string summary(const PreparedRun& p, const RunOutcome& outcome, bool resuma
         line(e.cycle ? "changed" : "not changed", e.cycle
                                                       ? fmt::format("in cycle {}, at {}", *e.cycle, e.text)
                                                       : fmt::format("at {}: it never was", e.text));
+    if (const std::string& until = p.spec.length.until.text; !until.empty())
+        line("until", p.stop.holds(run) ? fmt::format("{}: it held after cycle {}", until, run.cycle())
+                                        : until + ": it never held");
     if (environment) {
         const auto names = environment->robot_names();
         for (std::size_t i = 0; i < names.size(); ++i)

@@ -176,6 +176,10 @@ TEST_CASE("'and' binds before 'or', and parentheses before both") {
 TEST_CASE("Mistakes are reported with their column") {
     CHECK(condition("") == "1: something is missing at its end");
     CHECK(condition("cycle = 5") == "7: '=' is not a comparison");
+    CHECK(condition("cycle => 5") == "7: '=>' is not a comparison");
+    CHECK(condition("cycle =< 5") == "7: '=<' is not a comparison");
+    CHECK(condition("trial 1 or cycle -1") == "12: 'cycle -1' is before the run");
+    CHECK(condition("-2 s") == "1: '-2 s' is before the run");
     CHECK(condition("cycle 5 and trial") == "18: a comparison is missing behind 'trial'");
     CHECK(condition("1 < cycle < 5") == "11: '< 5' is left over");
     CHECK(condition("(cycle 5") == "9: a ')' is missing");

@@ -227,6 +227,8 @@ TEST_CASE("Functions of the distance with an unexpected meaning give a warning")
     CHECK(one("sigma=\"1.5\"", "sigma=\"0\"") ==
           "31:26: warning: sigma = 0 counts as 0.0001: only distance 0 differs from the rest | sigma is the "
           "width in cells");
+    CHECK(one("sigma=\"1.5\"", "sigma=\"-2\"") ==
+          "31:26: warning: sigma = -2 counts as 2 | sigma is the width in cells");
     CHECK(one(delay, "<FunUniform value=\"-1\"/>") ==
           "32:20: warning: a delay cannot be negative: -1 | delays below 0 count as 0");
     CHECK(one(delay, "<FunLinear min=\"0\" max=\"2.5\"/>") ==

@@ -123,6 +123,9 @@ TEST_CASE("Mistakes in conditions are reported with the names that exist") {
     CHECK(contains(s.said("P/A(x,1) > 1"), "'(x,1)' does not name cells"));
     CHECK(contains(s.said("P/A(1,1)"), "a comparison is missing"));
     CHECK(contains(s.said("cycle = 5"), "write '=='"));
+    CHECK(contains(s.said("cycle => 5"), "write '>='"));
+    CHECK(contains(s.said("cycle =< 5"), "write '<='"));
+    CHECK(contains(s.said("trial -1"), "trials are counted from 1"));
     CHECK(contains(s.said("cycle >= "), "something is missing"));
     CHECK(contains(s.said(""), "something is missing"));
     CHECK(contains(s.said("cycle 5 &&"), "something is missing"));
