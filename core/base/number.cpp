@@ -22,4 +22,18 @@ std::string no_number(std::string_view word) {
     return fmt::format("'{}' is not a {}number", escaped(word), infinite ? "finite " : "");
 }
 
+std::string plain_number(double value, int digits) {
+    const bool whole = std::abs(value) >= std::pow(10, digits - 1) && std::abs(value) < 1e15;
+    return whole ? fmt::format("{:.0f}", value) : fmt::format("{:.{}g}", value, digits);
+}
+
+std::string duration_text(double seconds) {
+    constexpr double minute = 60, hour = 60 * minute, day = 24 * hour, year = 365 * day;
+    if (seconds < 100) return fmt::format("{:.0f} s", seconds);
+    if (seconds < 100 * minute) return fmt::format("{:.0f} min", seconds / minute);
+    if (seconds < 2 * day) return fmt::format("{:.0f} hours", seconds / hour);
+    if (seconds < 2 * year) return fmt::format("{:.0f} days", seconds / day);
+    return fmt::format("{:.0f} years", seconds / year);
+}
+
 }  // namespace forage

@@ -39,4 +39,11 @@ bool out_of_range(std::string_view word);
 /// The message for a word that is not a finite number where one is expected.
 std::string no_number(std::string_view word);
 
+/// The number for readers, with this many significant digits or, when it is larger, as a whole number: no
+/// exponent (but from 1e15 on, and below 0.0001).
+std::string plain_number(double value, int digits);
+
+/// A length of time in words, rounded to one unit: "42 s", "7 min", "3 hours", "12 days", "5 years".
+std::string duration_text(double seconds);
+
 }  // namespace forage

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/base/number.h"
 #include "core/model/lookup.h"
 #include "core/model/validate.h"
 
@@ -19,6 +20,9 @@ using observe::Spread;
 
 constexpr std::array<const char*, input_kinds> kind_names = {"excitation", "inhibition", "modulation"};
 constexpr std::array<const char*, input_kinds> kind_adjectives = {"excitatory", "inhibitory", "modulatory"};
+
+/// A measured number, rounded as in the summaries of experiments.
+std::string readable(double value) { return plain_number(value + 0.0, 4); }  // + 0.0 turns -0 into 0
 
 std::size_t number_of(InputKind kind) { return static_cast<std::size_t>(kind); }
 
@@ -165,17 +169,17 @@ class Explainer {
         const auto* potential = state(g, "vm");
         if (const auto threshold = parameter(g, "threshold");
             potential && threshold && potential->most < *threshold) {
-            std::string text = fmt::format("its potential vm was {:.3g} at most, and its threshold is {:.3g}",
-                                           potential->most + 0.0, *threshold);
+            std::string text = fmt::format("its potential vm was {} at most, and its threshold is {}",
+                                           readable(potential->most), to_text(*threshold));
             if (inhibition.most > 0)
-                text += fmt::format("; excitation was {:.3g} on average, inhibition {:.3g}",
-                                    excitation.mean(), inhibition.mean());
+                text += fmt::format("; excitation was {} on average, inhibition {}",
+                                    readable(excitation.mean()), readable(inhibition.mean()));
             return text;
         }
         if (inhibition.mean() >= excitation.mean())
-            return fmt::format("inhibition ({:.3g} on average) outweighs excitation ({:.3g})",
-                               inhibition.mean(), excitation.mean());
-        return fmt::format("its input ({:.3g} on average) is not enough for {}", excitation.mean(),
+            return fmt::format("inhibition ({} on average) outweighs excitation ({})",
+                               readable(inhibition.mean()), readable(excitation.mean()));
+        return fmt::format("its input ({} on average) is not enough for {}", readable(excitation.mean()),
                            type.name);
     }
 
@@ -210,9 +214,9 @@ class Explainer {
         if (!potential || !clips || *clips == 0 || !limit || potential->most < *limit ||
             seen_[g].inputs[number_of(InputKind::excitatory)].most <= *limit)
             return {};
-        return fmt::format(
-            "{} was clipped: its excitation was up to {:.3g}, and vmMax keeps its potential at {:.3g}",
-            name(g), seen_[g].inputs[number_of(InputKind::excitatory)].most, *limit);
+        return fmt::format("{} was clipped: its excitation was up to {}, and vmMax keeps its potential at {}",
+                           name(g), readable(seen_[g].inputs[number_of(InputKind::excitatory)].most),
+                           to_text(*limit));
     }
 
     const Layout& layout_;
@@ -255,8 +259,9 @@ std::string activity_table(const Layout& layout, const observe::GroupStatistics&
     std::string out = fmt::format("{:<{}}  {:>10}  {:>10}  {:>10}  {:>7}\n", "group", widest + 2, "mean",
                                   "least", "largest", "active");
     const auto row = [&](const std::string& what, const Spread& s) {
-        out += fmt::format("{:<{}}  {:>10.4g}  {:>10.4g}  {:>10.4g}  {:>5.1f} %\n", what, widest + 2,
-                           s.mean(), s.count ? s.least : 0, s.count ? s.most : 0, 100 * s.active_share());
+        out += fmt::format("{:<{}}  {:>10}  {:>10}  {:>10}  {:>5.1f} %\n", what, widest + 2,
+                           readable(s.mean()), readable(s.count ? s.least : 0),
+                           readable(s.count ? s.most : 0), 100 * s.active_share());
     };
     for (std::size_t g = 0; g < layout.groups.size(); ++g) {
         const auto& seen = statistics.groups()[g];

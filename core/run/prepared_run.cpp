@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -15,35 +16,37 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Checks, once a second, that the directory for results still exists: otherwise everything written into open
-/// files would be lost.
-class DirectoryWatch {
-  public:
-    explicit DirectoryWatch(std::string directory) : directory_(std::move(directory)) {}
-    bool gone() const { return !directory_.empty() && access(directory_.c_str(), F_OK) != 0; }
-    std::string message() const {
-        return fmt::format("the directory '{}' is not there any more", directory_);
-    }
-    void look() {
-        const auto now = Clock::now();
-        if (now < next_) return;
-        next_ = now + std::chrono::seconds(1);
-        if (gone()) throw std::runtime_error(message());
-    }
+/// Whether the directory for results was removed: everything written into open files would be lost.
+bool is_gone(const std::string& directory) {
+    return !directory.empty() && access(directory.c_str(), F_OK) != 0;
+}
 
-  private:
-    std::string directory_;
-    Clock::time_point next_;
-};
+std::string gone_message(const std::string& directory) {
+    return fmt::format("the directory '{}' is not there any more", directory);
+}
 
 /// Runs until the end, or until something stops it. Returns why it ended early. Throws what a cycle or an
 /// observer throws.
-std::string loop(PreparedRun& p, const RunCallbacks& callbacks, DirectoryWatch& watch) {
+std::string loop(PreparedRun& p, const RunCallbacks& callbacks) {
+    constexpr double hour = 3600;
     Run& run = p.run;
+    const auto begun = Clock::now();
+    const double done_before = p.stop.fraction_done(run);
+    auto next_look = begun;
+    int looks = 0;                          // one per second
     bool told = !run.divergence().empty();  // reported before the stop
     while (!p.stop.reached(run)) {
         run.step();
-        watch.look();
+        if (const auto now = Clock::now(); now >= next_look) {
+            next_look = now + std::chrono::seconds(1);
+            if (is_gone(p.spec.directory)) throw std::runtime_error(gone_message(p.spec.directory));
+            if (++looks == 5 && callbacks.takes_long) {
+                const double done = p.stop.fraction_done(run),
+                             elapsed = std::chrono::duration<double>(now - begun).count();
+                const double left = elapsed * (1 - done) / (done - done_before);
+                if (left > hour && std::isfinite(left)) callbacks.takes_long(left);
+            }
+        }
         if (!run.divergence().empty() && !told) {
             told = true;
             if (p.spec.on_nan == OnNan::stop) throw std::runtime_error(run.divergence());
@@ -77,14 +80,13 @@ RunOutcome run_to_end(PreparedRun& p, const RunCallbacks& callbacks) {
     RunOutcome out;
     out.files = ResultFiles(p.spec.directory);
     out.first_cycle = p.run.cycle();
-    DirectoryWatch watch(p.spec.directory);
     const auto begun = Clock::now();
     const auto problem = [&](const std::string& text) {
         if (std::find(out.problems.begin(), out.problems.end(), text) == out.problems.end())
             out.problems.push_back(text);
     };
     try {
-        out.stopped = loop(p, callbacks, watch);
+        out.stopped = loop(p, callbacks);
     } catch (const std::exception& e) {
         out.stopped = e.what();
         problem(e.what());
@@ -95,8 +97,8 @@ RunOutcome run_to_end(PreparedRun& p, const RunCallbacks& callbacks) {
         } catch (const std::exception& e) {
             problem(e.what());
         }
-    if (watch.gone()) {
-        out.problems = {watch.message()};
+    if (is_gone(p.spec.directory)) {
+        out.problems = {gone_message(p.spec.directory)};
     } else {
         write_results(p, out);
         for (const auto& text : out.files.problems()) problem(text);

@@ -50,6 +50,9 @@ struct RunOutcome {
 struct RunCallbacks {
     std::function<void()> after_cycle = {};         ///< called after each cycle, for progress and pace
     std::function<std::string()> interrupted = {};  ///< returns the reason to stop now; empty to continue
+    /// Called once, after a few seconds, when the rest of the run will take more than an hour at this rate:
+    /// the time that is left, s.
+    std::function<void(double)> takes_long = {};
     /// Called once, with the first number that is not finite.
     std::function<void(const std::string&)> diverged = {};
 };

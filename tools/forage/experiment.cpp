@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/number.h"
 #include "core/run/experiment/tables.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/progress.h"
@@ -19,9 +20,7 @@ namespace {
 std::string progress_text(const ExperimentCallbacks::Progress& p) {
     std::string text = fmt::format("{}/{} runs", p.finished, p.all);
     if (p.failed > 0) text += fmt::format(", {} failed", p.failed);
-    if (p.seconds_left)
-        text += *p.seconds_left < 100 ? fmt::format(", {:.0f} s left", *p.seconds_left)
-                                      : fmt::format(", {:.0f} min left", *p.seconds_left / 60);
+    if (p.seconds_left) text += fmt::format(", {} left", duration_text(*p.seconds_left));
     return text;
 }
 
@@ -61,9 +60,8 @@ int experiment(const ExperimentOptions& o) {
         return 128 + noted_signal();
     }
     const auto& runs = wanted->runs;
-    for (std::size_t i = 0; i < runs.size(); ++i)
-        if (!(*results)[i].diverged.empty())
-            fmt::print(stderr, "warning: run '{}': {}\n", runs[i].name, (*results)[i].diverged);
+    if (const auto diverged = divergence_summary(runs, *results); !diverged.empty())
+        fmt::print(stderr, "warning: {}\n", diverged);
     std::size_t failures = 0;
     for (std::size_t i = 0; i < runs.size(); ++i)
         if (!(*results)[i].failure.empty()) {

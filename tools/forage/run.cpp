@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/number.h"
 #include "core/run/checkpoint_file.h"
 #include "core/run/explain.h"
 #include "tools/forage/commands.h"
@@ -39,6 +40,14 @@ int run_to_end(const RunOptions& o, PreparedRun& prepared) {
     Progress progress(!o.quiet);
     const double begun = run.seconds();
     RunCallbacks callbacks;
+    callbacks.takes_long = [&](double seconds) {
+        if (o.quiet) return;
+        progress.clear();
+        fmt::print(stderr, "note: this run will take about {}; Ctrl-C stops it and {}\n",
+                   duration_text(seconds),
+                   prepared.checkpoints ? "writes a checkpoint, from which 'forage resume' continues"
+                                        : "keeps its results up to there");
+    };
     callbacks.diverged = [&](const std::string& what) {
         progress.clear();
         fmt::print(stderr, "warning: {}\n  hint: --on-nan stop ends the run there\n", what);

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/number.h"
+
 namespace forage {
 namespace {
 
@@ -71,11 +73,6 @@ std::vector<Combination> combinations(const model::Experiment& e, std::span<cons
 
 }  // namespace
 
-std::string plain_number(double value, int digits) {
-    const bool whole = std::abs(value) >= std::pow(10, digits - 1) && std::abs(value) < 1e15;
-    return whole ? fmt::format("{:.0f}", value) : fmt::format("{:.{}g}", value, digits);
-}
-
 std::string results_csv(const model::Experiment& e, std::span<const PlannedRun> runs,
                         std::span<const RunResult> results) {
     const bool trials =
@@ -129,6 +126,17 @@ std::string summary_csv(const model::Experiment& e, std::span<const PlannedRun> 
         out += row(fields);
     }
     return out;
+}
+
+std::string divergence_summary(std::span<const PlannedRun> runs, std::span<const RunResult> results) {
+    const auto diverged = [](const RunResult& r) { return !r.diverged.empty(); };
+    const auto first = std::find_if(results.begin(), results.end(), diverged);
+    if (first == results.end()) return {};
+    const auto count = std::count_if(first, results.end(), diverged);
+    const std::string& name = runs[static_cast<std::size_t>(first - results.begin())].name;
+    if (count == 1) return fmt::format("run '{}': {}", name, first->diverged);
+    return fmt::format("{} of {} runs have numbers that are not finite; the first, '{}': {}", count,
+                       runs.size(), name, first->diverged);
 }
 
 std::string summary_text(const model::Experiment& e, std::span<const PlannedRun> runs,

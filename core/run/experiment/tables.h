@@ -9,10 +9,6 @@
 
 namespace forage {
 
-/// The number for readers, with this many significant digits or, when it is larger, as a whole number: no
-/// exponent (but from 1e15 on, and below 0.0001).
-std::string plain_number(double value, int digits);
-
 /// One row per run: run, the swept parameters, seed, status (finished, stopped, failed), cycles, seconds,
 /// trials and reached (in a world with trials), the measures, remark. A field without a number is empty.
 std::string results_csv(const model::Experiment& experiment, std::span<const PlannedRun> runs,
@@ -22,6 +18,9 @@ std::string results_csv(const model::Experiment& experiment, std::span<const Pla
 /// standard deviation (n - 1), minimum and maximum over the seeds, with the number of runs that have it.
 std::string summary_csv(const model::Experiment& experiment, std::span<const PlannedRun> runs,
                         std::span<const RunResult> results);
+
+/// How many runs had numbers that are not finite, and where the first of them had one; empty when none had.
+std::string divergence_summary(std::span<const PlannedRun> runs, std::span<const RunResult> results);
 
 /// The summary as text, with mean +- standard deviation.
 std::string summary_text(const model::Experiment& experiment, std::span<const PlannedRun> runs,

@@ -38,3 +38,20 @@ TEST_CASE("A word that is not a number is reported with the reason") {
     CHECK(no_number("-inf") == "'-inf' is not a finite number");
     CHECK(no_number("1e999") == "'1e999' is beyond all numbers that can be stored");
 }
+
+TEST_CASE("Numbers for readers have no exponent") {
+    CHECK(plain_number(0.123456, 4) == "0.1235");
+    CHECK(plain_number(1, 4) == "1");
+    CHECK(plain_number(123456.7, 4) == "123457");
+    CHECK(plain_number(-9999.6, 4) == "-10000");
+}
+
+TEST_CASE("A length of time is given in one unit") {
+    CHECK(duration_text(0.4) == "0 s");
+    CHECK(duration_text(99) == "99 s");
+    CHECK(duration_text(100) == "2 min");
+    CHECK(duration_text(5999) == "100 min");
+    CHECK(duration_text(2.6 * 3600) == "3 hours");
+    CHECK(duration_text(3 * 86400) == "3 days");
+    CHECK(duration_text(1e9) == "32 years");
+}
