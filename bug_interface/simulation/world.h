@@ -104,7 +104,9 @@ class World final : public Environment {
     /// of a floor cannot be read.
     std::span<const std::uint8_t> image(std::size_t bug);
 
-    bool has_trials(std::size_t bug) const override { return robots_[bug].reset.has_value(); }
+    bool has_trials(std::size_t bug) const override {
+        return bug < robots_.size() && robots_[bug].reset.has_value();
+    }
     bool resetting(std::size_t bug) const override {
         return robots_[bug].reset && robots_[bug].reset->running();
     }

@@ -63,7 +63,8 @@ std::vector<PathRecorder::Path> PathRecorder::paths(const Environment& environme
     auto out = finished_;
     if (!current_.points.empty() && !environment.resetting(robot_)) {
         out.push_back(current_);
-        out.back().reached = environment.current_trial(robot_).reached_target;
+        out.back().reached =
+            environment.has_trials(robot_) && environment.current_trial(robot_).reached_target;
     }
     return out;
 }

@@ -94,7 +94,9 @@ MeasuredTrials TrialRecorder::trials(const Environment& environment,
 }
 
 void TrialRecorder::finish(RunView& run, ResultFiles& files) {
-    files.write(file_, [&] { return trials_csv(trials(*run.environment, run.simulation)); });
+    auto all = trials(*run.environment, run.simulation);
+    if (!run.environment->has_trials(robot_)) all.running.reset();  // nothing ends this run of the robot
+    files.write(file_, [&] { return trials_csv(all); });
 }
 
 std::string trials_csv(const MeasuredTrials& trials) {

@@ -190,6 +190,26 @@ class Run(Cli):
         self.run_robot("--cycles", 77, "-q")
         self.assertEqual(json.loads((self.here / "out/run.json").read_text())["result"]["cycles"], 77)
 
+    def test_the_summary_says_whether_the_condition_of_until_held(self):
+        (self.here / "small.iqr").write_text(SMALL_SYSTEM)
+        (self.here / "d.csv").write_text("-1,*,out,1,2\n4,*,out,3,2\n")
+        run = ("run", "small.iqr", "--cycles", 9, "--replay", "d.csv", "-o", "", "--until")
+        self.assertRegex(self.forage(*run, "P/A(1,1) > 100").stdout, r"\n  until +P/A\(1,1\) > 100: it never held\n")
+        self.assertRegex(self.forage(*run, "P/A(1,1) >= 3").stdout, r"\n  until +P/A\(1,1\) >= 3: it held after cycle 6\n")
+
+    def test_a_run_in_a_world_without_trials_has_none(self):
+        done = self.forage("run", SYSTEM, "--world", OPEN_WORLD, "--seconds", 60, "--seed", 2, "-o", "out")
+        self.assertRegex(done.stdout, r"target +0\.\d\d m away at the nearest: reached")
+        self.assertEqual(len(self.table("out/trials.csv")), 1)  # the header
+        self.forage("plot", "out", "trajectory", "-o", "again")
+        self.assertTrue(filecmp.cmp(self.here / "out/trajectory.png", self.here / "again/trajectory.png", shallow=False))
+
+    def test_a_world_may_have_no_robots(self):
+        (self.here / "small.iqr").write_text(SMALL_SYSTEM)
+        (self.here / "d.csv").write_text("-1,*,out,1,2\n")
+        (self.here / "empty.world").write_text('<sdf version="1.4"><world name="empty"/></sdf>')
+        self.forage("run", "small.iqr", "--replay", "d.csv", "--world", "empty.world", "--cycles", 5, "-o", "out", "-p", "time:P/A")
+
     def test_set_changes_a_parameter(self):
         self.run_robot("--cycles", 200, "--set", "Motor In to Motor.weight=0", "--record", "Bug/Motor")
         rows = self.table("out/Bug_Motor_act.csv")[1:]

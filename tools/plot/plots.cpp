@@ -147,7 +147,7 @@ void RowPlotter::after_cycle(RunView& run) {
 
 void RowPlotter::finish(RunView& run, ResultFiles& files) {
     PlotContext context{title_, run.run.seconds_per_cycle(), {}};
-    if (run.environment && !run.environment->robot_names().empty()) {
+    if (run.run.has_trials()) {
         const auto add = [&](const Trial& t) {
             context.trials.push_back(static_cast<double>(t.first_cycle));
         };
