@@ -88,6 +88,7 @@ struct Experiment {
 
     std::vector<std::uint64_t> seeds = {1};
     std::vector<Expression> settings;  ///< "WHERE.parameter=value"
+    std::vector<Expression> robots;    ///< "NAME=NAME": the system's robot, the world's robot
     std::vector<ScheduledChange> changes;
     std::vector<ManipulationSpec> manipulations;
     std::vector<RecordingSpec> recordings;

@@ -46,7 +46,7 @@ Json settings_json(const RunSpec& o, const Run& run, const std::vector<std::stri
     if (o.input.real_time_factor) json["real_time_factor"] = *o.input.real_time_factor;
     json["set"] = Json::array();
     for (const auto& setting : o.input.settings) json["set"].push_back(setting.text);
-    if (!o.input.robots.empty()) json["robot"] = o.input.robots;
+    for (const auto& binding : o.input.robots) json["robot"].push_back(binding.text);
     json["record"] = Json::array();
     for (const auto& r : o.recordings) json["record"].push_back(r.column.text);
     json["every"] = o.recordings.empty() ? 1 : o.recordings.front().every;
@@ -130,7 +130,8 @@ std::optional<FinishedRun> read_run_json(const std::string& directory) {
         out.input.seed = json.at("seed");
         for (const auto& s : json.value("set", Json::array()))
             out.input.settings.push_back({s.get<std::string>()});
-        out.input.robots = json.value("robot", std::vector<std::string>());
+        for (const auto& binding : json.value("robot", Json::array()))
+            out.input.robots.push_back({binding.get<std::string>()});
         out.input.lenient = json.value("lenient", false);
         out.seconds_per_cycle = world.value("seconds_per_cycle", 0.0);
         for (const auto& f : result.value("files", Json::array()))

@@ -15,7 +15,7 @@ struct RunInput {
     std::string system, world;                ///< paths; no world when empty
     std::vector<std::string> more;            ///< further systems that run together with the first
     std::vector<model::Expression> settings;  ///< "Process/Group.parameter=value"
-    std::vector<std::string> robots;          ///< "NAME=NAME": the system's robot, the world's robot
+    std::vector<model::Expression> robots;    ///< "NAME=NAME": the system's robot, the world's robot
     std::string replay;                       ///< table for moduleReplay; none when empty
     /// Shared objects and folders of them, in addition to those that are found.
     std::vector<std::string> plugins;

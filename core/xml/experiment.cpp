@@ -31,6 +31,8 @@ class ExperimentReader {
         if (const Element e = root.child("seeds")) seeds(e);
         for (const Element& e : root.children()) {
             if (e.name() == "set") experiment_.settings.push_back(assignment(e));
+            if (e.name() == "bind")
+                experiment_.robots.push_back({e["robot"].text() + "=" + e["to"].text(), e["robot"].where()});
             if (e.name() == "at") experiment_.changes.push_back({written(e["when"]), assignment(e)});
             if (e.name() == "record")
                 experiment_.recordings.push_back({written(e["column"]), whole(e["every"]).value_or(1)});

@@ -34,7 +34,7 @@ Format make_format() {
         .values = {{"text", {}}},
         .elements =
             {{"experiment", "a system, run many times",
-              "note? system world? length! seeds? set at clamp add multiply record plot measure sweep "
+              "note? system world? bind length! seeds? set at clamp add multiply record plot measure sweep "
               "together exercise?"},
              {"note", "a text for people", ":text"},
              {"system",
@@ -47,6 +47,13 @@ Format make_format() {
               {file("a .world file, as seen from this one"),
                positive("pace", "seconds of the world per second of the clock, instead of the world's own"),
                flag("noise", "of motors and sensors")}},
+             {"bind",
+              "lets a robot of a system be another robot of the world; when several systems have it, the "
+              "first "
+              "one that is not yet bound",
+              "",
+              {required(text("robot", "the system's robot: the device_name of a module")),
+               required(text("to", "the world's robot"))}},
              {"length",
               "how long a run is: cycles, seconds or trials",
               "",

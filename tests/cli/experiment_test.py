@@ -199,6 +199,32 @@ class Results(Experiment):
         self.assertRegex(said, r"small.xml:\d+:\d+: error: system 'R.iqr': .*'Q'")
         self.assertNotIn("system 'Q.iqr'", said)
 
+    def test_robots_are_bound_as_with_the_option(self):
+        world = PROJECT / "systems/worlds/two_bugs.world"
+        text = f'''<experiment>
+  <system file="{SYSTEM}"/>
+  <system file="{SYSTEM}"/>
+  <world file="{world}"/>
+  <bind robot="Bug" to="Follower"/>
+  <bind robot="Bug" to="Scout"/>
+  <length cycles="100"/>
+  <plot what="trajectory"/>
+  <measure name="path" robot="path length" of="Scout"/>
+</experiment>
+'''
+        (self.here / "two.xml").write_text(text)
+        self.forage("experiment", "two.xml", "-o", "out")
+        self.assertGreater(float(self.rows("out/results.csv")[0]["path"]), 1)
+        self.forage("run", SYSTEM, SYSTEM, "--world", world, "--robot", "Bug=Follower", "--robot", "Bug=Scout", "--cycles", 100, "-o", "run")
+        for name in ("trajectory_Scout.csv", "trajectory_Follower.csv"):
+            self.assertEqual((self.here / "run" / name).read_bytes(), (self.here / "out/runs/seed-1" / name).read_bytes())
+        (self.here / "two.xml").write_text(text.replace('"Scout"/>', '"Follower"/>', 1))
+        self.assertIn("error: two modules drive the robot 'Follower'", self.forage("experiment", "two.xml", status=2).stderr)
+        self.assertNotEqual(self.made_at("out"), {})
+        (self.here / "two.xml").write_text(text.replace('"Bug" to="Scout"', '"Bag" to="Scout"'))
+        self.assertRegex(self.forage("experiment", "two.xml", status=2).stderr,
+                         r"two.xml:6:\d+: error: bind: 'Bag=Scout': no module that is left drives a robot 'Bag'\n(.*\n)+  hint: did you mean 'Bug'")
+
     def test_values_vary_together(self):
         self.edit("small.xml", '<sweep parameter="B to A.weight" values="1 0.5"/>', '''<together>
     <sweep parameter="B to A.weight" values="1 0.5 0.5"/><sweep parameter="P/A.excGain" values="1 2 1"/>
@@ -344,6 +370,24 @@ class Interrupted(Experiment):
         (self.here / "out/runs/weight-1_seed-1").unlink()
         self.forage("experiment", "small.xml", "-o", "out")
         self.assertEqual(self.tables("through"), self.tables("out"))
+
+    def test_numbers_that_are_not_finite_give_one_warning(self):
+        self.edit("small.xml", '<sweep', '<seeds count="3"/><set parameter="P/A.vmPrs" value="1e300"/><sweep')
+        said = self.forage("experiment", "small.xml", "-o", "out").stderr
+        self.assertEqual(len(re.findall("(?m)^warning: ", said)), 1, said)
+        self.assertRegex(said, r"(?m)^warning: 6 of 6 runs have numbers that are not finite; the first, 'weight-1_seed-1': in cycle \d+ ")
+
+    def test_folders_of_runs_that_are_not_part_of_the_experiment_any_more_are_left_out(self):
+        self.edit("small.xml", '<sweep', '<seeds count="3"/><plot what="time:P/A"/><sweep')
+        self.assertEqual(self.forage("experiment", "small.xml", "-o", "out").stderr, "")
+        self.edit("small.xml", '<seeds count="3"/>', '<seeds count="2"/>')
+        said = self.forage("experiment", "small.xml", "-o", "out").stderr
+        self.assertIn("warning: 'out/runs' holds 2 folders of runs that are not part of this experiment, such as 'weight-0.5_seed-3'\n", said)
+        self.assertTrue((self.here / "out/runs/weight-1_seed-3/result.json").exists())
+        for directory in ("out", "."):
+            page = (self.here / self.forage("view", directory).stdout.split("\n")[0]).read_text()
+            pictures = {p.split("/")[-2] for p in re.findall(r'<img src="./([^"]*P_A[^"]*)"', page)}
+            self.assertEqual(pictures, {f"weight-{w}_seed-{s}" for w in (0.5, 1) for s in (1, 2)})
 
     def test_a_stopped_run_has_the_reason(self):
         (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "3").replace('weight" values="1 0.9"', 'weight" values="0"')

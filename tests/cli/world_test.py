@@ -84,8 +84,12 @@ class World(unittest.TestCase):
             self.assertEqual((points["A"], points["B"]), (int(row["score_a"]), int(row["score_b"])))
 
     def test_two_modules_cannot_drive_one_robot(self):
-        done = self.forage("run", TEAMS[0], TEAMS[0], *TEAMS[2:], "--seconds", 1, status=2)
-        self.assertIn("two modules drive the robot 'A_1'", done.stderr)
+        for command in (("run", TEAMS[0], TEAMS[0], *TEAMS[2:], "--seconds", 1), ("check", TEAMS[0], TEAMS[0], *TEAMS[2:])):
+            said = self.forage(*command, status=2).stderr
+            self.assertRegex(said, r"team_a.iqr:15:\d+: error: two modules drive the robot 'A_1': those of '.+' and '.+'\n")
+            self.assertEqual(said.count("error: "), 2)  # and A_2
+        # Without a world it is a warning, as --robot can still bind them to different robots.
+        self.assertIn("warning: two modules drive the robot 'A_1'", self.forage("check", TEAMS[0], TEAMS[0]).stderr)
 
     def test_a_film_has_the_reported_number_of_frames(self):
         out = self.forage("run", *TEAMS, "--seconds", 3, "--video", "game.gif", "-o", "").stdout

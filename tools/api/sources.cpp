@@ -82,33 +82,46 @@ void play(const DriveTable& table, model::System& system) {
     }
 }
 
-/// Binds modules to robots, as --robot says: "NAME=ROBOT" binds the first module with the device_name NAME
-/// that is not yet bound.
-void bind_robots(const std::vector<std::string>& bindings, const Registry& registry, model::System& system,
-                 Diagnostics& diagnostics) {
-    struct Driver {
-        model::ModuleUse* module;
-        std::string robot;
-        bool bound;
-    };
-    std::vector<Driver> drivers;
+/// An enabled module that drives a robot.
+struct Driver {
+    const model::Process* process;
+    model::ModuleUse* module;
+    std::string robot;
+    Location at;  ///< where the robot is named, or the module
+    bool bound = false;
+};
+
+constexpr const char* robot_parameter = "device_name";
+
+std::vector<Driver> drivers_of(model::System& system, const Registry& registry) {
+    std::vector<Driver> out;
     for (auto& process : system.processes) {
         const ModuleType* type = process.module ? registry.module(process.module->type) : nullptr;
         if (!type || !process.module_enabled) continue;
         for (const auto& p : type->parameters) {
-            if (p.name != "device_name") continue;
-            std::string robot = to_text(p.default_value);
+            if (p.name != robot_parameter) continue;
+            Driver driver{&process, &*process.module, to_text(p.default_value), process.module->at};
             for (const auto& s : process.module->settings)
-                if (s.name == p.name) robot = s.value;
-            drivers.push_back({&*process.module, std::move(robot), false});
+                if (s.name == p.name) driver.robot = s.value, driver.at = s.value_at;
+            out.push_back(std::move(driver));
         }
     }
-    for (const auto& binding : bindings) {
+    return out;
+}
+
+/// Binds modules to robots: "NAME=ROBOT" binds the first module with the device_name NAME that is not yet
+/// bound.
+void bind_robots(const std::vector<model::Expression>& bindings, const Registry& registry,
+                 model::System& system, Diagnostics& diagnostics) {
+    auto drivers = drivers_of(system, registry);
+    for (const auto& [binding, at] : bindings) {
+        const std::string what = at.file ? "bind" : "--robot";
         const auto equals = binding.find('=');
         const std::string name(model::trim(binding.substr(0, equals)));
         if (equals == std::string::npos || name.empty() || model::trim(binding.substr(equals + 1)).empty()) {
-            diagnostics.error({}, fmt::format("--robot: '{}' does not name two robots", binding),
-                              "write the system's robot, '=', and the world's robot: Bug=A_1");
+            diagnostics.error(at, fmt::format("{}: '{}' does not name two robots", what, binding),
+                              at.file ? "give both names: robot=\"Bug\" to=\"A_1\""
+                                      : "write the system's robot, '=', and the world's robot: Bug=A_1");
             continue;
         }
         const auto driver = std::find_if(drivers.begin(), drivers.end(),
@@ -117,15 +130,36 @@ void bind_robots(const std::vector<std::string>& bindings, const Registry& regis
             std::vector<std::string> names;
             for (const auto& d : drivers)
                 if (!d.bound) names.push_back(d.robot);
-            diagnostics.error({},
-                              fmt::format("--robot: '{}': no module{} drives a robot '{}'", binding,
-                                          names.size() < drivers.size() ? " that is left" : "", name),
-                              names.empty() ? "every --robot binds one module" : suggest(name, names));
+            diagnostics.error(
+                at,
+                fmt::format("{}: '{}': no module{} drives a robot '{}'", what, binding,
+                            names.size() < drivers.size() ? " that is left" : "", name),
+                names.empty() ? fmt::format("every {} binds one module", what) : suggest(name, names));
             continue;
         }
         driver->bound = true;
-        model::set_parameter(*driver->module, "device_name",
+        model::set_parameter(*driver->module, robot_parameter,
                              std::string(model::trim(binding.substr(equals + 1))));
+    }
+}
+
+/// Reports modules that drive the same robot. Without a world, bindings may still separate them.
+void check_drivers(const Registry& registry, model::System& system, bool has_world,
+                   Diagnostics& diagnostics) {
+    const auto drivers = drivers_of(system, registry);
+    for (auto d = drivers.begin(); d != drivers.end(); ++d) {
+        const auto first =
+            std::find_if(drivers.begin(), d, [&](const auto& other) { return other.robot == d->robot; });
+        if (first == d) continue;
+        diagnostics.add(
+            {has_world ? Severity::error : Severity::warning,
+             d->at,
+             fmt::format("two modules drive the robot '{}': those of '{}' and '{}'", d->robot,
+                         model::trim(first->process->name), model::trim(d->process->name)),
+             "each needs a robot of its own: --robot NAME=ROBOT, or <bind> in an experiment, binds "
+             "one of them to another robot",
+             {},
+             {}});
     }
 }
 
@@ -216,6 +250,7 @@ std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Di
         bind_robots(input.robots, out.registry, out.system, diagnostics);
         for (const auto& setting : input.settings)
             model::set(out.system, out.registry, setting.text, diagnostics, setting.at);
+        check_drivers(out.registry, out.system, out.world != nullptr, diagnostics);
         if (diagnostics.failed())
             model::validate(out.system, out.registry, diagnostics,
                             out.world.get());  // reports all mistakes at once

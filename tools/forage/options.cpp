@@ -115,11 +115,14 @@ void add_input(CLI::App& command, RunInput& input) {
             "Change a parameter: 'Process/Group.parameter=value', 'Process.parameter=value' for a module, "
             "'Connection.parameter=value' for a synapse; may be repeated"))
         ->option_text("WHERE=VALUE");
-    repeated(
-        command.add_option("--robot", input.robots,
-                           "Let the system's robot NAME (device_name) be another robot of the world; when "
-                           "several systems have a robot NAME, it is the first one that no earlier --robot "
-                           "has bound; may be repeated"))
+    repeated(command.add_option_function<std::vector<std::string>>(
+                 "--robot",
+                 [&input](const std::vector<std::string>& texts) {
+                     for (const auto& text : texts) input.robots.push_back({text});
+                 },
+                 "Let the system's robot NAME (device_name) be another robot of the world; when "
+                 "several systems have a robot NAME, it is the first one that no earlier --robot "
+                 "has bound; may be repeated"))
         ->option_text("NAME=ROBOT");
     add_plugins(command, input.plugins);
     command.add_flag("--lenient", input.lenient,

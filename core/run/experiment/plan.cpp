@@ -15,7 +15,7 @@ namespace {
 /// The part of the spec that all runs share.
 RunSpec common(const model::Experiment& e) {
     RunSpec o;
-    o.input.world = e.world, o.input.settings = e.settings;
+    o.input.world = e.world, o.input.settings = e.settings, o.input.robots = e.robots;
     for (const auto& system : e.systems) o.input.more.push_back(system.text);
     o.input.real_time_factor = e.real_time_factor, o.input.noise = e.noise;
     o.length = {e.cycles, e.seconds, e.trials, e.trial_timeout, e.until, e.length_at};

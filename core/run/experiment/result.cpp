@@ -46,6 +46,7 @@ std::string key_of(const PlannedRun& run, const model::Experiment& experiment) {
     key["longest_trial"] = o.length.trial_timeout;
     key["until"] = o.length.until.text;
     for (const auto& each : o.input.settings) key["set"].push_back(each.text);
+    for (const auto& each : o.input.robots) key["bind"].push_back(each.text);
     for (const auto& each : o.changes) key["at"].push_back(each.text());
     for (const auto& m : o.manipulations)
         key["manipulate"].push_back({static_cast<int>(m.mode), m.group.text, m.cells.text,
