@@ -105,7 +105,8 @@ std::vector<plot::Path> read_paths(const std::string& directory) {
         out.push_back({{}, outcome == "target", outcome != "unfinished", out.size() + 1});
     }
     trials.require_whole();
-    if (out.empty()) out.emplace_back();  // a world without trials: one path, which nothing ended
+    if (out.empty())
+        out.push_back({{}, false, false});  // a world without trials: one path, without an outcome
     TableReader points = open_table(directory + "/trajectory.csv");
     const auto trial = points.column("trial"), x = points.column("x"), y = points.column("y");
     while (points.next()) {

@@ -126,7 +126,7 @@ class Drawing {
                                         {End::missed, "missed"},
                                         {End::unfinished, "unfinished"}})
             if (const auto n = count(end))
-                entry(fmt::format("{} {}", n, name),
+                entry(world_.start_poses().empty() ? "end of the path" : fmt::format("{} {}", n, name),
                       [&, e = end] { draw_end(x + 7, y, e, path_colour(e, 1)); });
         if (paths_.size() > 1) {
             for (const End end : {End::reached, End::missed})
