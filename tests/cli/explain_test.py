@@ -32,7 +32,7 @@ class Explain(Cli):
     def test_the_silent_motor_of_the_exercise_is_followed_to_its_cause(self):
         said = self.forage("explain", EXERCISE, "--world", WORLD, "--seconds", 20).stdout
         self.assertIn("Bug/Motor <- Selection/Motor In <- Selection/UR <- Selection/Approach <- Reactive Layer/Approach. "
-                      "Reactive Layer/Approach is the first silent group on the way back: its potential vm was 0.117 at most, "
+                      "Reactive Layer/Approach is the first silent group on the way back: its potential vm was 0.1166 at most, "
                       "and its threshold is 0.7", said)
         self.assertIn("it has not moved; 'forage explain' tells why", said)
         self.assertRegex(said, r"Reactive Layer/US +0\.\d+ +0 +0\.1166 +91\.9 %")
