@@ -114,8 +114,8 @@ FORAGE_AVX512 void batches_by_wide_lanes(const Draw& d, const philox::Rounds& ro
 #endif
 
 /// Computes `count` batches, beginning with the `number`-th.
-void batches(philox::InstructionSet set, const Draw& d, std::size_t number, std::size_t count, const Threshold& t,
-             double value, double* out) {
+void batches(philox::InstructionSet set, const Draw& d, std::size_t number, std::size_t count,
+             const Threshold& t, double value, double* out) {
 #ifdef FORAGE_AVX2
     if (set == philox::InstructionSet::avx512) {
         const philox::Rounds rounds(d, events_stream);
@@ -141,8 +141,8 @@ void RandomStream::events(std::uint64_t cycle, double probability, std::span<dou
     philox::events(set, philox::draw_of(key_, cycle, draw), probability, out, value, first);
 }
 
-void philox::events(InstructionSet set, const Draw& d, double probability, std::span<double> out, double value,
-                    std::size_t first) {
+void philox::events(InstructionSet set, const Draw& d, double probability, std::span<double> out,
+                    double value, std::size_t first) {
     const Threshold threshold(probability);
     const std::size_t whole = out.size() / batch, before = first / batch;
     batches(set, d, before, whole, threshold, value, out.data());

@@ -105,8 +105,7 @@ std::vector<plot::Path> read_paths(const std::string& directory) {
         out.push_back({{}, outcome == "target", outcome != "unfinished", out.size() + 1});
     }
     trials.require_whole();
-    if (out.empty())
-        out.push_back({{}, false, false});  // a world without trials: one path, without an outcome
+    if (out.empty()) out.push_back({{}, false, false, 1});  // a world without trials has one path, no outcome
     TableReader points = open_table(directory + "/trajectory.csv");
     const auto trial = points.column("trial"), x = points.column("x"), y = points.column("y");
     while (points.next()) {
