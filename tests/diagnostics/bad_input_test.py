@@ -53,7 +53,10 @@ def program():
     folder = tempfile.TemporaryDirectory()
     atexit.register(folder.cleanup)
     os.chmod(folder.name, 0o755)
-    return shutil.copy(FORAGE, folder.name)
+    tree, built = pathlib.Path(folder.name), pathlib.Path(FORAGE).parent.parent
+    (tree / "bin").mkdir(mode=0o755)
+    (tree / "share").symlink_to(built / "share")  # the exercises, which the program finds beside its folder
+    return shutil.copy(FORAGE, tree / "bin")
 
 
 class Answer:
