@@ -1,0 +1,47 @@
+"""The same bits everywhere: the final states of shipped systems have the digests that are kept here, whatever compiler and libraries
+Forage was built with.
+
+    digests_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
+
+FORAGE_REWRITE_EXPECTATIONS=1 writes them anew.
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+FORAGE, PROJECT = (pathlib.Path(argument).resolve() for argument in sys.argv[1:])
+KEPT = PROJECT / "tests/data/digests.json"
+SYSTEMS = PROJECT / "systems"
+
+
+WORLDS = {"braitenberg_vehicle": "basic_arena", "colour_detector": "basic_arena", "learning_vehicle": "basic_arena", "two_robots": "two_bugs",
+          "dac_foraging": "ambiguous_arena", "reactive_foraging": "open_arena"}
+
+
+def runs():
+    """The runs by name: what stands behind `forage run`."""
+    for system in [*sorted((SYSTEMS / "cookbook").glob("*.iqr")), SYSTEMS / "reactive_foraging.iqr", SYSTEMS / "dac_foraging.iqr"]:
+        world = WORLDS.get(system.stem)
+        more = ["--set", "Contextual.enableModule=true"] if system.stem == "dac_foraging" else []
+        yield system.stem, [system, "--cycles", "20000", *(["--world", SYSTEMS / f"worlds/{world}.world"] if world else []), *more]
+
+
+class Digests(unittest.TestCase):
+    def test_final_states_are_the_kept_ones(self):
+        found = {}
+        with tempfile.TemporaryDirectory() as folder:
+            for name, arguments in runs():
+                subprocess.run([FORAGE, "run", *arguments, "--hash", "-q", "-o", f"{folder}/{name}"], check=True, cwd=folder)
+                found[name] = json.loads(pathlib.Path(folder, name, "run.json").read_text())["result"]["state"]
+        if os.environ.get("FORAGE_REWRITE_EXPECTATIONS"):
+            KEPT.write_text(json.dumps(found, indent=2) + "\n")
+        self.assertEqual(found, json.loads(KEPT.read_text()))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
