@@ -6,6 +6,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <iterator>
 #include <numbers>
 #include <type_traits>
 #include <utility>
@@ -23,6 +24,17 @@ inline double normal(double u, double v) {
     return std::sqrt(-2 * std::log(1 - u)) * std::cos(2 * std::numbers::pi * v);
 }
 
+/// Random numbers of one cell. Throws TypeError for a number beyond the last one that a type can have.
+class RandomNumbers {
+  public:
+    double operator[](std::size_t k) const {
+        if (k >= std::size(numbers))
+            detail::not_declared("random number", static_cast<long long>(k), std::size(numbers));
+        return numbers[k];
+    }
+    double numbers[NeuronColumns::draws_kept] = {};
+};
+
 /// What one cell receives in one cycle.
 struct Input {
     /// The inputs of the cell. A type may apply a gain in place; recordings show the result.
@@ -30,8 +42,8 @@ struct Input {
     const double modulation = 0;
     const double event = 1;  ///< 1 with the type's event_probability(), else 0; drawn in each cell and cycle
     /// As many numbers as the type's `random_numbers` says: uniform in [0, 1), independent of each other, and
-    /// new in each cell and cycle.
-    const std::array<double, NeuronColumns::draws_kept> random{};
+    /// new in each cell and cycle. The others are 0.
+    const RandomNumbers random{};
 };
 
 namespace detail {
@@ -85,6 +97,7 @@ struct CellRows {
     double *excitation, *inhibition;           ///< may be null when nothing delivers this input
     const double *modulation, *event;          ///< `event` is null when no events are drawn
     std::array<const double*, NeuronColumns::draws_kept> random;
+    NeuronColumns::Undeclared undeclared;
 };
 
 template <class T, bool exc, bool inh, bool events, std::size_t... s, std::size_t... r>
@@ -101,8 +114,8 @@ template <class T, bool exc, bool inh, bool events, std::size_t... s, std::size_
         Input in{exc ? rows.excitation[i] : 0.0,
                  inh ? rows.inhibition[i] : 0.0,
                  rows.modulation[i],
-                 events ? rows.event[i] : 1.0,
-                 {rows.random[r][i]...}};
+                 HasEvents<T> ? (events ? rows.event[i] : 1.0) : rows.undeclared.event,
+                 {(r < random_numbers<T> ? rows.random[r][i] : rows.undeclared.random)...}};
         own.update(cell, in);
         if constexpr (!KeepsInput<T>) {
             if constexpr (exc) rows.excitation[i] = in.excitation;
@@ -117,7 +130,7 @@ template <class T, bool events>
 [[gnu::always_inline]] inline void update_cells(const T& type,
                                                 const CellRows<numbers_in<typename T::Cell>>& rows) {
     constexpr auto states = std::make_index_sequence<numbers_in<typename T::Cell>>();
-    constexpr auto draws = std::make_index_sequence<random_numbers<T>>();
+    constexpr auto draws = std::make_index_sequence<NeuronColumns::draws_kept>();
     if (KeepsInput<T> || (rows.excitation && rows.inhibition))
         update_cells<T, true, true, events>(type, rows, states, draws);
     else if constexpr (!KeepsInput<T>) {
@@ -177,6 +190,7 @@ class CellModel final : public NeuronInstance {
             if (const double p = value_.event_probability(); p < 1) out.event = c.events(p).data();
         for (std::uint32_t draw = 0; draw < random_numbers<T>; ++draw)
             out.random[draw] = c.uniform(draw).data();
+        out.undeclared = c.undeclared();
         return out;
     }
 

@@ -103,6 +103,18 @@ class NeuronSpec {
     NeuronSpec& feedback(std::string name, double Cell::*member, std::string label, int history = 1) {
         return add(member, {std::move(name), std::move(label), history, false, true});
     }
+    template <class M, class... More>
+    requires(!std::is_same_v<M, double>) NeuronSpec& state(std::string, M Cell::*, More...) {
+        return detail::require_double<M>(), *this;
+    }
+    template <class M, class... More>
+    requires(!std::is_same_v<M, double>) NeuronSpec& output(std::string, M Cell::*, More...) {
+        return detail::require_double<M>(), *this;
+    }
+    template <class M, class... More>
+    requires(!std::is_same_v<M, double>) NeuronSpec& feedback(std::string, M Cell::*, More...) {
+        return detail::require_double<M>(), *this;
+    }
     /// In the state that was declared last, update() receives the oldest value of the state's history instead
     /// of the last one. The types of the original do this: a synapse that reads the state with a delay makes
     /// the history longer, and thereby changes what the cell does.

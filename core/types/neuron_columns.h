@@ -30,11 +30,17 @@ class NeuronColumns {
     /// The number of columns, of `stride` cells each, that `scratch` must hold.
     static constexpr Index scratch_columns = 2 * draws_kept;
 
+    /// What a cell receives of numbers that its type does not declare. A test of a plugin gives other values,
+    /// to find a type that reads them.
+    struct Undeclared {
+        double event = 1, random = 0;
+    };
+
     /// Covers the cells from `first`, a multiple of RandomStream::grain, to `first` + `size` - 1 of a group
     /// whose rows are `stride` apart. `inputs` and `states` point to cell 0.
     NeuronColumns(Index size, Index stride, std::uint64_t cycle, std::array<double*, input_kinds> inputs,
                   std::span<const State> states, const RandomStream* random, double* scratch,
-                  std::array<bool, input_kinds> silent = {}, Index first = 0)
+                  std::array<bool, input_kinds> silent = {}, Index first = 0, Undeclared undeclared = {1, 0})
         : size_(size),
           stride_(stride),
           first_(first),
@@ -43,7 +49,8 @@ class NeuronColumns {
           states_(states),
           random_(random),
           scratch_(scratch),
-          silent_(silent) {}
+          silent_(silent),
+          undeclared_(undeclared) {}
 
     Index size() const { return size_; }  ///< number of cells
     std::uint64_t cycle() const { return time_invariant_ = false, cycle_; }
@@ -56,6 +63,8 @@ class NeuronColumns {
     /// Whether nothing ever delivers this kind of input. It is 0 in all cells then, and a type need neither
     /// scale nor read it.
     bool silent(InputKind kind) const { return silent_[static_cast<std::size_t>(kind)]; }
+
+    const Undeclared& undeclared() const { return undeclared_; }
 
     Column state(int i) const { return {row(i, 0), size_}; }
     /// The values of state i `ago` cycles ago; 0 < ago < the state's history.
@@ -119,6 +128,7 @@ class NeuronColumns {
     const RandomStream* random_;
     double* scratch_;
     std::array<bool, input_kinds> silent_;
+    Undeclared undeclared_;
     mutable bool time_invariant_ = true;
 };
 

@@ -29,6 +29,12 @@ template <std::size_t i, class S>
 template <class T>
 using Own = std::conditional_t<std::is_trivially_copyable_v<T>, T, const T&>;
 
+/// Refuses a member of a type's struct that is not a number.
+template <class M>
+constexpr void require_double() {
+    static_assert(std::is_same_v<M, double>, "a state is a double");
+}
+
 /// Maps each number of S to the declaration that stands for it.
 template <class S>
 class NumberMap {

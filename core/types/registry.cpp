@@ -1,6 +1,7 @@
 #include "core/types/registry.h"
 
 #include <algorithm>
+#include <cctype>
 #include <iterator>
 #include <stdexcept>
 
@@ -13,6 +14,16 @@ template <class Map>
 auto find(const Map& map, std::string_view name) -> const typename Map::mapped_type* {
     const auto it = map.find(name);
     return it == map.end() ? nullptr : &it->second;
+}
+
+/// Throws when a parameter that is no number has a range.
+template <class Type>
+void require_numbers(const Type& type, std::string_view kind) {
+    for (const auto& p : type.parameters)
+        if (p.range && p.kind != ParameterKind::real && p.kind != ParameterKind::integer)
+            throw std::invalid_argument(
+                fmt::format("{} type '{}' declares a range for the parameter '{}', which is {}", kind,
+                            type.name, p.name, describe(p.kind)));
 }
 
 /// Throws when two of `items` have the same name. `what` names the kind of the items in the message.
@@ -28,6 +39,9 @@ void require_distinct(const Items& items, const Type& type, std::string_view kin
 template <class Map>
 void insert(Map& map, typename Map::mapped_type type, std::string_view kind) {
     if (type.name.empty()) throw std::invalid_argument(fmt::format("a {} type without a name", kind));
+    if (std::any_of(type.name.begin(), type.name.end(), [](unsigned char c) { return std::isspace(c); }))
+        throw std::invalid_argument(fmt::format("{} type '{}' has blanks in its name", kind, type.name));
+    require_numbers(type, kind);
     require_distinct(type.parameters, type, kind, "parameter");
     const std::string name = type.name;
     if (!map.emplace(name, std::move(type)).second)

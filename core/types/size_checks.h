@@ -1,6 +1,6 @@
 // Plugins include this header before everything else. It makes Eigen report an error when columns of
 // different sizes are combined, instead of writing past their ends. This costs one comparison per expression
-// and group. Access to single cells is checked in debug builds only.
+// and group. Access to single cells is checked in debug builds only ('forage build-plugin --debug').
 #pragma once
 
 #include <string_view>
@@ -14,7 +14,11 @@ constexpr bool compares_sizes(std::string_view condition) {
     return condition.find("==") != std::string_view::npos;
 }
 [[noreturn, gnu::cold, gnu::noinline]] inline void sizes_differ(const char* condition) {
-    throw TypeError("it computes with columns of different sizes (Eigen: " + std::string(condition) + ")");
+    const std::string_view text = condition;
+    throw TypeError((text.find("index") == text.npos
+                         ? "it computes with columns of different sizes (Eigen: "
+                         : "it uses a cell that its column does not have (Eigen: ") +
+                    std::string(text) + ")");
 }
 
 }  // namespace forage::detail

@@ -13,8 +13,8 @@
 //     // Optional: reports parameters that do not fit together.
 //     void check(Diagnostics&) const;
 //
-// A type leaves out what it does not need: a struct and the arguments of that struct, or update(). The engine
-// attenuates and delays the output.
+// A type leaves out what it does not need: a struct, arguments, or update(). The engine attenuates and delays
+// the output.
 //
 // A type that only multiplies its input by a constant has that constant as `double gain() const`, and neither
 // update() nor output(). synapses/hebbian.h is the example to copy.
@@ -87,6 +87,10 @@ class SynapseSpec {
         states_.declare(member, type_.states.size());
         return type_.states.push_back({std::move(name), std::move(label), false, Synapse{}.*member}), *this;
     }
+    template <class M>
+    requires(!std::is_same_v<M, double>) SynapseSpec& state(std::string, M Synapse::*, std::string) {
+        return detail::require_double<M>(), *this;
+    }
     /// Names the number that T::output() computes.
     SynapseSpec& output(std::string name, std::string label) {
         return type_.states.push_back({std::move(name), std::move(label), true}), *this;
@@ -95,6 +99,10 @@ class SynapseSpec {
     SynapseSpec& feedback(std::string name, double Target::*member, std::string label, bool required = true) {
         target_.declare(member, type_.feedback.size());
         return feedback(std::move(name), std::move(label), required);
+    }
+    template <class M, class... More>
+    requires(!std::is_same_v<M, double>) SynapseSpec& feedback(std::string, M Target::*, More...) {
+        return detail::require_double<M>(), *this;
     }
     /// Declares a feedback that files may name and that the type does not use.
     SynapseSpec& feedback(std::string name, std::string label, bool required = true) {

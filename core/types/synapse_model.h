@@ -37,24 +37,53 @@ template <class T>
 concept HasGain = requires(const T t) {
     { t.gain() } -> std::convertible_to<double>;
 };
-template <class T>
-concept LearnsFromTarget = requires(const T t, Synapse<T>& s, const Target<T>& target) {
-    t.update(s, 0.0, target);
-};
-template <class T>
-concept LearnsFromSource = requires(const T t, Synapse<T>& s) {
-    t.update(s, 0.0);
-};
 
-/// Whether output() takes arguments of the types `Read`: the synapse, the source's activity and the target,
-/// in this order. All but the activity may be missing.
-template <class T, class... Read>
-concept OutputOf = requires(const T t, const Read&... read) {
-    t.output(read...);
-};
+/// Calls update(), if there is one, with the arguments that it takes.
 template <class T>
-concept HasOutput = (OutputOf<T, double>) || (OutputOf<T, Synapse<T>, double>) ||
-                    (OutputOf<T, double, Target<T>>) || (OutputOf<T, Synapse<T>, double, Target<T>>);
+[[gnu::always_inline]] inline void learn(const T& type, Synapse<T>& synapse, double pre,
+                                         const Target<T>& target) {
+    if constexpr (requires { type.update(synapse, pre, target); })
+        type.update(synapse, pre, target);
+    else if constexpr (requires { type.update(synapse, pre); })
+        type.update(synapse, pre);
+    else if constexpr (requires { type.update(synapse, target); })
+        type.update(synapse, target);
+    else if constexpr (requires { type.update(synapse); })
+        type.update(synapse);
+    else
+        static_assert(
+            !requires { &T::update; },
+            "update() of a synapse type is void update(Synapse&, double pre, const Target&) const, without "
+            "the "
+            "arguments that it does not read");
+}
+
+/// Calls output() with the arguments that it takes of the synapse, the source's activity and the target, in
+/// this order.
+template <class T>
+[[gnu::always_inline]] inline auto output(const T& type, const Synapse<T>& synapse, double pre,
+                                          const Target<T>& target) {
+    if constexpr (requires { type.output(synapse, pre, target); })
+        return type.output(synapse, pre, target);
+    else if constexpr (requires { type.output(synapse, pre); })
+        return type.output(synapse, pre);
+    else if constexpr (requires { type.output(pre, target); })
+        return type.output(pre, target);
+    else if constexpr (requires { type.output(synapse, target); })
+        return type.output(synapse, target);
+    else if constexpr (requires { type.output(synapse); })
+        return type.output(synapse);
+    else if constexpr (requires { type.output(target); })
+        return type.output(target);
+    else if constexpr (requires { type.output(pre); })
+        return type.output(pre);
+    else if constexpr (requires { type.output(); })
+        return type.output();
+}
+template <class T>
+concept HasOutput = requires(const T t, const Synapse<T>& synapse, const Target<T>& target) {
+    { output(t, synapse, 0.0, target) } -> std::convertible_to<double>;
+};
 
 /// Where the numbers of some synapses are.
 template <class T>
@@ -65,27 +94,6 @@ struct SynapseRows {
     std::array<const double*, numbers_in<Target<T>>> target;
     double* output;
 };
-
-template <class T>
-[[gnu::always_inline]] inline void learn(const T& type, Synapse<T>& synapse, double pre,
-                                         const Target<T>& target) {
-    if constexpr (LearnsFromTarget<T>)
-        type.update(synapse, pre, target);
-    else if constexpr (LearnsFromSource<T>)
-        type.update(synapse, pre);
-}
-template <class T>
-[[gnu::always_inline]] inline double output(const T& type, const Synapse<T>& synapse, double pre,
-                                            const Target<T>& target) {
-    if constexpr (OutputOf<T, Synapse<T>, double, Target<T>>)
-        return type.output(synapse, pre, target);
-    else if constexpr (OutputOf<T, Synapse<T>, double>)
-        return type.output(synapse, pre);
-    else if constexpr (OutputOf<T, double, Target<T>>)
-        return type.output(pre, target);
-    else
-        return type.output(pre);
-}
 
 /// Lets the synapses learn, and writes their outputs.
 template <class T, std::size_t... s, std::size_t... t>

@@ -175,3 +175,45 @@ TEST_CASE("A synapse learns, and then computes its output") {
     const Eigen::ArrayXd once = 2 + 0.5 * post;
     CHECK(((weight == once) && (psp == once * 0.5) && (seen == 1)).all());
 }
+
+namespace {
+
+template <int form>
+struct Outputs {
+    struct Synapse {
+        double weight = 3;
+    };
+    struct Target {
+        double post = 0;
+    };
+    static void describe(SynapseSpec<Outputs>& s) {
+        s.name("outputs", "Outputs").state("weight", &Synapse::weight, "").output("psp", "");
+        s.feedback("post", &Target::post, "");
+    }
+    void update(Synapse& s, const Target& t) const requires(form == 1) { s.weight += t.post; }
+    void update(Synapse& s) const requires(form == 2) { s.weight += 1; }
+    double output() const requires(form == 0) { return 7; }
+    double output(const Synapse& s) const requires(form == 1) { return s.weight; }
+    double output(const Synapse& s, const Target& t) const requires(form == 2) { return s.weight * t.post; }
+    double output(const Target& t) const requires(form == 3) { return t.post; }
+};
+
+/// The output of a synapse of a source with activity 0.5 and a target with 10.
+template <int form>
+double output_of() {
+    double pre = 0.5, post = 10, weight = 3, psp = 0;
+    const std::vector<Column> states{{&weight, 1}, {&psp, 1}};
+    const std::vector<ConstColumn> feedback{{&post, 1}};
+    SynapseColumns columns({&pre, 1}, states, feedback);
+    synapse_type<Outputs<form>>().make()->update(columns);
+    return psp;
+}
+
+}  // namespace
+
+TEST_CASE("The functions of a synapse omit the arguments that they do not read") {
+    CHECK(output_of<0>() == 7);
+    CHECK(output_of<1>() == 13);
+    CHECK(output_of<2>() == 40);
+    CHECK(output_of<3>() == 10);
+}
