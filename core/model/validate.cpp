@@ -24,6 +24,14 @@ std::string_view name_of(InputKind kind) {
     return std::array{"excitatory", "inhibitory", "modulatory"}[static_cast<std::size_t>(kind)];
 }
 
+/// A hint for an unknown type.
+std::string suggest_type(const std::string& name, const std::vector<std::string>& known) {
+    const std::string out = suggest(name, known);
+    if (out.starts_with("did you mean")) return out;
+    return out +
+           "; if it comes from a plugin: --plugin PATH, or its .so in a folder 'plugins' beside the system";
+}
+
 class Validator {
   public:
     Validator(const System& system, const Registry& registry, Diagnostics& out, Environment* environment)
@@ -162,7 +170,7 @@ class Validator {
             check_with_type(group.neuron, *type, trim(group.name));
         } else
             out_.error(group.neuron.at, fmt::format("there is no neuron type '{}'", group.neuron.type),
-                       suggest(group.neuron.type, names(registry_.neurons())));
+                       suggest_type(group.neuron.type, names(registry_.neurons())));
         check_topology(group);
     }
 
@@ -189,7 +197,7 @@ class Validator {
         const ModuleType* type = registry_.module(use.type);
         if (!type) {
             const std::string message = fmt::format("there is no module type '{}'", use.type);
-            const std::string hint = suggest(use.type, names(registry_.modules()));
+            const std::string hint = suggest_type(use.type, names(registry_.modules()));
             if (process.module_enabled)
                 out_.error(use.at, message, hint);
             else
@@ -331,7 +339,7 @@ class Validator {
             check_feedback(*c.synapse, *type, target);
         } else {
             out_.error(c.synapse->at, fmt::format("there is no synapse type '{}'", c.synapse->type),
-                       suggest(c.synapse->type, names(registry_.synapses())));
+                       suggest_type(c.synapse->type, names(registry_.synapses())));
         }
         check_attenuation(c.attenuation);
         check_delay(c.delay);

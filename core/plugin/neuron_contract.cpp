@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <deque>
+#include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/plugin/contract.h"
+#include "core/plugin/draw_parameters.h"
 #include "core/plugin/guarded_buffer.h"
 
 namespace forage::plugin {
@@ -13,14 +15,33 @@ namespace {
 
 constexpr std::array<const char*, input_kinds> kinds = {"excitatory", "inhibitory", "modulatory"};
 
+using Undeclared = NeuronColumns::Undeclared;
+
+/// What some cells receive in every cycle.
+struct Given {
+    std::array<double, input_kinds> inputs;
+    Undeclared undeclared = {};
+    std::uint64_t draw = 0;  ///< of the parameters; 0: the defaults
+};
+
 /// What a few cycles have made of some cells.
 struct Trial {
     std::vector<double> numbers;  ///< all states in all cycles
     bool intact = true;           ///< whether the update wrote into its own columns only
 };
 
-/// Updates cells that receive the same inputs in every cycle. Throws what the update throws.
-Trial try_cells(const NeuronType& type, const std::array<double, input_kinds>& inputs) {
+/// An object with drawn parameters; null when its check() complains of them.
+std::unique_ptr<NeuronInstance> make(const NeuronType& type, const RandomStream& random, std::uint64_t draw) {
+    auto neuron = type.make();
+    if (draw == 0) return neuron;
+    draw_parameters(type, neuron->parameters(), random, draw);
+    Diagnostics complaints;
+    if (type.check) type.check(neuron->parameters(), complaints);
+    return complaints.all().empty() ? std::move(neuron) : nullptr;
+}
+
+/// Updates some cells. Throws what the update throws.
+Trial try_cells(const NeuronType& type, const Given& given) {
     constexpr Index cells = 5;
     constexpr std::uint64_t cycles = 4;
     std::deque<GuardedBuffer> buffers;
@@ -33,11 +54,11 @@ Trial try_cells(const NeuronType& type, const std::array<double, input_kinds>& i
     for (auto& column : columns) column = buffers.emplace_back(cells).data();
     double* scratch = buffers.emplace_back(cells * NeuronColumns::scratch_columns).data();
     const RandomStream random(1, "contract");
-    const auto neuron = type.make();
     Trial out;
-    for (std::uint64_t cycle = 0; cycle < cycles; ++cycle) {
-        for (std::size_t k = 0; k < input_kinds; ++k) std::fill_n(columns[k], cells, inputs[k]);
-        NeuronColumns all(cells, cells, cycle, columns, states, &random, scratch);
+    const auto neuron = make(type, random, given.draw);
+    for (std::uint64_t cycle = 0; neuron && cycle < cycles; ++cycle) {
+        for (std::size_t k = 0; k < input_kinds; ++k) std::fill_n(columns[k], cells, given.inputs[k]);
+        NeuronColumns all(cells, cells, cycle, columns, states, &random, scratch, {}, 0, given.undeclared);
         neuron->update(all);
         for (const auto& s : states) out.numbers.insert(out.numbers.end(), s.ring, s.ring + cells * s.depth);
     }
@@ -45,35 +66,55 @@ Trial try_cells(const NeuronType& type, const std::array<double, input_kinds>& i
     return out;
 }
 
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-    return std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+/// What `type` reads and does not declare; empty when nothing is found.
+std::string undeclared_numbers(const NeuronType& type, const Given& declared) {
+    const auto numbers = try_cells(type, declared).numbers;
+    const auto matters = [&](const Given& given) {
+        return !same_bits(numbers, try_cells(type, given).numbers);
+    };
+    for (std::size_t k = 0; k < input_kinds; ++k) {
+        Given given = declared;
+        given.inputs[k] = 0.9;
+        if (!type.reads[k] && matters(given))
+            return fmt::format(
+                "its update() reads the {0} input, and its describe() does not declare "
+                "reads(InputKind::{0}): that input stays 0",
+                kinds[k]);
+    }
+    for (const double value : {0.03, 0.3, 0.6, 0.97}) {
+        Given given = declared;
+        given.undeclared = {1, value};
+        if (matters(given))
+            return "its update() reads random numbers that it does not declare, which stay 0: 'static "
+                   "constexpr "
+                   "int random_numbers = N;' is missing, misspelt or too small";
+    }
+    Given given = declared;
+    given.undeclared = {0, 0};
+    if (matters(given))
+        return "its update() reads Input::event, which stays 1: 'double event_probability() const' is "
+               "missing or "
+               "misspelt";
+    return {};
 }
 
 }  // namespace
 
 std::string contract_violation(const NeuronType& type) {
     constexpr int longest_history = 10'000;  // a longer one would take too long to try
+    constexpr std::uint64_t draws = 4;
     for (const auto& s : type.states)
         if (s.history > longest_history) return {};
     try {
-        const std::array<double, input_kinds> declared = {
-            type.reads[0] ? 0.7 : 0.0, type.reads[1] ? 0.2 : 0.0, type.reads[2] ? 0.4 : 0.0};
+        Given declared{{type.reads[0] ? 0.7 : 0.0, type.reads[1] ? 0.2 : 0.0, type.reads[2] ? 0.4 : 0.0}};
         const Trial first = try_cells(type, declared);
         if (!first.intact) return "it writes beside its columns: it takes them for longer than they are";
         if (!same_bits(first.numbers, try_cells(type, declared).numbers))
-            return "it computes other numbers when it starts anew with the same input: it uses rand(), the "
-                   "clock, or "
-                   "a variable that is shared by all objects; random numbers are in Input::random and "
-                   "NeuronColumns::uniform()";
-        for (std::size_t k = 0; k < input_kinds; ++k) {
-            auto inputs = declared;
-            inputs[k] = 0.9;
-            if (!type.reads[k] && !same_bits(first.numbers, try_cells(type, inputs).numbers))
-                return fmt::format(
-                    "its update() reads the {0} input, and its describe() does not declare "
-                    "reads(InputKind::{0}): that input stays 0",
-                    kinds[k]);
-        }
+            return another_each_time("random numbers are in Input::random and NeuronColumns::uniform()");
+        std::string out;
+        for (; out.empty() && declared.draw < draws; ++declared.draw)
+            out = undeclared_numbers(type, declared);
+        return out;
     } catch (const TypeError& e) {
         return e.what();
     } catch (...) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/exception_message.h"
+#include "core/plugin/child.h"
 #include "core/plugin/contract.h"
 #include "core/plugin/shared_object.h"
 
@@ -114,7 +115,7 @@ class Loader {
                 if (s.history < 1)
                     return fmt::format("state '{}' has a history of {}, the least is 1", s.name, s.history);
         if constexpr (!std::is_same_v<Type, ModuleType>)
-            if (type.output() >= 0) return contract_violation(type);
+            if (type.output() >= 0) return in_child([&] { return contract_violation(type); });
         return {};
     }
 

@@ -45,6 +45,22 @@ class Found {
     std::set<fs::path> seen_;
 };
 
+/// The source file of a plugin that 'forage build-plugin' or CMake has made in the folder "plugins", if it
+/// has been changed since; empty otherwise.
+fs::path newer_source(const fs::path& plugin) {
+    std::error_code failed;
+    const auto built = fs::last_write_time(plugin, failed);
+    if (failed || plugin.extension() != ".so" || plugin.parent_path().filename() != "plugins") return {};
+    const fs::path beside = plugin.parent_path().parent_path();
+    for (const auto& folder : {beside, beside.parent_path()}) {
+        fs::path source = folder / plugin.stem();
+        source += ".cpp";
+        const auto changed = fs::last_write_time(source, failed);
+        if (!failed && changed > built) return source;
+    }
+    return {};
+}
+
 }  // namespace
 
 std::vector<std::string> find(const std::vector<std::string>& named, const std::string& path,
@@ -66,7 +82,12 @@ std::vector<std::string> find(const std::vector<std::string>& named, const std::
     if (!beside.empty())
         if (const auto folder = fs::path(beside).parent_path() / "plugins"; fs::is_directory(folder, ignored))
             found.add_others(folder);
-    return std::move(found).files();
+    auto files = std::move(found).files();
+    for (const auto& file : files)
+        if (const auto source = newer_source(file); !source.empty())
+            diagnostics.warning({}, fmt::format("plugin '{}' is older than '{}'", file, source.string()),
+                                fmt::format("'forage build-plugin {}' builds it again", source.string()));
+    return files;
 }
 
 }  // namespace forage::plugin

@@ -15,7 +15,8 @@ namespace forage::plugin {
 ///   beside   the folder "plugins" beside this file, if it exists, without files whose name was found
 ///            before; no folder when empty
 ///
-/// A folder stands for all its files *.so, in byte order of their names.
+/// Warns of a plugin in a folder "plugins" whose source file, NAME.cpp beside this folder or one above, is
+/// newer. A folder stands for all its files *.so, in byte order of their names.
 std::vector<std::string> find(const std::vector<std::string>& named, const std::string& path,
                               const std::string& beside, Diagnostics& diagnostics);
 

@@ -300,11 +300,12 @@ class Run(Cli):
 
     def test_an_interrupt_keeps_the_results_so_far(self):
         command = [FORAGE, "run", SYSTEM, "--world", WORLD, "--seconds", "1000", "--realtime", "--record", "Bug/Light"]
-        process = subprocess.Popen(command, cwd=self.here, stdout=subprocess.PIPE, text=True)
+        process = subprocess.Popen(command, cwd=self.here, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         time.sleep(1.5)
         process.send_signal(signal.SIGINT)
-        text, _ = process.communicate(timeout=20)
+        text, said = process.communicate(timeout=20)
         self.assertEqual(process.returncode, 130)
+        self.assertRegex(said, r"(?m)^finishing cycle \d+; Ctrl-C again ends at once$")
         self.assertIn("stopped", text)
         rows = self.table("forage-out/Bug_Light_act.csv")
         self.assertGreater(len(rows), 2)

@@ -331,6 +331,7 @@ class Interrupted(Experiment):
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=30)
         self.assertEqual(process.returncode, 130)
+        self.assertIn("finishing the current cycle of each run; Ctrl-C again ends at once", said)
         self.assertIn("the same command continues", said)
 
     def test_only_new_runs_are_executed(self):

@@ -24,6 +24,16 @@ CORPUS = {
     "default_outside": (r"'neuronDefaultOutside' that does not work: its parameter 'rate' is 5 by default, outside its own range 0 to 1", ""),
     "reads_modulation": (r"'neuronReadsModulation' that does not work: its update\(\) reads the modulatory input, and its describe\(\) does not "
                          r"declare reads\(InputKind::modulatory\)", ""),
+    "blank_name": (r"neuron type 'neuron Blank' has blanks in its name", ""),
+    "crashes": (r"'neuronCrashes' that does not work: its update\(\) crashes: Segmentation fault", ""),
+    "fifth_random": (r"'neuronFifthRandom' that does not work: it uses random number 4, but declares 4", ""),
+    "misspelt_random": (r"'neuronMisspeltRandom' that does not work: its update\(\) reads random numbers that it does not declare", ""),
+    "static_synapse": (r"'synapseStatic' that does not work: it computes other numbers when it starts anew", ""),
+    "text_range": (r"neuron type 'neuronTextRange' declares a range for the parameter 'mode', which is a text", ""),
+    "undeclared_event": (r"'neuronUndeclaredEvent' that does not work: its update\(\) reads Input::event, which stays 1: "
+                         r"'double event_probability\(\) const' is missing or misspelt", ""),
+    "undeclared_random": (r"'neuronUndeclaredRandom' that does not work: its update\(\) reads random numbers that it does not declare, "
+                          r"which stay 0: 'static constexpr int random_numbers = N;' is missing", ""),
     "behind_the_end": (r"has a neuron type 'neuronBehindTheEnd' that does not work: it writes beside its columns", ""),
     "half_good": (r"neuron type 'neuronBad' declares the state 'act' twice", ""),
     "no_history": (r"state 'act' has a history of 0, the least is 1", ""),
@@ -35,7 +45,7 @@ CORPUS = {
     "restless_parameter": (r"'synapseRestlessParameter' that does not work: it promises event_driven\(\), and changes "
                            r"state 'weight' while its source is silent: \S+ becomes \S+, with rate = 0\.", ""),
     "other_size": (r"'neuronOtherSize' that does not work: it computes with columns of different sizes", ""),
-    "other_version": (r"was built with version 10 of the SDK, this program has version 9", "build the plugin again"),
+    "other_version": (r"was built with version 11 of the SDK, this program has version 10", "build the plugin again"),
     "shipped_name": (r"has a neuron type 'neuronLinearThreshold', and so has Forage itself", "another name"),
     "restless": (r"'synapseRestless' that does not work: it promises event_driven\(\), and changes state 'weight'", ""),
     "restless_output": (r"'synapseRestlessOutput' that does not work: it promises event_driven\(\), and puts out something", ""),
@@ -130,6 +140,16 @@ class Broken(Plugins):
         self.assertEqual(rows[1:], [f"{c},{c + 1},{c + 1}" for c in range(7)])
         self.assertTrue((self.here / "out/run.json").exists())
         self.assertFalse(list((self.here / "out").glob("*.part")))
+
+    def test_an_update_that_does_not_return_is_stopped(self):
+        done = self.forage("types", "--plugin", BROKEN.parent / "endless.so", status=2)
+        self.assertRegex(done.stderr, r"'neuronEndless' that does not work: its update\(\) does not return: it was stopped after 10 s")
+
+    def test_a_crash_names_the_plugin(self):
+        module = '<Module name="moduleFalls"><XRefHolder name="InputFromGroup"><XRef name="in" target="a"/></XRefHolder></Module>'
+        system = self.system("neuronNumeric", module)
+        done = self.forage("run", system, "-c", 9, "--plugin", BROKEN.parent / "crash.so", "-o", "", status=-signal.SIGSEGV)
+        self.assertRegex(done.stderr, r"error: the program crashes in plugin '.*/crash.so': segmentation fault\n  hint: ")
 
     def test_a_module_that_uses_an_undeclared_output(self):
         system = self.system("neuronNumeric", '<Module name="moduleLoud"/>')
@@ -293,7 +313,9 @@ class Found(Plugins):
     def test_option_path_and_folder_beside_the_system(self):
         (self.here / "sub").mkdir()
         system = self.system("neuronTwice", name="sub/system.iqr")
-        self.assertIn("there is no neuron type 'neuronTwice'", self.forage("check", system, status=2).stderr)
+        missing = self.forage("check", system, status=2).stderr
+        self.assertIn("there is no neuron type 'neuronTwice'", missing)
+        self.assertIn("if it comes from a plugin: --plugin PATH, or its .so in a folder 'plugins' beside the system", missing)
         self.forage("check", system, "--plugin", self.PLUGIN)
         self.forage("check", system, path=self.PLUGIN)
         (self.here / "more").mkdir()
@@ -322,6 +344,18 @@ class Found(Plugins):
             file.write(b"another build")
         self.forage("experiment", "e.xml", "-o", "out")
         self.assertNotEqual(result.read_text(), first)
+
+    def test_a_source_that_is_newer_than_its_plugin_gives_a_warning(self):
+        (self.here / "plugins").mkdir()
+        shutil.copy(self.PLUGIN, self.here / "plugins/mine.so")
+        source = self.here / "mine.cpp"
+        source.write_text("// changed")
+        self.system("neuronTwice")
+        os.utime(source, (1, 1))
+        self.assertEqual(self.forage("check", "system.iqr").stderr, "")
+        os.utime(source, (4e9, 4e9))
+        self.assertIn("warning: plugin 'plugins/mine.so' is older than 'mine.cpp'\n  hint: 'forage build-plugin mine.cpp'",
+                      self.forage("check", "system.iqr").stderr)
 
     def test_a_missing_folder_of_the_path_is_a_warning(self):
         done = self.forage("types", path="/nowhere")

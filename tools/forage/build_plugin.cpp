@@ -1,5 +1,6 @@
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <vector>
 
 #include <fmt/format.h>
@@ -60,23 +61,19 @@ int build_plugin(const BuildPluginOptions& o) {
 
     const char* named = std::getenv("CXX");
     const std::string compiler = named && *named ? named : "c++";
-    std::vector<std::string> words = {compiler,
-                                      "-std=c++20",
-                                      "-O3",
-                                      "-DNDEBUG",
-                                      "-fPIC",
-                                      "-shared",
-                                      "-Wall",
-                                      "-Wextra",
-                                      "-ffp-contract=off",
-                                      "-fno-math-errno",
-                                      "-fno-trapping-math",
-                                      "-fvisibility=hidden",
-                                      "-fvisibility-inlines-hidden",
-                                      "-include",
-                                      (headers / "forage/core/types/size_checks.h").string(),
-                                      "-I" + headers.string(),
-                                      "-I" + (headers / "forage").string()};
+    std::vector<std::string> words = {compiler};
+    const char* flags = std::getenv("CXXFLAGS");
+    std::istringstream more(flags ? flags : "");
+    for (std::string word; more >> word;) words.push_back(word);
+    words.insert(words.end(), {"-std=c++20", "-fPIC", "-shared", "-Wall", "-Wextra", "-ffp-contract=off",
+                               "-fno-math-errno", "-fno-trapping-math", "-fvisibility=hidden",
+                               "-fvisibility-inlines-hidden", "-include",
+                               (headers / "forage/core/types/size_checks.h").string(),
+                               "-I" + headers.string(), "-I" + (headers / "forage").string()});
+    if (o.debug)
+        words.insert(words.end(), {"-O0", "-g"});  // without NDEBUG, Eigen checks each index
+    else
+        words.insert(words.end(), {"-O3", "-DNDEBUG"});
     for (const std::string eigen : {FORAGE_EIGEN_DIR, "/usr/include/eigen3", "/usr/local/include/eigen3"})
         if (fs::exists(eigen)) words.insert(words.end(), {"-isystem", eigen});
     words.insert(words.end(), {o.source, library.string(), "-o", partial(output)});

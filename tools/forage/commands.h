@@ -85,6 +85,7 @@ struct SchemaOptions {
 struct BuildPluginOptions {
     std::string source;
     std::string output;  ///< empty: the folder plugins beside the source
+    bool debug = false;
 };
 
 int run(const RunOptions& options);

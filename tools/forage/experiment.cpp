@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/number.h"
+#include "core/plugin/crash.h"
 #include "core/run/experiment/tables.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/progress.h"
@@ -45,7 +46,11 @@ int experiment(const ExperimentOptions& o) {
     const auto wanted = prepare_experiment(o.file, o.directory, o.plugins, diagnostics, o.system);
     if (diagnostics.failed() || !o.quiet) fmt::print(stderr, "{}", format(diagnostics));
     if (!wanted) return bad_input;
-    note_signals();
+    note_signals("the current cycle of each run");
+    std::vector<std::string> plugins;
+    for (const auto& [path, sources] : wanted->sources)
+        for (const auto& p : sources.plugins) plugins.push_back(p.path);
+    plugin::tell_crashes(plugins);
     Progress progress(!o.quiet);
     ExperimentCallbacks callbacks;
     callbacks.interrupted = [] { return noted_signal() != 0; };

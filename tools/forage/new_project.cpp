@@ -90,8 +90,10 @@ int new_project(const std::string& kind, const std::string& name) {
         return refused(fmt::format("there is already a '{}' here", name), "take another name or folder");
     make_directory(name);
     const std::pair<std::string, std::string> files[] = {
-        {name + ".cpp", kind + ".cpp"},  {"CMakeLists.txt", "CMakeLists.txt"}, {"example.iqr", kind + ".iqr"},
-        {"expected.csv", kind + ".csv"}, {"test.cmake", "test.cmake"},         {"README.md", "README.md"}};
+        {name + ".cpp", kind + ".cpp"}, {"CMakeLists.txt", "CMakeLists.txt"},
+        {"example.iqr", kind + ".iqr"}, {"expected.csv", kind + ".csv"},
+        {"test.cmake", "test.cmake"},   {name + "_test.cpp", kind + "_test.cpp"},
+        {"README.md", "README.md"}};
     for (const auto& [file, source] : files)
         write_file(name + "/" + file, filled(template_text(source), name, kind));
     fmt::print(

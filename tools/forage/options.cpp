@@ -246,10 +246,13 @@ void add_new(CLI::App& app, NewOptions& o) {
 
 void add_build_plugin(CLI::App& app, BuildPluginOptions& o) {
     auto& command = *app.add_subcommand("build-plugin", "Compile a source file with types of your own");
-    command.footer("The compiler is the one in CXX, or c++.\nExample:\n  forage build-plugin adaptive.cpp");
+    command.footer(
+        "The compiler is the one in CXX, or c++; CXXFLAGS are added.\nExample:\n  forage build-plugin "
+        "adaptive.cpp");
     command.add_option("FILE", o.source, "Source file (.cpp)")->required()->option_text(" ");
     command.add_option("-o,--output", o.output, "Plugin to write [plugins/NAME.so beside FILE]")
         ->option_text("FILE");
+    command.add_flag("--debug", o.debug, "For a debugger; the plugin checks each index, and is slower");
 }
 
 }  // namespace forage::tool

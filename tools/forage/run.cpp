@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/number.h"
+#include "core/plugin/crash.h"
 #include "core/run/checkpoint_file.h"
 #include "core/run/explain.h"
 #include "tools/forage/commands.h"
@@ -35,8 +36,10 @@ int run(const RunOptions& o) {
 }
 
 int run_to_end(const RunOptions& o, PreparedRun& prepared) {
-    note_signals();
+    note_signals("cycle");
+    plugin::tell_crashes(prepared.plugins);
     Run& run = prepared.run;
+    note_cycle(run.cycle());
     Progress progress(!o.quiet);
     const double begun = run.seconds();
     RunCallbacks callbacks;
@@ -53,6 +56,7 @@ int run_to_end(const RunOptions& o, PreparedRun& prepared) {
         fmt::print(stderr, "warning: {}\n  hint: --on-nan stop ends the run there\n", what);
     };
     callbacks.after_cycle = [&] {
+        note_cycle(run.cycle());
         if (o.real_time)
             if (const double ahead = run.seconds() - begun - progress.elapsed(); ahead > 0)
                 std::this_thread::sleep_for(std::chrono::duration<double>(ahead));

@@ -1,12 +1,16 @@
 // Signals that stop a run after the current cycle.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace forage::tool {
 
-/// Makes the program only note the first SIGINT or SIGTERM. The second one ends it.
-void note_signals();
+/// Makes the program only note the first SIGINT or SIGTERM, and say on stderr that it finishes `what`. The
+/// second one ends it.
+void note_signals(const char* what);
+/// Adds the number of a cycle to `what`.
+void note_cycle(std::uint64_t cycle);
 /// The signal that was noted; 0 for none.
 int noted_signal();
 

@@ -31,8 +31,10 @@ struct OpenOptions {
     std::string world = {};                  ///< file of the world in which the robots live; none when empty
     std::uint64_t seed = 1;                  ///< decides everything random
     std::vector<std::string> settings = {};  ///< "Process/Group.parameter=value", as for `forage run --set`
-    std::vector<std::string> plugins = {};   ///< shared objects and folders of them; nothing else is searched
-    int threads = 1;                         ///< largest number of threads; the results do not depend on it
+    /// Shared objects and folders of them, in addition to FORAGE_PLUGIN_PATH and the folder "plugins" beside
+    /// the system.
+    std::vector<std::string> plugins = {};
+    int threads = 1;       ///< largest number of threads; the results do not depend on it
     bool lenient = false;  ///< whether mistakes that the original accepts are warnings, not errors
     bool noise = true;     ///< whether motors and sensors are noisy
     /// Seconds of the world per second of the clock. Empty for the world's own rate.
@@ -75,7 +77,8 @@ struct ExperimentOutcome {
 /// time (0: one per core). Runs that were finished before are not repeated. Throws InputError.
 ExperimentOutcome experiment(const std::string& file, const std::string& directory = {}, int jobs = 0);
 
-/// The types that ship with Forage, and those of plugins. Throws InputError.
+/// The types that ship with Forage, and those of `plugins`: shared objects and folders of them. Throws
+/// InputError.
 Registry types(const std::vector<std::string>& plugins = {});
 
 }  // namespace forage
