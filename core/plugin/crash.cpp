@@ -1,5 +1,3 @@
-#include "core/plugin/crash.h"
-
 #include <csignal>
 #include <cstring>
 #include <filesystem>
@@ -7,6 +5,8 @@
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <unistd.h>
+
+#include "core/plugin/plugin.h"
 
 namespace forage::plugin {
 namespace {

@@ -26,4 +26,8 @@ std::vector<Plugin> load(const std::vector<std::string>& paths, const Registry& 
 /// Adds the types of all plugins to the registry.
 void add(const std::vector<Plugin>& plugins, Registry& registry);
 
+/// Makes a crash of this program (SIGSEGV, SIGBUS, SIGFPE, SIGILL) name on stderr which of the plugins at
+/// `paths` it happened in, before the program ends as without this function. Does nothing without plugins.
+void tell_crashes(const std::vector<std::string>& paths);
+
 }  // namespace forage::plugin

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/base/number.h"
-#include "core/plugin/crash.h"
 #include "core/run/experiment/tables.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/progress.h"

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "core/base/number.h"
-#include "core/plugin/crash.h"
 #include "core/run/checkpoint_file.h"
 #include "core/run/explain.h"
 #include "tools/forage/commands.h"
