@@ -44,7 +44,7 @@ std::atomic<Index> smallest_part;  ///< that a Failing<true> was asked to update
 template <bool in_parts>
 struct Failing {
     static void describe(NeuronSpec<Failing>& s) {
-        s.name(in_parts ? "failing in parts" : "failing", "Failing").output("act", "Activity");
+        s.name(in_parts ? "failing_in_parts" : "failing", "Failing").output("act", "Activity");
     }
     void update(NeuronColumns& c) const {
         if (in_parts)
@@ -63,7 +63,7 @@ struct FailingSynapse {
     };
 
     static void describe(SynapseSpec<FailingSynapse>& s) {
-        s.name("failing synapse", "Failing");
+        s.name("failing_synapse", "Failing");
         s.state("deliveries", &Synapse::deliveries, "Deliveries").output("psp", "Potential");
     }
     void update(Synapse& s, double) const {
@@ -230,7 +230,7 @@ TEST_CASE("When several groups fail, divided or not, the first one is reported")
     const bool small_first = GENERATE(false, true);
     model::add_group(s, p, "Fine", 1, 1, "one");
     const auto small = [&] { model::add_group(s, p, "Small", 3, 3, "failing"); };
-    const auto large = [&] { model::add_group(s, p, "Large", 30, 30, "failing in parts"); };
+    const auto large = [&] { model::add_group(s, p, "Large", 30, 30, "failing_in_parts"); };
     if (small_first)
         small(), large();
     else
@@ -246,7 +246,7 @@ TEST_CASE("When several groups fail, divided or not, the first one is reported")
     CHECK((smallest_part < 30 * 30) == (threads > 1));  // it was divided
     CHECK_THROWS_WITH(simulation.step(),
                       small_first ? "failing of group 'Brain/Small' failed in cycle 3: out of luck"
-                                  : "failing in parts of group 'Brain/Large' failed in cycle 3: out of luck");
+                                  : "failing_in_parts of group 'Brain/Large' failed in cycle 3: out of luck");
 }
 
 TEST_CASE(
@@ -258,8 +258,8 @@ TEST_CASE(
                c = model::add_group(s, p, "C", 2, 2, "one");
     const bool update_fails = GENERATE(false, true);
     if (update_fails) model::add_group(s, p, "Last", 2, 2, "failing");
-    connect(s, c, a, InputKind::excitatory, "failing synapse", "to A");  // has to wait for C
-    connect(s, a, b, InputKind::excitatory, "failing synapse", "to B");
+    connect(s, c, a, InputKind::excitatory, "failing_synapse", "to A");  // has to wait for C
+    connect(s, a, b, InputKind::excitatory, "failing_synapse", "to B");
     Registry registry = types();
     registry.add(synapse_type<FailingSynapse>());
     registry.add(neuron_type<Failing<false>>());
@@ -268,7 +268,7 @@ TEST_CASE(
     for (int t = 0; t < 3; ++t) simulation.step();
     CHECK_THROWS_WITH(simulation.step(),
                       update_fails ? "failing of group 'Brain/Last' failed in cycle 3: out of luck"
-                                   : "failing synapse of connection 'C to A' failed in cycle 3: no way");
+                                   : "failing_synapse of connection 'C to A' failed in cycle 3: no way");
 }
 
 TEST_CASE("Deliveries to whole groups are shared") {
