@@ -32,7 +32,7 @@ std::vector<std::string> usual_plots(const Results& results) {
             out.push_back("space:" + r.what.name);
     }
     if (!results.directory.empty() && fs::exists(results.directory + "/trajectory.csv"))
-        out.push_back("trajectory");
+        out.emplace_back("trajectory");
     return out;
 }
 
@@ -179,7 +179,7 @@ std::string draw_one(const PlotSpec& spec, Results& results, const std::optional
 
 }  // namespace
 
-std::vector<std::string> draw(Results& results, std::vector<std::string> plots, std::string directory,
+std::vector<std::string> draw(Results& results, const std::vector<std::string>& plots, std::string directory,
                               plot::Format format, Diagnostics& diagnostics,
                               const std::vector<std::string>& where) {
     if (results.experiment)

@@ -39,7 +39,7 @@ std::vector<plot::Path> read_paths(const std::string& directory);
 /// none, into `directory` (empty: beside the results, or the working directory for a system). Reports
 /// mistakes in `plots`. Of an experiment, only the runs that `where` keeps are drawn, see keep_runs().
 /// Returns the paths of the written files.
-std::vector<std::string> draw(Results& results, std::vector<std::string> plots, std::string directory,
+std::vector<std::string> draw(Results& results, const std::vector<std::string>& plots, std::string directory,
                               plot::Format format, Diagnostics& diagnostics,
                               const std::vector<std::string>& where = {});
 

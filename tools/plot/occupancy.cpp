@@ -128,7 +128,7 @@ Picture occupancy_plot(const bug::World& world, const std::vector<PathsOf>& cond
     const bool one = conditions.size() == 1;
     const double side = one ? 640 : 300, top = one ? occupancy_top : occupancy_top + 34;
     const WorldMap first(world, all, side, 0, 0);
-    const auto view = first.view();
+    const auto& view = first.view();
     const double step_x = occupancy_left + first.width() + 12,
                  step_y = first.height() + occupancy_bottom + 38;
     // The number of columns gives the sheet an aspect ratio of about 4 to 3.

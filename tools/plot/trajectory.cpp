@@ -170,11 +170,11 @@ std::vector<Path> wanted_paths(std::vector<Path> paths, const PlotSpec& spec) {
 Picture trajectory_plot(const bug::World& world, std::vector<Path> paths, const std::string& title,
                         std::size_t robot) {
     const auto names = world.robot_names();
-    const std::string heading = names.size() > 1 ? names[robot] + ": " + title : title;
+    const std::string headline = names.size() > 1 ? names[robot] + ": " + title : title;
     const auto kept = std::make_shared<const std::vector<Path>>(std::move(paths));
     const auto drawing = std::make_shared<Drawing>(world, *kept);
     return {drawing->width(), drawing->height(),
-            [kept, drawing, heading](Canvas& canvas) { drawing->draw(canvas, heading); }};
+            [kept, drawing, headline](Canvas& canvas) { drawing->draw(canvas, headline); }};
 }
 
 }  // namespace forage::plot
