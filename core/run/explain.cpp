@@ -79,7 +79,7 @@ class Explainer {
         for (std::size_t g = 0; g < layout_.groups.size(); ++g)
             for (const int m : wiring_.groups[g].readers)
                 if (silent(g)) {
-                    out.push_back(chain(g, m, told));
+                    tell_ways_back(g, m, told, out);
                     break;
                 }
         for (std::size_t g = 0; g < layout_.groups.size(); ++g) {
@@ -183,29 +183,48 @@ class Explainer {
                            type.name);
     }
 
-    /// The shortest way back from a silent group to one whose silence needs another explanation.
-    std::string chain(std::size_t g, int reader, std::vector<bool>& told) const {
-        const std::string text =
+    /// One sentence for each way back from a silent group to one whose silence needs another explanation, the
+    /// shortest way first. Groups that are told already get no other sentence, except as the first one.
+    void tell_ways_back(std::size_t g, int reader, std::vector<bool>& told,
+                        std::vector<std::string>& out) const {
+        constexpr std::size_t limit = 5;
+        std::string begin =
             fmt::format("{} was silent, so the module of process '{}' read only zeros there: ", name(g),
                         layout_.modules[at(reader)].process);
         std::map<std::size_t, std::size_t> next{{g, g}};  // towards g
         std::queue<std::size_t> waiting({g});
-        while (!waiting.empty()) {
+        std::size_t found = 0, more = 0;
+        told[g] = true;
+        for (; !waiting.empty(); waiting.pop()) {
             const std::size_t now = waiting.front();
-            waiting.pop();
-            if (is_first(now)) {
-                told[now] = told[g] = true;
-                if (now == g) return text + why_silent(g);
-                std::vector<std::string> names;
-                for (std::size_t step = now; step != g; step = next.at(step)) names.push_back(name(step));
-                std::reverse(names.begin(), names.end());
-                return text + fmt::format("{} <- {}. {} is the first silent group on the way back: {}",
-                                          name(g), fmt::join(names, " <- "), name(now), why_silent(now));
-            }
             for (const auto s : sources(now))
-                if (next.emplace(s, now).second) waiting.push(s);
+                if (silent(s) && next.emplace(s, now).second) waiting.push(s);
+            if (!is_first(now) || (found > 0 && told[now])) continue;
+            told[now] = true;
+            if (++found > limit) {
+                ++more;
+                continue;
+            }
+            out.push_back(begin + way_back(g, now, next) + why_silent(now));
+            begin = "another way back: ";
         }
-        return text + "it belongs to a loop of silent groups that nothing outside drives";
+        if (found == 0)
+            out.push_back(begin + "it belongs to a loop of silent groups that nothing outside drives");
+        if (more > 0)
+            out.push_back(
+                fmt::format("{} other ways back from {} end at other silent groups", more, name(g)));
+    }
+
+    /// "A <- B <- C. C is the first silent group on the way back: ", from a group A; empty if A is C.
+    std::string way_back(std::size_t from, std::size_t first,
+                         const std::map<std::size_t, std::size_t>& next) const {
+        if (first == from) return {};
+        std::vector<std::string> names;
+        for (std::size_t step = first; step != from; step = next.at(step)) names.push_back(name(step));
+        names.push_back(name(from));
+        std::reverse(names.begin(), names.end());
+        return fmt::format("{}. {} is the first silent group on the way back: ", fmt::join(names, " <- "),
+                           name(first));
     }
 
     std::string clipped(std::size_t g) const {
@@ -237,12 +256,6 @@ std::vector<std::string> wiring_notes(const model::System& system, const Layout&
         const auto& about = layout.groups[g];
         const auto& wires = wiring.groups[g];
         const bool used = wires.has_targets || !wires.readers.empty();
-        for (const int c : wires.ignored)
-            out.push_back(
-                fmt::format("connection '{}' delivers {} input to group '{}', and {} does not read that",
-                            layout.connections[static_cast<std::size_t>(c)].name,
-                            kind_adjectives[number_of(layout.connections[static_cast<std::size_t>(c)].kind)],
-                            about.path, about.type.name));
         if (wires.driven() || !wires.ignored.empty() || !wires.disabled.empty()) continue;
         if (!used)
             out.push_back(

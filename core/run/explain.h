@@ -19,7 +19,7 @@ std::string activity_table(const engine::Layout& layout, const observe::GroupSta
 
 /// Explains a run that was prepared with RunSpec::explain, one sentence each: what drove its robots,
 /// wiring_notes(), and why groups were silent or clipped. For a group that was silent although an enabled
-/// module reads it, such as a motor group, the sentence follows the silence back to the first silent group.
+/// module reads it, such as a motor group, sentences follow the silence back to every group where it begins.
 std::vector<std::string> explanation(const PreparedRun& prepared);
 
 }  // namespace forage

@@ -59,7 +59,8 @@ std::string summary(const PreparedRun& p, const RunOutcome& outcome, bool resuma
     if (environment) {
         const auto names = environment->robot_names();
         for (std::size_t i = 0; i < names.size(); ++i)
-            for (const auto& [what, text] : trial_summary(*environment, run.trials(i)))
+            for (const auto& [what, text] :
+                 trial_summary(*environment, run.trials(i), p.statistics != nullptr))
                 line((names.size() > 1 ? names[i] + " " : "") + what, text);
         if (!environment->scores().empty()) out += score_table(*environment);
     }

@@ -100,7 +100,7 @@ void memory_line(const std::vector<MeasuredTrial>& trials, Lines& lines) {
                     full == trials.end() ? "" : fmt::format("; full after trial {}", full->number)));
 }
 
-Lines running_lines(const Environment& world, const Trial& t) {
+Lines running_lines(const Environment& world, const Trial& t, bool explained) {
     const auto place = [](const Pose2& p) {  // + 0.0 turns -0 into 0
         return fmt::format("({:.2f}, {:.2f})", std::round(p.x * 100) / 100 + 0.0,
                            std::round(p.y * 100) / 100 + 0.0);
@@ -109,7 +109,9 @@ Lines running_lines(const Environment& world, const Trial& t) {
     const bool moved = distance > 0.01 || std::abs(t.end.yaw - t.start.yaw) > 0.01;
     Lines lines{
         {"robot", fmt::format("from {} to {}, {:.2f} m apart{}", place(t.start), place(t.end), distance,
-                              moved ? "" : ": it has not moved; 'forage explain' tells why")}};
+                              moved       ? ""
+                              : explained ? ": it has not moved"
+                                          : ": it has not moved; 'forage explain' tells why")}};
     if (world.has_targets())
         lines.emplace_back("target", fmt::format("{:.2f} m away at the nearest{}", t.smallest_distance,
                                                  t.reached_target ? ": reached" : ""));
@@ -118,9 +120,9 @@ Lines running_lines(const Environment& world, const Trial& t) {
 
 }  // namespace
 
-Lines trial_summary(const Environment& world, const MeasuredTrials& trials) {
+Lines trial_summary(const Environment& world, const MeasuredTrials& trials, bool explained) {
     const auto n = trials.finished.size();
-    if (n == 0) return trials.running ? running_lines(world, *trials.running) : Lines{};
+    if (n == 0) return trials.running ? running_lines(world, *trials.running, explained) : Lines{};
     double cycles = 0;
     for (const auto& t : trials.finished) cycles += static_cast<double>(t.cycles);
     Lines lines{{"trials", fmt::format("{}, {:.1f} s each on average, and 1 s to reset the robot", n,

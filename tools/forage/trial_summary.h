@@ -10,8 +10,8 @@
 
 namespace forage::tool {
 
-/// The lines of the summary: a title and a text for each.
+/// The lines of the summary: a title and a text for each. `explained`: an explanation of the run follows.
 std::vector<std::pair<std::string, std::string>> trial_summary(const Environment& environment,
-                                                               const MeasuredTrials& trials);
+                                                               const MeasuredTrials& trials, bool explained);
 
 }  // namespace forage::tool
