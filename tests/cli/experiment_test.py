@@ -467,9 +467,9 @@ class Plots(Experiment):
         self.table([[["A.x"], ["1", "3"]], [["B.x"], ["1", "2", "4"]], [["C.w"], ["7"]]], lambda values: sum(map(float, values)))
         self.forage("plot", "table", "heat:m", "--where", "C.w=7", "--where", "A.x=1", "--where", "A.x=3")
         self.assertEqual((self.here / "table/heat_m_w_7__A.x_1__A.x_3.png").read_bytes(), part)
-        self.forage("plot", "table", "heat:m", "--where", "seed=2")
+        self.forage("plot", "table", "--where", "seed=2", "heat:m")  # one value per --where
         self.assertTrue((self.here / "table/heat_m_seed_2.png").exists())
-        for where, message in (("x=1", "no parameter 'x' was swept"), ("w=9", "no run has this value"), ("w", "no run has this value")):
+        for where, message in (("y=1", "no parameter 'y' was swept"), ("x=1", "'x' is ambiguous\n  hint: name one of 'A.x', 'B.x'"), ("w=9", "no run has this value"), ("w", "no run has this value")):
             self.assertIn(message, self.forage("plot", "table", "heat:m", "--where", where, status=2).stderr)
         self.assertIn("--where chooses runs of an experiment", self.forage("plot", "small.iqr", "--where", "seed=1", status=2).stderr)
 
@@ -482,6 +482,52 @@ class Plots(Experiment):
             pictures |= {(self.here / f"table/{kind}_m.svg").read_text() for kind in ("heat", "curve")}
         self.assertEqual(len(pictures), 8)
         self.assertIn("no run has a number", self.forage("plot", "table", "curve:never", status=2).stderr)
+
+    def test_a_logarithmic_axis_has_0_beyond_a_break(self):
+        strokes = {}
+        for values in (["0.001", "0.01", "0.1"], ["0", "0.001", "0.1"], ["0", "0.05", "0.1"], ["-1", "0.001", "0.1"]):
+            self.table([[["A.x"], values]])
+            self.forage("plot", "table", "curve:m", "--plot-format", "svg")
+            strokes[" ".join(values)] = len(re.findall('fill[:=]"?none', (self.here / "table/curve_m.svg").read_text()))
+        self.assertEqual(strokes["0 0.001 0.1"], strokes["0.001 0.01 0.1"] + 3)  # those of the break
+        self.assertEqual(strokes["0 0.05 0.1"], strokes["0.001 0.01 0.1"])
+        self.assertEqual(strokes["-1 0.001 0.1"], strokes["0.001 0.01 0.1"])
+
+    def test_a_line_of_learning_ends_with_the_trials_of_its_condition(self):
+        (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "3"))
+        self.forage("experiment", "robot.xml", "-o", "out")
+        def strokes():
+            self.forage("plot", "out", "learning", "--plot-format", "svg")
+            return len(re.findall('fill[:=]"?none', (self.here / "out/learning.svg").read_text()))
+        whole = strokes()
+        rows = self.rows("out/results.csv")
+        same = [row["run"] for row in rows if list(row.values())[1:3] == list(rows[0].values())[1:3]]
+        self.assertEqual(len(same), 3)
+        for run in same:
+            table = self.here / "out/runs" / run / "trials.csv"
+            table.write_text("\n".join(table.read_text().splitlines()[:-1]) + "\n")
+        self.assertEqual(strokes(), whole - 3)  # an interval less, and no cross
+
+    def test_unfinished_trials_are_left_out_of_a_map(self):
+        self.forage("run", SYSTEM, "--world", WORLD, "--trials", 3, "-o", "run")
+        table, points = (self.here / "run" / name for name in ("trials.csv", "trajectory.csv"))
+        def drawn():
+            self.forage("plot", "run", "occupancy")
+            return (self.here / "run/occupancy.png").read_bytes()
+        whole = drawn()
+        end = table.read_text().splitlines()[-1]
+        table.write_text(table.read_text() + re.sub("^3,", "4,", end).replace("target", "unfinished").replace("missed", "unfinished") + "\n")
+        points.write_text(points.read_text() + "".join(re.sub("^3,", "4,", line) + "\n" for line in points.read_text().splitlines() if line.startswith("3,")))
+        self.assertEqual(drawn(), whole)
+
+    def test_a_picture_that_runs_end_too_early_for_is_missing_with_one_warning(self):
+        (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "2").replace('<measure name="never"', '<plot what="trajectory@7"/><measure name="never"'))
+        said = self.forage("experiment", "robot.xml", "-o", "out").stderr
+        self.assertEqual(said.count("warning"), 1, said)
+        self.assertRegex(said, r"warning: (\d+) of \1 runs, such as '.*': 'trajectory@7': the run ended before trial 7\n  hint: the run had 2 trials")
+        self.assertEqual(said, self.forage("experiment", "robot.xml", "-o", "out").stderr)  # nothing is repeated
+        said = self.forage("plot", "out", "time:Bug/Light", status=2).stderr
+        self.assertIn("draw that of a run: forage plot 'out/runs/", said)
 
     def test_too_many_lines_are_drawn_with_a_warning(self):
         self.table([[["A.x"], ["1", "2", "3"]], [["B.y"], [str(i) for i in range(12)]]])

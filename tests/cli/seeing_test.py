@@ -231,6 +231,11 @@ class Mistakes(Cli):
         done = self.run_robot("--cycles", 5, "-p", "space:Bug/Light@7", "-p", "time:Bug/Light", status=1)
         self.assertIn("none of these cycles is there; there are 5 of 0 to 4", done.stderr)
         self.assertIn("time_Bug_Light.png", [p.name for p in (self.here / "out").iterdir()])
+        self.run_robot("--cycles", 5, "-r", "Bug/Light", out="rows")
+        said = self.forage("plot", "rows", "space:Bug/Light@7", status=2).stderr
+        self.assertEqual(said.count("'space:Bug/Light@7'"), 1, said)
+        self.assertIn("the recording ends before cycle 9\n  hint: its last cycle is 4", self.forage("plot", "rows", "space:Bug/Light@0,9").stderr)
+        self.assertIn("'max' is not a function of cells here", self.forage("plot", "rows", "time:max(Bug/Light)", status=2).stderr)
 
     def test_nothing_to_plot(self):
         self.assertIn("absent: error: there is no such file", self.forage("plot", "absent", status=2).stderr)
@@ -252,6 +257,13 @@ class Pictures(Cli):
             self.assertEqual(len(made), 7)
             self.forage("plot", "out", *self.PLOTS, "diagram", "trajectory", "-o", "again", "--plot-format", form)
             self.assertEqual(filecmp.cmpfiles(self.here / "out", self.here / "again", made, shallow=False), (made, [], []))
+
+    def test_recorded_weights_have_the_axes_of_a_connection(self):
+        picture = "space:CS to Response:weight@40"
+        self.forage("run", pathlib.Path(SYSTEM).parent / "cookbook/hebbian_association.iqr", "--cycles", 50, "-p", picture, "-r", "CS to Response:weight", "-o", "out")
+        made = next((self.here / "out").glob("space*.png"))
+        self.forage("plot", "out", picture, "-o", "again")
+        self.assertEqual(made.read_bytes(), (self.here / "again" / made.name).read_bytes())
 
     def test_without_arguments_all_available_pictures_are_drawn(self):
         self.run_robot("--cycles", 50, "-r", "Bug/Light", "-r", "Bug/Place Cells")
@@ -275,8 +287,13 @@ class Pictures(Cli):
         self.assertNotEqual(pictures[0], pictures[2])
         self.forage("plot", "out", "trajectory@2..3", "-o", "again")
         self.assertEqual((self.here / "again/trajectory_2..3.png").read_bytes(), pictures[2])
-        self.run_robot("--trials", 2, "-p", "trajectory@3..4", out="short")  # none of these trials: no picture
+        said = self.run_robot("--trials", 2, "-p", "trajectory@3..4", out="short").stderr  # none of these trials: no picture
         self.assertEqual([p.name for p in (self.here / "short").glob("*.png")], [])
+        self.assertIn("warning: 'trajectory@3..4': the run ended before trial 3..4\n  hint: the run had 2 trials", said)
+        said = self.run_robot("--trials", 2, "-p", "trajectory@1..7/2", "-p", "space:Bug/Light@0,5,9000,100000..100100/30", out="short").stderr
+        self.assertIn("'trajectory@1..7/2': the run ended before trial 3..7\n", said)
+        self.assertIn("the run ended before cycle 9000, 100000..100090\n  hint: the last cycle was ", said)
+        self.assertIn("ended before trial 5\n", self.forage("plot", "out", "trajectory@3..5/2").stderr)
         self.assertIn("there are no trials 7..9", self.forage("plot", "out", "trajectory@7..9", status=2).stderr)
         self.assertIn("'3..1' is not a trial", self.forage("plot", "out", "trajectory@3..1", status=2).stderr)
 

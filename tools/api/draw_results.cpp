@@ -61,9 +61,27 @@ std::string draw_rows(const Results& results, const PlotSpec& spec, const std::o
     const auto wanted =
         expression::Context{spec.source(), "forage plot", diagnostics}.parsed(&expression::parse_source);
     if (!wanted) return {};
+    if (results.experiment) {
+        diagnostics.error({}, fmt::format("'{}': the recordings are those of the runs", spec.text),
+                          fmt::format("draw that of a run: forage plot '{}/runs/{}' '{}'", results.directory,
+                                      results.experiment->rows.front().run, spec.text));
+        return {};
+    }
     std::optional<observe::Part> part;
     const auto* entry = find_recording(results, spec, *wanted, part);
     if (!entry) {
+        PlotSpec inside = spec;  // of "max(Process/Group)"
+        if (const auto open = spec.what.find('(');
+            !wanted->mean && open != std::string::npos && spec.what.ends_with(')')) {
+            inside.what = spec.what.substr(open + 1, spec.what.size() - open - 2);
+            if (find_recording(results, inside, *wanted, part)) {
+                diagnostics.error({},
+                                  fmt::format("'{}': '{}' is not a function of cells here", spec.text,
+                                              spec.what.substr(0, open)),
+                                  "sources have mean(...), conditions also sum, min and max");
+                return {};
+            }
+        }
         std::vector<std::string> names;
         for (const auto& r : results.recordings) names.push_back(r.what.name);
         diagnostics.error(
@@ -78,7 +96,11 @@ std::string draw_rows(const Results& results, const PlotSpec& spec, const std::o
         part->take(row, taken);
         drawn.add(cycle, taken);
     }
-    return drawn.draw(format, results.context);
+    const std::string picture = drawn.draw(format, results.context);
+    if (const auto missing = drawn.missing(); !missing.empty())
+        diagnostics.warning({}, fmt::format("'{}': the recording ends before cycle {}", spec.text, missing),
+                            fmt::format("its last cycle is {}", drawn.last()));
+    return picture;
 }
 
 /// The runs of an experiment, or the one whose results these are.
@@ -119,11 +141,16 @@ std::optional<plot::Picture> draw_occupancy(const Results& results, const bug::W
 /// The paths of a run. Reports trials that it does not have.
 std::optional<plot::Picture> draw_trajectory(const PlotSpec& spec, const bug::World& world,
                                              const Results& results, Diagnostics& diagnostics) {
-    auto paths = plot::wanted_paths(read_paths(results.directory), spec);
-    if (!paths.empty() || spec.cycles.empty())
-        return plot::trajectory_plot(world, std::move(paths), results.context.run);
-    diagnostics.error({}, fmt::format("'{}': there are no trials {}", spec.text, spec.cycles_text));
-    return std::nullopt;
+    auto paths = read_paths(results.directory);
+    const auto missing = spec.after(paths.size()), hint = plot::count_of_trials(paths.size());
+    paths = plot::wanted_paths(std::move(paths), spec);
+    if (paths.empty() && !spec.cycles.empty()) {
+        diagnostics.error({}, fmt::format("'{}': there are no trials {}", spec.text, spec.cycles_text), hint);
+        return std::nullopt;
+    }
+    if (!missing.empty())
+        diagnostics.warning({}, fmt::format("'{}': the run ended before trial {}", spec.text, missing), hint);
+    return plot::trajectory_plot(world, std::move(paths), results.context.run);
 }
 
 /// Loads what the pictures of a system and of its world need. Empty when no picture needs it, and when
@@ -214,7 +241,7 @@ std::vector<std::string> draw(Results& results, const std::vector<std::string>& 
         } catch (const FileError& e) {
             report(e, diagnostics);
         } catch (const std::exception& e) {
-            diagnostics.error({}, fmt::format("'{}': {}", spec.text, e.what()));
+            diagnostics.error({}, e.what());
         }
     return written;
 }

@@ -23,14 +23,16 @@ using plot::PlotSpec;
 constexpr std::size_t most_lines = 10;   ///< that can be told apart
 constexpr std::size_t most_blocks = 25;  ///< of trials, in a picture of learning
 
-/// Places of values on an axis, and whether they are logarithms.
+/// Places of values on an axis, and whether they are logarithms. On a logarithmic axis, 0 is at the left, and
+/// the axis is broken at `gap`.
 struct Places {
     std::vector<double> at;
     bool logarithmic = false;
+    std::optional<double> gap = {};
 };
 
-/// The numbers themselves, their logarithms when they span more than a factor of 30, or 0, 1, 2... for texts
-/// and for parameters that vary together.
+/// The numbers themselves, their logarithms when those above 0 span more than a factor of 30 and none is
+/// below 0, or 0, 1, 2... for texts and for parameters that vary together.
 Places places_of(const Axis& axis) {
     std::vector<double> numbers, order;
     for (const auto& v : axis.values) {
@@ -38,10 +40,14 @@ Places places_of(const Axis& axis) {
         if (const auto n = parse_number<double>(v)) numbers.push_back(*n);
     }
     if (numbers.size() < order.size()) return {order};
-    const auto [least, most] = std::minmax_element(numbers.begin(), numbers.end());
-    const bool logarithmic = *least > 0 && *most > 30 * *least;
-    for (double& n : numbers) n = logarithmic ? std::log10(n) : n;
-    return {numbers, logarithmic};
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (const double n : numbers)
+        if (n > 0) least = std::min(least, n), most = std::max(most, n);
+    const bool zero = std::find(numbers.begin(), numbers.end(), 0.0) != numbers.end();
+    if (most <= 30 * least || *std::min_element(numbers.begin(), numbers.end()) < 0) return {numbers};
+    const double low = std::log10(least), aside = 0.18 * (std::log10(most) - low);
+    for (double& n : numbers) n = n > 0 ? std::log10(n) : low - aside;
+    return {numbers, true, zero ? std::optional(low - aside / 2) : std::nullopt};
 }
 
 std::size_t index_of(const std::vector<std::string>& values, const std::string& value) {
@@ -76,7 +82,8 @@ plot::Picture curve(const RunTable& table, const std::vector<Axis>& axes, std::s
     const Axis& x = axes.front();
     const auto places = places_of(x);
     plot::LinesPlot out{
-        title, {}, x.name + (places.logarithmic ? " (logarithmic)" : ""), table.measures[measure], {}, {}};
+        title, {},        x.name + (places.logarithmic ? " (logarithmic)" : ""), table.measures[measure], {},
+        {},    places.gap};
     for (std::size_t i = 0; i < x.values.size(); ++i) out.x_ticks.emplace_back(places.at[i], x.values[i]);
     std::vector<std::optional<plot::Estimate>> estimates;
     for (const auto& c : conditions_of(table)) {
@@ -225,12 +232,14 @@ std::optional<plot::Picture> draw_learning(const PlotSpec& spec, const std::vect
     }
     const std::size_t block = (longest + most_blocks - 1) / most_blocks;
     plot::LinesPlot out{title, {}, "trial", spec.what.empty() ? "share of trials at the target" : spec.what,
-                        {},    {}};
+                        {},    {}, {}};
     std::vector<std::optional<plot::Estimate>> estimates;
     for (std::size_t s = 0; s < series.size(); ++s) {
         auto& line = out.lines.emplace_back();
         line.name = series[s].name;
-        for (std::size_t first = 0; first < longest; first += block) {
+        std::size_t own = 0;  // a line ends with the longest run of its condition
+        for (const auto& run : trials[s]) own = std::max(own, run.size());
+        for (std::size_t first = 0; first < own; first += block) {
             std::vector<double> means;
             for (const auto& run : trials[s]) {
                 std::vector<double> numbers;

@@ -38,6 +38,12 @@ std::vector<ResultFiles::Recording> read_run(const std::string& directory, Resul
     return std::move(run->recordings);
 }
 
+/// Whether a recording is of a connection's synapses: "Name:weight", while a group is "Process/Group".
+bool is_of_synapses(const observe::Recorded& what) {
+    const auto end = what.name.rfind(':');
+    return !what.mean && end != std::string::npos && what.name.find('/') > end;
+}
+
 /// Opens a recording. A recording of a single source gets its name and label from run.json, as its own format
 /// may not store them.
 void add_recording(const fs::path& path, const std::vector<ResultFiles::Recording>& known, Results& out) {
@@ -50,6 +56,7 @@ void add_recording(const fs::path& path, const std::vector<ResultFiles::Recordin
         if (named.size() == 1 && all.size() == 1) what.name = named[0]->source;
         for (const auto* n : named)
             if (n->source == what.name) what.label = n->label;
+        what.synapses = is_of_synapses(what);
         out.recordings.push_back({std::move(rows), std::move(what)});
     }
 }

@@ -14,13 +14,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The names of the parameters that are `last` without their owners.
+std::vector<std::string> full_names(const RunTable& table, const std::string& last) {
+    std::vector<std::string> out;
+    for (const auto& name : table.parameters)
+        if (name.substr(name.rfind('.') + 1) == last) out.push_back(name);
+    return out;
+}
+
 /// The name of a parameter without its owner, unless another one has the same.
 std::string short_name(const RunTable& table, std::size_t parameter) {
-    const auto last = [](const std::string& name) { return name.substr(name.rfind('.') + 1); };
-    const std::string out = last(table.parameters[parameter]);
-    const auto same = std::count_if(table.parameters.begin(), table.parameters.end(),
-                                    [&](const std::string& other) { return last(other) == out; });
-    return same == 1 ? out : table.parameters[parameter];
+    const std::string& name = table.parameters[parameter];
+    const std::string out = name.substr(name.rfind('.') + 1);
+    return full_names(table, out).size() == 1 ? out : name;
 }
 
 std::string joined(const std::vector<std::string>& values, const std::vector<std::size_t>& parameters) {
@@ -87,6 +93,12 @@ void keep_runs(RunTable& table, const std::vector<std::string>& where, Diagnosti
                           value = text.substr(std::min(equals + 1, text.size()));
         std::size_t p = 0;
         while (p < seed && name != table.parameters[p] && name != short_name(table, p)) ++p;
+        const auto meant = full_names(table, name);
+        if (p == seed && meant.size() > 1) {
+            diagnostics.error({}, fmt::format("--where '{}': '{}' is ambiguous", text, name),
+                              fmt::format("name one of '{}'", fmt::join(meant, "', '")));
+            continue;
+        }
         if (p == seed && name != "seed") {
             diagnostics.error({}, fmt::format("--where '{}': no parameter '{}' was swept", text, name),
                               fmt::format("there are '{}{}seed'", fmt::join(table.parameters, "', '"),

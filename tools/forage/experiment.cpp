@@ -66,6 +66,7 @@ int experiment(const ExperimentOptions& o) {
     const auto& runs = wanted->runs;
     if (const auto diverged = divergence_summary(runs, *results); !diverged.empty())
         fmt::print(stderr, "warning: {}\n", diverged);
+    if (!o.quiet) fmt::print(stderr, "{}", format(warnings_of(runs, *results)));
     std::size_t failures = 0;
     for (std::size_t i = 0; i < runs.size(); ++i)
         if (!(*results)[i].failure.empty()) {

@@ -73,7 +73,7 @@ std::vector<std::string> current_names(std::vector<std::string> words) {
 }
 
 CLI::Option* repeated(CLI::Option* option) {
-    return option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    return option->expected(1)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 CLI::Option* add_plot_format(CLI::App& command, std::string& format) {

@@ -163,6 +163,13 @@ std::string Canvas::fitted(const std::string& what, double size, double width) {
     return out + "…";
 }
 
+std::string Canvas::fitted_end(const std::string& what, double size, double width) {
+    std::string out = what;
+    for (std::size_t cut = 1; width_of(out, size) > width && cut < what.size(); ++cut)
+        if ((static_cast<unsigned char>(what[cut]) & 0xC0) != 0x80) out = "…" + what.substr(cut);
+    return out;
+}
+
 std::string render(const Picture& picture, Format format) {
     if (format == Format::png) return png(picture);
     std::string out;

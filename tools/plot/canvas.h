@@ -43,6 +43,8 @@ class Canvas {
     double width_of(const std::string& what, double size, bool bold = false);
     /// The text `what`; its end is replaced by an ellipsis when it is wider than `width`.
     std::string fitted(const std::string& what, double size, double width);
+    /// The text `what`; its beginning is replaced by an ellipsis when it is wider than `width`.
+    std::string fitted_end(const std::string& what, double size, double width);
 
   private:
     void font(double size, bool bold);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -43,12 +44,16 @@ void draw_interval(Canvas& canvas, const Axes& axes, const LinesPlot::Line& line
     }
 }
 
-void draw_line(Canvas& canvas, const Axes& axes, const LinesPlot::Line& line, const Colour& colour) {
+void draw_line(Canvas& canvas, const Axes& axes, const LinesPlot::Line& line, std::optional<double> gap,
+               const Colour& colour) {
     cairo_t* c = canvas.cairo();
     canvas.colour(colour);
     cairo_set_line_width(c, 1.8);
     bool pen_down = false;
+    double before = 0;
     for (const auto& p : line.points) {
+        if (gap && p.x > *gap) pen_down = pen_down && before > *gap;
+        before = p.x;
         if (p.y) (pen_down ? cairo_line_to : cairo_move_to)(c, axes.px(p.x), axes.py(p.y->mean));
         pen_down = p.y.has_value();
     }
@@ -66,20 +71,27 @@ void draw_cross(Canvas& canvas, double x, double y, const Colour& colour) {
     canvas.line(x - 3.5, y + 3.5, x + 3.5, y - 3.5, colour, 1.6);
 }
 
+/// Two strokes across the x axis, with nothing between them.
+void draw_break(Canvas& canvas, const Axes& axes, double at) {
+    const double x = axes.px(at), y = axes.box.bottom();
+    canvas.line(x - 3, y, x + 3, y, white, 4);
+    for (const double side : {-3.0, 3.0}) canvas.line(x + side - 3, y + 6, x + side + 3, y - 6, black);
+}
+
 bool has_numbers(const LinesPlot::Line& line) {
     return std::any_of(line.points.begin(), line.points.end(), [](const auto& p) { return p.y; });
 }
 
-/// Crosses on the axis where a line has no number, side by side when several lines have none, and the numbers
-/// of runs beside points of fewer runs than `most`.
+/// Crosses on the axis where a line has no number, one above the other when several lines have none, and the
+/// numbers of runs beside points of fewer runs than `most`.
 void draw_missing(Canvas& canvas, const Axes& axes, const LinesPlot& plot, std::size_t most) {
+    std::map<double, int> crosses;
     for (std::size_t i = 0; i < plot.lines.size(); ++i) {
         const auto& line = plot.lines[i];
         if (!has_numbers(line) || line.points.size() > most_bars) continue;
-        const double aside = 9 * (static_cast<double>(i) - static_cast<double>(plot.lines.size() - 1) / 2);
         for (const auto& p : line.points)
             if (!p.y)
-                draw_cross(canvas, axes.px(p.x) + aside, axes.box.bottom() - 8, category(i));
+                draw_cross(canvas, axes.px(p.x), axes.box.bottom() - 8 - 9 * crosses[p.x]++, category(i));
             else if (p.y->count < most)
                 canvas.text(axes.px(p.x) + 7, axes.py(p.y->mean) - 6, fmt::format("n = {}", p.y->count), 10,
                             0, category(i));
@@ -125,9 +137,10 @@ Picture lines_plot(const LinesPlot& plot) {
             for (std::size_t i = 0; i < plot.lines.size(); ++i)
                 draw_interval(canvas, axes, plot.lines[i], category(i));
             for (std::size_t i = 0; i < plot.lines.size(); ++i)
-                draw_line(canvas, axes, plot.lines[i], category(i));
+                draw_line(canvas, axes, plot.lines[i], plot.x_gap, category(i));
             draw_missing(canvas, axes, plot, most);
             draw_axes(canvas, axes, {plot.x_title, plot.x_ticks.empty(), true, plot.x_ticks}, {plot.y_title});
+            if (plot.x_gap) draw_break(canvas, axes, *plot.x_gap);
             double at = lines_top + 10;
             const double left = axes.box.right() + 14;
             for (std::size_t i = 0; legend && i < names.size(); ++i, at += 20) {

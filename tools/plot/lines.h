@@ -23,6 +23,7 @@ struct LinesPlot {
     std::string title, subtitle, x_title, y_title;
     std::vector<std::pair<double, std::string>> x_ticks;  ///< places and labels; empty: round numbers
     std::vector<Line> lines;
+    std::optional<double> x_gap = {};  ///< where the x axis is broken, and the lines with it
 };
 
 /// Lines with a legend. Intervals are bars beside few points and bands around many. A line has a gap, and a

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <set>
 
@@ -16,6 +17,7 @@ namespace {
 using Points = std::vector<Eigen::Vector2d>;
 
 constexpr int occupancy_left = 62, occupancy_top = 58, occupancy_bottom = 52;
+constexpr double name_text = 12, name_line = 14;
 constexpr std::size_t mean_points = 80;  ///< of a mean path
 
 /// Places on a path after equal shares of its length.
@@ -34,14 +36,21 @@ Points resampled(const Points& path) {
     return out;
 }
 
-/// The mean of the paths from each start pose.
+/// The paths of finished trials; all paths when there are none, as in a world without trials.
+std::vector<Path> counted(std::vector<Path> paths) {
+    const auto finished = [](const Path& p) { return p.finished; };
+    if (std::any_of(paths.begin(), paths.end(), finished)) std::erase_if(paths, std::not_fn(finished));
+    return paths;
+}
+
+/// The mean of the paths of finished trials from each start pose.
 std::vector<Points> mean_paths(const bug::World& world, const std::vector<Path>& paths) {
     const auto starts = world.start_poses();
     if (starts.empty()) return {};
     std::vector<Points> sums(starts.size(), Points(mean_points, Eigen::Vector2d::Zero()));
     std::vector<double> counts(starts.size());
     for (const auto& p : paths) {
-        if (p.points.size() < 2) continue;
+        if (p.points.size() < 2 || !p.finished) continue;
         const auto nearest =
             std::min_element(starts.begin(), starts.end(),
                              [&](const auto& a, const auto& b) {
@@ -110,12 +119,30 @@ void draw_path(Canvas& canvas, const WorldMap& map, const Points& path) {
     }
 }
 
+/// The name of a condition in lines of at most `width` pixels, broken between parameters. Of a longer
+/// parameter the end remains, which has the value.
+std::vector<std::string> name_lines(Canvas& canvas, const std::string& name, double width) {
+    std::vector<std::string> out;
+    for (std::size_t from = 0; from < name.size();) {
+        const auto comma = std::min(name.find(", ", from), name.size());
+        std::string part = name.substr(from, comma - from);
+        from = comma + 2;
+        if (!out.empty() && canvas.width_of(out.back() + ", " + part, name_text) <= width) {
+            out.back() += ", " + part;
+            continue;
+        }
+        out.push_back(canvas.fitted_end(part, name_text, width));
+    }
+    return out;
+}
+
 }  // namespace
 
 Picture occupancy_plot(const bug::World& world, const std::vector<PathsOf>& conditions,
                        const std::string& title, const std::string& part) {
     struct Panel {
-        std::string name, count;
+        std::vector<std::string> name;
+        std::string count;
         std::shared_ptr<const WorldMap> map;
         std::vector<double> crossed;
         std::vector<Points> means;
@@ -126,11 +153,20 @@ Picture occupancy_plot(const bug::World& world, const std::vector<PathsOf>& cond
         for (const auto& p : c.paths)
             for (const auto& point : p.points) all.extend(point);
     const bool one = conditions.size() == 1;
-    const double side = one ? 640 : 300, top = one ? occupancy_top : occupancy_top + 34;
+    const double side = one ? 640 : 300;
     const WorldMap first(world, all, side, 0, 0);
+    Measure measure;
+    std::vector<std::vector<std::string>> names;
+    std::size_t most_lines_of_name = 0;
+    for (const auto& c : conditions) {
+        names.push_back(name_lines(measure.canvas(), c.name, first.width() + 40));
+        most_lines_of_name = std::max(most_lines_of_name, names.back().size());
+    }
+    const double heading_of_panel = one ? 0 : 20 + name_line * static_cast<double>(most_lines_of_name),
+                 top = occupancy_top + heading_of_panel;
     const auto& view = first.view();
     const double step_x = occupancy_left + first.width() + 12,
-                 step_y = first.height() + occupancy_bottom + 38;
+                 step_y = first.height() + occupancy_bottom + 4 + heading_of_panel;
     // The number of columns gives the sheet an aspect ratio of about 4 to 3.
     const auto n = static_cast<double>(conditions.size());
     const auto across =
@@ -140,16 +176,15 @@ Picture occupancy_plot(const bug::World& world, const std::vector<PathsOf>& cond
               rows = std::max(1, static_cast<int>(view.sizes().y() / cell + 0.5));
     ColourScale scale;
     std::vector<Panel> panels;
-    Measure measure;
     for (std::size_t i = 0; i < conditions.size(); ++i) {
-        const auto& c = conditions[i];
+        const auto paths = counted(conditions[i].paths);
         const double x = occupancy_left + static_cast<double>(i % across) * step_x,
                      y = top + static_cast<double>(i / across) * step_y;
-        panels.push_back({measure.canvas().fitted(c.name, 12, first.width() + 40),
-                          fmt::format("{} paths", c.paths.size()),
+        panels.push_back({names[i],
+                          fmt::format("{} path{}", paths.size(), paths.size() == 1 ? "" : "s"),
                           std::make_shared<const WorldMap>(world, all, side, x, y),
-                          shares(c.paths, view, columns, rows),
-                          mean_paths(world, c.paths),
+                          shares(paths, view, columns, rows),
+                          mean_paths(world, paths),
                           {x, y, first.width(), first.height()}});
         for (const double v : panels.back().crossed) scale.include(v);
     }
@@ -158,11 +193,16 @@ Picture occupancy_plot(const bug::World& world, const std::vector<PathsOf>& cond
     const std::string subtitle = fmt::format(
         "{}{}{}cells of {:.2g} m{}", part, part.empty() ? "" : "; ", one ? panels[0].count + "; " : "", cell,
         panels[0].means.empty() ? "" : "; white: the mean path from each start");
-    return {right + 22 + 16 + colour_bar_labels, bottom + occupancy_bottom, [=](Canvas& canvas) {
+    const double width =
+        std::max({right + 22 + 16 + colour_bar_labels, 24 + measure.canvas().width_of(title, 15, true),
+                  24 + measure.canvas().width_of(subtitle, 12)});
+    return {width, bottom + occupancy_bottom, [=](Canvas& canvas) {
                 canvas.text(12, 22, title, 15, 0, black, true);
                 canvas.text(12, 40, subtitle, 12, 0, grey);
                 for (const auto& p : panels) {
-                    if (!one) canvas.text(p.box.x, p.box.y - 21, p.name, 12);
+                    double at = p.box.y - 7 - name_line * static_cast<double>(p.name.size());
+                    for (const auto& line : p.name)
+                        if (!one) canvas.text(p.box.x, at, line, name_text), at += name_line;
                     if (!one) canvas.text(p.box.x, p.box.y - 7, p.count, 11, 0, grey);
                     cairo_save(canvas.cairo());
                     cairo_rectangle(canvas.cairo(), p.box.x, p.box.y, p.box.width, p.box.height);

@@ -1,6 +1,10 @@
 #include "tools/plot/plot_spec.h"
 
 #include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/output_files.h"
 
@@ -9,6 +13,18 @@ namespace forage::plot {
 bool PlotSpec::wants(std::uint64_t cycle) const {
     return cycles.empty() ||
            std::any_of(cycles.begin(), cycles.end(), [&](const Cycles& c) { return c.contains(cycle); });
+}
+
+std::string PlotSpec::after(std::uint64_t end) const {
+    std::vector<std::string> out;
+    for (const auto& c : cycles) {
+        const std::uint64_t last = c.last - (c.last - c.first) % c.step;
+        if (last <= end) continue;
+        const std::uint64_t first =
+            c.first > end ? c.first : c.first + ((end - c.first) / c.step + 1) * c.step;
+        out.push_back(first == last ? fmt::format("{}", first) : fmt::format("{}..{}", first, last));
+    }
+    return fmt::format("{}", fmt::join(out, ", "));
 }
 
 std::string PlotSpec::file(Format format) const {

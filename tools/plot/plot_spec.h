@@ -18,6 +18,8 @@ struct PlotSpec : expression::Plot {
     /// The source of the rows of numbers. A connection at given cycles is its weights.
     std::string source() const { return of_connection() ? "\"" + what + "\":weight" : what; }
     bool wants(std::uint64_t cycle) const;
+    /// The wanted cycles that are greater than `end`: "5..7, 9000"; empty when there are none.
+    std::string after(std::uint64_t end) const;
     /// The name of the picture's file. Animations are always PNG files.
     std::string file(Format format) const;
 };

@@ -155,6 +155,9 @@ void RowPlotter::finish(RunView& run, ResultFiles& files) {
         if (const auto running = run.environment->current_trial(0); running.cycles > 0) add(running);
     }
     files.write(plot_.spec().file(format_), [&] { return plot_.draw(format_, context); });
+    if (const auto missing = plot_.missing(); !missing.empty())
+        files.warn(fmt::format("'{}': the run ended before cycle {}", plot_.spec().text, missing),
+                   fmt::format("the last cycle was {}", plot_.last()));
 }
 
 StructurePlotter::StructurePlotter(PlotSpec spec, const engine::Layout& layout, const model::System& system,
@@ -184,8 +187,12 @@ void TrajectoryPlotter::finish(RunView&, ResultFiles& files) {
     }
     const auto leads_somewhere = [](const Path& path) { return path.points.size() > 1; };
     if (!spec_ && std::none_of(paths.begin(), paths.end(), leads_somewhere)) return;
+    if (spec_)
+        if (const auto missing = spec_->after(paths.size()); !missing.empty())
+            files.warn(fmt::format("'{}': the run ended before trial {}", spec_->text, missing),
+                       count_of_trials(paths.size()));
     if (spec_) paths = wanted_paths(std::move(paths), *spec_);
-    if (paths.empty()) return;  // a run may end before the trials that are wanted
+    if (paths.empty()) return;
     files.write(name_ + std::string(ending(format_)), [&] {
         return render(trajectory_plot(world_, std::move(paths), title_, recorder_.robot()), format_);
     });

@@ -39,6 +39,11 @@ class RowPlot {
     /// The picture as the content of a file. Throws std::runtime_error when it cannot be drawn, and when
     /// there was no row of the given cycles.
     std::string draw(Format format, const PlotContext& context) const;
+    /// The given cycles that the rows did not reach, of a picture that can be drawn without them; empty when
+    /// there are none.
+    std::string missing() const { return frames_.empty() ? "" : spec_.after(last_); }
+    /// The cycle of the last row.
+    std::uint64_t last() const { return last_; }
     const PlotSpec& spec() const { return spec_; }
 
     /// Reads or writes the rows collected so far.

@@ -167,6 +167,10 @@ std::vector<Path> wanted_paths(std::vector<Path> paths, const PlotSpec& spec) {
     return paths;
 }
 
+std::string count_of_trials(std::size_t paths) {
+    return fmt::format("the run had {} trial{}", paths, paths == 1 ? "" : "s");
+}
+
 Picture trajectory_plot(const bug::World& world, std::vector<Path> paths, const std::string& title,
                         std::size_t robot) {
     const auto names = world.robot_names();

@@ -20,6 +20,8 @@ struct Path {
 
 /// The paths of the trials that `spec` wants.
 std::vector<Path> wanted_paths(std::vector<Path> paths, const PlotSpec& spec);
+/// "the run had 4 trials", of a run with a path per trial.
+std::string count_of_trials(std::size_t paths);
 
 /// A map of the floor, walls, start poses and targets with the paths. Paths that reached a target and paths
 /// that missed it have different colours, which are darker for earlier trials of those that are drawn. A path

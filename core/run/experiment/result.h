@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/model/experiment.h"
@@ -14,6 +15,7 @@ struct RunResult {
     std::string failure;   ///< the reason why there are no numbers; empty when there are some
     std::string stopped;   ///< the reason for an early end; empty when there was none
     std::string diverged;  ///< where the first number that is not finite occurred; empty when all are finite
+    std::vector<std::pair<std::string, std::string>> warnings = {};  ///< texts and hints
     std::uint64_t cycles = 0;
     double seconds = 0;                            ///< seconds of the world
     std::optional<std::uint64_t> trials, reached;  ///< the first robot's finished trials; those at the target

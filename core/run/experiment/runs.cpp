@@ -148,6 +148,7 @@ class Work {
             const std::lock_guard lock(libraries_);
             run.finish(files);
         }
+        for (const auto& w : files.warnings().all()) result.warnings.emplace_back(w.message, w.hint);
         RunOutcome outcome;
         outcome.stopped = result.stopped, outcome.files = files;
         files.write("run.json", [&] { return run_json(prepared, outcome); });  // for `forage plot` and `view`

@@ -139,6 +139,28 @@ std::string divergence_summary(std::span<const PlannedRun> runs, std::span<const
                        runs.size(), name, first->diverged);
 }
 
+Diagnostics warnings_of(std::span<const PlannedRun> runs, std::span<const RunResult> results) {
+    struct Shared {
+        std::string text, hint, run;
+        int count = 0;
+    };
+    std::vector<Shared> all;
+    for (std::size_t i = 0; i < results.size(); ++i)
+        for (const auto& [text, hint] : results[i].warnings) {
+            auto at = std::find_if(all.begin(), all.end(), [&](const Shared& s) { return s.text == text; });
+            if (at == all.end()) at = all.insert(at, {text, hint, runs[i].name});
+            ++at->count;
+        }
+    Diagnostics out;
+    for (const auto& w : all)
+        out.warning({},
+                    w.count == 1
+                        ? fmt::format("run '{}': {}", w.run, w.text)
+                        : fmt::format("{} of {} runs, such as '{}': {}", w.count, runs.size(), w.run, w.text),
+                    w.hint);
+    return out;
+}
+
 std::string summary_text(const model::Experiment& e, std::span<const PlannedRun> runs,
                          std::span<const RunResult> results) {
     std::vector<std::vector<std::string>> table(1);

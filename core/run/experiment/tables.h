@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "core/base/diagnostic.h"
 #include "core/model/experiment.h"
 #include "core/run/experiment/result.h"
 
@@ -21,6 +22,9 @@ std::string summary_csv(const model::Experiment& experiment, std::span<const Pla
 
 /// How many runs had numbers that are not finite, and where the first of them had one; empty when none had.
 std::string divergence_summary(std::span<const PlannedRun> runs, std::span<const RunResult> results);
+
+/// The warnings of the runs; one that several runs share appears once and says how many they are.
+Diagnostics warnings_of(std::span<const PlannedRun> runs, std::span<const RunResult> results);
 
 /// The summary as text, with mean +- standard deviation.
 std::string summary_text(const model::Experiment& experiment, std::span<const PlannedRun> runs,
