@@ -238,8 +238,15 @@ class Results(Experiment):
 
     def test_until_ends_a_run(self):
         self.edit("small.xml", 'cycles="10"', 'cycles="10" until="P/A(1,1) >= 5"')
-        self.forage("experiment", "small.xml", "-o", "out")
+        note = "note: 2 of 2 runs ended early, because 'P/A(1,1) >= 5' held"
+        self.assertIn(note, self.forage("experiment", "small.xml", "-o", "out").stderr)
         self.assertEqual([r["cycles"] for r in self.rows("out/results.csv")], ["4", "6"])
+        self.assertIn(note, self.forage("experiment", "small.xml", "-o", "out").stderr)  # from the files of the results
+
+    def test_a_change_that_never_happens_is_told(self):
+        self.edit("small.xml", "<sweep", '<at when="cycle 40" parameter="P/A.excGain" value="0"/><sweep')
+        self.assertRegex(self.forage("experiment", "small.xml", "-o", "out").stderr,
+                         r"note: in 2 of 2 runs the change at '.*cycle 40.*' never happened")
 
     def test_a_change_over_time(self):
         self.edit("small.xml", "<sweep", '<at when="cycle 4" parameter="P/A.excGain" value="0"/><sweep')

@@ -67,6 +67,8 @@ int experiment(const ExperimentOptions& o) {
     if (const auto diverged = divergence_summary(runs, *results); !diverged.empty())
         fmt::print(stderr, "warning: {}\n", diverged);
     if (!o.quiet) fmt::print(stderr, "{}", format(warnings_of(runs, *results)));
+    if (!o.quiet)
+        for (const auto& note : event_notes(*results)) fmt::print(stderr, "note: {}\n", note);
     std::size_t failures = 0;
     for (std::size_t i = 0; i < runs.size(); ++i)
         if (!(*results)[i].failure.empty()) {

@@ -71,6 +71,8 @@ std::optional<RunResult> read_result(const PlannedRun& run, const std::string& k
         out.seconds = result.at("seconds");
         out.diverged = result.value("diverged", "");
         out.warnings = result.value("warnings", out.warnings);
+        out.until = result.value("until", "");
+        out.never = result.value("never", std::vector<std::string>());
         out.trials = or_empty<std::uint64_t>(result.at("trials"));
         out.reached = or_empty<std::uint64_t>(result.at("reached"));
         for (const auto& m : result.at("measures")) out.measures.push_back(or_empty<double>(m));
@@ -99,6 +101,8 @@ void write_result(const PlannedRun& run, const std::string& key, const RunResult
     r["stopped"] = result.stopped, r["cycles"] = result.cycles, r["seconds"] = result.seconds;
     if (!result.diverged.empty()) r["diverged"] = result.diverged;
     if (!result.warnings.empty()) r["warnings"] = result.warnings;
+    if (!result.until.empty()) r["until"] = result.until;
+    if (!result.never.empty()) r["never"] = result.never;
     r["trials"] = or_null(result.trials), r["reached"] = or_null(result.reached);
     r["measures"] = Json::array();
     for (const auto& m : result.measures) r["measures"].push_back(or_null(m));

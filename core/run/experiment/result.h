@@ -16,6 +16,8 @@ struct RunResult {
     std::string stopped;   ///< the reason for an early end; empty when there was none
     std::string diverged;  ///< where the first number that is not finite occurred; empty when all are finite
     std::vector<std::pair<std::string, std::string>> warnings = {};  ///< texts and hints
+    std::string until;               ///< the condition that ended it before its length; empty when none did
+    std::vector<std::string> never;  ///< the conditions of changes that never happened
     std::uint64_t cycles = 0;
     double seconds = 0;                            ///< seconds of the world
     std::optional<std::uint64_t> trials, reached;  ///< the first robot's finished trials; those at the target

@@ -135,6 +135,10 @@ class Work {
             result.stopped = prepared.stop.timeout_reason(run);
         }
         result.diverged = run.divergence();
+        if (prepared.stop.fraction_done(run) < 1 && prepared.stop.holds(run))
+            result.until = prepared.spec.length.until.text;
+        for (const auto& change : prepared.schedule->entries())
+            if (!change.cycle) result.never.push_back(change.text);
         result.cycles = run.cycle(), result.seconds = run.seconds();
         if (run.has_trials()) {
             const auto& trials = run.environment()->trials(0);

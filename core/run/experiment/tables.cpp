@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -158,6 +160,22 @@ Diagnostics warnings_of(std::span<const PlannedRun> runs, std::span<const RunRes
                         ? fmt::format("run '{}': {}", w.run, w.text)
                         : fmt::format("{} of {} runs, such as '{}': {}", w.count, runs.size(), w.run, w.text),
                     w.hint);
+    return out;
+}
+
+std::vector<std::string> event_notes(std::span<const RunResult> results) {
+    std::map<std::string, std::size_t> early, never;  // by condition, with the number of runs
+    for (const auto& r : results) {
+        if (!r.until.empty()) ++early[r.until];
+        for (const auto& change : std::set(r.never.begin(), r.never.end())) ++never[change];
+    }
+    std::vector<std::string> out;
+    for (const auto& [condition, count] : early)
+        out.push_back(
+            fmt::format("{} of {} runs ended early, because '{}' held", count, results.size(), condition));
+    for (const auto& [change, count] : never)
+        out.push_back(
+            fmt::format("in {} of {} runs the change at '{}' never happened", count, results.size(), change));
     return out;
 }
 

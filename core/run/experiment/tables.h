@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/base/diagnostic.h"
 #include "core/model/experiment.h"
@@ -25,6 +26,9 @@ std::string divergence_summary(std::span<const PlannedRun> runs, std::span<const
 
 /// The warnings of the runs; one that several runs share appears once and says how many they are.
 Diagnostics warnings_of(std::span<const PlannedRun> runs, std::span<const RunResult> results);
+
+/// What ended runs early or never happened in them, one sentence each, with the number of such runs.
+std::vector<std::string> event_notes(std::span<const RunResult> results);
 
 /// The summary as text, with mean +- standard deviation.
 std::string summary_text(const model::Experiment& experiment, std::span<const PlannedRun> runs,
