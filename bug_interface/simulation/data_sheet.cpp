@@ -59,7 +59,9 @@ std::string body_section(const World& world, std::size_t robot) {
                                         rounded(hinge.lower), rounded(hinge.upper),
                                         rounded(Hinges::torque / hinge.inertia * world.description().step))});
     }
-    if (r.hinges.empty()) out += row({"gripper", "none: `gripper` must be false"});
+    if (r.hinges.empty())
+        out += row(
+            {"gripper", "none: leave `_gripper` and `_proximityGripper` unset, or set `gripper` to false"});
     return out;
 }
 

@@ -263,6 +263,14 @@ std::vector<std::string> wiring_notes(const model::System& system, const Layout&
         else if (reads_input(about.type))
             out.push_back(fmt::format("nothing drives group '{}'", about.path));
     }
+    std::map<std::string_view, std::vector<int>> lines;  // by name
+    for (const auto& c : system.connections)
+        if (!c.name.empty()) lines[c.name].push_back(c.at.line);
+    for (const auto& [name, where] : lines)
+        if (where.size() > 1)
+            out.push_back(
+                fmt::format("{} connections have the name '{}', on lines {}; options name them by their ids",
+                            where.size(), name, fmt::join(where, ", ")));
     return out;
 }
 

@@ -99,6 +99,11 @@ class Explain(Cli):
                                                     [connection("1", "A", "B", STRONG)]))
         self.assertIn("note: nothing drives group 'P/A'", self.forage("check", "small.iqr").stdout)
 
+    def test_two_connections_of_one_name_are_noted(self):
+        twice = [connection(n, "A", "B", STRONG).replace(f'name="{n}"', 'name="Twin"', 1) for n in ("c", "d")]
+        said = self.explain([group("A", SPIKES), group("B", NEURON.format(1))], twice)
+        self.assertRegex(said, r"2 connections have the name 'Twin', on lines \d+, \d+; options name them by their ids")
+
     def test_groups_are_recorded_by_wildcards(self):
         (self.here / "small.iqr").write_text(system([group("A", SPIKES), group("B", NEURON.format(0))], [connection("1", "A", "B", STRONG)]))
         self.forage("run", "small.iqr", "--cycles", 3, "-r", "*", "-r", "P/*:vm", "-r", "*:excIn", "-o", "out")
