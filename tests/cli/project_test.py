@@ -58,6 +58,13 @@ class Project(unittest.TestCase):
             if script.is_file() and script.read_bytes().startswith(b"#!/bin/sh"):
                 self.assertEqual(subprocess.run(["sh", "-n", script]).returncode, 0, script.name)
 
+    def test_scripts_say_what_they_do_and_do_nothing_else(self):
+        for name in ("demo", "test", "setup", "docs", "package", "sanitize", "fuzz", "test-in", "update-docs", "lint"):
+            done = subprocess.run([PROJECT / "tools" / name, "--help"], capture_output=True, text=True, timeout=10)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), name)
+            self.assertGreater(len(done.stdout), 60, name)
+            self.assertNotIn("Installing", done.stdout)
+
     def test_the_version_is_the_same_everywhere(self):
         self.assertIn(f"\nversion: {VERSION}\n", (PROJECT / "CITATION.cff").read_text())
         self.assertIn(f"\n## {VERSION} - ", (PROJECT / "CHANGELOG.md").read_text())

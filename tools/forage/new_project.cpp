@@ -98,8 +98,9 @@ int new_project(const std::string& kind, const std::string& name) {
         write_file(name + "/" + file, filled(template_text(source), name, kind));
     fmt::print(
         "{}: a plugin with the {} type {}{}. Next:\n"
-        "  cd {}\n  cmake -B build && cmake --build build && ctest --test-dir build\n"
-        "  forage run example.iqr --plugin build/plugins\n",
+        "  cd {}\n  cmake -B build && cmake --build build && ctest --test-dir build --output-on-failure\n"
+        "  forage run example.iqr --plugin build/plugins --cycles 20 --record Example/Cells --plot "
+        "time:Example/Cells\n",
         name, kind, kind, class_name(name), name);
     return fine;
 }
