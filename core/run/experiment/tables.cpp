@@ -149,7 +149,8 @@ Diagnostics warnings_of(std::span<const PlannedRun> runs, std::span<const RunRes
     std::vector<Shared> all;
     for (std::size_t i = 0; i < results.size(); ++i)
         for (const auto& [text, hint] : results[i].warnings) {
-            auto at = std::find_if(all.begin(), all.end(), [&](const Shared& s) { return s.text == text; });
+            auto at = std::find_if(all.begin(), all.end(),
+                                   [&text = text](const Shared& s) { return s.text == text; });
             if (at == all.end()) at = all.insert(at, {text, hint, runs[i].name});
             ++at->count;
         }
