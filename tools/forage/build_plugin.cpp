@@ -10,14 +10,12 @@
 
 #include "core/base/output_files.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/installation.h"
 
 namespace forage::tool {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The folder of the installation, or the build tree, that the running program is in.
-fs::path prefix() { return fs::read_symlink("/proc/self/exe").parent_path().parent_path(); }
 
 /// Runs a command and waits for it. Returns its exit status, or -1 when it cannot be run.
 int run_command(std::vector<std::string> words) {
@@ -42,8 +40,8 @@ int build_plugin(const BuildPluginOptions& o) {
     if (!fs::is_regular_file(o.source))
         return refuse(fmt::format("there is no file '{}'", o.source),
                       "forage new neuron NAME writes an example");
-    const fs::path headers = prefix() / FORAGE_INCLUDE_DIR,
-                   library = prefix() / FORAGE_LIBRARY_DIR / "forage/libforage_random.a";
+    const fs::path headers = installation() / FORAGE_INCLUDE_DIR,
+                   library = installation() / FORAGE_LIBRARY_DIR / "forage/libforage_random.a";
     if (!fs::exists(headers / "forage/plugin.h") || !fs::exists(library))
         return refuse(fmt::format("there are no headers of Forage in '{}'", headers.string()),
                       "install them: apt install forage-dev, or build Forage and run cmake --install");

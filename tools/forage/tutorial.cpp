@@ -11,18 +11,12 @@
 #include "core/model/lookup.h"
 #include "tools/api/results.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/installation.h"
 
 namespace forage::tool {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The folder of exercises, in the installation or the build tree that the running program is in.
-fs::path folder() {
-    std::error_code none;
-    return fs::read_symlink("/proc/self/exe", none).parent_path().parent_path() /
-           "share/forage/systems/tutorial";
-}
 
 /// The path relative to the working directory when it is below it.
 std::string shown(const fs::path& path) {
@@ -35,13 +29,14 @@ std::string shown(const fs::path& path) {
 
 int tutorial(const TutorialOptions& o) {
     Diagnostics diagnostics;
-    const auto all = read_tutorial(folder(), diagnostics);
+    const fs::path folder = installation() / "share/forage/systems/tutorial";
+    const auto all = read_tutorial(folder, diagnostics);
     if (diagnostics.failed()) {
         fmt::print(stderr, "{}", format(diagnostics));
         return bad_input;
     }
     if (all.empty()) {
-        fmt::print(stderr, "error: there are no exercises in '{}'\n", folder().string());
+        fmt::print(stderr, "error: there are no exercises in '{}'\n", folder.string());
         return bad_input;
     }
     const auto in_part = [&](const auto& e) {
