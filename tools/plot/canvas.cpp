@@ -133,7 +133,13 @@ void Canvas::text(double x, double y, const std::string& what, double size, doub
     cairo_text_extents(c_, what.c_str(), &extents);
     colour(c);
     cairo_move_to(c_, x - anchor * extents.x_advance, y);
-    cairo_show_text(c_, what.c_str());
+    // Versions of cairo place letters at different fractions of a pixel, but filled outlines alike.
+    if (cairo_surface_get_type(cairo_get_target(c_)) == CAIRO_SURFACE_TYPE_IMAGE) {
+        cairo_text_path(c_, what.c_str());
+        cairo_fill(c_);
+    } else {
+        cairo_show_text(c_, what.c_str());
+    }
     cairo_new_path(c_);  // text leaves a current point, and an arc would be connected to it by a line
 }
 
