@@ -16,19 +16,14 @@ import sys
 import tempfile
 import unittest
 
+import pictures
+
 FORAGE = pathlib.Path(sys.argv[1]).resolve()
 PROJECT = pathlib.Path(sys.argv[2]).resolve()
 PAGE = PROJECT / "docs/cookbook/README.md"
 REWRITE = "FORAGE_REWRITE_EXPECTATIONS" in os.environ
 RECIPE = re.compile(r"^## .*?```sh\n\S+ (run .*? -o forage-out/cookbook/(\w+))\n```\n\n!\[[^]]*\]\(pictures/(\S+)\)", re.MULTILINE | re.DOTALL)
 COLOURS = "red yellow green cyan blue magenta".split()
-
-
-def shown(picture):
-    """What is the same whatever fonts a machine has: the shapes of an SVG, the width and height of a PNG."""
-    if picture.suffix == ".png":
-        return picture.read_bytes()[16:24]
-    return re.sub(r"<defs>.*?</defs>|<use [^>]*/>|<g fill[^>]*>\s*</g>", "", picture.read_text(), flags=re.DOTALL)
 
 
 def active(rows):
@@ -182,11 +177,7 @@ class Cookbook(unittest.TestCase):
                 finished = Run(here, command + [word for source in sources for word in ("--record", source)])
                 check(self, finished)
                 drawn, = [*finished.out.glob("time_*.svg")] or [*finished.out.glob("trajectory.png")]
-                kept = PAGE.parent / "pictures" / picture
-                if REWRITE:
-                    kept.write_bytes(drawn.read_bytes())
-                self.assertEqual(drawn.suffix, kept.suffix)
-                self.assertEqual(shown(drawn), shown(kept), f"{picture}: write it anew with FORAGE_REWRITE_EXPECTATIONS=1")
+                pictures.check(self, drawn, PAGE.parent / "pictures" / picture, "write it anew with FORAGE_REWRITE_EXPECTATIONS=1", REWRITE)
 
 
 class Beginnings(unittest.TestCase):

@@ -28,7 +28,8 @@ import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
-import zlib
+
+import pictures
 
 FORAGE = pathlib.Path(sys.argv[1]).resolve()
 PROJECT = pathlib.Path(sys.argv[2]).resolve()
@@ -64,38 +65,6 @@ def written(values, of):
     if len(there) > 1:
         text += f" +- {number(statistics.stdev(there))}"
     return text + (f" (in {len(there)} of {of} runs)" if len(there) < of else "")
-
-
-def pixels(png):
-    """The rows of a picture, a list of bytes per row, and the number of bytes per pixel."""
-    data, at = b"", 8
-    while at < len(png):
-        size, kind = int.from_bytes(png[at:at + 4], "big"), png[at + 4:at + 8]
-        if kind == b"IHDR":
-            width, channels = int.from_bytes(png[at + 8:at + 12], "big"), {0: 1, 2: 3, 4: 2, 6: 4}[png[at + 17]]
-        if kind == b"IDAT":
-            data += png[at + 8:at + 8 + size]
-        at += 12 + size
-    data, stride, rows, above = zlib.decompress(data), width * channels, [], bytes(width * channels)
-    for start in range(0, len(data), stride + 1):
-        kind, row = data[start], bytearray(data[start + 1:start + 1 + stride])
-        for i in range(stride):
-            a, b, c = (row[i - channels], above[i], above[i - channels]) if i >= channels else (0, above[i], 0)
-            near = sorted((abs(a + b - c - v), n) for n, v in enumerate((a, b, c)))[0][1] if kind == 4 else 0
-            row[i] = (row[i] + (0, a, b, (a + b) // 2, (a, b, c)[near])[kind]) & 255
-        rows.append(above := bytes(row))
-    return rows, channels
-
-
-def differing(one, other):
-    """The share of pixels in which two pictures differ: texts differ where other fonts are installed."""
-    if one == other:
-        return 0
-    (a, channels), (b, _) = pixels(one), pixels(other)
-    if (len(a), len(a[0])) != (len(b), len(b[0])):
-        return 1
-    count = sum(x[i:i + channels] != y[i:i + channels] for x, y in zip(a, b) for i in range(0, len(x), channels))
-    return count * channels / (len(a) * len(a[0]))
 
 
 class Experiment:
@@ -269,10 +238,7 @@ class Page:
         for link, pattern in zip(links, patterns):
             found = [f for f in drawn if f.match(pattern)]
             self.test.assertEqual(len(found), 1, f"{pattern}: {found}")
-            kept = self.page.parent / link
-            if REWRITE and (not kept.exists() or differing(found[0].read_bytes(), kept.read_bytes()) > 0):
-                shutil.copy(found[0], kept)
-            self.test.assertLess(differing(found[0].read_bytes(), kept.read_bytes()), 0.02, f"{link}: {REMEDY}")
+            pictures.check(self.test, found[0], self.page.parent / link, REMEDY, REWRITE)
 
 
 class Docs(unittest.TestCase):

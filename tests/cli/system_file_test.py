@@ -14,6 +14,8 @@ import sys
 import tempfile
 import unittest
 
+import pictures
+
 FORAGE = pathlib.Path(sys.argv[1]).resolve()
 REFERENCE = pathlib.Path(sys.argv[2]).resolve() / "docs/reference"
 PAGES = [REFERENCE / "system-file.md", REFERENCE / "types.md"]
@@ -53,11 +55,6 @@ def system(a, b, connection):
                      f'<Group id="{name.lower()}" name="{name}"><Topology>{topology(size)}</Topology>'
                      '<Neuron name="neuronLinearThreshold"/></Group>' for name, size in (("A", a), ("B", b)))
     return f'<System id="s" name="Example"><Process id="p" name="P">{groups}</Process>{connection}</System>'
-
-
-def without_texts(svg):
-    """A picture without what depends on the fonts of a machine."""
-    return re.sub(r"<defs>.*?</defs>|<use [^>]*/>|<g fill[^>]*>\s*</g>", "", svg, flags=re.DOTALL)
 
 
 class Reference(unittest.TestCase):
@@ -110,13 +107,7 @@ class Reference(unittest.TestCase):
                 self.forage("check", "x.iqr")
                 self.forage("run", "x.iqr", "--cycles", "3", "-o", name)
                 drawn, = self.forage("plot", "x.iqr", (plot or "wiring") + ":c", "--plot-format", "svg", "-o", "drawn").split("\n")[:1]
-                drawn = (self.here / drawn).read_text()
-                file = PICTURES / f"{name}.svg"
-                if REWRITE:
-                    PICTURES.mkdir(exist_ok=True)
-                    file.write_text(drawn)
-                else:
-                    self.assertEqual(without_texts(drawn), without_texts(file.read_text()), f"{file.name}: {REMEDY}")
+                pictures.check(self, self.here / drawn, PICTURES / f"{name}.svg", REMEDY, REWRITE)
         shown = re.findall(r"\]\(system-file/(\w+)\.svg\)", page)
         self.assertEqual(sorted(shown), sorted(e[0] for e in examples))
         self.assertEqual(sorted(p.stem for p in PICTURES.iterdir()), sorted(shown))
