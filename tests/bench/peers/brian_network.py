@@ -1,5 +1,7 @@
 """A case as a network of Brian2. Groups that are of one kind are one NeuronGroup, and spiking sources send events, so that
 silent sources cost nothing."""
+import dataclasses
+
 import brian2 as b
 import numpy as np
 
@@ -18,16 +20,24 @@ def network(case, weights=None, spikes=None):
     target = b.NeuronGroup(cells * groups, "vm : 1\nact : 1\nexc : 1\nring : 1", name="target")
     target.run_regularly(f"vm = {case.targets[0].kept} * vm + exc + ring\nact = vm * int(vm >= 0)\nexc = 0", when="groups")
     parts = [source, target]
-    for connection in case.connections:
-        if connection.source != case.source.name:
-            continue
-        to = [g.name for g in case.targets].index(connection.target)
-        i, j, factors = synapses(case, connection, weights)
-        parts.append(from_spikes(source, target, connection, i, j + to * cells, factors))
+    names = [g.name for g in case.targets]
+    for alike in alike_connections(case):
+        i, j, factors = synapses(case, alike[0], weights)
+        to = [names.index(c.target) * cells for c in alike]
+        parts.append(from_spikes(source, target, alike[0], np.tile(i, len(to)), np.concatenate([j + t for t in to]), factors))
     between = [c for c in case.connections if c.source != case.source.name]
     if between:
         parts.append(ring(target, between[0], groups, cells, *synapses(case, between[0])[:2]))
     return b.Network(parts), target
+
+
+def alike_connections(case):
+    """The connections from the source, those that differ in their target only together."""
+    kinds = {}
+    for connection in case.connections:
+        if connection.source == case.source.name:
+            kinds.setdefault(dataclasses.replace(connection, target=""), []).append(connection)
+    return kinds.values()
 
 
 def from_spikes(source, target, connection, i, j, factors):

@@ -14,7 +14,7 @@ from brian_network import network
 
 class Runtime:
     def __init__(self, case, weights, folder):
-        b.prefs.codegen.runtime.cython.cache_dir = str(folder / "cython")
+        b.prefs.codegen.runtime.cython.cache_dir = str(folder.parent / "cython")
         self.case, self.weights = case, weights
         self.network, _ = network(case, weights)
         self.rate = turns.Rate(lambda cycles: self.network.run(cycles * b.defaultclock.dt), begins=True)

@@ -81,6 +81,7 @@ def head(first, columns):
 def main():
     programs, out, *names = sys.argv[1:]
     programs, out = pathlib.Path(programs).resolve(), pathlib.Path(out).resolve()
+    out.mkdir(parents=True, exist_ok=True)
     peers = available.peers(programs)
     wanted = lambda name: not names or name in names
     lines, wrong = [], []

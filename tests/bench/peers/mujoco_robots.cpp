@@ -1,9 +1,12 @@
 // The scenes in MuJoCo. Robots and balls are spheres with two sliding joints and a hinge each; there is no
 // floor. Servos with a lag of 10 ms drive the robots; contacts are soft, with a time constant of 4 ms.
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
 #include <mujoco/mujoco.h>
+#include <unistd.h>
 
 #include "tests/bench/peers/turns.h"
 
@@ -13,13 +16,11 @@ class MujocoWorld {
   public:
     explicit MujocoWorld(const peers::Scene& scene) : robots_(scene.robots.size()), steps_(scene.steps) {
         char error[1000] = "";
-        mjVFS files;
-        mj_defaultVFS(&files);
-        const std::string text = description(scene);
-        mj_makeEmptyFileVFS(&files, "scene.xml", static_cast<int>(text.size()));
-        text.copy(static_cast<char*>(files.filedata[0]), text.size());
-        model_ = mj_loadXML("scene.xml", &files, error, sizeof error);
-        mj_deleteVFS(&files);
+        const auto file =
+            std::filesystem::temp_directory_path() / ("peer_mujoco_" + std::to_string(getpid()) + ".xml");
+        std::ofstream(file) << description(scene);
+        model_ = mj_loadXML(file.c_str(), nullptr, error, sizeof error);
+        std::filesystem::remove(file);
         if (!model_) throw std::runtime_error(error);
         data_ = mj_makeData(model_);
         for (std::size_t i = 0; i < robots_; ++i) data_->qpos[3 * i + 2] = scene.robots[i].yaw;

@@ -17,14 +17,14 @@ def workers(scene, programs, peers):
 
 def disagreements(scene, workers):
     """What simulators do otherwise than Forage in a minute: sentences, none if they agree. Enki has no friction at walls, and
-    a crowd is chaotic, so speeds are compared within 15 %."""
+    a crowd is chaotic, so the bounds are wide: 10 % for the mean of all rays, 25 % for speeds."""
     wrong = []
     expected = None
     for name, worker in workers.items():
         distance, speed, x, y, overlap = worker.ask("check")
         expected = expected or (distance, speed, x, y)
-        tests = {"what the rays measure": abs(distance / expected[0] - 1) < 0.05,
-                 "the robots' speed": abs(speed - expected[1]) < 0.15 * max(expected[1], 0.3),
+        tests = {"what the rays measure": abs(distance / expected[0] - 1) < 0.1,
+                 "the robots' speed": abs(speed - expected[1]) < 0.25 * max(expected[1], 0.3),
                  "overlaps": overlap < 0.005}
         if scene in ("open", "corner"):
             tests["where the robot is"] = abs(x - expected[2]) < 0.05 and abs(y - expected[3]) < 0.05
