@@ -2,11 +2,12 @@
 from turns import Worker
 
 SCENES = ["open", "wall", "corner", "crowd"]
-COLUMNS = ["Forage", "Enki", "Enki, 5 ms", "Bullet", "MuJoCo"]
+OTHER_STEPS = ["Enki, 5 ms"]
+COLUMNS = ["Forage", "Enki", "Bullet", "MuJoCo", *OTHER_STEPS]
 
 
 def workers(scene, programs, peers):
-    """Steps of 1 ms, as 80 in a cycle, and also Enki's usual ones of 5 ms."""
+    """All make steps of 1 ms, 80 in a cycle. Enki also makes its usual ones of 5 ms."""
     found = {"Forage": Worker([programs / "peer_forage_robots", scene])}
     for name in COLUMNS[1:]:
         peer, _, steps = name.partition(",")
