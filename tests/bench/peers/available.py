@@ -4,7 +4,8 @@ import subprocess
 import sys
 
 INSTALL = {
-    "NumPy": "apt install python3-numpy python3-scipy libopenblas0-pthread",
+    "NumPy": "apt install python3-numpy libopenblas0-pthread",
+    "SciPy": "apt install python3-scipy",
     "Brian2": "apt install python3-brian python3-brian-lib cython3 g++ make",
     "Bullet": "apt install libbullet-dev, and build again",
     "MuJoCo": "apt install libmujoco-dev (Debian 12), and build again",
@@ -30,8 +31,8 @@ def imports(code):
 def peers(programs):
     """The names of the installed peers; tells of the others. `programs` is the folder of the programs that CMake built."""
     found = {"Bullet": (programs / "peer_bullet_robots").exists(), "MuJoCo": (programs / "peer_mujoco_robots").exists(),
-             "Enki": (programs / "peer_enki_robots").exists(), "NumPy": imports("import numpy, scipy.sparse"),
-             "Brian2": imports("import brian2")}
+             "Enki": (programs / "peer_enki_robots").exists(), "NumPy": imports("import numpy"),
+             "SciPy": imports("import scipy.sparse"), "Brian2": imports("import brian2")}
     for name, installed in found.items():
         if not installed:
             print(f"{name} is skipped: {INSTALL[name]}")

@@ -20,6 +20,7 @@ import numpy as np
 import agreement
 import cases
 import scenes
+from numpy_programs import needs_scipy
 from system_file import system_file
 from turns import Worker, in_turns
 
@@ -38,7 +39,7 @@ def neural_workers(case, programs, folder, out, peers):
         np.save(folder / "weights.npy", weights)
         arguments.append(folder / "weights.npy")
     python = [sys.executable, "-W", "ignore"]
-    if "NumPy" in peers:
+    if "NumPy" in peers and ("SciPy" in peers or not needs_scipy(case)):
         workers["NumPy"] = Worker([*python, HERE / "numpy_worker.py", *arguments], ONE_THREAD)
     if "Brian2" in peers:
         for name, mode in {"Brian2 C++": "c++", "Brian2 runtime": "runtime"}.items():

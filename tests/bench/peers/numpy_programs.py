@@ -7,27 +7,28 @@ activities of all other groups in the next cycle, group by group. `weights` is t
 have random attenuations: target x source.
 """
 import numpy as np
-import scipy.sparse
 from numpy.lib.stride_tricks import sliding_window_view
 
 
 def program(case, weights=None):
-    fixed = case.connections[-1]
+    last = case.connections[-1]
     if case.name.startswith("ring"):
         return ring(case)
-    if case.name.startswith("hebbian"):
+    if last.learning_rate:
         return hebbian(case)
-    if case.name == "neurons_driven":
-        return driven(case)
-    if fixed.attenuated and fixed.window == 0:
-        return dense(weights)
-    if fixed.attenuated:
+    if needs_scipy(case):
         return diagonals(weights)
-    if fixed.sigma:
+    if last.attenuated:
+        return dense(weights)
+    if last.sigma:
         return gaussian(case)
-    if fixed.window == 0:
+    if last.window == 0:
         return all_to_all(case)
-    return one_to_one(case)
+    return driven(case) if case.targets[0].kept else one_to_one(case)
+
+
+def needs_scipy(case):
+    return case.connections[-1].attenuated > 0 and case.connections[-1].window > 0
 
 
 def ring(case):
@@ -112,6 +113,7 @@ def dense(weights):
 
 def diagonals(weights):
     """A window with random weights. By diagonals SciPy is a third faster than by rows (CSR)."""
+    import scipy.sparse
     matrix = scipy.sparse.csr_matrix(weights).todia()
     activity, zeros = np.zeros((2, len(weights)))
 
