@@ -1,5 +1,6 @@
 #include "core/engine/simulation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -31,15 +32,17 @@ struct Simulation::Parts {
 
 namespace {
 
-/// The first number of a group's update that is not finite, by states, then by cells. None when something
-/// else put it there, in a cycle that is remembered.
-std::optional<NotFinite> find_not_finite(const Plan& plan, const State& state, int group) {
-    const auto& g = state.groups[group];
-    for (std::size_t s = 0; s < g.states.size(); ++s) {
-        const double* row = state_row(g, plan.groups[group], s, state.cycle);
-        for (Index cell = 0; cell < plan.groups[group].cells; ++cell)
-            if (!std::isfinite(row[cell]))
-                return NotFinite{group, static_cast<int>(s), cell, state.cycle, row[cell]};
+/// The first number of this cycle's updates that is not finite, by groups, states and cells. None when
+/// something else put it there, in a cycle that is remembered.
+std::optional<NotFinite> find_not_finite(const Plan& plan, const State& state) {
+    for (int group = 0; group < std::ssize(plan.groups); ++group) {
+        const auto& g = plan.groups[group];
+        if (g.pruned || state.batches[g.batch].finite) continue;
+        for (int s = 0; s < std::ssize(g.depths); ++s) {
+            const double* row = state_row(state, plan, group, s, state.cycle);
+            for (Index cell = 0; cell < g.cells; ++cell)
+                if (!std::isfinite(row[cell])) return NotFinite{group, s, cell, state.cycle, row[cell]};
+        }
     }
     return std::nullopt;
 }
@@ -101,12 +104,9 @@ void Simulation::update_groups() {
     else
         cycle.update_groups();
     if (!cycle.check_finite) return;
-    for (const int i : plan->updated)
-        if (!state->groups[i].finite) {
-            not_finite = find_not_finite(*plan, *state, i);
-            cycle.check_finite = !not_finite;
-            if (not_finite) return;
-        }
+    if (std::ranges::all_of(state->batches, &BatchState::finite)) return;
+    not_finite = find_not_finite(*plan, *state);
+    cycle.check_finite = !not_finite;
 }
 
 void Simulation::update_modules() { parts_->cycle.update_modules(); }
@@ -150,17 +150,17 @@ ConstColumn Simulation::input(int group, InputKind kind) const {
     require_computed(*parts_->plan, group);
     if (!p.keeps_input)
         refuse_pruned(fmt::format("the input of group '{}'", layout().groups[group].path), "read_input()");
-    const auto& g = parts_->state->groups[group];
-    return {g.inputs[static_cast<std::size_t>(kind)][g.row], p.cells};
+    const auto& b = parts_->state->batches[p.batch];
+    return {b.inputs[static_cast<std::size_t>(kind)][b.row] + p.first, p.cells};
 }
 
 ConstColumn Simulation::state(int group, int state) const {
     require_computed(*parts_->plan, group);
-    const auto& p = parts_->plan->groups[group];
-    return {state_row(parts_->state->groups[group], p, state, parts_->state->shown), p.cells};
+    return {state_row(*parts_->state, *parts_->plan, group, state, parts_->state->shown),
+            parts_->plan->groups[group].cells};
 }
 
-Column Simulation::output(int group) { return writable_state(group, parts_->plan->groups[group].output); }
+Column Simulation::output(int group) { return writable_state(group, layout().groups[group].type.output()); }
 
 Column Simulation::writable_state(int group, int state) {
     require_computed(*parts_->plan, group);
@@ -171,7 +171,7 @@ Column Simulation::writable_state(int group, int state) {
                         "Demand::overwrite_group() before Simulation::build()",
                         layout().groups[group].path));
     parts_->cycle.invalidate(group);
-    return {state_row(parts_->state->groups[group], p, state, parts_->state->shown), p.cells};
+    return {state_row(*parts_->state, *parts_->plan, group, state, parts_->state->shown), p.cells};
 }
 
 void Simulation::invalidate(int group) { parts_->cycle.invalidate(group); }

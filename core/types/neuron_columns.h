@@ -12,7 +12,8 @@
 
 namespace forage {
 
-/// The columns of one group in one cycle, for an update of all its cells at once.
+/// The columns of one group in one cycle, for an update of all its cells at once. Groups of a type whose
+/// cells do not see each other may stand side by side, and are then updated like one.
 ///
 /// A state's rows form a ring. `state(i)` is the row to be written in this cycle; before the update writes
 /// it, it holds the values of `history` cycles ago. With the usual history of 1 these are the values of the
@@ -22,6 +23,12 @@ class NeuronColumns {
     struct State {
         double* ring;        ///< first row of the ring
         std::int64_t depth;  ///< rows in the ring
+    };
+
+    /// The random numbers of the group whose cells begin at `first`.
+    struct Stream {
+        RandomStream random;
+        Index first = 0;
     };
 
     /// The number of draws of uniform numbers that have columns of their own. It holds for draws of events,
@@ -36,10 +43,11 @@ class NeuronColumns {
         double event = 1, random = 0;
     };
 
-    /// Covers the cells from `first`, a multiple of RandomStream::grain, to `first` + `size` - 1 of a group
-    /// whose rows are `stride` apart. `inputs` and `states` point to cell 0.
+    /// Covers the cells from `first`, in its group a multiple of RandomStream::grain, to `first` + `size` - 1
+    /// of rows that are `stride` apart. `inputs` and `states` point to cell 0. `streams` are in order of
+    /// cells, and the first one is that of cell `first`.
     NeuronColumns(Index size, Index stride, std::uint64_t cycle, std::array<double*, input_kinds> inputs,
-                  std::span<const State> states, const RandomStream* random, double* scratch,
+                  std::span<const State> states, std::span<const Stream> streams, double* scratch,
                   std::array<bool, input_kinds> silent = {}, Index first = 0, Undeclared undeclared = {1, 0})
         : size_(size),
           stride_(stride),
@@ -47,7 +55,7 @@ class NeuronColumns {
           cycle_(cycle),
           inputs_(inputs),
           states_(states),
-          random_(random),
+          streams_(streams),
           scratch_(scratch),
           silent_(silent),
           undeclared_(undeclared) {}
@@ -87,16 +95,18 @@ class NeuronColumns {
     Column uniform(std::uint32_t draw = 0) const {
         time_invariant_ = false;
         double* out = scratch_ + draw % draws_kept * stride_;
-        random_->uniform(cycle_, {out, static_cast<std::size_t>(size_)}, draw,
-                         static_cast<std::size_t>(first_));
+        each_stream({out, size_}, [&](const RandomStream& random, std::span<double> part, std::size_t first) {
+            random.uniform(cycle_, part, draw, first);
+        });
         return {out, size_};
     }
     /// Sets out[i] = `value` with this probability, independently in each cell and cycle, else 0. This is
     /// many times faster than a comparison with uniform().
     void events(double probability, Column out, double value = 1, std::uint32_t draw = 0) const {
         time_invariant_ = false;
-        random_->events(cycle_, probability, {out.data(), static_cast<std::size_t>(out.size())}, value, draw,
-                        static_cast<std::size_t>(first_));
+        each_stream(out, [&](const RandomStream& random, std::span<double> part, std::size_t first) {
+            random.events(cycle_, probability, part, value, draw, first);
+        });
     }
     /// Returns a column that is 1 in cells with an event, else 0. Each draw has its own column, as in
     /// uniform().
@@ -110,6 +120,18 @@ class NeuronColumns {
     bool time_invariant() const { return time_invariant_; }
 
   private:
+    /// Calls visit(stream, its part of the column `out`, the part's first cell in its group) for each stream.
+    template <class Visit>
+    void each_stream(Column out, Visit visit) const {
+        Index begin = first_;
+        for (std::size_t k = 0; k < streams_.size(); ++k) {
+            const Index end = k + 1 < streams_.size() ? streams_[k + 1].first : first_ + out.size();
+            visit(streams_[k].random,
+                  std::span(out.data() + (begin - first_), static_cast<std::size_t>(end - begin)),
+                  static_cast<std::size_t>(begin - streams_[k].first));
+            begin = end;
+        }
+    }
     Column input(InputKind kind) const { return {inputs_[static_cast<std::size_t>(kind)] + first_, size_}; }
     double* row(int i, int ago) const {
         const auto index = static_cast<std::size_t>(i);  // a negative index becomes very large
@@ -125,7 +147,7 @@ class NeuronColumns {
     std::uint64_t cycle_;
     std::array<double*, input_kinds> inputs_;
     std::span<const State> states_;
-    const RandomStream* random_;
+    std::span<const Stream> streams_;
     double* scratch_;
     std::array<bool, input_kinds> silent_;
     Undeclared undeclared_;

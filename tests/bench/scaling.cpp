@@ -4,8 +4,8 @@
 //
 // Groups of linear threshold cells, 10^3 to 10^6, each fed by its own source of random spikes, and random
 // lists of 10^3 to 10^8 synapses (or as many as the argument says). Each system runs in its own process. The
-// exponent is that of the cost against the size, fitted over the sizes from 10^4 on. Last result:
-// docs/design/performance.md.
+// exponent is that of the cost against the size, fitted over the sizes from 10^4 on. Then 1,000 groups of 10
+// cells are compared with one group of 10,000, in turns. Last result: docs/design/performance.md.
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -106,6 +106,64 @@ bool scale(const char* what, const std::vector<std::pair<int, int>>& sizes, Make
     return true;
 }
 
+/// A ring of linear threshold groups with `cells` cells in all, which excite the next one. Ten cells that
+/// spike at random excite the first ten, or each group has as many such cells as it has itself.
+model::System ring(int groups, int cells, bool sources, int width) {
+    model::System system;
+    const auto process = model::add_process(system, "P");
+    const int each = cells / groups;
+    std::vector<std::string> members;
+    const auto excite = [&](const std::string& to, int count) {
+        const auto from = model::add_group(system, process, "S" + to, count, 1, "neuronRandomSpike");
+        model::set_parameter(model::find_group(system, from)->neuron, "probability", "0.3");
+        const auto id =
+            model::add_connection(system, from, to, InputKind::excitatory, "synapseFixedWeight", "in-" + to);
+        model::find_connection(system, id)->pattern =
+            model::MappedPattern{{}, model::Region{1, 1, count, 1, {}}};
+    };
+    for (int i = 0; i < groups; ++i) {
+        members.push_back(
+            model::add_group(system, process, fmt::format("G{:04}", i), each, 1, "neuronLinearThreshold"));
+        if (sources || i == 0) excite(members.back(), sources ? each : 10);
+    }
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        const auto id =
+            model::add_connection(system, members[i], members[(i + 1) % members.size()],
+                                  InputKind::excitatory, "synapseFixedWeight", fmt::format("ring-{:04}", i));
+        auto& c = *model::find_connection(system, id);
+        model::set_parameter(*c.synapse, "weight", "0.5");
+        c.arborization.shape = model::RectArbor{width, 1};
+    }
+    return system;
+}
+
+/// Compares many groups with one of as many cells.
+bool compare_groups(const char* what, bool sources, int width) {
+    Registry registry;
+    add_neurons(registry);
+    add_synapses(registry);
+    Diagnostics diagnostics;
+    const auto built = [&](int groups) {
+        engine::Demand demand;  // as in a run that records activities
+        const auto system = ring(groups, 10'000, sources, width);
+        auto layout = *engine::make_layout(system, registry, diagnostics);
+        for (int g = 0; g < std::ssize(layout.groups); ++g) demand.read_group(g);
+        auto simulation = *engine::Simulation::build(system, std::move(layout), demand, {}, diagnostics);
+        simulation.start();
+        return simulation;
+    };
+    auto many = built(1000), one = built(1);
+    const auto rates = bench::rates_in_turns(
+        bench::thread_seconds, [&] { many.step(); }, [&] { one.step(); });
+    const double ratio = rates[1].best() / rates[0].best();
+    fmt::print("1,000 groups of 10, {}: {:.2f} us per cycle, one group of 10,000: {:.2f}; ratio {:.2f}\n",
+               what, 1e6 / rates[0].best(), 1e6 / rates[1].best(), ratio);
+    const std::string subject = fmt::format("scaling/1,000 groups of 10, {}", what);
+    bench::result(subject, "time", 1e6 / rates[0].best(), "us");
+    bench::result(subject, "time / of one group", ratio, "");
+    return diagnostics.errors() == 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -125,6 +183,9 @@ int main(int argc, char** argv) {
           std::pair{20'000, 500}, std::pair{50'000, 2000}})
         if (static_cast<double>(cells) * each <= most) lists.emplace_back(cells, each);
     const bool good = scale("neurons", {{1000, 1}, {10'000, 1}, {100'000, 1}, {1'000'000, 1}}, neurons) &&
-                      scale("synapses", lists, bench::random_lists);
+                      scale("synapses", lists, bench::random_lists) &&
+                      compare_groups("ring, one to one", false, 1) &&
+                      compare_groups("ring, one to one, a random source each", true, 1) &&
+                      compare_groups("ring, three synapses per cell", false, 3);
     return good ? 0 : 1;
 }

@@ -66,6 +66,7 @@ class Compiler {
             add_connections();
             if (budget_.exceeded()) budget_.report(diagnostics_);
             if (diagnostics_.errors() > errors_before) return {};
+            make_batches(*plan_, *state_, forms_);
             lay_out();
             order_steps(*plan_);
             state_->begin(*plan_);
@@ -103,18 +104,15 @@ class Compiler {
             const auto* g = order_.groups[i];
             auto& plan = plan_->groups.emplace_back();
             plan.cells = about.shape.cells;
-            plan.stride = Rows::stride(plan.cells);
-            plan.output = about.type.output();
             plan.pruned = pruned_.groups[i];
             plan.keeps_input = demand_.reads_input(i);
             plan.overwritten = demand_.overwrites(i);
             plan.random = RandomStream(options_.seed, about.id);
-            for (const auto& s : about.type.states) plan.states.push_back({0, s.history});
+            for (const auto& s : about.type.states) plan.depths.push_back(s.history);
             double rows = 2 * input_kinds;
-            for (const auto& s : plan.states) rows += static_cast<double>(s.depth);
+            for (const auto depth : plan.depths) rows += static_cast<double>(depth);
             state_->groups.emplace_back().neuron = make(about.type, g->neuron);
             if (plan.pruned) continue;
-            plan_->updated.push_back(i);
             budget_.add(rows, plan.cells, g->at,
                         fmt::format("group '{}': {} numbers x {} cells", about.path, rows, plan.cells));
         }
@@ -168,7 +166,6 @@ class Compiler {
             if (!plan.kernel) continue;  // pruned, or reported
             auto& target = plan_->groups[plan.target];
             target.incoming.push_back(i);
-            target.delivery_cost += plan.kernel->cost();
             bool& fed = target.fed[static_cast<std::size_t>(plan.kind)];  // by a module, too
             plan.first = plan.effective && !fed;
             fed |= plan.effective;
@@ -250,8 +247,8 @@ class Compiler {
             for (const auto& r : c.synapse->feedback)
                 for (int s = 0; s < std::ssize(states); ++s)
                     if (r.name == f.name && r.target == states[s].name) state = s;
-            if (state >= 0 && target.states[state].depth <= longest) {
-                auto& depth = target.states[state].depth;
+            if (state >= 0 && target.depths[state] <= longest) {
+                auto& depth = target.depths[state];
                 budget_.add(
                     static_cast<double>(longest + 1 - depth), target.cells, c.at,
                     fmt::format("connection '{}': delay {} x {} cells", c.name, longest, target.cells));
@@ -265,21 +262,20 @@ class Compiler {
     /// What every cycle touches lies together: states and one row of each input that is delivered.
     void lay_out() {
         Rows& rows = plan_->rows;
-        for (const int i : plan_->updated) {
-            auto& g = plan_->groups[i];
+        for (auto& b : plan_->batches) {
             const auto before = rows.size();
-            for (auto& s : g.states) s.first = rows.reserve(g.cells, s.depth);
-            g.numbers = static_cast<Index>(rows.size() - before);
+            for (auto& s : b.states) s.first = rows.reserve(b.cells, s.depth);
+            b.numbers = static_cast<Index>(rows.size() - before);
             for (std::size_t k = 0; k < input_kinds; ++k)
-                if (g.fed[k]) g.inputs[k] = {rows.reserve(g.cells), 0};
+                if (b.fed[k]) b.inputs[k] = {rows.reserve(b.cells), 0};
         }
-        for (const int i : plan_->updated) {
-            auto& g = plan_->groups[i];
+        for (auto& b : plan_->batches) {
+            const bool keeps_input = plan_->groups[b.groups.front()].keeps_input;
             for (std::size_t k = 0; k < input_kinds; ++k) {
-                if (!g.fed[k]) g.inputs[k][0] = rows.reserve(g.cells);
-                g.inputs[k][1] = g.keeps_input ? rows.reserve(g.cells) : g.inputs[k][0];
+                if (!b.fed[k]) b.inputs[k][0] = rows.reserve(b.cells);
+                b.inputs[k][1] = keeps_input ? rows.reserve(b.cells) : b.inputs[k][0];
             }
-            if (g.history > 0) g.past = rows.reserve(g.cells, g.history + 1);
+            if (b.history > 0) b.past = rows.reserve(b.cells, b.history + 1);
         }
         for (std::size_t i = 0; i < plan_->modules.size(); ++i)
             for (const int g : layout_.modules[i].output_groups)
@@ -307,22 +303,20 @@ Compiled compile(const model::System& system, Layout layout, const Demand& deman
 }
 
 void order_steps(Plan& plan) {
-    std::vector<int> place(plan.groups.size());  // in `updated`
-    for (int k = 0; k < std::ssize(plan.updated); ++k) place[plan.updated[k]] = k;
-    std::vector<std::vector<int>> after(plan.updated.size());
-    for (const int i : plan.updated) {
-        const auto& g = plan.groups[i];
-        if (plan.overwritten || !g.module_inputs.empty()) {
+    std::vector<std::vector<int>> after(plan.batches.size());
+    for (int i = 0; i < std::ssize(plan.batches); ++i) {
+        const auto& b = plan.batches[i];
+        if (plan.overwritten || !b.module_inputs.empty()) {
             plan.late.push_back(i);
             continue;
         }
-        int last = place[i];
-        for (const int c : g.incoming) last = std::max(last, place[plan.connections[c].source]);
+        int last = i;
+        for (const int d : b.deliveries) last = std::max(last, plan.deliveries[d].source);
         after[last].push_back(i);
     }
-    for (std::size_t k = 0; k < plan.updated.size(); ++k) {
-        plan.steps.push_back({plan.updated[k], false});
-        for (const int i : after[k]) plan.steps.push_back({i, true});
+    for (int i = 0; i < std::ssize(plan.batches); ++i) {
+        plan.steps.push_back({i, false});
+        for (const int receiver : after[i]) plan.steps.push_back({receiver, true});
     }
 }
 

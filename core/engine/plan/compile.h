@@ -1,6 +1,7 @@
 // From a model to a plan, and the state in which a run begins.
 #pragma once
 
+#include "core/engine/kernels/forms.h"
 #include "core/engine/plan/demand.h"
 #include "core/engine/plan/plan.h"
 #include "core/engine/simulation.h"
@@ -29,6 +30,10 @@ struct Pruned {
 
 /// Finds the groups on which neither the demand nor an input of a module depends.
 Pruned prune(const Layout& layout, const Demand& demand);
+
+/// Gathers groups in batches, and connections in deliveries: sets Plan::batches and Plan::deliveries, except
+/// for where the numbers stand. With Forms::general each group and each connection stays alone.
+void make_batches(Plan& plan, State& state, Forms forms);
 
 /// Orders the updates and deliveries of a cycle: sets Plan::steps and Plan::late.
 void order_steps(Plan& plan);
