@@ -119,7 +119,7 @@ model::System ring(int groups, int cells, bool sources, int width) {
         const auto id =
             model::add_connection(system, from, to, InputKind::excitatory, "synapseFixedWeight", "in-" + to);
         model::find_connection(system, id)->pattern =
-            model::MappedPattern{{}, model::Region{1, 1, count, 1, {}}};
+            model::MappedPattern{{}, {}, model::Region{1, 1, count, 1, {}}};
     };
     for (int i = 0; i < groups; ++i) {
         members.push_back(
