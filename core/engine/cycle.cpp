@@ -270,8 +270,8 @@ void Cycle::deliver_to(int batch, const Share* share) {
 /// Whether all that is delivered to a batch is what was delivered in the cycle before.
 bool Cycle::receives_the_same(int batch) const {
     const auto& p = plan_.batches[batch];
-    for (const auto& in : p.module_inputs)
-        if (state_.modules[in.module].changed[in.port]) return false;
+    for (const auto& [module, port] : p.module_inputs)
+        if (state_.modules[module].changed[port]) return false;
     for (const int i : p.deliveries) {
         const auto& d = plan_.deliveries[i];
         const auto& c = plan_.connections[d.connections.front()];
@@ -285,14 +285,15 @@ bool Cycle::receives_the_same(int batch) const {
 
 /// Puts what modules have written into the row that receives.
 void Cycle::receive_from_modules(int batch) {
-    const auto& b = state_.batches[batch];
-    for (const auto& in : plan_.batches[batch].module_inputs) {
-        double* row = b.inputs[excitatory][b.row ^ 1] + in.first;
-        const double* out = state_.modules[in.module].out[in.port].data();
-        if (in.adds)
-            Column(row, in.cells) += ConstColumn(out, in.cells);
+    const auto& p = plan_.batches[batch];
+    double* row = state_.batches[batch].inputs[excitatory][state_.batches[batch].row ^ 1];
+    bool sum = false;
+    for (const auto& [module, port] : p.module_inputs) {
+        const double* out = state_.modules[module].out[port].data();
+        if (std::exchange(sum, true))
+            Column(row, p.cells) += ConstColumn(out, p.cells);
         else
-            begin_sum(out, in.cells, row);
+            begin_sum(out, p.cells, row);
     }
 }
 

@@ -22,18 +22,14 @@ class Gatherer {
     void add_groups(bool together) {
         std::map<std::string, int> open;  // the last batch of its kind
         for (int i = 0; i < std::ssize(plan_.groups); ++i) {
-            auto& g = plan_.groups[i];
+            const auto& g = plan_.groups[i];
             if (g.pruned) continue;
-            g.batch = static_cast<int>(plan_.batches.size());
-            if (together && may_join(i)) {
-                const auto [same, is_first] = open.try_emplace(kind_of(i), g.batch);
-                const bool fits = plan_.batches.size() > 0 && !is_first &&
-                                  plan_.batches[same->second].cells + g.cells <= most_cells;
-                if (fits) g.batch = same->second;
-                same->second = g.batch;
-            }
-            if (g.batch == std::ssize(plan_.batches)) begin_batch(i);
-            join(plan_.batches[g.batch], i);
+            const auto next = static_cast<int>(plan_.batches.size());
+            int alone = next;
+            int& batch = together && may_join(i) ? open.try_emplace(kind_of(i), next).first->second : alone;
+            if (batch < next && plan_.batches[batch].cells + g.cells > most_cells) batch = next;
+            if (batch == next) begin_batch(i);
+            join(batch, i);
         }
         for (auto& b : plan_.batches) b.stride = Rows::stride(b.cells);
         state_.batches.resize(plan_.batches.size());
@@ -69,10 +65,12 @@ class Gatherer {
     }
 
   private:
-    /// Synapses that learn read whole rows of their target.
+    /// Groups that modules write to are quiescent at different times. Synapses that learn read whole rows of
+    /// their target.
     bool may_join(int group) const {
         const auto& g = plan_.groups[group];
         return plan_.layout.groups[group].type.elementwise && g.cells <= most_cells_of_group &&
+               g.module_inputs.empty() &&
                std::ranges::none_of(g.incoming, [&](int c) { return plan_.connections[c].plastic; });
     }
     /// Equal for groups that can be in one batch.
@@ -82,8 +80,7 @@ class Gatherer {
         Archive kind;
         std::string name = type.name,
                     parameters = parameter_bytes(type.parameters, *state_.groups[group].neuron);
-        bool from_modules = !g.module_inputs.empty();
-        kind(name, parameters, g.depths, g.history, g.fed, g.keeps_input, from_modules);
+        kind(name, parameters, g.depths, g.history, g.fed, g.keeps_input);
         return kind.bytes();
     }
     void begin_batch(int group) {
@@ -91,18 +88,16 @@ class Gatherer {
         const auto& type = plan_.layout.groups[group].type;
         auto& b = plan_.batches.emplace_back();
         b.output = type.output(), b.elementwise = type.elementwise;
-        b.history = g.history, b.fed = g.fed;
+        b.history = g.history, b.fed = g.fed, b.module_inputs = g.module_inputs;
         for (const auto depth : g.depths) b.states.push_back({0, depth});
     }
-    void join(BatchPlan& b, int group) {
+    void join(int batch, int group) {
         auto& g = plan_.groups[group];
-        g.first = b.cells;
+        auto& b = plan_.batches[batch];
+        g.batch = batch, g.first = b.cells;
         b.cells += g.cells;
         b.groups.push_back(group);
         b.streams.push_back({g.random, g.first});
-        for (std::size_t i = 0; i < g.module_inputs.size(); ++i)
-            b.module_inputs.push_back(
-                {g.module_inputs[i].first, g.module_inputs[i].second, g.first, g.cells, i > 0});
     }
 
     const Kernel& kernel_of(const DeliveryPlan& d) const {

@@ -34,21 +34,16 @@ struct GroupPlan {
 /// stand side by side. Most batches of most systems are a single group.
 struct BatchPlan {
     std::vector<int> groups;
-    std::vector<NeuronColumns::Stream> streams;  ///< of each group
-    Index cells = 0, stride = 0;                 ///< stride: from row to row
-    Index numbers = 0;                           ///< of all rows of its states
-    int output = 0;                              ///< the state that is the activity
-    int history = 0;                             ///< as in GroupPlan
-    bool elementwise = false;                    ///< as in NeuronType
-    std::array<bool, input_kinds> fed{};         ///< as in GroupPlan
-    struct ModuleInput {
-        int module, port;
-        Index first, cells;
-        bool adds;  ///< to what one before it has written
-    };
-    std::vector<ModuleInput> module_inputs;  ///< in order
-    std::vector<int> deliveries;             ///< in order
-    double delivery_cost = 0;                ///< of all of them, ns
+    std::vector<NeuronColumns::Stream> streams;      ///< of each group
+    Index cells = 0, stride = 0;                     ///< stride: from row to row
+    Index numbers = 0;                               ///< of all rows of its states
+    int output = 0;                                  ///< the state that is the activity
+    int history = 0;                                 ///< as in GroupPlan
+    bool elementwise = false;                        ///< as in NeuronType
+    std::array<bool, input_kinds> fed{};             ///< as in GroupPlan
+    std::vector<std::pair<int, int>> module_inputs;  ///< as in GroupPlan
+    std::vector<int> deliveries;                     ///< in order
+    double delivery_cost = 0;                        ///< of all of them, ns
 
     // Where its numbers stand in State::numbers.
     struct Rings {
