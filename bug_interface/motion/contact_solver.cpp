@@ -8,8 +8,8 @@ namespace forage::bug {
 namespace {
 
 constexpr float box_half_height = 1;    ///< m; has no effect, since all contacts are horizontal
-constexpr btScalar touching = 0.0005f;  ///< m; shapes closer than this touch
 constexpr btScalar residual = 1e-12f;   ///< (N s)^2; stops the solver at errors of about 1e-7 m/s
+constexpr std::size_t most_algorithms = 1024;
 
 /// Memory pools for a few contacts; Bullet allocates more when needed. Its default takes megabytes.
 btDefaultCollisionConstructionInfo small_pools() {
@@ -42,14 +42,18 @@ Physics::ContactSolver::ContactSolver(std::span<const Obstacle> obstacles, std::
                                       std::span<const LayerMask> collision_masks)
     : configuration_(small_pools()),
       dispatcher_(&configuration_),
-      collision_masks_(collision_masks.begin(), collision_masks.end()),
-      world_(&dispatcher_, &broadphase_, &configuration_) {
-    // Bullet's algorithm for two spheres detects only overlaps. The one for convex shapes also detects small
-    // gaps.
+      collision_masks_(collision_masks.begin(), collision_masks.end()) {
+    // Bullet's algorithm for two spheres detects only overlaps. The one for convex shapes also detects gaps,
+    // and so does the one for a sphere and a box, which Bullet has but does not choose by itself.
     dispatcher_.registerCollisionCreateFunc(SPHERE_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE,
                                             configuration_.getCollisionAlgorithmCreateFunc(
                                                 CONVEX_HULL_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE));
-    world_.setForceUpdateAllAabbs(false);
+    dispatcher_.registerCollisionCreateFunc(SPHERE_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE, &sphere_box_);
+    dispatcher_.registerCollisionCreateFunc(BOX_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE, &box_sphere_);
+    box_sphere_.m_swapped = true;
+    // All gaps up to 2 cm count, however small the shapes are.
+    dispatcher_.setDispatcherFlags(dispatcher_.getDispatcherFlags() &
+                                   ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
     // The scalar solver gives the same bits on all processors; the vectorised ones do not.
     solver_.setConstraintRowSolverGeneric(solver_.getScalarConstraintRowSolverGeneric());
     solver_.setConstraintRowSolverLowerLimit(solver_.getScalarConstraintRowSolverLowerLimit());
@@ -59,62 +63,56 @@ Physics::ContactSolver::ContactSolver(std::span<const Obstacle> obstacles, std::
     for (const Obstacle& o : obstacles) add(o);
     obstacles_ = objects_.size();
     for (const Body& b : bodies)
-        if (b.driven) max_driven_mass_ = std::max(max_driven_mass_, b.mass);
+        if (b.driven) heaviest_ = std::max(heaviest_, b.mass);
     for (const Body& b : bodies) add(b);
-    parked_.assign(bodies.size(), 0);
+    steps_.assign(bodies.size(), 1);
 }
 
-Physics::ContactSolver::~ContactSolver() {
-    for (const auto& object : objects_) world_.removeCollisionObject(object.get());
-}
+Physics::ContactSolver::~ContactSolver() = default;
 
-/// Inactive bodies are parked outside the world, where they cost nothing.
-void Physics::ContactSolver::set_state(std::size_t body, const State& state, const Velocity& velocity) {
+/// Gives Bullet the state of a body. A driven body gets the velocity of its command anew in every time step;
+/// for `steps` of them at once it is as many times as heavy.
+void Physics::ContactSolver::prepare(std::size_t body, std::uint64_t steps, State& state,
+                                     const Velocity& velocity) {
     btRigidBody& object = rigid(body);
-    if (!state.active && parked_[body]) return;
     btTransform transform = btTransform::getIdentity();
-    const bool round = object.getCollisionShape()->getShapeType() == SPHERE_SHAPE_PROXYTYPE;
-    if (state.active) {
-        transform.setOrigin(vector(state.pose.x, state.pose.y));
-        if (!round) transform.setBasis(turn(state.cos_yaw, state.sin_yaw));
-    } else {
-        transform.setOrigin(vector(1e4, 10.0 * static_cast<double>(body)));
+    transform.setOrigin(vector(state.pose.x, state.pose.y));
+    if (object.getCollisionShape()->getShapeType() != SPHERE_SHAPE_PROXYTYPE) {
+        state.update_rotation();
+        transform.setBasis(turn(state.cos_yaw, state.sin_yaw));
     }
     object.setWorldTransform(transform);
-    object.setLinearVelocity(state.active ? vector(velocity.x, velocity.y) : vector(0, 0));
-    object.setAngularVelocity({0, 0, state.active ? scalar(velocity.turn) : 0});
-    if (state.active == static_cast<bool>(parked_[body])) {
-        parked_[body] = !state.active;
-        object.forceActivationState(state.active ? DISABLE_DEACTIVATION : ISLAND_SLEEPING);
-        world_.updateSingleAabb(&object);
-    }
+    object.setLinearVelocity(vector(velocity.x, velocity.y));
+    object.setAngularVelocity({0, 0, scalar(velocity.turn)});
+    if (!object_info_[obstacles_ + body].driven || steps_[body] == steps) return;
+    const btScalar factor = static_cast<btScalar>(steps) / static_cast<btScalar>(steps_[body]);
+    object.setMassProps(object.getMass() * factor, object.getLocalInertia() * factor);
+    object.updateInertiaTensor();
+    steps_[body] = steps;
 }
 
-void Physics::ContactSolver::solve(double step, std::span<State> states, std::span<Velocity> velocities,
-                                   std::span<char> touched) {
-    active_bodies_.clear();
-    for (std::size_t i = 0; i < states.size(); ++i) {
-        if (states[i].active) states[i].update_rotation();
-        set_state(i, states[i], velocities[i]);
-        if (states[i].active) active_bodies_.push_back(bodies_[i]);
+void Physics::ContactSolver::solve(double step, std::uint64_t steps, std::span<const std::size_t> bodies,
+                                   std::span<const Pair> pairs, std::span<State> states,
+                                   std::span<Velocity> velocities, std::span<char> touched) {
+    moving_.clear();
+    for (const std::size_t i : bodies) {
+        prepare(i, steps, states[i], velocities[i]);
+        moving_.push_back(&rigid(i));
     }
-    for (int m = 0; m < dispatcher_.getNumManifolds(); ++m)
-        dispatcher_.getManifoldByIndexInternal(m)->clearManifold();
-    world_.performDiscreteCollisionDetection();
-    find_contacts(states, touched);
-    if (manifolds_.empty()) return;
-    info_.m_timeStep = scalar(step);
+    find_contacts(pairs);
+    filter_contacts(states, touched);
+    if (contacts_.empty()) return;
+    info_.m_timeStep = scalar(step * static_cast<double>(steps));
     const auto is_movable = [&](const btCollisionObject* o) {
         return object_info_[static_cast<std::size_t>(o->getUserIndex())].movable;
     };
-    const bool movable = std::any_of(manifolds_.begin(), manifolds_.end(), [&](const auto* contact) {
+    const bool movable = std::any_of(contacts_.begin(), contacts_.end(), [&](const auto* contact) {
         return is_movable(contact->getBody0()) || is_movable(contact->getBody1());
     });
     info_.m_numIterations = movable ? 60 : 30;  // rows of movable objects converge slowly
-    solver_.solveGroup(active_bodies_.data(), static_cast<int>(active_bodies_.size()), manifolds_.data(),
-                       static_cast<int>(manifolds_.size()), nullptr, 0, info_, nullptr, &dispatcher_);
-    for (std::size_t i = 0; i < states.size(); ++i) {
-        if (!states[i].active) continue;
+    solver_.solveGroup(moving_.data(), static_cast<int>(moving_.size()), contacts_.data(),
+                       static_cast<int>(contacts_.size()), nullptr, 0, info_, nullptr, &dispatcher_);
+    for (const std::size_t i : bodies) {
         const auto& linear = rigid(i).getLinearVelocity();
         const auto& angular = rigid(i).getAngularVelocity();
         // A velocity that no contact changed keeps its double precision.
@@ -124,6 +122,32 @@ void Physics::ContactSolver::solve(double step, std::span<State> states, std::sp
         update(velocities[i].x, linear.x());
         update(velocities[i].y, linear.y());
         update(velocities[i].turn, angular.z());
+    }
+}
+
+/// Lets Bullet find the contacts of all pairs.
+void Physics::ContactSolver::find_contacts(std::span<const Pair> pairs) {
+    contacts_.clear();
+    if (algorithms_.size() > most_algorithms) algorithms_.clear();
+    for (const Pair& pair : pairs) {
+        const btCollisionObject &a = *objects_[pair.first], &b = *objects_[pair.second];
+        const btCollisionObjectWrapper of_a(nullptr, a.getCollisionShape(), &a, a.getWorldTransform(), -1, -1),
+            of_b(nullptr, b.getCollisionShape(), &b, b.getWorldTransform(), -1, -1);
+        Algorithm& algorithm = algorithms_[pair];
+        if (!algorithm)
+            algorithm = {dispatcher_.findAlgorithm(&of_a, &of_b, nullptr, BT_CONTACT_POINT_ALGORITHMS),
+                         [this](btCollisionAlgorithm* used) {
+                             used->~btCollisionAlgorithm();
+                             dispatcher_.freeCollisionAlgorithm(used);
+                         }};
+        of_pair_.resize(0);
+        algorithm->getAllContactManifolds(of_pair_);
+        for (int m = 0; m < of_pair_.size(); ++m) of_pair_[m]->clearManifold();
+        btManifoldResult result(&of_a, &of_b);
+        algorithm->processCollision(&of_a, &of_b, dispatch_info_, &result);
+        of_pair_.resize(0);
+        algorithm->getAllContactManifolds(of_pair_);
+        for (int m = 0; m < of_pair_.size(); ++m) contacts_.push_back(of_pair_[m]);
     }
 }
 
@@ -145,13 +169,11 @@ bool Physics::ContactSolver::can_collide(const ObjectInfo& a, int shape_a, const
            1u;
 }
 
-/// Collects the contacts in `manifolds_`, without those of shapes that share no height. A contact has the
-/// smaller friction coefficient of its two surfaces, as in the original. The contacts are sorted by object,
-/// as the solution depends on their order, and Bullet's own order depends on earlier contacts.
-void Physics::ContactSolver::find_contacts(std::span<State> states, std::span<char> touched) {
-    manifolds_.clear();
-    for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) {
-        btPersistentManifold* contact = dispatcher_.getManifoldByIndexInternal(m);
+/// Removes the contacts of shapes that share no height. A contact has the smaller friction coefficient of its
+/// two surfaces, as in the original. The contacts are sorted by object, as the solution depends on their order,
+/// and the order of those of compounds depends on earlier contacts.
+void Physics::ContactSolver::filter_contacts(std::span<State> states, std::span<char> touched) {
+    for (btPersistentManifold* contact : contacts_) {
         const auto number = [](const btCollisionObject* o) {
             return static_cast<std::size_t>(o->getUserIndex());
         };
@@ -166,21 +188,21 @@ void Physics::ContactSolver::find_contacts(std::span<State> states, std::span<ch
             }
             point.m_combinedFriction = std::min(a.friction[static_cast<std::size_t>(shape_a)],
                                                 b.friction[static_cast<std::size_t>(shape_b)]);
-            if (point.getDistance() < touching) {
-                if (a.movable && b.driven) ++states[first - obstacles_].robot_contacts;
-                if (b.movable && a.driven) ++states[second - obstacles_].robot_contacts;
+            if (static_cast<double>(point.getDistance()) < touching) {
+                if (a.movable && b.driven) ++states[first - obstacles_].contacts_in_stride;
+                if (b.movable && a.driven) ++states[second - obstacles_].contacts_in_stride;
                 if (a.driven && !touched.empty()) touched[first - obstacles_] = 1;
                 if (b.driven && !touched.empty()) touched[second - obstacles_] = 1;
             }
         }
-        if (contact->getNumContacts() > 0) manifolds_.push_back(contact);
     }
+    std::erase_if(contacts_, [](const auto* contact) { return contact->getNumContacts() == 0; });
     const auto key = [](const btPersistentManifold* c) {  // compounds have several contacts with each other
         const btManifoldPoint& first = c->getContactPoint(0);
         return std::tuple(c->getBody0()->getUserIndex(), c->getBody1()->getUserIndex(), first.m_index0,
                           first.m_index1);
     };
-    std::stable_sort(manifolds_.begin(), manifolds_.end(),
+    std::stable_sort(contacts_.begin(), contacts_.end(),
                      [&](const auto* a, const auto* b) { return key(a) < key(b); });
 }
 
@@ -199,10 +221,8 @@ void Physics::ContactSolver::add(const Obstacle& o) {
     auto body = std::make_unique<btRigidBody>(
         btRigidBody::btRigidBodyConstructionInfo(0, nullptr, shape_of(o.outline)));
     body->setWorldTransform(transform_of(o.outline));
-    body->setActivationState(ISLAND_SLEEPING);  // keeps Bullet from updating its bounds
     body->setUserIndex(static_cast<int>(objects_.size()));
     object_info_.push_back({false, false, o.layers, {0}, {scalar(o.friction)}});
-    world_.addCollisionObject(body.get(), btBroadphaseProxy::StaticFilter, btBroadphaseProxy::DefaultFilter);
     objects_.push_back(std::move(body));
 }
 
@@ -224,22 +244,15 @@ void Physics::ContactSolver::add(const Body& b) {
         }
         shape = shapes_.emplace_back(std::move(compound)).get();
     }
-    // With an impulse solver, a heavy body pushes a light one through a wall. Therefore movable objects are
-    // at least as heavy as the heaviest robot here. This changes little, as robots get the velocity of their
-    // command in every step, whatever mass they push.
-    const double mass = b.driven ? b.mass : std::max(b.mass, max_driven_mass_);
+    const double mass = contact_mass(b, heaviest_);
     const btScalar inertia = scalar(b.inertia * mass / b.mass);
     auto body = std::make_unique<btRigidBody>(
         btRigidBody::btRigidBodyConstructionInfo(scalar(mass), nullptr, shape, {inertia, inertia, inertia}));
     body->setLinearFactor({1, 1, 0});
     body->setAngularFactor({0, 0, 1});
     body->setFlags(0);  // no gyroscopic forces
-    body->setActivationState(DISABLE_DEACTIVATION);
     body->setUserIndex(static_cast<int>(objects_.size()));
-    world_.addCollisionObject(body.get(), btBroadphaseProxy::DefaultFilter,
-                              btBroadphaseProxy::DefaultFilter | btBroadphaseProxy::StaticFilter);
     object_info_.push_back(std::move(info));
-    bodies_.push_back(body.get());
     objects_.push_back(std::move(body));
 }
 

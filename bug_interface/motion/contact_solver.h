@@ -1,10 +1,14 @@
 // The part of Physics that calls Bullet, which computes the velocities after the contacts.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include <BulletCollision/CollisionDispatch/btSphereBoxCollisionAlgorithm.h>
 #include <btBulletDynamicsCommon.h>
 
 #include "bug_interface/motion/physics.h"
@@ -12,7 +16,8 @@
 namespace forage::bug {
 
 /// Bullet detects the contacts and solves the velocities. Poses stay outside, in double precision, and are
-/// integrated there. No contact and no impulse persists after its step.
+/// integrated there. Which pairs are near is known there, too, so no Bullet world is needed. No contact and no
+/// impulse persists after its stride.
 ///
 /// The world is flat: the centres of all shapes lie in one plane. A disc is represented by a sphere, which
 /// behaves like an upright cylinder in the plane: Bullet's contacts of spheres are exact, while the contact
@@ -25,10 +30,16 @@ class Physics::ContactSolver {
     ContactSolver(const ContactSolver&) = delete;
     ContactSolver& operator=(const ContactSolver&) = delete;
 
-    /// Updates the velocities of the active bodies, and counts the contacts of movable objects with robots.
-    /// `step` is the duration of the time step, s. Sets `touched` of driven bodies that touch another shape,
-    /// unless it is empty.
-    void solve(double step, std::span<State> states, std::span<Velocity> velocities, std::span<char> touched);
+    /// Two objects that may touch: the obstacles have the first numbers, the bodies those after them. The
+    /// second one is a body.
+    using Pair = std::pair<std::size_t, std::size_t>;
+
+    /// Updates the velocities of `bodies` so that they meet neither each other nor obstacles within `steps`
+    /// time steps of `step` s, and counts the contacts of movable objects with robots. `pairs` are the objects
+    /// to look at, in ascending order. Sets `touched` of driven bodies that touch another shape, unless it is
+    /// empty.
+    void solve(double step, std::uint64_t steps, std::span<const std::size_t> bodies, std::span<const Pair> pairs,
+               std::span<State> states, std::span<Velocity> velocities, std::span<char> touched);
     /// Updates the poses of the parts of a body within its frame.
     void update_shapes(std::size_t body, std::span<const Part> parts);
 
@@ -41,30 +52,37 @@ class Physics::ContactSolver {
         std::vector<btScalar> friction;
     };
 
-    btRigidBody& rigid(std::size_t body) { return *static_cast<btRigidBody*>(bodies_[body]); }
-    void set_state(std::size_t body, const State& state, const Velocity& velocity);
-    void find_contacts(std::span<State> states, std::span<char> touched);
+    btRigidBody& rigid(std::size_t body) { return *objects_[obstacles_ + body]; }
+    void prepare(std::size_t body, std::uint64_t steps, State& state, const Velocity& velocity);
+    void find_contacts(std::span<const Pair> pairs);
+    void filter_contacts(std::span<State> states, std::span<char> touched);
     bool can_collide(const ObjectInfo& a, int shape_a, const ObjectInfo& b, int shape_b) const;
     void add(const Obstacle& obstacle);
     void add(const Body& body);
     btCollisionShape* shape_of(const Outline& outline);
 
+    /// Finds the contacts of a pair. It keeps memory, but nothing that changes a result.
+    using Algorithm = std::unique_ptr<btCollisionAlgorithm, std::function<void(btCollisionAlgorithm*)>>;
+
     btDefaultCollisionConfiguration configuration_;
     btCollisionDispatcher dispatcher_;
-    btDbvtBroadphase broadphase_;
+    btSphereBoxCollisionAlgorithm::CreateFunc sphere_box_, box_sphere_;
+    btDispatcherInfo dispatch_info_;
     btSequentialImpulseConstraintSolver solver_;
+    btContactSolverInfo info_;
     std::vector<LayerMask> collision_masks_;
     std::vector<std::unique_ptr<btCollisionShape>> shapes_;
     std::vector<std::unique_ptr<btRigidBody>> objects_;  ///< the obstacles, then the bodies
     std::vector<ObjectInfo> object_info_;                ///< one per object; Bullet's user index refers to it
-    std::vector<btCollisionObject*> bodies_;             ///< the objects that move
-    std::vector<char> parked_;                           ///< whether a body is parked outside the world
-    std::vector<btCollisionObject*> active_bodies_;
-    std::vector<btPersistentManifold*> manifolds_;  ///< the contacts of the current step
-    double max_driven_mass_ = 0;                    ///< kg
-    std::size_t obstacles_ = 0;                     ///< number of obstacles
-    btContactSolverInfo info_;
-    btCollisionWorld world_;
+    std::vector<std::uint64_t> steps_;                   ///< per body: for how many steps its mass is set
+    std::map<Pair, Algorithm> algorithms_;
+    double heaviest_ = 0;  ///< mass of the heaviest driven body, kg
+    std::size_t obstacles_ = 0;   ///< number of obstacles
+
+    // ---- the current stride ----
+    std::vector<btCollisionObject*> moving_;
+    std::vector<btPersistentManifold*> contacts_;
+    btManifoldArray of_pair_;
 };
 
 }  // namespace forage::bug

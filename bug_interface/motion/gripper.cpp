@@ -60,9 +60,10 @@ void Hinges::command(bool close) {
     torque_ = close ? torque : -torque;
 }
 
-double Hinges::next(std::size_t i, double step) const {
+double Hinges::next(std::size_t i, double step, std::uint64_t steps) const {
     const Hinge& h = all_[i];
-    return std::clamp(h.angle + torque_ / h.inertia * step * step, h.lower, h.upper);
+    const double per_step = torque_ / h.inertia * step * step;
+    return std::clamp(h.angle + static_cast<double>(steps) * per_step, h.lower, h.upper);
 }
 
 Pose2 Hinges::displacement(std::size_t i) const {

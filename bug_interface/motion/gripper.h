@@ -44,8 +44,8 @@ class Hinges {
     void command(bool close);
     bool closing() const { return torque_ > 0; }
 
-    /// The angle of hinge i after a step of `step` (s), within its limits, rad.
-    double next(std::size_t i, double step) const;
+    /// The angle of hinge i after `steps` steps of `step` (s), within its limits, rad.
+    double next(std::size_t i, double step, std::uint64_t steps) const;
     void set(std::size_t i, double angle) { all_[i].angle = angle; }
     /// The displacement of the links that turn with hinge i, in the frame of the robot. It includes the
     /// rotations of the hinges that carry hinge i.

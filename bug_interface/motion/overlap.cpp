@@ -1,5 +1,6 @@
 #include "bug_interface/motion/overlap.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -59,6 +60,14 @@ Overlap overlap(const Outline& a, const Outline& b, double least) {
     Overlap turned = box_circle(b, a);
     turned.normal = -turned.normal;
     return turned;
+}
+
+double distance_to(const Outline& o, double x, double y) {
+    const double dx = x - o.x, dy = y - o.y;
+    if (o.round) return std::max(0.0, std::sqrt(dx * dx + dy * dy) - o.radius);
+    const double out_x = std::max(0.0, std::abs(o.cos_yaw * dx + o.sin_yaw * dy) - o.half_x);
+    const double out_y = std::max(0.0, std::abs(o.cos_yaw * dy - o.sin_yaw * dx) - o.half_y);
+    return std::sqrt(out_x * out_x + out_y * out_y);
 }
 
 }  // namespace forage::bug

@@ -20,4 +20,7 @@ struct Overlap {
 /// below `least`, which saves time.
 Overlap overlap(const Outline& a, const Outline& b, double least = -std::numeric_limits<double>::infinity());
 
+/// The distance from the point (x, y) to an outline, m; 0 inside.
+double distance_to(const Outline& outline, double x, double y);
+
 }  // namespace forage::bug

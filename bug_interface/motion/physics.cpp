@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "bug_interface/motion/contact_solver.h"
 #include "bug_interface/motion/overlap.h"
@@ -39,10 +40,20 @@ Physics::Physics(std::span<const Obstacle> obstacles, std::span<const Body> bodi
         for (const Part& part : bodies_[i].parts) states_[i].layers |= LayerMask{1} << part.layer;
         update_bounding_radius(i);
         most_parts = std::max(most_parts, bodies_[i].parts.size());
+        if (bodies_[i].driven) heaviest_ = std::max(heaviest_, bodies_[i].mass);
         shape_caches_.emplace_back().shapes.reserve(bodies_[i].parts.size() + 1);
     }
+    std::vector<Area> covered;
+    for (const Obstacle& o : obstacles_)
+        covered.push_back(Area::around(o.outline.x, o.outline.y, bounding_radius(o.outline)));
+    obstacle_grid_.assign(covered, 1);
     // Steps must not allocate memory.
-    poses_before_.resize(bodies_.size()), reverted_.reserve(bodies_.size());
+    const std::size_t n = bodies_.size();
+    poses_before_.resize(n), reverted_.reserve(n), reach_.resize(n);
+    step_velocities_.resize(n), step_reach_.resize(n), coasting_.resize(n), undisturbed_.resize(n), disc_.resize(n);
+    near_.resize(n), root_.resize(n), members_.reserve(n), islands_.reserve(n), areas_.reserve(n);
+    for (auto& near : near_) near.reserve(n);
+    std::iota(root_.begin(), root_.end(), 0);
     outlines_before_.reserve(most_parts), pushed_.reserve(bodies_.size());
 }
 
@@ -60,7 +71,7 @@ void Physics::place(std::size_t body, const Pose2& pose) {
     states_[body].pose = {pose.x, pose.y, wrap_angle(pose.yaw)};
     states_[body].present = true;
     velocities_[body] = {};
-    for (State& s : states_) s.clearance = 0;  // other bodies may be near this one now
+    states_[body].touching = false, states_[body].obstacle_clearance = 0;
 }
 
 void Physics::remove(std::size_t body) {
@@ -70,74 +81,110 @@ void Physics::remove(std::size_t body) {
 
 double Physics::speed(std::size_t body) const { return std::hypot(velocities_[body].x, velocities_[body].y); }
 
-void Physics::set_velocity(std::size_t i, const MotorCommand& command) {
-    State& s = states_[i];
-    Velocity& v = velocities_[i];
-    if (bodies_[i].driven) {
-        s.update_rotation();
-        v = {command.forward * s.cos_yaw, command.forward * s.sin_yaw, command.turn};
-        return;
+/// The motion of a movable object through some steps in which nothing touches it: the friction of the floor
+/// reduces its velocity at the start of every step.
+void Physics::coast(std::size_t body, std::uint64_t steps, Velocity& mean, Velocity& end) const {
+    const Velocity v = velocities_[body];
+    mean = end = v;
+    if (is_zero(v)) return;
+    const double n = static_cast<double>(steps);
+    // The sum over the steps until it stops, as a fraction of n times the first value.
+    const auto slow_down = [&](double value, double change) {
+        const double moving = change > 0 ? std::min(n, std::floor(value / change)) : n;
+        return (moving * value - change * moving * (moving + 1) / 2) / n;
+    };
+    const double speed = std::hypot(v.x, v.y), slower = bodies_[body].deceleration * step_,
+                 turns_slower = bodies_[body].angular_deceleration * step_;
+    if (speed > 0) {
+        const double kept = slow_down(speed, slower) / speed, left = decelerated(speed, n * slower) / speed;
+        mean.x *= kept, mean.y *= kept, end.x *= left, end.y *= left;
     }
-    const double speed = std::hypot(v.x, v.y);
-    const double ratio = speed > 0 ? decelerated(speed, bodies_[i].deceleration * step_) / speed : 0;
-    v = {v.x * ratio, v.y * ratio, decelerated(v.turn, bodies_[i].angular_deceleration * step_)};
+    mean.turn = std::copysign(slow_down(std::abs(v.turn), turns_slower), v.turn);
+    end.turn = decelerated(v.turn, n * turns_slower);
 }
 
-bool Physics::can_drive_freely(std::size_t body, double travel, double turn) {
-    if (contacts_ == Contacts::always || !states_[body].present) return false;
-    for (std::size_t i = 0; i < states_.size(); ++i)
-        if (!bodies_[i].driven && states_[i].present && !is_zero(velocities_[i])) return false;
-    return !may_touch_something(body, max_displacement(body, travel, turn));
-}
-
-void Physics::drive_freely(std::size_t body, const Pose2& pose, const MotorCommand& command, double travel,
-                           double turn) {
+/// Moves a body with a constant velocity. What is pushed moves no further than islands were made for.
+void Physics::move(std::size_t body, const Velocity& mean, double seconds) {
     State& s = states_[body];
-    s.pose = {pose.x, pose.y, wrap_angle(pose.yaw)};
-    s.robot_contacts = 0;
-    s.clearance -= max_displacement(body, travel, turn);
-    set_velocity(body, command);
+    if (is_zero(mean)) return;
+    double distance = max_displacement(body, std::hypot(mean.x, mean.y) * seconds, std::abs(mean.turn) * seconds);
+    const double allowed = push_ - s.displacement;
+    if (s.active && distance > allowed) {
+        seconds *= std::max(0.0, allowed) / distance;
+        distance = std::max(0.0, allowed);
+    }
+    s.pose.x += mean.x * seconds;
+    s.pose.y += mean.y * seconds;
+    s.pose.yaw = wrap_angle(s.pose.yaw + mean.turn * seconds);
+    s.moved(distance);
+}
+
+void Physics::move_freely(std::size_t island, const Pose2& pose, const Velocity& velocity) {
+    const std::size_t i = members_[islands_[island].first];
+    State& s = states_[i];
+    s.touching = false;
+    const double distance = static_cast<double>(steps_) * displacement_per_step(i);
+    if (bodies_[i].driven) {
+        s.pose = {pose.x, pose.y, wrap_angle(pose.yaw)};
+        s.moved(distance);
+        velocities_[i] = velocity;
+    } else if (distance > 0) {
+        Velocity mean, end;
+        coast(i, steps_, mean, end);
+        s.active = false;
+        move(i, mean, static_cast<double>(steps_) * step_);
+        velocities_[i] = end;
+    }
 }
 
 void Physics::step(std::span<const MotorCommand> commands) {
-    bool contacts = contacts_ == Contacts::always;
-    for (std::size_t i = 0; i < states_.size(); ++i) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        if (!bodies_[i].driven || !states_[i].present) continue;
+        step_velocities_[i] = velocity_of(i, commands[i]);
+        step_reach_[i] = {std::abs(commands[i].forward) * step_, std::abs(commands[i].turn) * step_, 0};
+    }
+    begin(step_reach_, 1);
+    for (std::size_t i = 0; i < islands(); ++i) advance(i, step_velocities_, 1);
+}
+
+void Physics::advance(std::size_t island, std::span<const Velocity> velocities, std::uint64_t steps) {
+    const auto members = this->island(island);
+    const double seconds = static_cast<double>(steps) * step_;
+    const bool always = contacts_ == Contacts::always_bullet;
+    bool contacts = always;
+    for (const std::size_t i : members) {
         State& s = states_[i];
-        s.active = contacts_ == Contacts::always && s.present;
-        s.robot_contacts = 0;
-        if (s.present) set_velocity(i, bodies_[i].driven ? commands[i] : MotorCommand{});
+        s.active = always;
+        s.contacts_in_stride = 0;
+        poses_before_[i] = s.pose;
+        if (bodies_[i].driven)
+            velocities_[i] = velocities[i];
+        else
+            coast(i, steps, velocities_[i], coasting_[i]), undisturbed_[i] = velocities_[i];
     }
     // A second pass is needed because a measurement for one body may reduce the clearance of another.
     for (int pass = 0; pass < 2; ++pass)
-        for (std::size_t i = 0; i < states_.size(); ++i) {
+        for (const std::size_t i : members) {
             State& s = states_[i];
-            if (!s.present || s.active || (is_zero(velocities_[i]) && !bodies_[i].driven)) continue;
-            const double travel = (bodies_[i].driven ? std::abs(commands[i].forward) : speed(i)) * step_;
-            if (may_touch_something(i, max_displacement(i, travel, std::abs(velocities_[i].turn) * step_)))
+            if (s.active || (is_zero(velocities_[i]) && !bodies_[i].driven)) continue;
+            const Velocity& v = velocities_[i];
+            if (may_touch_something(
+                    i, max_displacement(i, std::hypot(v.x, v.y) * seconds, std::abs(v.turn) * seconds)))
                 s.active = contacts = true;
         }
     if (contacts) {
-        if (!contact_solver_)
-            contact_solver_ = std::make_unique<ContactSolver>(obstacles_, bodies_, collision_masks_);
         ++contact_steps_;
-        activate_neighbours();
-        contact_solver_->solve(step_, states_, velocities_, touched_);
+        activate_neighbours(members, seconds);
+        solve_contacts(members, steps);
     }
-    for (std::size_t i = 0; i < states_.size(); ++i) {
-        State& s = states_[i];
-        if (!s.present) continue;
-        poses_before_[i] = s.pose;
-        const Velocity& v = velocities_[i];
-        if (is_zero(v)) continue;
-        s.pose.x += v.x * step_;
-        s.pose.y += v.y * step_;
-        s.pose.yaw = wrap_angle(s.pose.yaw + v.turn * step_);
-        // A body may be pushed faster than its command.
-        const double speed =
-            s.active || !bodies_[i].driven ? std::sqrt(v.x * v.x + v.y * v.y) : std::abs(commands[i].forward);
-        s.clearance -= max_displacement(i, speed * step_, std::abs(v.turn) * step_);
+    for (const std::size_t i : members) {
+        const Velocity mean = velocities_[i];
+        move(i, mean, seconds);
+        if (!bodies_[i].driven && mean == undisturbed_[i]) velocities_[i] = coasting_[i];
+        states_[i].touching = states_[i].active;
+        states_[i].robot_contacts += static_cast<int>(steps) * states_[i].contacts_in_stride;
     }
-    if (contacts) separate();
+    if (contacts) separate(members);
 }
 
 }  // namespace forage::bug

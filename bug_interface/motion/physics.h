@@ -1,4 +1,5 @@
-// Rigid bodies in the plane: they drive, slide along walls, stop at each other and push movable objects.
+// The motion of rigid bodies in the plane: they drive, slide along walls, stop at each other and push
+// movable objects.
 #pragma once
 
 #include <algorithm>
@@ -9,61 +10,34 @@
 #include <utility>
 #include <vector>
 
+#include "bug_interface/motion/body.h"
 #include "bug_interface/motion/motor.h"
-#include "bug_interface/motion/overlap.h"
+#include "bug_interface/motion/round_contacts.h"
+#include "bug_interface/sensing/grid.h"
 #include "bug_interface/sensing/outline.h"
 #include "bug_interface/world/description.h"
 
 namespace forage::bug {
 
-/// Shapes collide only when they share heights. Heights are divided into at most max_layers layers; a mask
-/// has one bit per layer.
-using LayerMask = std::uint32_t;
-inline constexpr std::size_t max_layers = 32;
-
-/// A shape that never moves, seen from above.
-struct Obstacle {
-    Outline outline;
-    double friction = 1;     ///< Coulomb coefficient; a contact has the smaller one of its two surfaces
-    LayerMask layers = ~0u;  ///< the layers that the shape extends into
-};
-
-/// A shape of a body beside its central disc, in the frame of the body.
-struct Part {
-    Outline outline;
-    int layer = 0;
-    double friction = 0.1;  ///< Coulomb coefficient
-};
-
-/// A robot, which is driven, or a movable object, which keeps its velocity until contacts or the friction of
-/// the floor change it.
-struct Body {
-    double radius = 0.2;    ///< radius of the central disc, m; 0 for a body without one
-    double mass = 5;        ///< kg
-    double inertia = 1;     ///< about the vertical axis, kg m^2
-    double friction = 0.1;  ///< Coulomb coefficient of the central disc
-    int layer = 0;          ///< layer of the central disc
-    std::vector<Part> parts;
-    bool driven = true;               ///< false for a movable object
-    double deceleration = 0;          ///< deceleration of a movable object on the floor, m/s^2
-    double angular_deceleration = 0;  ///< the same for its rotation, rad/s^2
-};
-
 /// Moves bodies in time steps. In every step each driven body gets the velocity of its command; contacts and
 /// friction reduce the velocities; then x += v cos(yaw) dt, y += v sin(yaw) dt, yaw += w dt, with the yaw at
 /// the start of the step. Shapes that penetrate each other afterwards are separated.
 ///
-/// Bullet resolves the contacts. It is called only in steps in which a contact is possible, and only for the
-/// bodies that may take part (broadphase.cpp); the result has the same bits as if it were called in every
-/// step. Collisions have no restitution. Contacts do not persist from step to step; only movable objects keep
-/// their velocity.
+/// Bodies that may meet each other within some steps form an island; islands cannot touch each other in these
+/// steps, so each is simulated by itself (islands.cpp). Where nothing is near, many steps are one stride, and
+/// where bodies touch, a few; the strides of an island depend on nothing outside it.
 ///
-/// After a step no two shapes penetrate each other by more than 0.8 mm, or by more than before the step if
-/// that was deeper (separation.cpp).
+/// Contacts between discs, and of discs with obstacles, are solved in closed form (round_contacts.h); Bullet
+/// finds and solves all others (contact_solver.h). Collisions have no restitution. Contacts do not persist
+/// from stride to stride; only movable objects keep their velocity.
+///
+/// After a stride no two shapes penetrate each other by more than 0.8 mm, or by more than before it if that
+/// was deeper (separation.cpp).
 class Physics {
   public:
-    /// When Bullet is called. `always` is for tests and benchmarks.
-    enum class Contacts { when_near, always };
+    /// How contacts are found and solved. `always_bullet` is the reference for tests: one island, one step at
+    /// a time, and Bullet in each of them.
+    enum class Contacts { when_near, always_bullet };
 
     /// `step` is the duration of a time step, s. `collision_masks[i]` are the layers that collide with layer
     /// i; when it is empty, all layers collide with each other.
@@ -83,23 +57,42 @@ class Physics {
     /// Simulates one time step. `commands[i]` drives body i; those of movable objects are ignored.
     void step(std::span<const MotorCommand> commands);
 
-    /// Whether a driven body is certain to touch nothing while it travels `travel` (m) and turns by `turn`
-    /// (rad), provided that no other body does more. Always false while a movable object moves.
-    bool can_drive_freely(std::size_t body, double travel, double turn);
-    /// Replaces several steps of a body for which can_drive_freely() holds: moves it to `pose` with the
-    /// velocity of `command`.
-    void drive_freely(std::size_t body, const Pose2& pose, const MotorCommand& command, double travel,
-                      double turn);
+    // ---- several steps at once: begin(), then each island by itself ----
+    /// Divides the present bodies into islands for the next `steps` steps. `reach[i]` is that of body i per
+    /// step; those of movable objects are ignored.
+    void begin(std::span<const Reach> reach, std::uint64_t steps);
+    std::size_t islands() const { return islands_.size(); }
+    std::span<const std::size_t> island(std::size_t i) const {
+        return std::span(members_).subspan(islands_[i].first, islands_[i].count);
+    }
+    /// Whether an island is one body that is certain to touch nothing in these steps.
+    bool is_free(std::size_t island) const { return islands_[island].free; }
+    /// Moves the body of a free island through all steps: a driven one to `pose`, with `velocity` in the end;
+    /// a movable object coasts.
+    void move_freely(std::size_t island, const Pose2& pose = {}, const Velocity& velocity = {});
+    /// The number of steps that the island should be simulated together next: at least 1, at most `left`.
+    std::uint64_t stride(std::size_t island, std::uint64_t left);
+    /// Simulates `steps` steps of an island at once. `velocities[i]` is the mean velocity of driven body i in
+    /// them if it touches nothing; those of movable objects are ignored.
+    void advance(std::size_t island, std::span<const Velocity> velocities, std::uint64_t steps);
+
+    /// The velocity of a driven body at the start of a step.
+    Velocity velocity_of(std::size_t body, const MotorCommand& command) {
+        State& s = states_[body];
+        s.update_rotation();
+        return {command.forward * s.cos_yaw, command.forward * s.sin_yaw, command.turn};
+    }
 
     /// Moves parts of a body within its frame: pairs of a part's number and its new outline. Movable objects
-    /// in the way are pushed. Returns false, and changes nothing, when an obstacle, a robot or an object that
-    /// cannot be pushed blocks the motion.
+    /// in the way are pushed. It must be called after begin(), within the body's Reach. Returns false, and
+    /// changes nothing, when an obstacle, a robot or an object that cannot be pushed blocks the motion.
     bool rotate_parts(std::size_t body, std::span<const std::pair<std::size_t, Outline>> parts);
 
     /// Whether a body could be placed at `pose` without an overlap with any other shape.
     bool is_collision_free(std::size_t body, const Pose2& pose) const;
 
-    /// The number of contacts between shapes of this movable object and shapes of robots in the last step.
+    /// The number of contacts between shapes of this movable object and shapes of robots, summed over the steps
+    /// since begin().
     int robot_contacts(std::size_t body) const { return states_[body].robot_contacts; }
     /// Makes the following steps note which driven bodies touch another shape.
     void note_touches() { touched_.resize(bodies_.size()); }
@@ -112,12 +105,13 @@ class Physics {
     }
     std::span<const Part> parts(std::size_t body) const { return bodies_[body].parts; }
 
-    std::uint64_t contact_steps() const { return contact_steps_; }  ///< number of calls of Bullet
+    std::uint64_t contact_steps() const { return contact_steps_; }  ///< number of strides with contacts near
 
     /// Reads or writes the poses and velocities. Bullet keeps no state between steps.
     void checkpoint(Archive& archive) {
         for (State& s : states_)
-            archive(s.pose, s.present, s.clearance, s.bounding_radius, s.layers, s.robot_contacts);
+            archive(s.pose, s.present, s.touching, s.obstacle_clearance, s.bounding_radius, s.layers,
+                    s.robot_contacts);
         for (Velocity& v : velocities_) archive(v.x, v.y, v.turn);
         archive(contact_steps_);
         for (std::size_t i = 0; i < bodies_.size(); ++i) checkpoint_parts(i, archive);
@@ -127,21 +121,29 @@ class Physics {
     struct State {
         Pose2 pose;
         bool present = false;
-        bool active = false;         ///< whether Bullet has to consider the body in this step
-        double clearance = 0;        ///< how far every point of the body can move without a contact, m
-        double bounding_radius = 0;  ///< radius of what the body has ever covered, in its frame, m
-        LayerMask layers = 0;        ///< layers of the central disc and the parts
-        int robot_contacts = 0;
+        bool active = false;    ///< whether contacts of the body are possible in this stride
+        bool touching = false;  ///< whether they were in the last one
+        double obstacle_clearance = 0;  ///< how far every point of it can move without touching an obstacle, m
+        double body_clearance = 0;      ///< the same for bodies of its island, if none moves more than its own
+        double displacement = 0;        ///< largest displacement of any point in the current steps so far, m
+        double bounding_radius = 0;     ///< radius of what the body has ever covered, in its frame, m
+        LayerMask layers = 0;           ///< layers of the central disc and the parts
+        int robot_contacts = 0;      ///< in the current steps
+        int contacts_in_stride = 0;  ///< the same, in one step of the current stride
         double cached_yaw = 0, cos_yaw = 1, sin_yaw = 0;
         void update_rotation() {
             if (cached_yaw == pose.yaw) return;
             cached_yaw = pose.yaw, cos_yaw = std::cos(cached_yaw), sin_yaw = std::sin(cached_yaw);
         }
+        double clearance() const { return std::min(obstacle_clearance, body_clearance); }
+        void moved(double distance) {
+            obstacle_clearance -= distance, body_clearance -= distance, displacement += distance;
+        }
     };
-    struct Velocity {
-        double x = 0, y = 0, turn = 0;  ///< m/s, m/s, rad/s
+    struct Island {
+        std::size_t first = 0, count = 0;  ///< in members_
+        bool free = false;
     };
-    static bool is_zero(const Velocity& v) { return v.x == 0 && v.y == 0 && v.turn == 0; }
     /// A shape of a body in world coordinates.
     struct PlacedShape {
         Outline outline;
@@ -156,30 +158,54 @@ class Physics {
     };
     class ContactSolver;  ///< calls Bullet
 
-    void set_velocity(std::size_t body, const MotorCommand& command);
+    static constexpr double near_distance = 0.001;  ///< m; well above the errors of Bullet's single precision
+    static constexpr double touching = 0.0005;      ///< m; shapes closer than this touch
+
+    void coast(std::size_t body, std::uint64_t steps, Velocity& mean, Velocity& end) const;
+    void move(std::size_t body, const Velocity& mean, double seconds);
     void update_bounding_radius(std::size_t body);
     void checkpoint_parts(std::size_t body, Archive& archive);
     bool can_collide(LayerMask layers, int layer) const {
         return layers & collision_masks_[static_cast<std::size_t>(layer)];
     }
-    // ---- broad phase ----
+    bool is_round(std::size_t body) const { return bodies_[body].parts.empty(); }
+    // ---- islands ----
     double circle_gap(std::size_t a, std::size_t b) const;
     double shape_gap(std::size_t a, std::size_t b);
     bool may_be_closer_than(std::size_t a, std::size_t b, double distance);
     double lever_arm(std::size_t body) const;
     double max_displacement(std::size_t body, double travel, double turn) const;
+    double displacement_per_step(std::size_t body) const;
     bool may_touch_something(std::size_t body, double displacement);
-    bool has_clearance(std::size_t body, double displacement);
     void measure_clearance(std::size_t body);
-    void activate_neighbours();
+    void find_pairs();
+    std::size_t find_root(std::size_t body);
+    void activate_neighbours(std::span<const std::size_t> bodies, double seconds);
     const std::vector<PlacedShape>& shapes(std::size_t body);
+    template <class F>
+    void for_each_obstacle_near(std::size_t body, double reach, F&& visit) const {
+        const State& s = states_[body];
+        obstacle_grid_.visit(Area::around(s.pose.x, s.pose.y, s.bounding_radius + reach), [&](std::size_t o) {
+            if (obstacles_[o].layers & s.layers) visit(obstacles_[o], o);
+        });
+    }
+    // ---- contacts ----
+    /// A body and an obstacle or another body that it may touch in the current stride.
+    struct Encounter {
+        std::size_t body, other;
+        bool is_obstacle;
+    };
+    void solve_contacts(std::span<const std::size_t> bodies, std::uint64_t steps);
+    void find_encounters(double seconds);
+    void solve_round(std::uint64_t steps);
+    void solve_with_bullet(std::uint64_t steps);
     // ---- separation ----
     template <class F>
-    void for_each_penetration(F&& visit);
+    void for_each_penetration(std::span<const std::size_t> bodies, F&& visit);
     double depth_before_step(std::size_t a, std::size_t p, std::size_t b, std::size_t q) const;
     void translate(std::size_t body, double x, double y);
-    void separate();
-    void revert_penetrating();
+    void separate(std::span<const std::size_t> bodies);
+    void revert_penetrating(std::span<const std::size_t> bodies);
     // ---- rotation of parts ----
     bool is_blocked(std::size_t body, const Part& part, const Outline& target) const;
     bool can_move(std::size_t body, const Pose2& from, const Pose2& to) const;
@@ -202,18 +228,40 @@ class Physics {
     }
 
     std::vector<Obstacle> obstacles_;
+    Grid obstacle_grid_;
     std::vector<Body> bodies_;
     std::vector<State> states_;
-    std::vector<Velocity> velocities_;  ///< velocities in the current step
+    std::vector<Velocity> velocities_;
     std::vector<ShapeCache> shape_caches_;
     double step_;  ///< s
     Contacts contacts_;
     std::vector<LayerMask> collision_masks_;
     std::vector<char> touched_;  ///< one per body; empty when touches are not noted
     std::uint64_t contact_steps_ = 0;
-    std::vector<Pose2> poses_before_;                    ///< before the current step
-    std::vector<char> reverted_;                         ///< whether a body is put back to its pose before
-    std::vector<Outline> outlines_before_;               ///< outlines of parts before rotate_parts()
+    double heaviest_ = 0;  ///< mass of the heaviest driven body, kg
+
+    // ---- the current steps, from begin() on ----
+    std::uint64_t steps_ = 1;                       ///< their number
+    std::vector<Reach> reach_;                      ///< per body and step
+    double push_ = 0;                               ///< how far any body may move in all steps, m
+    std::vector<Area> areas_;                       ///< what each body may cover
+    Grid body_grid_;
+    std::vector<std::vector<std::size_t>> near_;    ///< per body: the bodies that it may meet
+    std::vector<std::size_t> root_;                 ///< per body: another one of its island, in the end the first
+    std::vector<std::size_t> members_;              ///< the present bodies, island by island
+    std::vector<Island> islands_;
+    std::vector<Velocity> undisturbed_, coasting_;  ///< per movable object: if nothing touches it, its mean
+                                                    ///< velocity in the stride, and the one after it
+    std::vector<std::size_t> active_;               ///< the active bodies of the island
+    std::vector<Encounter> encounters_;
+    std::vector<std::pair<std::size_t, std::size_t>> pairs_;  ///< the encounters as Bullet's objects
+    RoundContacts round_contacts_;
+    std::vector<std::size_t> disc_;                 ///< per body: its number in round_contacts_
+    std::vector<Pose2> poses_before_;               ///< before the current stride
+    std::vector<char> reverted_;                    ///< whether a body is put back to its pose before
+    std::vector<Velocity> step_velocities_;         ///< of step(), and step_reach_, too
+    std::vector<Reach> step_reach_;
+    std::vector<Outline> outlines_before_;          ///< outlines of parts before rotate_parts()
     std::vector<std::pair<std::size_t, Pose2>> pushed_;  ///< bodies that parts pushed, with the poses before
     std::unique_ptr<ContactSolver> contact_solver_;
 };

@@ -30,20 +30,21 @@ bool penetrates(const Outline& other, const Outline& from, const Outline& to) {
 bool Physics::is_blocked(std::size_t body, const Part& part, const Outline& target) const {
     const Transform2 pose(states_[body].pose);
     const Outline from = pose * part.outline, to = pose * target;
-    for (const Obstacle& o : obstacles_)
-        if (o.layers >> part.layer & 1u && penetrates(o.outline, from, to)) return true;
-    for (std::size_t other = 0; other < states_.size(); ++other) {
+    bool blocked = false;
+    for_each_obstacle_near(body, reach_[body].parts * static_cast<double>(steps_),
+                           [&](const Obstacle& o, std::size_t) {
+                               blocked |= o.layers >> part.layer & 1u && penetrates(o.outline, from, to);
+                           });
+    for (const std::size_t other : near_[body]) {
         const State& s = states_[other];
-        if (other == body || !s.present || !bodies_[other].driven ||
+        if (blocked || !bodies_[other].driven ||
             !closer_than(to, s.pose, bounding_radius(to) + s.bounding_radius))
             continue;
-        bool blocked = false;
         for_each_shape(other, s.pose, [&](const Outline& o, int layer) {
             blocked |= can_collide(LayerMask{1} << part.layer, layer) && penetrates(o, from, to);
         });
-        if (blocked) return true;
     }
-    return false;
+    return blocked;
 }
 
 /// Whether a body can move from one pose to another without overlapping another shape more than before.
@@ -86,9 +87,9 @@ bool Physics::is_collision_free(std::size_t body, const Pose2& pose) const {
 bool Physics::push_objects(std::size_t body, std::span<const std::pair<std::size_t, Outline>> parts) {
     const State& state = states_[body];
     const Transform2 pose(state.pose);
-    for (std::size_t object = 0; object < states_.size(); ++object) {
+    for (const std::size_t object : near_[body]) {
         State& other = states_[object];
-        if (bodies_[object].driven || !other.present) continue;
+        if (bodies_[object].driven) continue;
         const double distance = std::hypot(other.pose.x - state.pose.x, other.pose.y - state.pose.y);
         if (distance > state.bounding_radius + other.bounding_radius + 0.01) continue;
         const Pose2 from = other.pose;
@@ -118,7 +119,7 @@ bool Physics::rotate_parts(std::size_t body, std::span<const std::pair<std::size
     double displacement = 0;
     for (const auto& [number, outline] : parts)
         displacement = std::max(displacement, displacement_bound(shape.parts[number].outline, outline));
-    const bool free = !state.present || has_clearance(body, displacement);
+    const bool free = !state.present || !may_touch_something(body, displacement);
     if (!free)
         for (const auto& [number, outline] : parts)
             if (is_blocked(body, shape.parts[number], outline)) return false;
@@ -135,9 +136,10 @@ bool Physics::rotate_parts(std::size_t body, std::span<const std::pair<std::size
     }
     const double radius_before = state.bounding_radius;
     update_bounding_radius(body);
-    if (state.bounding_radius > radius_before || !pushed_.empty())
-        for (State& s : states_) s.clearance = 0;
-    state.clearance -= displacement;
+    if (state.bounding_radius > radius_before) state.obstacle_clearance = state.body_clearance = 0;
+    state.moved(displacement);
+    for (const auto& [object, from] : pushed_)
+        states_[object].moved(std::hypot(states_[object].pose.x - from.x, states_[object].pose.y - from.y));
     if (contact_solver_) contact_solver_->update_shapes(body, shape.parts);
     return true;
 }

@@ -19,11 +19,11 @@ constexpr int max_rounds = 20;           ///< largest number of passes over all 
 
 }  // namespace
 
-/// Calls visit(a, shape of a, b, shape of b, overlap) for each pair of shapes that penetrate each other by
-/// more than target_depth, when body a or b is active. For an obstacle, b is the number of bodies and its
+/// Calls visit(a, shape of a, b, shape of b, overlap) for each pair of shapes of an island that penetrate each
+/// other by more than target_depth, when body a or b is active. For an obstacle, b is the number of bodies and its
 /// shape is the number of the obstacle. visit() may move both bodies.
 template <class F>
-void Physics::for_each_penetration(F&& visit) {
+void Physics::for_each_penetration(std::span<const std::size_t> bodies, F&& visit) {
     const auto test = [&](std::size_t a, std::size_t p, const PlacedShape& shape_a, const Outline& outline_b,
                           double radius_b, std::size_t b, std::size_t q) {
         if (!closer_than(outline_b, shape_a.outline, radius_b + shape_a.bounding_radius)) return;
@@ -33,22 +33,18 @@ void Physics::for_each_penetration(F&& visit) {
         shapes(a);  // updates the shapes that the loops below refer to
         if (b < bodies_.size()) shapes(b);
     };
-    for (std::size_t a = 0; a < states_.size(); ++a) {
+    for (const std::size_t a : bodies) {
         const State& s = states_[a];
-        if (!s.present) continue;
-        for (std::size_t o = 0; s.active && o < obstacles_.size(); ++o) {
-            const Outline& obstacle = obstacles_[o].outline;
-            if (!(obstacles_[o].layers & s.layers)) continue;
-            const double radius = bounding_radius(obstacle);
-            if (!closer_than(obstacle, s.pose, radius + s.bounding_radius)) continue;
-            const auto& of_a = shapes(a);
-            for (std::size_t p = 0; p < of_a.size(); ++p)
-                if (obstacles_[o].layers >> of_a[p].layer & 1u)
-                    test(a, p, of_a[p], obstacle, radius, bodies_.size(), o);
-        }
-        for (std::size_t b = 0; b < a; ++b) {
-            const State& other = states_[b];
-            if (!other.present || !(s.active || other.active) || circle_gap(a, b) >= 0) continue;
+        if (s.active)
+            for_each_obstacle_near(a, 0, [&](const Obstacle& o, std::size_t number) {
+                const double radius = bounding_radius(o.outline);
+                const auto& of_a = shapes(a);
+                for (std::size_t p = 0; p < of_a.size(); ++p)
+                    if (o.layers >> of_a[p].layer & 1u)
+                        test(a, p, of_a[p], o.outline, radius, bodies_.size(), number);
+            });
+        for (const std::size_t b : near_[a]) {
+            if (b >= a || !(s.active || states_[b].active) || circle_gap(a, b) >= 0) continue;
             const auto &of_a = shapes(a), &of_b = shapes(b);
             for (std::size_t p = 0; p < of_a.size(); ++p)
                 for (std::size_t q = 0; q < of_b.size(); ++q)
@@ -76,12 +72,12 @@ void Physics::translate(std::size_t body, double x, double y) {
     State& s = states_[body];
     s.pose.x += x, s.pose.y += y;
     s.active = true;  // the velocities before the contacts were solved may not have reached this body
-    s.clearance -= std::sqrt(x * x + y * y);
+    s.moved(std::sqrt(x * x + y * y));
 }
 
 /// Moves bodies apart that penetrate each other. Pairs in which neither body moved in the step are left
 /// alone: worlds may place bodies inside each other.
-void Physics::separate() {
+void Physics::separate(std::span<const std::size_t> bodies) {
     const auto unmoved = [&](std::size_t i) {
         if (i == bodies_.size()) return true;
         const Pose2 &now = states_[i].pose, &before = poses_before_[i];
@@ -90,6 +86,7 @@ void Physics::separate() {
     for (int round = 0; round < max_rounds; ++round) {
         bool moved = false;
         for_each_penetration(
+            bodies,
             [&](std::size_t a, std::size_t p, std::size_t b, std::size_t q, const Overlap& in) {
                 if (unmoved(a) && unmoved(b)) return;
                 const double before = depth_before_step(a, p, b, q);
@@ -102,12 +99,12 @@ void Physics::separate() {
             });
         if (!moved) return;
     }
-    revert_penetrating();
+    revert_penetrating(bodies);
 }
 
 /// Puts bodies that still penetrate another shape too deeply back to their poses before the step, at rest.
 /// The depths before the step were acceptable, so this ends at the latest when all bodies are back.
-void Physics::revert_penetrating() {
+void Physics::revert_penetrating(std::span<const std::size_t> bodies) {
     reverted_.assign(states_.size(), 0);
     for (bool more = true; more;) {
         more = false;
@@ -118,6 +115,7 @@ void Physics::revert_penetrating() {
             velocities_[i] = {};
         };
         for_each_penetration(
+            bodies,
             [&](std::size_t a, std::size_t p, std::size_t b, std::size_t q, const Overlap& in) {
                 if (in.depth > depth_epsilon + std::max(max_depth, depth_before_step(a, p, b, q)))
                     revert(a), revert(b);

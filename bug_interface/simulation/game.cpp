@@ -8,7 +8,7 @@
 namespace forage::bug {
 namespace {
 
-constexpr int substeps_per_check = 101;  ///< the original skips 100
+constexpr std::uint64_t substeps_per_check = 101;  ///< the original skips 100
 constexpr int held_contacts = 100;       ///< between two checks; more mean that a resource is held
 constexpr double spread = 0.5;           ///< m around a site
 
@@ -48,16 +48,24 @@ void Game::remove(Physics& physics, Resource& r) {
     r.removed = true, r.held = false, r.age = 0, r.contacts = 0;
 }
 
-void Game::substep(Physics& physics, double time, double step) {
+std::uint64_t Game::substeps_to_event(double step) const {
+    std::uint64_t left = substeps_per_check - std::min(since_check_, substeps_per_check - 1);
+    if (!rules_) return left;
+    const double to_second = std::ceil(to_next_second_ / step - 0.5);
+    return to_second < 1 ? 1 : std::min(left, static_cast<std::uint64_t>(to_second));
+}
+
+void Game::advance(Physics& physics, double time, double step, std::uint64_t steps) {
     if (over()) return;
     for (Resource& r : resources_) r.contacts += physics.robot_contacts(r.body);
-    if (++since_check_ >= substeps_per_check) {
+    since_check_ += steps;
+    if (since_check_ >= substeps_per_check) {
         since_check_ = 0;
         check_resources(physics, time);
     }
     if (!rules_) return;
-    elapsed_ += step;
-    to_next_second_ -= step;
+    elapsed_ += static_cast<double>(steps) * step;
+    to_next_second_ -= static_cast<double>(steps) * step;
     if (to_next_second_ > step / 2) return;
     to_next_second_ += 1;
     if (over())

@@ -49,8 +49,10 @@ class Game {
 
     /// Called before the first substep. With rules, all resources are removed until they appear at a site.
     void begin(Physics& physics);
-    /// Called after each substep. `time` is the simulated time, s; `step` is the duration of the substep, s.
-    void substep(Physics& physics, double time, double step);
+    /// The number of substeps of `step` s until something may happen: at least 1.
+    std::uint64_t substeps_to_event(double step) const;
+    /// Called after `steps` substeps of `step` s, at most substeps_to_event(). `time` is the simulated time, s.
+    void advance(Physics& physics, double time, double step, std::uint64_t steps);
 
     bool empty() const { return resources_.empty(); }
     bool timed() const { return rules_.has_value(); }
@@ -81,7 +83,7 @@ class Game {
     std::vector<Resource> resources_;
     std::vector<Delivery> deliveries_;
     RandomStream random_;
-    int since_check_ = 0;                      ///< substeps
+    std::uint64_t since_check_ = 0;            ///< substeps
     double elapsed_ = 0, to_next_second_ = 1;  ///< s
     std::uint64_t seconds_begun_ = 0;
 };

@@ -75,19 +75,38 @@ void Robot::checkpoint(Archive& archive) {
     archive(*trials, sensors);
 }
 
-void Robot::move_gripper(Physics& physics, double step) {
-    for (std::size_t h = 0; h < hinges.size(); ++h) {
-        const double before = hinges[h].angle, after = hinges.next(h, step);
-        if (after == before) continue;
-        hinges.set(h, after);
-        turned_.clear();
-        for (std::size_t p = 0; p < parts.size(); ++p) {
-            if (!hinges.turns_with(parts[p].hinge, static_cast<int>(h))) continue;
-            const Pose2 displacement = hinges.displacement(static_cast<std::size_t>(parts[p].hinge));
-            turned_.emplace_back(p, Transform2(displacement) * parts[p].outline);
-        }
-        if (!physics.rotate_parts(number, turned_)) hinges.set(h, before);
+double Robot::gripper_travel(double step) const {
+    double turn = 0, reach = 0;
+    for (std::size_t h = 0; h < hinges.size(); ++h)
+        turn += std::abs(hinges.next(h, step, 1) - hinges[h].angle);  // hinges carry each other
+    if (turn == 0) return 0;
+    for (const MovingOutline& part : parts)
+        if (part.hinge >= 0)
+            reach = std::max(reach, std::hypot(part.outline.x, part.outline.y) + bounding_radius(part.outline));
+    return turn * 2 * reach;
+}
+
+void Robot::move_gripper(Physics& physics, double step, std::uint64_t steps) {
+    for (std::size_t h = 0; h < hinges.size(); ++h)
+        // What blocks the way of many substeps may be farther away than one.
+        if (!turn_hinge(physics, h, hinges.next(h, step, steps)) && steps > 1)
+            turn_hinge(physics, h, hinges.next(h, step, 1));
+}
+
+/// Turns a hinge with all that it carries. Returns false, and turns nothing, when the way is blocked.
+bool Robot::turn_hinge(Physics& physics, std::size_t hinge, double angle) {
+    const double before = hinges[hinge].angle;
+    if (angle == before) return true;
+    hinges.set(hinge, angle);
+    turned_.clear();
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        if (!hinges.turns_with(parts[p].hinge, static_cast<int>(hinge))) continue;
+        const Pose2 displacement = hinges.displacement(static_cast<std::size_t>(parts[p].hinge));
+        turned_.emplace_back(p, Transform2(displacement) * parts[p].outline);
     }
+    if (physics.rotate_parts(number, turned_)) return true;
+    hinges.set(hinge, before);
+    return false;
 }
 
 }  // namespace forage::bug

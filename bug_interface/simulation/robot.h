@@ -28,8 +28,10 @@ class Robot {
     Robot(const Model& model, std::size_t number, std::uint64_t seed, bool noise, Heights& heights,
           Diagnostics& diagnostics);
 
-    /// Turns the hinges for a substep of `step` s. A hinge keeps its angle when its way is blocked.
-    void move_gripper(Physics& physics, double step);
+    /// Turns the hinges for `steps` substeps of `step` s. A hinge keeps its angle when its way is blocked.
+    void move_gripper(Physics& physics, double step, std::uint64_t steps);
+    /// How far any point of the gripper can move within a substep of `step` s, m.
+    double gripper_travel(double step) const;
 
     void checkpoint(Archive& archive);
 
@@ -53,6 +55,8 @@ class Robot {
     std::weak_ptr<void> claim;  ///< held by the module that drives the robot
 
   private:
+    bool turn_hinge(Physics& physics, std::size_t hinge, double angle);
+
     std::vector<std::pair<std::size_t, Outline>> turned_;  ///< the parts that a hinge turns
 };
 

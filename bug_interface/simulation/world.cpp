@@ -1,5 +1,6 @@
 #include "bug_interface/simulation/world.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -9,8 +10,9 @@
 namespace forage::bug {
 namespace {
 
-/// Random numbers of whole control steps have other indices than those of substeps.
-constexpr std::uint64_t first_free_index = std::uint64_t{1} << 62;
+/// Random numbers of control steps and of other strides have other indices than those of substeps.
+constexpr std::uint64_t first_free_index = std::uint64_t{1} << 62,
+                        first_stride_index = std::uint64_t{1} << 61;
 
 }  // namespace
 
@@ -26,81 +28,121 @@ void World::step() {
 }
 
 /// The order within a substep is that of the original: the velocity plugin, the reset plugin, the motion, the
-/// targets.
+/// targets. Substeps are simulated together where that changes nothing.
 void World::advance_bodies() {
     const std::uint64_t last = substeps_before(cycle_ + 1);
     physics_->forget_touches();
-    if (drive_freely(last)) substep_ = last;
-    for (; substep_ < last; ++substep_) {
-        for (std::size_t i = 0; i < robots_.size(); ++i) {
-            drive(i);
-            if (!robots_[i].hinges.empty()) robots_[i].move_gripper(*physics_, description_.step);
-        }
-        physics_->step(drives_);
-        for (std::size_t i = 0; i < robots_.size(); ++i)
-            if (!resetting(i)) robots_[i].trials->follow(physics_->pose(i));
-        if (!game_.empty()) game_.substep(*physics_, time() + description_.step, description_.step);
+    const bool by_substep = every_substep_matters(last - substep_);
+    while (substep_ < last) {
+        std::uint64_t steps = by_substep ? 1 : last - substep_;
+        if (!game_.empty()) steps = std::min(steps, game_.substeps_to_event(description_.step));
+        move_bodies(steps);
+        substep_ += steps;
+        if (!game_.empty()) game_.advance(*physics_, time(), description_.step, steps);
         if (options_.sensor_rates) sense_due();
     }
     update_body_poses();
     ++cycle_;
 }
 
-/// Sets the command of the current substep.
-void World::drive(std::size_t bug) {
-    Robot& robot = robots_[bug];
-    if (update_reset(bug)) {
-        drives_[bug] = {};
-        return;
-    }
-    drives_[bug] = robot.command;
-    if (!options_.noise) return;
-    std::array<double, 2> u{};
-    robot.motor_noise.uniform(substep_, u);
-    drives_[bug].forward += (2 * u[0] - 1) * speed_noise;
-    drives_[bug].turn += (2 * u[1] - 1) * speed_noise;
+/// Whether a robot may begin or end a reset within `steps` substeps, or sensors have rates of their own.
+bool World::every_substep_matters(std::uint64_t steps) const {
+    return options_.sensor_rates || std::any_of(robots_.begin(), robots_.end(), [&](const Robot& robot) {
+               if (!robot.reset) return false;
+               if (robot.reset->running()) return true;
+               const double travel = (std::abs(robot.command.forward) + speed_noise) * description_.step *
+                                     static_cast<double>(steps);
+               const Eigen::Vector2d at(physics_->pose(robot.number).x, physics_->pose(robot.number).y);
+               const Eigen::AlignedBox2d& bounds = robot.reset->plan().bounds;
+               return !((at - bounds.min()).minCoeff() > travel && (bounds.max() - at).minCoeff() > travel);
+           });
 }
 
-/// Simulates all substeps before number `last` at once. Returns false, and does nothing, when a robot may
-/// touch something or when the substeps matter for another reason.
-bool World::drive_freely(std::uint64_t last) {
-    if (options_.sensor_rates || !game_.empty()) return false;  // these depend on every substep
-    const std::uint64_t steps = last - substep_;
-    const double seconds = static_cast<double>(steps) * description_.step,
-                 noise = options_.noise ? speed_noise : 0;
-    for (int pass = 0; pass < 2; ++pass)  // a measurement for one robot may reduce the clearance of another
-        for (std::size_t i = 0; i < robots_.size(); ++i)
-            if (!can_drive_freely(i, seconds)) return false;
-    for (std::size_t i = 0; i < robots_.size(); ++i) {
-        Robot& robot = robots_[i];
-        const MotorCommand& command = robot.command;
-        const Pose2 from = physics_->pose(i);
-        physics_->drive_freely(i,
-                               free_drive(from, command, steps, description_.step, noise, robot.motor_noise,
-                                          first_free_index + cycle_),
-                               command, (std::abs(command.forward) + noise) * seconds,
-                               (std::abs(command.turn) + noise) * seconds);
-        robot.trials->follow(from, physics_->pose(i));
+/// Moves all bodies through some substeps, island by island.
+void World::move_bodies(std::uint64_t steps) {
+    const double noise = options_.noise ? speed_noise : 0;
+    for (Robot& robot : robots_) {
+        const bool driven = !update_reset(robot.number);
+        const MotorCommand command = driven ? robot.command : MotorCommand{};
+        const double speed_of_noise = driven ? noise : 0;
+        reach_[robot.number] = {(std::abs(command.forward) + speed_of_noise) * description_.step,
+                                (std::abs(command.turn) + speed_of_noise) * description_.step,
+                                robot.gripper_travel(description_.step)};
     }
-    return true;
+    physics_->begin(reach_, steps);
+    for (std::size_t island = 0; island < physics_->islands(); ++island) move_island(island, steps);
 }
 
-/// Whether a robot will only drive for `seconds`, far enough from all targets for the substeps not to matter.
-bool World::can_drive_freely(std::size_t bug, double seconds) {
+void World::move_island(std::size_t island, std::uint64_t steps) {
+    const auto bodies = physics_->island(island);
+    const auto is_robot = [this](std::size_t body) { return body < robots_.size(); };
+    if (!is_robot(bodies.front())) {  // objects without robots: the robots have the lower numbers
+        if (physics_->is_free(island)) return physics_->move_freely(island);
+    } else if (steps > 1 && physics_->is_free(island) && may_stride(bodies.front(), steps)) {
+        return drive_freely(island, steps);
+    }
+    for (std::uint64_t done = 0; done < steps;) {
+        std::uint64_t stride = physics_->stride(island, steps - done);
+        for (const std::size_t i : bodies)
+            if (is_robot(i) && !may_stride(i, stride)) stride = 1;
+        for (const std::size_t i : bodies) {
+            if (!is_robot(i)) continue;
+            drives_[i] = drive(i, substep_ + done, stride);
+            if (!robots_[i].hinges.empty()) robots_[i].move_gripper(*physics_, description_.step, stride);
+        }
+        physics_->advance(island, drives_, stride);
+        for (const std::size_t i : bodies)
+            if (is_robot(i) && !resetting(i)) robots_[i].trials->follow(physics_->pose(i));
+        done += stride;
+    }
+}
+
+/// Whether several substeps of a robot can be one stride: its trial does not end near a target, and it does
+/// not turn too far for the closed form.
+bool World::may_stride(std::size_t bug, std::uint64_t steps) const {
     constexpr double near_target = 1;  ///< m
-    Robot& robot = robots_[bug];
-    const double travel = (std::abs(robot.command.forward) + speed_noise) * seconds,
-                 turn = (std::abs(robot.command.turn) + speed_noise) * seconds;
-    if (resetting(bug) || !robot.hinges.empty() || !(turn < max_free_turn)) return false;
+    const Robot& robot = robots_[bug];
+    const double seconds = static_cast<double>(steps) * description_.step;
+    if (!((std::abs(robot.command.turn) + speed_noise) * seconds < max_free_turn)) return false;
+    const double near = near_target + (std::abs(robot.command.forward) + speed_noise) * seconds;
     const Eigen::Vector2d at(physics_->pose(bug).x, physics_->pose(bug).y);
-    if (robot.reset) {
-        const Eigen::AlignedBox2d& bounds = robot.reset->plan().bounds;
-        if (!((at - bounds.min()).minCoeff() > travel && (bounds.max() - at).minCoeff() > travel))
-            return false;
+    return std::none_of(targets_.begin(), targets_.end(), [&](const Eigen::Vector2d& target) {
+        return (target - at).squaredNorm() < near * near;
+    });
+}
+
+/// The mean velocity of a robot in `steps` substeps from number `substep` on, with noise.
+Velocity World::drive(std::size_t bug, std::uint64_t substep, std::uint64_t steps) {
+    const Robot& robot = robots_[bug];
+    if (resetting(bug) || !physics_->present(bug)) return {};
+    MotorCommand command = robot.command;
+    if (steps == 1) {
+        if (options_.noise) {
+            std::array<double, 2> u{};
+            robot.motor_noise.uniform(substep, u);
+            command.forward += (2 * u[0] - 1) * speed_noise;
+            command.turn += (2 * u[1] - 1) * speed_noise;
+        }
+        return physics_->velocity_of(bug, command);
     }
-    for (const Eigen::Vector2d& target : targets_)
-        if ((target - at).squaredNorm() < (near_target + travel) * (near_target + travel)) return false;
-    return physics_->can_drive_freely(bug, travel, turn);
+    const Pose2 &from = physics_->pose(bug), to = free_drive(from, command, steps, description_.step,
+                                                             options_.noise ? speed_noise : 0,
+                                                             robot.motor_noise, first_stride_index + substep);
+    const double seconds = static_cast<double>(steps) * description_.step;
+    return {(to.x - from.x) / seconds, (to.y - from.y) / seconds, (to.yaw - from.yaw) / seconds};
+}
+
+/// Drives a robot that touches nothing through `steps` substeps at once.
+void World::drive_freely(std::size_t island, std::uint64_t steps) {
+    const std::size_t bug = physics_->island(island).front();
+    Robot& robot = robots_[bug];
+    if (!robot.hinges.empty()) robot.move_gripper(*physics_, description_.step, steps);
+    const std::uint64_t index = substep_ == substeps_before(cycle_) ? first_free_index + cycle_ : first_stride_index + substep_;
+    const Pose2 from = physics_->pose(bug);
+    const Pose2 to = free_drive(from, robot.command, steps, description_.step, options_.noise ? speed_noise : 0,
+                                robot.motor_noise, index);
+    physics_->move_freely(island, to, physics_->velocity_of(bug, robot.command));
+    robot.trials->follow(from, physics_->pose(bug));
 }
 
 /// Applies the reset rule in one substep. Returns true when the robot is not driven.

@@ -161,10 +161,13 @@ class World final : public Environment {
     void add_sensors();
     // ---- motion ----
     std::uint64_t substeps_before(std::uint64_t cycle) const;
-    void drive(std::size_t bug);
+    bool every_substep_matters(std::uint64_t steps) const;
+    void move_bodies(std::uint64_t steps);
+    void move_island(std::size_t island, std::uint64_t steps);
+    bool may_stride(std::size_t bug, std::uint64_t steps) const;
+    Velocity drive(std::size_t bug, std::uint64_t substep, std::uint64_t steps);
+    void drive_freely(std::size_t island, std::uint64_t steps);
     bool update_reset(std::size_t bug);
-    bool drive_freely(std::uint64_t last);
-    bool can_drive_freely(std::size_t bug, double seconds);
     // ---- sensing ----
     void update_body_poses();
     void colour_resources();
@@ -190,7 +193,8 @@ class World final : public Environment {
     BodyPoses body_poses_;
     std::vector<MovingVisual> moving_visuals_;  ///< visuals of all robots and movable objects
     bool visuals_placed_ = false;               ///< whether moving_visuals_ are at the body poses
-    std::vector<MotorCommand> drives_;          ///< the commands of the current substep, with noise
+    std::vector<Reach> reach_;                  ///< per body, per substep
+    std::vector<Velocity> drives_;              ///< of the robots in the current stride, with noise
     std::unique_ptr<Physics> physics_;
     mutable std::shared_ptr<const Scene> scene_;
     mutable std::optional<std::vector<Patch>> patches_;

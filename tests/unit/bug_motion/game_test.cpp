@@ -44,11 +44,11 @@ struct Table {
         return out;
     }
     void run(int steps) {
-        for (; steps > 0; --steps) game.substep(physics, time += step, step);
+        for (; steps > 0; --steps) game.advance(physics, time += step, step, 1);
     }
     /// Simulates seconds in steps of 1 s, which is fast; only for tests without contacts and homes.
     void seconds(int n) {
-        for (; n > 0; --n) game.substep(physics, time += 1, 1);
+        for (; n > 0; --n) game.advance(physics, time += 1, 1, 1);
     }
     std::ptrdiff_t present() const {
         return std::count_if(game.resources().begin(), game.resources().end(),
@@ -136,7 +136,7 @@ TEST_CASE("A resource that a robot holds does not age") {
     std::array<MotorCommand, 3> drives{};
     double time = 0;
     const auto run = [&](int steps) {
-        for (; steps > 0; --steps) physics.step(drives), game.substep(physics, time += step, step);
+        for (; steps > 0; --steps) physics.step(drives), game.advance(physics, time += step, step, 1);
     };
     run(1500);
     REQUIRE_FALSE(game.resources()[0].removed);

@@ -85,7 +85,7 @@ TEST_CASE("The yaw stays in (-pi, pi]") {
 }
 
 TEST_CASE("Calling Bullet when nothing is near does not change a bit") {
-    OneRobot fast(room, {0, 0, 0.5}), slow(room, {0, 0, 0.5}, Contacts::always);
+    OneRobot fast(room, {0, 0, 0.5}), slow(room, {0, 0, 0.5}, Contacts::always_bullet);
     const forage::RandomStream random(3, "drive");
     bool touched = false;
     for (std::uint64_t i = 0; i < 20000; ++i) {
@@ -149,7 +149,7 @@ TEST_CASE("Objects that overlap at rest stay where they are") {
     Body ball;
     ball.driven = false, ball.radius = 0.08, ball.mass = 0.01, ball.inertia = 1;
     const std::array<Body, 3> bodies = {Body{}, ball, ball};
-    for (const auto when : {Physics::Contacts::when_near, Physics::Contacts::always}) {
+    for (const auto when : {Physics::Contacts::when_near, Physics::Contacts::always_bullet}) {
         Physics p({}, bodies, dt, when);
         p.place(0, {5, 0, 0}), p.place(1, {0, 0, 0}), p.place(2, {2 * ball.radius - 0.0007, 0, 0});
         for (int i = 0; i < 100; ++i) p.step(std::array<MotorCommand, 3>{{{0.1, 0.1}, {}, {}}});
