@@ -7,8 +7,8 @@
 namespace forage::bug {
 namespace {
 
-constexpr float box_half_height = 1;    ///< m; has no effect, since all contacts are horizontal
-constexpr btScalar residual = 1e-12f;   ///< (N s)^2; stops the solver at errors of about 1e-7 m/s
+constexpr float box_half_height = 1;   ///< m; has no effect, since all contacts are horizontal
+constexpr btScalar residual = 1e-11f;  ///< (m/s)^2; stops the solver at errors of about 3e-6 m/s
 constexpr std::size_t most_algorithms = 1024;
 
 /// Memory pools for a few contacts; Bullet allocates more when needed. Its default takes megabytes.
@@ -131,7 +131,8 @@ void Physics::ContactSolver::find_contacts(std::span<const Pair> pairs) {
     if (algorithms_.size() > most_algorithms) algorithms_.clear();
     for (const Pair& pair : pairs) {
         const btCollisionObject &a = *objects_[pair.first], &b = *objects_[pair.second];
-        const btCollisionObjectWrapper of_a(nullptr, a.getCollisionShape(), &a, a.getWorldTransform(), -1, -1),
+        const btCollisionObjectWrapper of_a(nullptr, a.getCollisionShape(), &a, a.getWorldTransform(), -1,
+                                            -1),
             of_b(nullptr, b.getCollisionShape(), &b, b.getWorldTransform(), -1, -1);
         Algorithm& algorithm = algorithms_[pair];
         if (!algorithm)
@@ -170,8 +171,8 @@ bool Physics::ContactSolver::can_collide(const ObjectInfo& a, int shape_a, const
 }
 
 /// Removes the contacts of shapes that share no height. A contact has the smaller friction coefficient of its
-/// two surfaces, as in the original. The contacts are sorted by object, as the solution depends on their order,
-/// and the order of those of compounds depends on earlier contacts.
+/// two surfaces, as in the original. The contacts are sorted by object, as the solution depends on their
+/// order, and the order of those of compounds depends on earlier contacts.
 void Physics::ContactSolver::filter_contacts(std::span<State> states, std::span<char> touched) {
     for (btPersistentManifold* contact : contacts_) {
         const auto number = [](const btCollisionObject* o) {

@@ -16,8 +16,8 @@
 namespace forage::bug {
 
 /// Bullet detects the contacts and solves the velocities. Poses stay outside, in double precision, and are
-/// integrated there. Which pairs are near is known there, too, so no Bullet world is needed. No contact and no
-/// impulse persists after its stride.
+/// integrated there. Which pairs are near is known there, too, so no Bullet world is needed. No contact and
+/// no impulse persists after its stride.
 ///
 /// The world is flat: the centres of all shapes lie in one plane. A disc is represented by a sphere, which
 /// behaves like an upright cylinder in the plane: Bullet's contacts of spheres are exact, while the contact
@@ -35,11 +35,12 @@ class Physics::ContactSolver {
     using Pair = std::pair<std::size_t, std::size_t>;
 
     /// Updates the velocities of `bodies` so that they meet neither each other nor obstacles within `steps`
-    /// time steps of `step` s, and counts the contacts of movable objects with robots. `pairs` are the objects
-    /// to look at, in ascending order. Sets `touched` of driven bodies that touch another shape, unless it is
-    /// empty.
-    void solve(double step, std::uint64_t steps, std::span<const std::size_t> bodies, std::span<const Pair> pairs,
-               std::span<State> states, std::span<Velocity> velocities, std::span<char> touched);
+    /// time steps of `step` s, and counts the contacts of movable objects with robots. `pairs` are the
+    /// objects to look at, in ascending order. Sets `touched` of driven bodies that touch another shape,
+    /// unless it is empty.
+    void solve(double step, std::uint64_t steps, std::span<const std::size_t> bodies,
+               std::span<const Pair> pairs, std::span<State> states, std::span<Velocity> velocities,
+               std::span<char> touched);
     /// Updates the poses of the parts of a body within its frame.
     void update_shapes(std::size_t body, std::span<const Part> parts);
 
@@ -76,8 +77,8 @@ class Physics::ContactSolver {
     std::vector<ObjectInfo> object_info_;                ///< one per object; Bullet's user index refers to it
     std::vector<std::uint64_t> steps_;                   ///< per body: for how many steps its mass is set
     std::map<Pair, Algorithm> algorithms_;
-    double heaviest_ = 0;  ///< mass of the heaviest driven body, kg
-    std::size_t obstacles_ = 0;   ///< number of obstacles
+    double heaviest_ = 0;        ///< mass of the heaviest driven body, kg
+    std::size_t obstacles_ = 0;  ///< number of obstacles
 
     // ---- the current stride ----
     std::vector<btCollisionObject*> moving_;

@@ -9,17 +9,17 @@
 namespace forage::bug {
 
 /// Changes the velocities of the active bodies of an island so that they do not move into anything within
-/// `steps` steps. A driven body gets the velocity of its command anew in every step; for several steps at once
-/// it is as many times as heavy.
+/// `steps` steps. A driven body gets the velocity of its command anew in every step; for several steps at
+/// once it is as many times as heavy.
 void Physics::solve_contacts(std::span<const std::size_t> bodies, std::uint64_t steps) {
     active_.clear();
-    bool round = contacts_ == Contacts::when_near;
     for (const std::size_t i : bodies)
-        if (states_[i].active) active_.push_back(i), round &= is_round(i);
-    find_encounters(static_cast<double>(steps) * step_);
+        if (states_[i].active) active_.push_back(i);
+    const double seconds = static_cast<double>(steps) * step_;
+    find_encounters(seconds);
     if (encounters_.empty()) return;
-    if (round)
-        solve_round(steps);
+    if (contacts_ == Contacts::when_near && find_round_contacts(steps))
+        round_contacts_.solve(seconds);
     else
         solve_with_bullet(steps);
 }
@@ -36,52 +36,77 @@ void Physics::find_encounters(double seconds) {
         const double of_i = reach(i);
         for_each_obstacle_near(i, of_i, [&](const Obstacle& o, std::size_t number) {
             if (distance_to(o.outline, s.pose.x, s.pose.y) < s.bounding_radius + of_i)
-                encounters_.push_back({i, number, true});
+                encounters_.push_back({i, number, true, of_i});
         });
-        for (const std::size_t j : near_[i])
-            if (j < i && states_[j].active && circle_gap(i, j) < of_i + reach(j))
-                encounters_.push_back({i, j, false});
+        for (const std::size_t j : near_[i]) {
+            const double of_both = of_i + reach(j);
+            if (j < i && states_[j].active && circle_gap(i, j) < of_both)
+                encounters_.push_back({i, j, false, of_both});
+        }
     }
 }
 
-void Physics::solve_round(std::uint64_t steps) {
+/// Finds the contacts of all encounters when each has a round side; returns false when there is one of two
+/// boxes.
+bool Physics::find_round_contacts(std::uint64_t steps) {
     round_contacts_.begin_stride(static_cast<double>(steps));
     for (const std::size_t i : active_) {
         const Body& b = bodies_[i];
+        const Pose2& pose = states_[i].pose;
         const double mass = contact_mass(b, heaviest_) * (b.driven ? static_cast<double>(steps) : 1);
-        disc_[i] = round_contacts_.add_disc(b.radius, mass, b.inertia * mass / b.mass, velocities_[i]);
+        number_[i] =
+            round_contacts_.add_body(pose.x, pose.y, mass, b.inertia * mass / b.mass, velocities_[i]);
     }
-    const auto disc_of = [&](std::size_t body) {
-        Outline disc;
-        disc.round = true, disc.radius = bodies_[body].radius;
-        disc.x = states_[body].pose.x, disc.y = states_[body].pose.y;
-        return disc;
-    };
+    touching_.clear();
+    bool round = true;
     for (const Encounter& e : encounters_) {
-        const Body& body = bodies_[e.body];
-        const Outline disc = disc_of(e.body);
-        Overlap in;
-        if (e.is_obstacle) {
-            const Obstacle& o = obstacles_[e.other];
-            in = overlap(o.outline, disc);
-            round_contacts_.add_contact({e.other, obstacles_.size() + e.body}, disc_[e.body], in,
-                                        std::min(body.friction, o.friction));
-        } else {
-            const Body& other = bodies_[e.other];
-            if (!can_collide(LayerMask{1} << body.layer, other.layer)) continue;
-            in = overlap(disc_of(e.other), disc);
-            round_contacts_.add_contact({obstacles_.size() + e.other, obstacles_.size() + e.body}, disc_[e.body], disc_[e.other], in,
-                                        std::min(body.friction, other.friction));
-        }
-        if (in.depth <= -touching) continue;
-        const auto note = [&](std::size_t i, bool by_robot) {
-            if (bodies_[i].driven && !touched_.empty()) touched_[i] = 1;
-            if (!bodies_[i].driven && by_robot) ++states_[i].contacts_in_stride;
+        const auto& of_body = shapes(e.body);
+        const auto test = [&](std::size_t p, std::size_t q, const Outline& other, double radius,
+                              double friction, std::size_t number, std::size_t name) {
+            const PlacedShape& shape = of_body[p];
+            if (!closer_than(other, shape.outline, e.reach + radius + shape.bounding_radius)) return;
+            const Overlap in = overlap(other, shape.outline, -e.reach);
+            if (in.depth <= -e.reach) return;
+            if (!shape.outline.round && !other.round) {
+                round = false;
+                return;
+            }
+            const Outline& disc = shape.outline.round ? shape.outline : other;
+            const double to_surface = shape.outline.round ? -disc.radius : disc.radius;
+            const Eigen::Vector2d point = Eigen::Vector2d(disc.x, disc.y) + to_surface * in.normal;
+            round_contacts_.add_contact({obstacles_.size() + e.body, p, name, q}, number_[e.body], number, in,
+                                        point, std::min(shape.friction, friction));
+            if (in.depth > -touching) touching_.push_back(e);
         };
-        note(e.body, !e.is_obstacle && bodies_[e.other].driven);
-        if (!e.is_obstacle) note(e.other, body.driven);
+        for (std::size_t p = 0; round && p < of_body.size(); ++p) {
+            if (e.is_obstacle) {
+                const Obstacle& o = obstacles_[e.other];
+                if (o.layers >> of_body[p].layer & 1u)
+                    test(p, 0, o.outline, bounding_radius(o.outline), o.friction, RoundContacts::fixed,
+                         e.other);
+                continue;
+            }
+            const auto& of_other = shapes(e.other);
+            for (std::size_t q = 0; q < of_other.size(); ++q)
+                if (can_collide(LayerMask{1} << of_body[p].layer, of_other[q].layer))
+                    test(p, q, of_other[q].outline, of_other[q].bounding_radius, of_other[q].friction,
+                         number_[e.other], obstacles_.size() + e.other);
+        }
     }
-    round_contacts_.solve(static_cast<double>(steps) * step_);
+    if (!round) return false;
+    for (const Encounter& e : touching_) note_touch(e);
+    return true;
+}
+
+/// Notes that the bodies of an encounter touch each other at one point.
+void Physics::note_touch(const Encounter& e) {
+    const bool by_robot = bodies_[e.body].driven || (!e.is_obstacle && bodies_[e.other].driven);
+    const auto note = [&](std::size_t i) {
+        if (bodies_[i].driven && !touched_.empty()) touched_[i] = 1;
+        if (!bodies_[i].driven && by_robot) ++states_[i].contacts_in_stride;
+    };
+    note(e.body);
+    if (!e.is_obstacle) note(e.other);
 }
 
 void Physics::solve_with_bullet(std::uint64_t steps) {

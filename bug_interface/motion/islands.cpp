@@ -21,10 +21,10 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// How far from itself a body looks for obstacles, m. Its clearance is never larger.
 constexpr double sight = 1;
-constexpr double contact_stride = 0.01;       ///< m; how far bodies move in a stride while they touch
-constexpr double contact_turn = 0.05;         ///< rad; the same for rotations
+constexpr double contact_stride = 0.01;  ///< m; how far bodies move in a stride while they touch
+constexpr double contact_turn = 0.05;    ///< rad; the same for rotations
 constexpr std::uint64_t contact_steps_at_once = 10;
-constexpr double max_turn = 0.5;              ///< rad; how far a body turns in any stride
+constexpr double max_turn = 0.5;  ///< rad; how far a body turns in any stride
 /// Gap between bounding circles below which the shapes are compared, m.
 constexpr double shape_test_distance = 0.1;
 
@@ -53,8 +53,8 @@ const std::vector<Physics::PlacedShape>& Physics::shapes(std::size_t body) {
     cache.shapes.clear();
     state.update_rotation();
     for_each_shape(body, Transform2(pose.x, pose.y, state.cos_yaw, state.sin_yaw),
-                   [&](const Outline& outline, int layer) {
-                       cache.shapes.push_back({outline, layer, bounding_radius(outline)});
+                   [&](const Outline& outline, int layer, double friction) {
+                       cache.shapes.push_back({outline, layer, bounding_radius(outline), friction});
                    });
     cache.pose = pose, cache.valid = true;
     return cache.shapes;
@@ -90,6 +90,7 @@ bool Physics::may_be_closer_than(std::size_t a, std::size_t b, double distance) 
 /// its island. The clearances of the other bodies shrink to half the gap, too.
 void Physics::measure_clearance(std::size_t body) {
     State& state = states_[body];
+    state.measured = true;
     state.obstacle_clearance = sight;
     for_each_obstacle_near(body, sight, [&](const Obstacle& o, std::size_t) {
         double gap = distance_to(o.outline, state.pose.x, state.pose.y) - state.bounding_radius;
@@ -115,7 +116,7 @@ void Physics::measure_clearance(std::size_t body) {
 /// Whether a body may touch something while no point of it moves by more than `displacement`, m.
 bool Physics::may_touch_something(std::size_t body, double displacement) {
     if (states_[body].clearance() >= displacement + near_distance) return false;
-    measure_clearance(body);
+    if (!states_[body].measured) measure_clearance(body);
     return states_[body].clearance() < displacement + near_distance;
 }
 
@@ -151,12 +152,13 @@ void Physics::begin(std::span<const Reach> reach, std::uint64_t steps) {
     if (members_.size() > 1) find_pairs();
     // A stable order: bodies by their number, islands by their first body.
     for (const std::size_t i : members_) root_[i] = find_root(i);
-    std::stable_sort(members_.begin(), members_.end(), [&](std::size_t a, std::size_t b) { return root_[a] < root_[b]; });
+    std::stable_sort(members_.begin(), members_.end(),
+                     [&](std::size_t a, std::size_t b) { return root_[a] < root_[b]; });
     for (std::size_t k = 0; k < members_.size(); ++k) {
         const std::size_t i = members_[k];
         if (k == 0 || root_[i] != root_[members_[k - 1]]) islands_.push_back({k, 0, false});
         ++islands_.back().count;
-        if (contacts_ == Contacts::always_bullet || !near_[i].empty()) states_[i].body_clearance = 0;
+        if (!near_[i].empty()) states_[i].body_clearance = 0, states_[i].measured = false;
     }
     for (Island& island : islands_) {
         const std::size_t body = members_[island.first];
@@ -211,12 +213,12 @@ std::uint64_t Physics::stride(std::size_t island, std::uint64_t left) {
         if (per_step == 0) continue;
         const double turn = bodies_[i].driven ? reach_[i].turn : std::abs(velocities_[i].turn) * step_;
         left = std::min(left, steps_of(max_turn, turn, left));
-        const std::uint64_t in_contact =
-            std::min(steps_of(contact_stride, per_step, contact_steps_at_once), steps_of(contact_turn, turn, left));
+        const std::uint64_t in_contact = std::min(steps_of(contact_stride, per_step, contact_steps_at_once),
+                                                  steps_of(contact_turn, turn, left));
         if (may_touch_something(i, static_cast<double>(in_contact) * per_step))
-            left = std::min(left, states_[i].touching ? in_contact
-                                                      : steps_of(states_[i].clearance() - near_distance,
-                                                                 per_step, left));
+            left = std::min(left, states_[i].touching
+                                      ? in_contact
+                                      : steps_of(states_[i].clearance() - near_distance, per_step, left));
         else
             left = std::min(left, steps_of(states_[i].clearance() - near_distance, per_step, left));
     }

@@ -50,7 +50,8 @@ Physics::Physics(std::span<const Obstacle> obstacles, std::span<const Body> bodi
     // Steps must not allocate memory.
     const std::size_t n = bodies_.size();
     poses_before_.resize(n), reverted_.reserve(n), reach_.resize(n);
-    step_velocities_.resize(n), step_reach_.resize(n), coasting_.resize(n), undisturbed_.resize(n), disc_.resize(n);
+    step_velocities_.resize(n), step_reach_.resize(n), coasting_.resize(n), undisturbed_.resize(n),
+        number_.resize(n);
     near_.resize(n), root_.resize(n), members_.reserve(n), islands_.reserve(n), areas_.reserve(n);
     for (auto& near : near_) near.reserve(n);
     std::iota(root_.begin(), root_.end(), 0);
@@ -71,7 +72,7 @@ void Physics::place(std::size_t body, const Pose2& pose) {
     states_[body].pose = {pose.x, pose.y, wrap_angle(pose.yaw)};
     states_[body].present = true;
     velocities_[body] = {};
-    states_[body].touching = false, states_[body].obstacle_clearance = 0;
+    states_[body].touching = states_[body].measured = false, states_[body].obstacle_clearance = 0;
 }
 
 void Physics::remove(std::size_t body) {
@@ -107,7 +108,8 @@ void Physics::coast(std::size_t body, std::uint64_t steps, Velocity& mean, Veloc
 void Physics::move(std::size_t body, const Velocity& mean, double seconds) {
     State& s = states_[body];
     if (is_zero(mean)) return;
-    double distance = max_displacement(body, std::hypot(mean.x, mean.y) * seconds, std::abs(mean.turn) * seconds);
+    double distance =
+        max_displacement(body, std::hypot(mean.x, mean.y) * seconds, std::abs(mean.turn) * seconds);
     const double allowed = push_ - s.displacement;
     if (s.active && distance > allowed) {
         seconds *= std::max(0.0, allowed) / distance;

@@ -27,9 +27,9 @@ namespace forage::bug {
 /// steps, so each is simulated by itself (islands.cpp). Where nothing is near, many steps are one stride, and
 /// where bodies touch, a few; the strides of an island depend on nothing outside it.
 ///
-/// Contacts between discs, and of discs with obstacles, are solved in closed form (round_contacts.h); Bullet
-/// finds and solves all others (contact_solver.h). Collisions have no restitution. Contacts do not persist
-/// from stride to stride; only movable objects keep their velocity.
+/// Contacts that have a round side are found in closed form (round_contacts.h); Bullet finds and solves those
+/// of an island in which two boxes may touch (contact_solver.h). Collisions have no restitution. Contacts do
+/// not persist from stride to stride; only movable objects keep their velocity.
 ///
 /// After a stride no two shapes penetrate each other by more than 0.8 mm, or by more than before it if that
 /// was deeper (separation.cpp).
@@ -91,8 +91,8 @@ class Physics {
     /// Whether a body could be placed at `pose` without an overlap with any other shape.
     bool is_collision_free(std::size_t body, const Pose2& pose) const;
 
-    /// The number of contacts between shapes of this movable object and shapes of robots, summed over the steps
-    /// since begin().
+    /// The number of contacts between shapes of this movable object and shapes of robots, summed over the
+    /// steps since begin().
     int robot_contacts(std::size_t body) const { return states_[body].robot_contacts; }
     /// Makes the following steps note which driven bodies touch another shape.
     void note_touches() { touched_.resize(bodies_.size()); }
@@ -123,11 +123,13 @@ class Physics {
         bool present = false;
         bool active = false;    ///< whether contacts of the body are possible in this stride
         bool touching = false;  ///< whether they were in the last one
-        double obstacle_clearance = 0;  ///< how far every point of it can move without touching an obstacle, m
-        double body_clearance = 0;      ///< the same for bodies of its island, if none moves more than its own
-        double displacement = 0;        ///< largest displacement of any point in the current steps so far, m
-        double bounding_radius = 0;     ///< radius of what the body has ever covered, in its frame, m
-        LayerMask layers = 0;           ///< layers of the central disc and the parts
+        double obstacle_clearance =
+            0;                       ///< how far every point of it can move without touching an obstacle, m
+        double body_clearance = 0;   ///< the same for bodies of its island, if none moves more than its own
+        bool measured = false;       ///< whether the clearances were measured at this pose
+        double displacement = 0;     ///< largest displacement of any point in the current steps so far, m
+        double bounding_radius = 0;  ///< radius of what the body has ever covered, in its frame, m
+        LayerMask layers = 0;        ///< layers of the central disc and the parts
         int robot_contacts = 0;      ///< in the current steps
         int contacts_in_stride = 0;  ///< the same, in one step of the current stride
         double cached_yaw = 0, cos_yaw = 1, sin_yaw = 0;
@@ -137,6 +139,7 @@ class Physics {
         }
         double clearance() const { return std::min(obstacle_clearance, body_clearance); }
         void moved(double distance) {
+            measured = false;
             obstacle_clearance -= distance, body_clearance -= distance, displacement += distance;
         }
     };
@@ -149,6 +152,7 @@ class Physics {
         Outline outline;
         int layer = 0;
         double bounding_radius = 0;  ///< m
+        double friction = 0;
     };
     /// The shapes of a body in world coordinates when the body is at `pose`.
     struct ShapeCache {
@@ -168,7 +172,6 @@ class Physics {
     bool can_collide(LayerMask layers, int layer) const {
         return layers & collision_masks_[static_cast<std::size_t>(layer)];
     }
-    bool is_round(std::size_t body) const { return bodies_[body].parts.empty(); }
     // ---- islands ----
     double circle_gap(std::size_t a, std::size_t b) const;
     double shape_gap(std::size_t a, std::size_t b);
@@ -194,10 +197,12 @@ class Physics {
     struct Encounter {
         std::size_t body, other;
         bool is_obstacle;
+        double reach;  ///< gaps that are larger do not close in the stride, m
     };
     void solve_contacts(std::span<const std::size_t> bodies, std::uint64_t steps);
     void find_encounters(double seconds);
-    void solve_round(std::uint64_t steps);
+    bool find_round_contacts(std::uint64_t steps);
+    void note_touch(const Encounter& encounter);
     void solve_with_bullet(std::uint64_t steps);
     // ---- separation ----
     template <class F>
@@ -210,8 +215,8 @@ class Physics {
     bool is_blocked(std::size_t body, const Part& part, const Outline& target) const;
     bool can_move(std::size_t body, const Pose2& from, const Pose2& to) const;
     bool push_objects(std::size_t body, std::span<const std::pair<std::size_t, Outline>> parts);
-    /// Calls visit(outline in world coordinates, layer) for the central disc and the parts of a body at
-    /// `pose`.
+    /// Calls visit(outline in world coordinates, layer, friction) for the central disc and the parts of a
+    /// body at `pose`.
     template <class F>
     void for_each_shape(std::size_t body, const Pose2& pose, F&& visit) const {
         for_each_shape(body, Transform2(pose), std::forward<F>(visit));
@@ -222,9 +227,9 @@ class Physics {
         if (b.radius > 0) {
             Outline disc;
             disc.round = true, disc.x = pose.x(), disc.y = pose.y(), disc.radius = b.radius;
-            visit(disc, b.layer);
+            visit(disc, b.layer, b.friction);
         }
-        for (const Part& part : b.parts) visit(pose * part.outline, part.layer);
+        for (const Part& part : b.parts) visit(pose * part.outline, part.layer, part.friction);
     }
 
     std::vector<Obstacle> obstacles_;
@@ -241,14 +246,14 @@ class Physics {
     double heaviest_ = 0;  ///< mass of the heaviest driven body, kg
 
     // ---- the current steps, from begin() on ----
-    std::uint64_t steps_ = 1;                       ///< their number
-    std::vector<Reach> reach_;                      ///< per body and step
-    double push_ = 0;                               ///< how far any body may move in all steps, m
-    std::vector<Area> areas_;                       ///< what each body may cover
+    std::uint64_t steps_ = 1;   ///< their number
+    std::vector<Reach> reach_;  ///< per body and step
+    double push_ = 0;           ///< how far any body may move in all steps, m
+    std::vector<Area> areas_;   ///< what each body may cover
     Grid body_grid_;
-    std::vector<std::vector<std::size_t>> near_;    ///< per body: the bodies that it may meet
-    std::vector<std::size_t> root_;                 ///< per body: another one of its island, in the end the first
-    std::vector<std::size_t> members_;              ///< the present bodies, island by island
+    std::vector<std::vector<std::size_t>> near_;  ///< per body: the bodies that it may meet
+    std::vector<std::size_t> root_;     ///< per body: another one of its island, in the end the first
+    std::vector<std::size_t> members_;  ///< the present bodies, island by island
     std::vector<Island> islands_;
     std::vector<Velocity> undisturbed_, coasting_;  ///< per movable object: if nothing touches it, its mean
                                                     ///< velocity in the stride, and the one after it
@@ -256,12 +261,13 @@ class Physics {
     std::vector<Encounter> encounters_;
     std::vector<std::pair<std::size_t, std::size_t>> pairs_;  ///< the encounters as Bullet's objects
     RoundContacts round_contacts_;
-    std::vector<std::size_t> disc_;                 ///< per body: its number in round_contacts_
-    std::vector<Pose2> poses_before_;               ///< before the current stride
-    std::vector<char> reverted_;                    ///< whether a body is put back to its pose before
-    std::vector<Velocity> step_velocities_;         ///< of step(), and step_reach_, too
+    std::vector<std::size_t> number_;  ///< per body: its number in round_contacts_
+    std::vector<Encounter> touching_;
+    std::vector<Pose2> poses_before_;        ///< before the current stride
+    std::vector<char> reverted_;             ///< whether a body is put back to its pose before
+    std::vector<Velocity> step_velocities_;  ///< of step(), and step_reach_, too
     std::vector<Reach> step_reach_;
-    std::vector<Outline> outlines_before_;          ///< outlines of parts before rotate_parts()
+    std::vector<Outline> outlines_before_;               ///< outlines of parts before rotate_parts()
     std::vector<std::pair<std::size_t, Pose2>> pushed_;  ///< bodies that parts pushed, with the poses before
     std::unique_ptr<ContactSolver> contact_solver_;
 };

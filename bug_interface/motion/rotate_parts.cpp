@@ -40,7 +40,7 @@ bool Physics::is_blocked(std::size_t body, const Part& part, const Outline& targ
         if (blocked || !bodies_[other].driven ||
             !closer_than(to, s.pose, bounding_radius(to) + s.bounding_radius))
             continue;
-        for_each_shape(other, s.pose, [&](const Outline& o, int layer) {
+        for_each_shape(other, s.pose, [&](const Outline& o, int layer, double) {
             blocked |= can_collide(LayerMask{1} << part.layer, layer) && penetrates(o, from, to);
         });
     }
@@ -58,7 +58,7 @@ bool Physics::can_move(std::size_t body, const Pose2& from, const Pose2& to) con
             if (other == body || !s.present ||
                 !closer_than(after, s.pose, bounding_radius(after) + s.bounding_radius))
                 continue;
-            for_each_shape(other, s.pose, [&](const Outline& o, int other_layer) {
+            for_each_shape(other, s.pose, [&](const Outline& o, int other_layer, double) {
                 if (can_collide(LayerMask{1} << layer, other_layer)) free &= !penetrates(o, before, after);
             });
         }
@@ -66,7 +66,7 @@ bool Physics::can_move(std::size_t body, const Pose2& from, const Pose2& to) con
     const Transform2 pose_before(from);
     auto part = bodies_[body].parts.begin();
     bool is_disc = bodies_[body].radius > 0;  // the central disc comes first
-    for_each_shape(body, to, [&](const Outline& after, int layer) {
+    for_each_shape(body, to, [&](const Outline& after, int layer, double) {
         Outline before = after;
         if (is_disc)
             before.x = from.x, before.y = from.y, is_disc = false;
@@ -97,7 +97,7 @@ bool Physics::push_objects(std::size_t body, std::span<const std::pair<std::size
             const Outline after = pose * parts[i].second, before = pose * outlines_before_[i];
             const int layer = bodies_[body].parts[parts[i].first].layer;
             Overlap deepest;
-            for_each_shape(object, other.pose, [&](const Outline& o, int object_layer) {
+            for_each_shape(object, other.pose, [&](const Outline& o, int object_layer, double) {
                 if (!can_collide(LayerMask{1} << layer, object_layer)) return;
                 const Overlap in = overlap(after, o);
                 if (in.depth > tolerance && in.depth > overlap(before, o).depth && in.depth > deepest.depth)
@@ -136,7 +136,7 @@ bool Physics::rotate_parts(std::size_t body, std::span<const std::pair<std::size
     }
     const double radius_before = state.bounding_radius;
     update_bounding_radius(body);
-    if (state.bounding_radius > radius_before) state.obstacle_clearance = state.body_clearance = 0;
+    if (state.bounding_radius > radius_before) state.obstacle_clearance = 0;
     state.moved(displacement);
     for (const auto& [object, from] : pushed_)
         states_[object].moved(std::hypot(states_[object].pose.x - from.x, states_[object].pose.y - from.y));

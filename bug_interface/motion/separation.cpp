@@ -19,9 +19,9 @@ constexpr int max_rounds = 20;           ///< largest number of passes over all 
 
 }  // namespace
 
-/// Calls visit(a, shape of a, b, shape of b, overlap) for each pair of shapes of an island that penetrate each
-/// other by more than target_depth, when body a or b is active. For an obstacle, b is the number of bodies and its
-/// shape is the number of the obstacle. visit() may move both bodies.
+/// Calls visit(a, shape of a, b, shape of b, overlap) for each pair of shapes of an island that penetrate
+/// each other by more than target_depth, when body a or b is active. For an obstacle, b is the number of
+/// bodies and its shape is the number of the obstacle. visit() may move both bodies.
 template <class F>
 void Physics::for_each_penetration(std::span<const std::size_t> bodies, F&& visit) {
     const auto test = [&](std::size_t a, std::size_t p, const PlacedShape& shape_a, const Outline& outline_b,
@@ -86,8 +86,7 @@ void Physics::separate(std::span<const std::size_t> bodies) {
     for (int round = 0; round < max_rounds; ++round) {
         bool moved = false;
         for_each_penetration(
-            bodies,
-            [&](std::size_t a, std::size_t p, std::size_t b, std::size_t q, const Overlap& in) {
+            bodies, [&](std::size_t a, std::size_t p, std::size_t b, std::size_t q, const Overlap& in) {
                 if (unmoved(a) && unmoved(b)) return;
                 const double before = depth_before_step(a, p, b, q);
                 const double excess = in.depth - (before > max_depth ? before : target_depth);
@@ -115,8 +114,7 @@ void Physics::revert_penetrating(std::span<const std::size_t> bodies) {
             velocities_[i] = {};
         };
         for_each_penetration(
-            bodies,
-            [&](std::size_t a, std::size_t p, std::size_t b, std::size_t q, const Overlap& in) {
+            bodies, [&](std::size_t a, std::size_t p, std::size_t b, std::size_t q, const Overlap& in) {
                 if (in.depth > depth_epsilon + std::max(max_depth, depth_before_step(a, p, b, q)))
                     revert(a), revert(b);
             });

@@ -9,8 +9,8 @@ namespace forage::bug {
 namespace {
 
 constexpr std::uint64_t substeps_per_check = 101;  ///< the original skips 100
-constexpr int held_contacts = 100;       ///< between two checks; more mean that a resource is held
-constexpr double spread = 0.5;           ///< m around a site
+constexpr int held_contacts = 100;                 ///< between two checks; more mean that a resource is held
+constexpr double spread = 0.5;                     ///< m around a site
 
 /// Random numbers are indexed by the second and by their use.
 enum Draw : std::uint32_t { shuffle, chance, position };

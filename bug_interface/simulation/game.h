@@ -51,7 +51,8 @@ class Game {
     void begin(Physics& physics);
     /// The number of substeps of `step` s until something may happen: at least 1.
     std::uint64_t substeps_to_event(double step) const;
-    /// Called after `steps` substeps of `step` s, at most substeps_to_event(). `time` is the simulated time, s.
+    /// Called after `steps` substeps of `step` s, at most substeps_to_event(). `time` is the simulated time,
+    /// s.
     void advance(Physics& physics, double time, double step, std::uint64_t steps);
 
     bool empty() const { return resources_.empty(); }

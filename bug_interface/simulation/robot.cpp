@@ -82,15 +82,17 @@ double Robot::gripper_travel(double step) const {
     if (turn == 0) return 0;
     for (const MovingOutline& part : parts)
         if (part.hinge >= 0)
-            reach = std::max(reach, std::hypot(part.outline.x, part.outline.y) + bounding_radius(part.outline));
+            reach =
+                std::max(reach, std::hypot(part.outline.x, part.outline.y) + bounding_radius(part.outline));
     return turn * 2 * reach;
 }
 
 void Robot::move_gripper(Physics& physics, double step, std::uint64_t steps) {
-    for (std::size_t h = 0; h < hinges.size(); ++h)
+    for (std::size_t h = 0; h < hinges.size(); ++h) {
+        if (blocked_[h] || turn_hinge(physics, h, hinges.next(h, step, steps))) continue;
         // What blocks the way of many substeps may be farther away than one.
-        if (!turn_hinge(physics, h, hinges.next(h, step, steps)) && steps > 1)
-            turn_hinge(physics, h, hinges.next(h, step, 1));
+        blocked_[h] = steps == 1 || !turn_hinge(physics, h, hinges.next(h, step, 1));
+    }
 }
 
 /// Turns a hinge with all that it carries. Returns false, and turns nothing, when the way is blocked.

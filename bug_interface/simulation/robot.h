@@ -28,8 +28,10 @@ class Robot {
     Robot(const Model& model, std::size_t number, std::uint64_t seed, bool noise, Heights& heights,
           Diagnostics& diagnostics);
 
-    /// Turns the hinges for `steps` substeps of `step` s. A hinge keeps its angle when its way is blocked.
+    /// Turns the hinges for `steps` substeps of `step` s. A hinge keeps its angle when its way is blocked,
+    /// until retry_hinges() is called.
     void move_gripper(Physics& physics, double step, std::uint64_t steps);
+    void retry_hinges() { blocked_.assign(hinges.size(), 0); }
     /// How far any point of the gripper can move within a substep of `step` s, m.
     double gripper_travel(double step) const;
 
@@ -57,6 +59,7 @@ class Robot {
   private:
     bool turn_hinge(Physics& physics, std::size_t hinge, double angle);
 
+    std::vector<char> blocked_;                            ///< per hinge
     std::vector<std::pair<std::size_t, Outline>> turned_;  ///< the parts that a hinge turns
 };
 

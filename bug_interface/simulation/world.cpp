@@ -62,6 +62,7 @@ bool World::every_substep_matters(std::uint64_t steps) const {
 void World::move_bodies(std::uint64_t steps) {
     const double noise = options_.noise ? speed_noise : 0;
     for (Robot& robot : robots_) {
+        robot.retry_hinges();
         const bool driven = !update_reset(robot.number);
         const MotorCommand command = driven ? robot.command : MotorCommand{};
         const double speed_of_noise = driven ? noise : 0;
@@ -125,9 +126,9 @@ Velocity World::drive(std::size_t bug, std::uint64_t substep, std::uint64_t step
         }
         return physics_->velocity_of(bug, command);
     }
-    const Pose2 &from = physics_->pose(bug), to = free_drive(from, command, steps, description_.step,
-                                                             options_.noise ? speed_noise : 0,
-                                                             robot.motor_noise, first_stride_index + substep);
+    const Pose2 &from = physics_->pose(bug),
+                to = free_drive(from, command, steps, description_.step, options_.noise ? speed_noise : 0,
+                                robot.motor_noise, first_stride_index + substep);
     const double seconds = static_cast<double>(steps) * description_.step;
     return {(to.x - from.x) / seconds, (to.y - from.y) / seconds, (to.yaw - from.yaw) / seconds};
 }
@@ -137,10 +138,11 @@ void World::drive_freely(std::size_t island, std::uint64_t steps) {
     const std::size_t bug = physics_->island(island).front();
     Robot& robot = robots_[bug];
     if (!robot.hinges.empty()) robot.move_gripper(*physics_, description_.step, steps);
-    const std::uint64_t index = substep_ == substeps_before(cycle_) ? first_free_index + cycle_ : first_stride_index + substep_;
+    const std::uint64_t index =
+        substep_ == substeps_before(cycle_) ? first_free_index + cycle_ : first_stride_index + substep_;
     const Pose2 from = physics_->pose(bug);
-    const Pose2 to = free_drive(from, robot.command, steps, description_.step, options_.noise ? speed_noise : 0,
-                                robot.motor_noise, index);
+    const Pose2 to = free_drive(from, robot.command, steps, description_.step,
+                                options_.noise ? speed_noise : 0, robot.motor_noise, index);
     physics_->move_freely(island, to, physics_->velocity_of(bug, robot.command));
     robot.trials->follow(from, physics_->pose(bug));
 }
