@@ -21,9 +21,9 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// How far from itself a body looks for obstacles, m. Its clearance is never larger.
 constexpr double sight = 1;
-constexpr double contact_stride = 0.01;  ///< m; how far bodies move in a stride while they touch
+constexpr double contact_stride = 0.02;  ///< m; how far bodies move in a stride while they touch
 constexpr double contact_turn = 0.05;    ///< rad; the same for rotations
-constexpr std::uint64_t contact_steps_at_once = 10;
+constexpr std::uint64_t contact_steps_at_once = 20;
 constexpr double max_turn = 0.5;  ///< rad; how far a body turns in any stride
 /// Gap between bounding circles below which the shapes are compared, m.
 constexpr double shape_test_distance = 0.1;

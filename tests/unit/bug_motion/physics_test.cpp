@@ -84,21 +84,30 @@ TEST_CASE("The yaw stays in (-pi, pi]") {
     CHECK(r.pose().yaw == Approx(3));
 }
 
-TEST_CASE("Calling Bullet when nothing is near does not change a bit") {
-    OneRobot fast(room, {0, 0, 0.5}), slow(room, {0, 0, 0.5}, Contacts::always_bullet);
+TEST_CASE("A step of a disc is that of Bullet, and without contacts it has the same bits") {
+    OneRobot closed_form(room, {0, 0, 0.5}), bullet(room, {0, 0, 0.5}, Contacts::always_bullet);
     const forage::RandomStream random(3, "drive");
-    bool touched = false;
+    int touching = 0, farther = 0;
     for (std::uint64_t i = 0; i < 20000; ++i) {
         const MotorCommand c{2 * random.uniform(i / 50, 0) - 0.6, 6 * random.uniform(i / 50, 1) - 3};
-        fast.drive(c), slow.drive(c);
-        touched |= fast.gap() < 1e-5;
-        if (fast.pose().x != slow.pose().x || fast.pose().y != slow.pose().y ||
-            fast.pose().yaw != slow.pose().yaw) {
-            FAIL("differs in step " << i);
+        bullet.physics.place(0, closed_form.pose());
+        const auto contacts = closed_form.physics.contact_steps();
+        closed_form.drive(c), bullet.drive(c);
+        const Pose2 &a = closed_form.pose(), &b = bullet.pose();
+        INFO("step " << i);
+        if (closed_form.physics.contact_steps() == contacts) {
+            REQUIRE((a.x == b.x && a.y == b.y && a.yaw == b.yaw));
+            continue;
         }
+        ++touching;
+        // In corners Bullet's iterations may end before the closed form's.
+        REQUIRE(std::hypot(a.x - b.x, a.y - b.y) < 1e-4);
+        REQUIRE(std::abs(std::remainder(a.yaw - b.yaw, 2 * pi)) < 1e-4);
+        farther += std::hypot(a.x - b.x, a.y - b.y) > 2e-6;
     }
-    CHECK(touched);
-    CHECK(fast.physics.contact_steps() < slow.physics.contact_steps() * 3 / 4);
+    INFO(touching << " steps with contacts, " << farther << " of them differ");
+    CHECK(touching > 3000);
+    CHECK(farther < touching / 100);
 }
 
 TEST_CASE("A fast robot does not run into a slow one, whatever their order") {
