@@ -59,12 +59,12 @@ WorldDescription pen(double side, const std::vector<Pose2>& robots, const std::v
     return world;
 }
 
-/// A world that is measured after every step of 1 ms.
+/// A world that is measured after every cycle of one or more steps of 1 ms.
 class Pen {
   public:
-    explicit Pen(const WorldDescription& text) {
+    explicit Pen(const WorldDescription& text, int steps_per_cycle = 1) {
         WorldOptions options;
-        options.cycles_per_second = 1000, options.real_time_factor = 1;
+        options.cycles_per_second = 1000.0 / steps_per_cycle, options.real_time_factor = 1;
         world = test::make_world(text, options);
         for (const Model& m : text.models)
             if (m.is_static)
@@ -132,20 +132,24 @@ std::uint64_t steps_to_do() {
 }  // namespace
 
 TEST_CASE("Random driving and gripping among crates and balls: nothing penetrates, and no energy appears") {
+    const int cycle = GENERATE(1, 40);
+    INFO(cycle << " steps per cycle");
     Pen pen(::pen(3.2, {{-1, -1, 0}, {1, 1, 3}, {-1, 1, -1}},
                   {box("crate_1", {0, 0, 0.3}, 0.3, 0.3, 0.5), box("crate_2", {0.9, -0.6, 1}, 0.4, 0.25, 3),
                    box("crate_3", {-0.2, -0.8, 0}, 0.25, 0.25, 0.2), ball("ball_1", {0.4, 0.5, 0}),
-                   ball("ball_2", {1, -1.2, 0}), ball("ball_3", {-1.2, 0, 0})}));
+                   ball("ball_2", {1, -1.2, 0}), ball("ball_3", {-1.2, 0, 0})}),
+            cycle);
     World& world = *pen.world;
     std::vector<Pose2> before;
     for (std::size_t i = 0; i < world.movable_objects(); ++i) before.push_back(*world.movable_object_pose(i));
     const RandomStream random(17, "push");
-    const std::uint64_t steps = steps_to_do();
-    for (std::uint64_t t = 0; t < steps; ++t) {
-        if (t % 250 == 0)
+    const std::uint64_t cycles =
+        cycle == 1 ? steps_to_do() : 5 * steps_to_do() / static_cast<std::uint64_t>(cycle);
+    for (std::uint64_t t = 0; t < cycles; ++t) {
+        if (t % (cycle == 1 ? 250 : 6) == 0)
             for (std::uint32_t i = 0; i < 3; ++i) {
                 world.command(i, {2 * random.uniform(t, 3 * i) - 0.7, 4 * random.uniform(t, 3 * i + 1) - 2});
-                world.grip(i, random.uniform(t / 1000, 3 * i + 2) < 0.5);
+                world.grip(i, random.uniform(t / (cycle == 1 ? 1000 : 25), 3 * i + 2) < 0.5);
             }
         pen.step();
     }
@@ -172,13 +176,15 @@ TEST_CASE("Random driving and gripping among crates and balls: nothing penetrate
 }
 
 TEST_CASE("A gripped ball stays gripped at walls, does not penetrate them, and is released on command") {
+    const int cycle = GENERATE(1, 40);
     for (int run = 0; run < 6; ++run) {
         Pen pen(::pen(2.4, {{0, 0, 0.4 * run}},
-                      {ball("ball_1", {0.34 * std::cos(0.4 * run), 0.34 * std::sin(0.4 * run), 0})}));
+                      {ball("ball_1", {0.34 * std::cos(0.4 * run), 0.34 * std::sin(0.4 * run), 0})}),
+                cycle);
         World& world = *pen.world;
         const auto drive = [&](MotorCommand command, int steps, bool check) {
             world.command(0, command);
-            for (int i = 0; i < steps; ++i) {
+            for (int i = 0; i < steps / cycle; ++i) {
                 pen.step();
                 if (!check) continue;
                 const Pose2 &r = world.pose(0), b = *world.movable_object_pose(0);
