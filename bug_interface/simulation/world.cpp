@@ -64,6 +64,7 @@ void World::move_bodies(std::uint64_t steps) {
     for (Robot& robot : robots_) {
         robot.retry_hinges();
         const bool driven = !update_reset(robot.number);
+        driven_[robot.number] = driven;
         const MotorCommand command = driven ? robot.command : MotorCommand{};
         const double speed_of_noise = driven ? noise : 0;
         reach_[robot.number] = {(std::abs(command.forward) + speed_of_noise) * description_.step,
@@ -115,7 +116,7 @@ bool World::may_stride(std::size_t bug, std::uint64_t steps) const {
 /// The mean velocity of a robot in `steps` substeps from number `substep` on, with noise.
 Velocity World::drive(std::size_t bug, std::uint64_t substep, std::uint64_t steps) {
     const Robot& robot = robots_[bug];
-    if (resetting(bug) || !physics_->present(bug)) return {};
+    if (!driven_[bug]) return {};
     MotorCommand command = robot.command;
     if (steps == 1) {
         if (options_.noise) {

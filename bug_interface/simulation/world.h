@@ -194,6 +194,7 @@ class World final : public Environment {
     BodyPoses body_poses_;
     std::vector<MovingVisual> moving_visuals_;  ///< visuals of all robots and movable objects
     bool visuals_placed_ = false;               ///< whether moving_visuals_ are at the body poses
+    std::vector<char> driven_;                  ///< per robot: whether it is driven, not being reset
     std::vector<Reach> reach_;                  ///< per body, per substep
     std::vector<Velocity> drives_;              ///< of the robots in the current stride, with noise
     std::unique_ptr<Physics> physics_;

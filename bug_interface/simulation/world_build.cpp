@@ -82,6 +82,7 @@ bool World::build(Diagnostics& diagnostics) {
     physics_ = std::make_unique<Physics>(obstacles_of(description_, heights_), bodies_, description_.step,
                                          options_.contacts, heights_.collision_masks());
     drives_.resize(bodies_.size()), reach_.resize(bodies_.size());
+    driven_.assign(robots_.size(), 1);
     body_poses_.bodies.resize(bodies_.size()), body_poses_.present.assign(bodies_.size(), 1);
     body_poses_.hinges.resize(bodies_.size());
     for (std::size_t i = 0; i < robots_.size(); ++i) body_poses_.hinges[i].resize(robots_[i].hinges.size());
