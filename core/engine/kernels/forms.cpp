@@ -33,13 +33,14 @@ ByTarget sort_by_target(connectivity::Synapses s, int targets) {
     return out;
 }
 
-std::unique_ptr<Kernel> make_kernel(connectivity::Synapses synapses, int source_cells, int target_cells,
+std::unique_ptr<Kernel> make_kernel(connectivity::Synapses synapses, GroupShape source, GroupShape target,
                                     Forms forms) {
-    ByTarget sorted = sort_by_target(std::move(synapses), target_cells);
+    ByTarget sorted = sort_by_target(std::move(synapses), target.cells);
     if (forms == Forms::fastest) {
-        if (auto kernel = make_one_to_one(sorted, source_cells)) return kernel;
+        if (auto kernel = make_one_to_one(sorted, source.cells)) return kernel;
         if (auto kernel = make_broadcast(sorted)) return kernel;
-        if (auto kernel = make_sliced(sorted, source_cells)) return kernel;
+        if (auto kernel = make_by_source(sorted, source, target)) return kernel;
+        if (auto kernel = make_sliced(sorted, source.cells)) return kernel;
     }
     return make_list(std::move(sorted));
 }
@@ -63,7 +64,7 @@ std::unique_ptr<Kernel> make_kernel(const connectivity::Regular& regular, int so
 std::unique_ptr<PlasticKernel> make_plastic(connectivity::Synapses synapses, GroupShape source,
                                             GroupShape target, const SynapseType& type, bool reads_states,
                                             Rows& rows, Forms forms) {
-    if (forms == Forms::fastest && type.event_driven)
+    if (forms == Forms::fastest)
         if (auto kernel = make_plastic_by_source(synapses, source, target, type, reads_states, rows))
             return kernel;
     return make_plastic_list(std::move(synapses), target.cells, type, rows);

@@ -25,7 +25,7 @@ enum class Forms {
 
 /// Makes a kernel for synapses that multiply by a constant: psp = (gain * pre) * factor, rounded in this
 /// order.
-std::unique_ptr<Kernel> make_kernel(connectivity::Synapses synapses, int source_cells, int target_cells,
+std::unique_ptr<Kernel> make_kernel(connectivity::Synapses synapses, GroupShape source, GroupShape target,
                                     Forms forms);
 /// Makes a kernel for a connection that is the same everywhere, and whose synapses multiply by a constant.
 std::unique_ptr<Kernel> make_kernel(const connectivity::Regular& regular, int source_cells, int target_cells);
@@ -43,6 +43,7 @@ std::unique_ptr<Kernel> make_one_to_one(const ByTarget& synapses, int source_cel
 std::unique_ptr<Kernel> make_broadcast(ByTarget synapses_of_one, int target_cells);
 std::unique_ptr<Kernel> make_broadcast(const ByTarget& synapses);
 std::unique_ptr<Kernel> make_window(const connectivity::Regular& window);
+std::unique_ptr<Kernel> make_by_source(const ByTarget& synapses, GroupShape source, GroupShape target);
 std::unique_ptr<Kernel> make_sliced(const ByTarget& synapses, int source_cells);
 std::unique_ptr<Kernel> make_list(ByTarget synapses);
 std::unique_ptr<PlasticKernel> make_plastic_by_source(const connectivity::Synapses& synapses,

@@ -202,7 +202,7 @@ class Compiler {
             if (plan.pruned) return;
             lengthen(c, plan);
             if (!budget_.exceeded())
-                plan.kernel = make_kernel(std::move(synapses), source.cells, target.cells, forms_);
+                plan.kernel = make_kernel(std::move(synapses), source, target, forms_);
             return;
         }
         plan.feedback = feedback_states(c, about.type, plan);

@@ -76,7 +76,8 @@ class RandomSystem {
                 return;  // one to one, where sizes are equal
             case 1:
                 c.pattern = model::ForeachPattern{};
-                return;  // all alike
+                if (upto(2)) c.attenuation = {model::RandomFunction{0.5}, {}};  // else all alike
+                return;
             default:
                 break;
         }
@@ -175,8 +176,8 @@ TEST_CASE("Every form of a connection gives the same bits as the list of synapse
             ++forms[std::string(fastest.connection_form(c))];
         REQUIRE(trace(std::move(fastest), 40) == trace(system, {.general_forms = true}, 40));
     }
-    for (const char* form :
-         {"one to one", "broadcast", "window", "sliced", "list", "plastic", "plastic by source"}) {
+    for (const char* form : {"one to one", "broadcast", "window", "by source", "sliced", "list", "plastic",
+                             "plastic by source"}) {
         INFO(form << ": " << forms[form]);
         REQUIRE(forms[form] >= 20);
     }
