@@ -6,7 +6,8 @@
 // sharing, on two) and prints cycles per second (the best of three runs of a second or two, which is what
 // results.tsv has of the original, and their median), the ratio of the best to the original's, the time to
 // load and build, and the peak of memory. The two systems of the tutorial get their recorded input again and
-// again, so that their inputs never become constant. All groups are updated; their inputs are not kept
+// again, so that their inputs never become constant. Two systems without a figure of the original's are
+// compared with the same system whose synapses are a list. All groups are updated; their inputs are not kept
 // between cycles, as in a run that does not record them. Last result: docs/design/performance.md.
 #include <algorithm>
 #include <cstdio>
@@ -153,6 +154,30 @@ int measure(const Original& original) {
     return 0;
 }
 
+/// Systems whose weights all differ, beside the same with a list of synapses, in turns.
+int compare_with_list(const std::string& name) {
+    Registry registry;
+    add_neurons(registry);
+    add_synapses(registry);
+    Diagnostics diagnostics;
+    const auto system = xml::read_system(test::shared_dir() / "perf" / (name + ".iqr"), diagnostics);
+    const auto built = [&](bool general_forms) {
+        auto out = engine::Simulation::build(*system, registry, engine::Demand::everything(),
+                                             {.general_forms = general_forms}, diagnostics);
+        out->start();
+        return out;
+    };
+    auto fast = built(false), plain = built(true);
+    const auto [rates, of_list] = bench::rates_in_turns(
+        bench::thread_seconds, [&] { fast->step(); }, [&] { plain->step(); });
+    const double ratio = rates.best() / of_list.best();
+    fmt::print("{:<42} {:>10.0f} {:>10.0f} {:>8.1f} x a list's ({})\n", name, rates.best(), rates.median(),
+               ratio, fast->connection_form(0));
+    bench::result("engine/" + name, "rate", rates.best(), "cycles/s");
+    bench::result("engine/" + name, "rate / a list's", ratio, "");
+    return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -164,19 +189,22 @@ int main(int argc, char** argv) {
     fmt::print("{:<42} {:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {}\n", "", "cycles/s", "median", "x original",
                "build s", "MB", "MB/orig.", "2 threads (of two separate runs)");
     int failed = 0;
-    for (const auto& original : originals()) {
-        if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), original.name) == wanted.end())
-            continue;
+    const auto run = [&](const std::string& name, auto measure) {
+        if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), name) == wanted.end()) return;
         std::fflush(stdout);
         const pid_t child = fork();
         if (child == 0) {
-            const int status = measure(original);
+            const int status = measure();
             std::fflush(stdout);
             _exit(status);
         }
         int status = 0;
         waitpid(child, &status, 0);
         failed |= status;
-    }
+    };
+    for (const auto& original : originals()) run(original.name, [&] { return measure(original); });
+    for (const char* name : {"all_to_all_30x30_random", "rect11_gauss_50x50_random"})
+        if (std::filesystem::exists(test::shared_dir() / "perf" / (std::string(name) + ".iqr")))
+            run(name, [&] { return compare_with_list(name); });
     return failed != 0;
 }
