@@ -14,21 +14,33 @@ namespace {
 /// and delivery, and when few of its groups have something to do, the others cost little.
 constexpr Index most_cells = 1024;
 constexpr Index most_cells_of_group = 256;  ///< larger ones gain little
+/// Of one kind. A batch is quiescent when all its groups are, so in systems with a few alike groups, which
+/// are active at different times, batches would cost more than they gain.
+constexpr std::ptrdiff_t fewest_groups = 8;
 
 class Gatherer {
   public:
     Gatherer(Plan& plan, State& state) : plan_(plan), state_(state) {}
 
     void add_groups(bool together) {
-        std::map<std::string, int> open;  // the last batch of its kind
+        struct Kind {
+            std::ptrdiff_t groups = 0;
+            int batch = -1;  ///< the last one
+        };
+        std::map<std::string, Kind> kinds;
+        std::vector<Kind*> kind_of_group(plan_.groups.size());
+        for (int i = 0; together && i < std::ssize(plan_.groups); ++i)
+            if (may_join(i)) kind_of_group[i] = &kinds[kind_of(i)], ++kind_of_group[i]->groups;
         for (int i = 0; i < std::ssize(plan_.groups); ++i) {
-            const auto& g = plan_.groups[i];
-            if (g.pruned) continue;
-            const auto next = static_cast<int>(plan_.batches.size());
-            int alone = next;
-            int& batch = together && may_join(i) ? open.try_emplace(kind_of(i), next).first->second : alone;
-            if (batch < next && plan_.batches[batch].cells + g.cells > most_cells) batch = next;
-            if (batch == next) begin_batch(i);
+            if (plan_.groups[i].pruned) continue;
+            auto batch = static_cast<int>(plan_.batches.size());
+            if (auto* kind = kind_of_group[i]; kind && kind->groups >= fewest_groups) {
+                if (kind->batch >= 0 &&
+                    plan_.batches[kind->batch].cells + plan_.groups[i].cells <= most_cells)
+                    batch = kind->batch;
+                kind->batch = batch;
+            }
+            if (batch == std::ssize(plan_.batches)) begin_batch(i);
             join(batch, i);
         }
         for (auto& b : plan_.batches) b.stride = Rows::stride(b.cells);
@@ -69,7 +81,7 @@ class Gatherer {
     /// their target.
     bool may_join(int group) const {
         const auto& g = plan_.groups[group];
-        return plan_.layout.groups[group].type.elementwise && g.cells <= most_cells_of_group &&
+        return !g.pruned && plan_.layout.groups[group].type.elementwise && g.cells <= most_cells_of_group &&
                g.module_inputs.empty() &&
                std::ranges::none_of(g.incoming, [&](int c) { return plan_.connections[c].plastic; });
     }

@@ -37,11 +37,11 @@ Registry types() {
     return r;
 }
 
-/// Five kinds of neurons with eight to thirty groups each, connected in rings and at random.
+/// Five kinds of neurons with 16 to 38 groups each, connected in rings and at random.
 class ManyGroups {
   public:
     explicit ManyGroups(unsigned seed) : random_(seed) {
-        const int groups = 8 + upto(23);
+        const int groups = 16 + upto(23);
         for (const char* type : {"neuronRandomSpike", "neuronLinearThreshold", "neuronLinearThreshold",
                                  "neuronIntegrateFire", "neuronSigmoid"}) {
             auto& ring = rings_.emplace_back();
