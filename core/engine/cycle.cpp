@@ -299,12 +299,13 @@ void Cycle::receive_from_modules(int batch) {
 
 void Cycle::deliver_through(int delivery, const Share* share) {
     const auto& d = plan_.deliveries[delivery];
-    auto& changes = state_.deliveries[delivery];
-    if (d.joint && changes.alike)
-        deliver_through(d.connections.front(), *d.joint, share);
-    else
-        for (const int c : d.connections) deliver_through(c, *plan_.connections[c].kernel, share);
-    changes.changed = false;
+    auto& now = state_.deliveries[delivery];
+    now.changed = false;
+    const Kernel* joint = now.alike ? d.joint.get() : nullptr;
+    for (const int c : d.connections) {
+        deliver_through(c, joint ? *joint : *plan_.connections[c].kernel, share);
+        if (joint) return;
+    }
 }
 
 /// The cells of `connection` are the first ones that the kernel reads and adds to.

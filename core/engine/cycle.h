@@ -12,8 +12,12 @@
 // that modules write to wait for the modules, and all wait when activities may be overwritten (Plan::late).
 // This pays off for chains of small groups: 200 rings of 100 cells take 24 us instead of 27.
 //
+// Eight or more small groups that only their random numbers tell apart form batches, and what is said of a
+// group here is done for a whole batch (core/engine/plan/batches.cpp): 200 rings of 100 cells take 12 us.
+// Other groups are a batch each.
+//
 // Much of a system stands still most of the time: displays of a layer that is closed, senses that see
-// nothing, a constant. Three facts, each kept per group, let such parts cost nothing and change no bit:
+// nothing, a constant. Three facts, each kept per batch, let such parts cost nothing and change no bit:
 //
 // - changed: the last cycle whose activity differed from that of the cycle before. Activities of large
 //   groups are not compared: each one counts as different unless it and the one before are silent (all 0).
