@@ -96,32 +96,6 @@ bool Cycle::begin_update(int batch) {
     return true;
 }
 
-/// Updates some cells. Returns whether the update has used neither the cycle nor random numbers.
-bool Cycle::update_cells(int batch, Index first, Index count, int thread) {
-    const auto& p = plan_.batches[batch];
-    const auto& b = state_.batches[batch];
-    const auto update = [&](std::size_t member, std::size_t members, Index from, Index cells) {
-        NeuronColumns columns(cells, p.stride, state_.cycle,
-                              {b.inputs[0][b.row], b.inputs[1][b.row], b.inputs[2][b.row]}, b.states,
-                              {&p.streams[member], members}, workers_[thread].scratch.get(),
-                              {!p.fed[0], !p.fed[1], !p.fed[2]}, from);
-        try {
-            state_.groups[p.groups[member]].neuron->update(columns);
-        } catch (...) {
-            const auto& about = plan_.layout.groups[p.groups[member]];
-            throw RunError(fmt::format("{} of group '{}'{} failed in cycle {}: {}", about.type.name,
-                                       about.path, members > 1 ? " or of one that is updated with it" : "",
-                                       state_.cycle, current_exception_message()));
-        }
-        return columns.time_invariant();
-    };
-    if (b.alike) return update(0, p.groups.size(), first, count);
-    bool time_invariant = true;
-    for (std::size_t i = 0; i < p.groups.size(); ++i)
-        time_invariant &= update(i, 1, p.streams[i].first, plan_.groups[p.groups[i]].cells);
-    return time_invariant;
-}
-
 Cycle::Found Cycle::update_part(int batch, Part part, int thread) {
     const auto& p = plan_.batches[batch];
     const auto& b = state_.batches[batch];
@@ -141,7 +115,25 @@ Cycle::Found Cycle::update_part(int batch, Part part, int thread) {
     const bool small = p.cells <= most_compared;
     if (small && cycle > 0) std::copy_n(activity_row(b, p, cycle - 1) + first, count, old);
 
-    const bool time_invariant = update_cells(batch, first, count, thread);
+    bool time_invariant = true;
+    const std::size_t together = b.alike ? p.groups.size() : 1;
+    for (std::size_t i = 0; i < p.groups.size(); i += together) {
+        const Index from = b.alike ? first : p.streams[i].first,
+                    cells = b.alike ? count : plan_.groups[p.groups[i]].cells;
+        NeuronColumns columns(cells, p.stride, cycle,
+                              {b.inputs[0][b.row], b.inputs[1][b.row], b.inputs[2][b.row]}, b.states,
+                              {&p.streams[i], together}, workers_[thread].scratch.get(),
+                              {!p.fed[0], !p.fed[1], !p.fed[2]}, from);
+        try {
+            state_.groups[p.groups[i]].neuron->update(columns);
+        } catch (...) {
+            const auto& about = plan_.layout.groups[p.groups[i]];
+            throw RunError(fmt::format("{} of group '{}'{} failed in cycle {}: {}", about.type.name,
+                                       about.path, together > 1 ? " or of one that is updated with it" : "",
+                                       cycle, current_exception_message()));
+        }
+        time_invariant &= columns.time_invariant();
+    }
     // All rows follow each other, filled up with zeros. An older number that is not finite was found before.
     if (check_finite && count == p.cells)
         found.finite = all_finite(b.states.front().ring, p.numbers);
@@ -264,7 +256,16 @@ void Cycle::deliver_to(int batch, const Share* share) {
     b.receives = !(b.quiescent && b.delivered);
     b.delivered = true;
     if (b.receives && !p.module_inputs.empty()) receive_from_modules(batch);
-    for (const int d : p.deliveries) deliver_through(d, share);
+    for (const int i : p.deliveries) {
+        const auto& d = plan_.deliveries[i];
+        auto& now = state_.deliveries[i];
+        now.changed = false;
+        const Kernel* joint = now.alike ? d.joint.get() : nullptr;
+        for (const int c : d.connections) {
+            deliver_through(d, c, joint ? *joint : *plan_.connections[c].kernel, share);
+            if (joint) break;
+        }
+    }
 }
 
 /// Whether all that is delivered to a batch is what was delivered in the cycle before.
@@ -297,34 +298,21 @@ void Cycle::receive_from_modules(int batch) {
     }
 }
 
-void Cycle::deliver_through(int delivery, const Share* share) {
-    const auto& d = plan_.deliveries[delivery];
-    auto& now = state_.deliveries[delivery];
-    now.changed = false;
-    const Kernel* joint = now.alike ? d.joint.get() : nullptr;
-    for (const int c : d.connections) {
-        deliver_through(c, joint ? *joint : *plan_.connections[c].kernel, share);
-        if (joint) return;
-    }
-}
-
 /// The cells of `connection` are the first ones that the kernel reads and adds to.
-void Cycle::deliver_through(int connection, const Kernel& kernel, const Share* share) {
+void Cycle::deliver_through(const DeliveryPlan& d, int connection, const Kernel& kernel, const Share* share) {
     const auto& plan = plan_.connections[connection];
-    const auto& d = plan_.deliveries[plan.delivery];
     const auto& from = plan_.batches[d.source];
     const auto &source = state_.batches[d.source], &target = state_.batches[d.target];
-    const Index first = plan_.groups[plan.source].first;
     auto& c = state_.connections[connection];
-    const KernelInput in{activity_row(source, from, state_.cycle) + first,
-                         {source.past ? source.past + first : nullptr, from.history + 1, from.stride},
-                         state_.cycle,
-                         *c.synapse,
-                         c.feedback,
-                         state_.numbers.data(),
-                         c.workspace.get()};
-    double* row =
-        target.inputs[static_cast<std::size_t>(plan.kind)][target.row ^ 1] + plan_.groups[plan.target].first;
+    const KernelInput in{
+        activity_row(source, from, state_.cycle) + plan.source_first,
+        {source.past ? source.past + plan.source_first : nullptr, from.history + 1, from.stride},
+        state_.cycle,
+        *c.synapse,
+        c.feedback,
+        state_.numbers.data(),
+        c.workspace.get()};
+    double* row = target.inputs[static_cast<std::size_t>(plan.kind)][target.row ^ 1] + plan.target_first;
     try {
         auto* shared = share ? dynamic_cast<const SharedKernel*>(&kernel) : nullptr;
         if (!(plan.effective && target.receives)) {

@@ -88,11 +88,10 @@ class Cycle {
         std::unique_ptr<double[]> scratch;  ///< for NeuronColumns of the widest group
         std::vector<double> before;         ///< states to compare with
     };
-    bool update_cells(int batch, Index first, Index count, int thread);
     bool receives_the_same(int batch) const;
     void receive_from_modules(int batch);
-    void deliver_through(int delivery, const Share* share);
-    void deliver_through(int connection, const Kernel& kernel, const Share* share);
+    void deliver_through(const DeliveryPlan& delivery, int connection, const Kernel& kernel,
+                         const Share* share);
     void note_changes(int module);
     void show_inputs(int module);
 

@@ -69,7 +69,10 @@ class Gatherer {
                                                 plan_.groups[plan_.connections[c].source].batch,
                                                 plan_.groups[plan_.connections[c].target].batch});
                 }
-                plan_.connections[c].delivery = batch.deliveries.back();
+                auto& plan = plan_.connections[c];
+                plan.delivery = batch.deliveries.back();
+                plan.source_first = plan_.groups[plan.source].first;
+                plan.target_first = plan_.groups[plan.target].first;
             }
             for (const int d : batch.deliveries) batch.delivery_cost += kernel_of(plan_.deliveries[d]).cost();
         }

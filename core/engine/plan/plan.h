@@ -65,6 +65,7 @@ struct ConnectionPlan {
     std::unique_ptr<const Kernel> kernel;    ///< null when it is pruned
     const PlasticKernel* plastic = nullptr;  ///< the kernel, when its synapses have an update()
     int source = 0, target = 0;
+    Index source_first = 0, target_first = 0;  ///< of their cells, in their batches
     int longest_delay = 0;
     InputKind kind = InputKind::excitatory;
     bool effective = true;      ///< the target's type reads this kind of input
