@@ -255,7 +255,10 @@ void GazeboBug::start(const ModulePorts& ports, ModuleFrame& frame) {
     image_ = {};
     for (const std::size_t port : {image_first, image_second, image_third})
         if (frame.is_read(port)) image_ = ports.outputs[port].shape;
-    if (world_->snapshot(bug_).image_width == 0) image_ = {};
+    const BugSnapshot& seen = world_->snapshot(bug_);
+    if (seen.image_width == 0) image_ = {};
+    if (image_.cells > 0)
+        image_cells_.emplace(seen.image_width, seen.image_height, image_.width, image_.height);
     unused_.assign(static_cast<std::size_t>(image_.cells), 0);
     world_->request_image(bug_, image_.cells > 0);
     world_->request_gripper_scan(bug_, gripper && frame.is_read(gripper_scan));
@@ -313,8 +316,7 @@ void GazeboBug::copy_image(ModuleFrame& frame) {
         return cells_of(out);
     };
     const ColourSpace space = grayscale ? ColourSpace::grey : hsv ? ColourSpace::hsv : ColourSpace::rgb;
-    image_cells(seen.image, seen.image_width, seen.image_height, space, image_.width, image_.height,
-                channel(image_first), channel(image_second), channel(image_third));
+    image_cells_->fill(seen.image, space, channel(image_first), channel(image_second), channel(image_third));
 }
 
 ModuleType gazebo_bug_type() { return module_type<GazeboBug>(); }

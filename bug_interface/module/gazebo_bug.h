@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,7 @@ class GazeboBug {
     std::size_t bug_ = 0;
     std::shared_ptr<void> claim_;
     GroupShape motor_, image_, place_;
+    std::optional<ImageCells> image_cells_;
     std::vector<double> unused_;  ///< takes the colour channels without a group
 };
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
-#include <memory_resource>
+#include <cstring>
 #include <stdexcept>
-#include <vector>
+
+#include "core/base/simd.h"
 
 namespace forage::bug {
 namespace {
@@ -20,42 +20,36 @@ double cubic(double x) {
     return 0;
 }
 
-/// The weights of the source pixels from `first` on in a resampled pixel. Their sum is 1.
-struct Window {
-    int first;
-    std::pmr::vector<double> weights;
-};
+typedef double Four __attribute__((vector_size(4 * sizeof(double))));  // NOLINT: no `using` for these
+constexpr std::size_t stretch = 12;                                    ///< numbers that are summed together
+constexpr std::size_t padded(std::size_t numbers) { return (numbers + stretch - 1) / stretch * stretch; }
 
-/// The window of pixel `index` when a side of `from` pixels is resampled to `to` pixels. Shrinking widens the
-/// filter. Pixels outside the picture have no weight.
-Window window(int index, int from, int to, std::pmr::memory_resource* memory) {
-    const double scale = static_cast<double>(to) / from, narrow = std::min(scale, 1.0), reach = 2 / narrow;
-    const double centre = (index + 0.5) / scale;
-    const int first = std::max(0, static_cast<int>(std::floor(centre - reach + 0.5)));
-    const int end = std::min(static_cast<int>(centre + reach + 0.5), from);
-    Window out{first, std::pmr::vector<double>(memory)};
-    out.weights.reserve(static_cast<std::size_t>(end - first));
-    double sum = 0;
-    for (int i = first; i < end; ++i) {
-        out.weights.push_back(cubic(narrow * (i + 0.5 - centre)));
-        sum += out.weights.back();
-    }
-    for (double& weight : out.weights) weight /= sum;
-    return out;
+/// Adds four numbers at any address, times `weight`.
+[[gnu::always_inline]] inline void add(Four& sum, const Four& weight, const double* at) {
+    Four numbers;
+    std::memcpy(&numbers, at, sizeof numbers);
+    sum += weight * numbers;
 }
 
-/// One resampled pixel, rounded to 8 bits. `step` is the distance between the source pixels in bytes.
-std::array<std::uint8_t, 3> mix(const Window& window, const std::uint8_t* pixels, std::size_t step) {
-    double sum[3] = {0, 0, 0};
-    const std::uint8_t* pixel = pixels + static_cast<std::size_t>(window.first) * step;
-    for (const double weight : window.weights) {
-        for (int channel = 0; channel < 3; ++channel) sum[channel] += weight * pixel[channel];
-        pixel += step;
+/// out[i] = the sum of weights[k] * from[k * line + i], rounded to 0..255, for i < `line`, a multiple of
+/// `stretch`. The terms of each sum are added in their order.
+FORAGE_SIMD void mix(const double* weights, std::size_t count, const double* from, std::size_t line,
+                     double* out) {
+    for (std::size_t first = 0; first < line; first += stretch) {
+        Four a{}, b{}, c{};  // not an array, which GCC 12 would not keep in registers
+        for (std::size_t k = 0; k < count; ++k) {
+            const double* at = from + k * line + first;
+            const Four weight = Four{} + weights[k];
+            add(a, weight, at), add(b, weight, at + 4), add(c, weight, at + 8);
+        }
+        double sums[stretch];
+        std::memcpy(sums, &a, sizeof a), std::memcpy(sums + 4, &b, sizeof b);
+        std::memcpy(sums + 8, &c, sizeof c);
+        for (std::size_t i = 0; i < stretch; ++i) {
+            const double level = sums[i] + 0.5;
+            out[first + i] = static_cast<int>(level < 0 ? 0.0 : level > 255 ? 255.0 : level);
+        }
     }
-    std::array<std::uint8_t, 3> out;
-    for (std::size_t channel = 0; channel < 3; ++channel)
-        out[channel] = static_cast<std::uint8_t>(std::clamp(sum[channel] + 0.5, 0.0, 255.0));
-    return out;
 }
 
 /// value / 255 for each 8-bit value.
@@ -78,15 +72,15 @@ struct Cells {
     const ImageQuirks& quirks;
     std::span<double> first, second, third;
 
-    void set(std::size_t cell, const std::uint8_t* pixel) const {
-        if (pixel[0] == pixel[1] && pixel[1] == pixel[2] &&
+    void set(std::size_t cell, std::uint8_t red, std::uint8_t green, std::uint8_t blue) const {
+        const auto unit = [this](std::uint8_t v) { return quirks.salt && v == 1 ? 1.0 : units[v]; };
+        if (red == green && green == blue &&
             space == ColourSpace::hsv) {  // grey pixels are the most frequent ones
             first[cell] = second[cell] = 0;
-            third[cell] = quirks.salt && pixel[0] == 1 ? 1.0 : units[pixel[0]];
+            third[cell] = unit(red);
             return;
         }
-        const auto unit = [this](std::uint8_t v) { return quirks.salt && v == 1 ? 1.0 : units[v]; };
-        const double r = unit(pixel[0]), g = unit(pixel[1]), b = unit(pixel[2]);
+        const double r = unit(red), g = unit(green), b = unit(blue);
         if (space == ColourSpace::rgb) {
             first[cell] = r, second[cell] = g, third[cell] = b;
         } else if (space == ColourSpace::hsv) {
@@ -100,47 +94,89 @@ struct Cells {
     }
 };
 
-void resample(std::span<const std::uint8_t> rgb, int width, int height, int w, int h, const Cells& cells) {
-    // The buffer is large enough for the pictures of a robot's camera; larger ones use the heap.
-    std::array<std::byte, 32768> stack;
-    std::pmr::monotonic_buffer_resource memory(stack.data(), stack.size());
-    std::pmr::vector<Window> rows(&memory), columns(&memory);
-    rows.reserve(static_cast<std::size_t>(h)), columns.reserve(static_cast<std::size_t>(w));
-    for (int i = 0; i < h; ++i) rows.push_back(window(i, height, h, &memory));
-    for (int i = 0; i < w; ++i) columns.push_back(window(i, width, w, &memory));
-    std::pmr::vector<std::uint8_t> strip(3 * static_cast<std::size_t>(height),
-                                         &memory);  // one resampled column with the rows of the source
-    for (std::size_t column = 0; column < columns.size(); ++column) {
-        for (std::size_t row = 0; row < static_cast<std::size_t>(height); ++row) {
-            const auto pixel = mix(columns[column], &rgb[3 * row * static_cast<std::size_t>(width)], 3);
-            std::copy(pixel.begin(), pixel.end(), strip.begin() + static_cast<std::ptrdiff_t>(3 * row));
+}  // namespace
+
+/// Shrinking widens the filter. Pixels outside the picture have no weight; the weights of a window have the
+/// sum 1.
+ImageCells::Side::Side(std::size_t from, std::size_t to) {
+    const double scale = static_cast<double>(to) / static_cast<double>(from), narrow = std::min(scale, 1.0),
+                 reach = 2 / narrow;
+    for (std::size_t index = 0; index < to; ++index) {
+        const double centre = (static_cast<double>(index) + 0.5) / scale;
+        const int first = std::max(0, static_cast<int>(std::floor(centre - reach + 0.5)));
+        const int end = std::min(static_cast<int>(centre + reach + 0.5), static_cast<int>(from));
+        const std::size_t first_weight = weights.size();
+        double sum = 0;
+        for (int i = first; i < end; ++i) {
+            weights.push_back(cubic(narrow * (i + 0.5 - centre)));
+            sum += weights.back();
         }
-        for (std::size_t row = 0; row < rows.size(); ++row)
-            cells.set(row * columns.size() + column, mix(rows[row], strip.data(), 3).data());
+        for (std::size_t k = first_weight; k < weights.size(); ++k) weights[k] /= sum;
+        windows.push_back({static_cast<std::size_t>(first), weights.size() - first_weight, first_weight});
     }
 }
 
-}  // namespace
-
-void image_cells(std::span<const std::uint8_t> rgb, int width, int height, ColourSpace space, int w, int h,
-                 std::span<double> first, std::span<double> second, std::span<double> third,
-                 const ImageQuirks& quirks) {
+ImageCells::ImageCells(int width, int height, int w, int h, const ImageQuirks& quirks)
+    : width_(static_cast<std::size_t>(width)),
+      height_(static_cast<std::size_t>(height)),
+      w_(static_cast<std::size_t>(w)),
+      h_(static_cast<std::size_t>(h)),
+      quirks_(quirks),
+      resampled_((w != width || h != height) && (quirks.always_resample || (w != width && h != height))) {
     if (width < 1 || height < 1 || w < 1 || h < 1)
         throw std::invalid_argument("a picture needs at least one pixel");
-    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    const auto wanted = static_cast<std::size_t>(w) * static_cast<std::size_t>(h);
-    if (rgb.size() < 3 * pixels || first.size() < wanted || second.size() < wanted || third.size() < wanted)
+    if (!resampled_) {
+        if (w > width || h > height) throw std::invalid_argument("cannot crop a picture to more than it has");
+        return;
+    }
+    columns_ = Side(width_, w_), rows_ = Side(height_, h_);
+    source_.resize(width_ * padded(3 * height_)), narrow_.resize(w_ * padded(3 * height_));
+    turned_.resize(height_ * padded(3 * w_)), result_.resize(h_ * padded(3 * w_));
+}
+
+/// Resamples the columns, then the rows. Each pass computes whole lines, whose pixels have the same weights.
+void ImageCells::resample(const std::uint8_t* rgb) {
+    const std::size_t tall = padded(3 * height_), wide = padded(3 * w_);
+    for (std::size_t row = 0; row < height_; ++row)
+        for (std::size_t column = 0; column < width_; ++column, rgb += 3)
+            for (std::size_t i = 0; i < 3; ++i) source_[column * tall + 3 * row + i] = rgb[i];
+    const auto pass = [](const Side& side, const double* from, std::size_t line, double* to) {
+        for (const Side::Window& w : side.windows) {
+            mix(&side.weights[w.first_weight], w.count, from + w.first * line, line, to);
+            to += line;
+        }
+    };
+    pass(columns_, source_.data(), tall, narrow_.data());
+    for (std::size_t row = 0; row < height_; ++row)
+        for (std::size_t column = 0; column < w_; ++column)
+            for (std::size_t i = 0; i < 3; ++i)
+                turned_[row * wide + 3 * column + i] = narrow_[column * tall + 3 * row + i];
+    pass(rows_, turned_.data(), wide, result_.data());
+}
+
+void ImageCells::fill(std::span<const std::uint8_t> rgb, ColourSpace space, std::span<double> first,
+                      std::span<double> second, std::span<double> third) {
+    const std::size_t wanted = w_ * h_;
+    if (rgb.size() < 3 * width_ * height_ || first.size() < wanted || second.size() < wanted ||
+        third.size() < wanted)
         throw std::invalid_argument("a span is shorter than its picture");
-    const Cells cells{space, quirks, first, second, third};
-    const bool same = w == width && h == height;
-    if (!same && (quirks.always_resample || (w != width && h != height)))
-        return resample(rgb, width, height, w, h, cells);
-    if (w > width || h > height) throw std::invalid_argument("cannot crop a picture to more than it has");
+    const Cells cells{space, quirks_, first, second, third};
     std::size_t cell = 0;
-    for (int row = height - h; row < height; ++row)
-        for (int column = 0; column < w; ++column)
-            cells.set(cell++, &rgb[3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                                        static_cast<std::size_t>(column))]);
+    if (resampled_) {
+        resample(rgb.data());
+        const auto byte = [](double level) { return static_cast<std::uint8_t>(level); };
+        for (std::size_t row = 0; row < h_; ++row) {
+            const double* pixel = &result_[row * padded(3 * w_)];
+            for (std::size_t column = 0; column < w_; ++column, pixel += 3)
+                cells.set(cell++, byte(pixel[0]), byte(pixel[1]), byte(pixel[2]));
+        }
+        return;
+    }
+    for (std::size_t row = height_ - h_; row < height_; ++row)
+        for (std::size_t column = 0; column < w_; ++column) {
+            const std::uint8_t* pixel = &rgb[3 * (row * width_ + column)];
+            cells.set(cell++, pixel[0], pixel[1], pixel[2]);
+        }
 }
 
 }  // namespace forage::bug

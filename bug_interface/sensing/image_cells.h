@@ -1,8 +1,10 @@
 // The conversion of a camera's picture into the cells of three groups.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace forage::bug {
 
@@ -23,15 +25,45 @@ struct ImageQuirks {
     double grey_green = 0.7512;
 };
 
-/// Fills three groups of w x h cells, row 0 at the top, from an 8-bit picture of `width` x `height` pixels
-/// (rows from the top, three bytes per pixel). Values are in 0..1; grey values are at most 1.036.
+/// Fills three groups of w x h cells, row 0 at the top, from 8-bit pictures (rows from the top, three bytes
+/// per pixel). Values are in 0..1; grey values are at most 1.036.
 ///
 /// When both w and h differ from the size of the picture, it is resampled with the cubic filter of Mitchell
 /// and Netravali (B = C = 1/3). When only one of them differs, the left w columns and the bottom h rows are
-/// used. Throws std::invalid_argument when a size is not positive, when a cropped size exceeds the picture,
-/// and when a span is too short.
-void image_cells(std::span<const std::uint8_t> rgb, int width, int height, ColourSpace space, int w, int h,
-                 std::span<double> first, std::span<double> second, std::span<double> third,
-                 const ImageQuirks& quirks = {});
+/// used.
+class ImageCells {
+  public:
+    /// Pictures have `width` x `height` pixels. Throws std::invalid_argument when a size is not positive, and
+    /// when a cropped size exceeds the picture.
+    ImageCells(int width, int height, int w, int h, const ImageQuirks& quirks = {});
+
+    /// Throws std::invalid_argument when a span is too short. Does not allocate memory.
+    void fill(std::span<const std::uint8_t> rgb, ColourSpace space, std::span<double> first,
+              std::span<double> second, std::span<double> third);
+
+  private:
+    /// How one side of the picture is resampled: pixel i of the result is the sum of weights[first_weight +
+    /// k] x source pixel (first + k).
+    struct Side {
+        struct Window {
+            std::size_t first, count, first_weight;
+        };
+        std::vector<Window> windows;
+        std::vector<double> weights;
+
+        Side() = default;
+        Side(std::size_t from, std::size_t to);
+    };
+
+    void resample(const std::uint8_t* rgb);
+
+    std::size_t width_, height_, w_, h_;
+    ImageQuirks quirks_;
+    bool resampled_;
+    Side columns_, rows_;
+    /// Channels of the pixels while a picture is resampled, 0..255: lines of one column of the picture, the
+    /// same after its width has been resampled, then lines of one row of that, and of one row of the result.
+    std::vector<double> source_, narrow_, turned_, result_;
+};
 
 }  // namespace forage::bug

@@ -1,7 +1,11 @@
 #include "bug_interface/sensing/image_cells.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <random>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "tests/support/catch.h"
@@ -17,7 +21,7 @@ struct Groups {
     std::vector<double> first, second, third;
     Groups(const Picture& rgb, ColourSpace space, int w, int h, const ImageQuirks& quirks = {})
         : first(static_cast<std::size_t>(w * h)), second(first), third(first) {
-        image_cells(rgb, width, height, space, w, h, first, second, third, quirks);
+        ImageCells(width, height, w, h, quirks).fill(rgb, space, first, second, third);
     }
 };
 
@@ -40,7 +44,7 @@ std::array<double, 3> one_pixel(ColourSpace space, std::uint8_t r, std::uint8_t 
                                 ImageQuirks quirks = {}) {
     const Picture pixel = {r, g, b};
     std::array<double, 3> out;
-    image_cells(pixel, 1, 1, space, 1, 1, {&out[0], 1}, {&out[1], 1}, {&out[2], 1}, quirks);
+    ImageCells(1, 1, 1, 1, quirks).fill(pixel, space, {&out[0], 1}, {&out[1], 1}, {&out[2], 1});
     return out;
 }
 
@@ -101,6 +105,56 @@ TEST_CASE("A step keeps the undershoot of the cubic kernel with B = C = 1/3") {
     CHECK(half.first[9] > 200 / 255.0);
 }
 
+TEST_CASE("A resampled picture has the bytes of one pixel at a time, columns first") {
+    const auto kernel = [](double x) {
+        x = std::abs(x);
+        if (x < 1) return (7 * x * x * x - 12 * x * x + 16.0 / 3) / 6;
+        if (x < 2) return (-7.0 / 3 * x * x * x + 12 * x * x - 20 * x + 32.0 / 3) / 6;
+        return 0.0;
+    };
+    // One line of `from` pixels, each `step` numbers after the one before, resampled to `to` pixels.
+    const auto line = [&](const std::vector<int>& in, std::size_t begin, std::size_t step, int from, int to) {
+        std::vector<int> out;
+        const double scale = double(to) / from, narrow = std::min(scale, 1.0), reach = 2 / narrow;
+        for (int i = 0; i < to; ++i) {
+            const double centre = (i + 0.5) / scale;
+            const int first = std::max(0, int(std::floor(centre - reach + 0.5))),
+                      end = std::min(int(centre + reach + 0.5), from);
+            double all = 0, sum = 0;
+            for (int k = first; k < end; ++k) all += kernel(narrow * (k + 0.5 - centre));
+            for (int k = first; k < end; ++k)
+                sum += kernel(narrow * (k + 0.5 - centre)) / all * in[begin + std::size_t(k) * step];
+            out.push_back(int(std::clamp(sum + 0.5, 0.0, 255.0)));
+        }
+        return out;
+    };
+    std::mt19937 chance(3);
+    for (const auto& [w, h] : {std::pair{9, 8}, {16, 14}, {5, 27}, {31, 3}, {1, 1}, {40, 30}}) {
+        Picture picture;
+        std::vector<int> numbers;
+        for (int i = 0; i < 3 * width * height; ++i) {
+            numbers.push_back(int(chance() % (chance() % 4 == 0 ? 2 : 256)));
+            picture.push_back(static_cast<std::uint8_t>(numbers.back()));
+        }
+        const Groups got(picture, ColourSpace::rgb, w, h);
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            std::vector<int> narrow(std::size_t(w * height));
+            for (std::size_t row = 0; row < height; ++row) {
+                const auto pixels = line(numbers, 3 * row * width + channel, 3, width, w);
+                std::copy(pixels.begin(), pixels.end(), narrow.begin() + std::ptrdiff_t(row) * w);
+            }
+            const auto& cells = channel == 0 ? got.first : channel == 1 ? got.second : got.third;
+            int wrong = 0;
+            for (std::size_t column = 0; column < std::size_t(w); ++column) {
+                const auto pixels = line(narrow, column, std::size_t(w), height, h);
+                for (std::size_t row = 0; row < std::size_t(h); ++row)
+                    wrong += cells[row * std::size_t(w) + column] != pixels[row] / 255.0;
+            }
+            CHECK(wrong == 0);
+        }
+    }
+}
+
 TEST_CASE("Resampling can be forced") {
     ImageQuirks quirks;
     quirks.always_resample = true;
@@ -141,6 +195,7 @@ TEST_CASE("The option `salt` turns the value 1 into 1.0") {
 TEST_CASE("Impossible sizes are rejected") {
     CHECK_THROWS_AS(Groups(coordinates(), ColourSpace::rgb, 40, 28), std::invalid_argument);
     std::vector<double> few(10), enough(32 * 28);
-    CHECK_THROWS_AS(image_cells(coordinates(), width, height, ColourSpace::rgb, 32, 28, few, enough, enough),
-                    std::invalid_argument);
+    CHECK_THROWS_AS(
+        ImageCells(width, height, 32, 28).fill(coordinates(), ColourSpace::rgb, few, enough, enough),
+        std::invalid_argument);
 }
