@@ -1,4 +1,4 @@
-// The constant data of a camera (rays, floor points, bounds of the tiles) and its noise.
+// The constant data of a camera (rays, floor points, bounds) and its noise.
 #include "bug_interface/sensing/camera.h"
 
 #include <algorithm>
@@ -90,9 +90,17 @@ Camera::Camera(const CameraSensor& sensor, const Pose& link_pose, std::shared_pt
     double lowest = 0;
     for (const FloorSurface& floor : scene_->floors()) lowest = std::min(lowest, floor.z);
     for (const VisualSolid& solid : scene_->solids()) lowest = std::min(lowest, bottom(solid));
-    make_bounds(lowest);
-    if (floor_points_.size() == 1) make_extents();
-    windows_.reserve(scene_->solids().size() + 64);
+    all_ = bounds(lowest, std::numeric_limits<double>::infinity());
+    low_ = bounds(lowest, low_height);
+    make_extents();
+    std::vector<Area> areas;
+    for (const VisualSolid& visual : scene_->solids()) areas.push_back(area_of(visual.solid));
+    solids_.assign(areas, 2);
+    near_.reserve(areas.size()), windows_.reserve(areas.size() + 64);
+    reach_.reserve(static_cast<std::size_t>(height_));
+    spans_.reserve(windows_.capacity() * static_cast<std::size_t>(height_));
+    colours_.reserve(1 + faces * windows_.capacity());
+    cover_.resize(blocks_.size()), own_blocks_.assign(blocks_.size(), -1);
 }
 
 Eigen::Vector3d Camera::ray(double column, double row) const {
@@ -101,14 +109,12 @@ Eigen::Vector3d Camera::ray(double column, double row) const {
 }
 
 void Camera::make_samples(int samples_per_axis) {
+    blocks_wide_ = static_cast<std::size_t>((width_ + block_width - 1) / block_width);
+    block_samples_ = static_cast<std::size_t>(block_width * samples_);
     for (int row = 0; row < height_; ++row)
-        for (int column = 0; column < width_; column += tile_width) {
-            Tile tile;
-            tile.row = row, tile.column = column, tile.pixels = std::min(tile_width, width_ - column);
-            tile.first = ray_x_.size();
-            tiles_.push_back(tile);
+        for (int column = 0; column < width_; column += block_width)
             for (int s = 0; s < samples_; ++s)
-                for (int p = 0; p < tile.pixels; ++p) {
+                for (int p = 0; p < block_width; ++p) {
                     const Eigen::Vector3d r =
                         ray(column + p + (s % samples_per_axis + 0.5) / samples_per_axis,
                             row + (s / samples_per_axis + 0.5) / samples_per_axis);
@@ -116,7 +122,6 @@ void Camera::make_samples(int samples_per_axis) {
                     ray_y_.push_back(static_cast<float>(r.y()));
                     ray_z_.push_back(static_cast<float>(r.z()));
                 }
-        }
 }
 
 void Camera::make_floor_points() {
@@ -132,45 +137,39 @@ void Camera::make_floor_points() {
                                    : beyond);
             points.depth.push_back(met ? static_cast<float>(depth) : beyond);
         }
-        for (Tile& tile : tiles_)
-            for (int k = 0; k < tile.pixels * samples_; ++k)
-                tile.reaches_floor &= points.depth[tile.first + static_cast<std::size_t>(k)] < beyond;
         floor_points_.push_back(std::move(points));
     }
 }
 
-Camera::Extent Camera::extent(const Tile& tile, int first_pixel, int pixels) const {
-    Eigen::AlignedBox2f box;
-    for (int s = 0; s < samples_; ++s)
-        for (int p = first_pixel; p < first_pixel + pixels; ++p) {
-            const std::size_t k = tile.first + static_cast<std::size_t>(s * tile.pixels + p);
-            box.extend(Eigen::Vector2f(floor_points_.front().x[k], floor_points_.front().y[k]));
-        }
-    return extent(box);
-}
-
-Camera::Extent Camera::extent(const Eigen::AlignedBox2f& box) {
-    const Eigen::Vector2f middle = box.center(), half = box.sizes() / 2;
-    return {middle.x(), middle.y(), half.x(), half.y()};
-}
-
 void Camera::make_extents() {
-    Eigen::AlignedBox2f all;
-    for (Tile& tile : tiles_) {
-        tile.extent = extent(tile, 0, tile.pixels);
-        for (int first = 0; first < tile.pixels; first += segment_width)
-            tile.segments[static_cast<std::size_t>(first / segment_width)] =
-                extent(tile, first, std::min(segment_width, tile.pixels - first));
-        whole_.reaches_floor &= tile.reaches_floor;
-        const Extent& e = tile.extent;
-        all.extend(Eigen::Vector2f(e.x - e.half_x, e.y - e.half_y));
-        all.extend(Eigen::Vector2f(e.x + e.half_x, e.y + e.half_y));
+    const auto extent = [&](std::size_t first, std::size_t count) {
+        Eigen::AlignedBox2f box;
+        Extent out;
+        for (std::size_t k = first; k < first + count; ++k) {
+            for (const FloorPoints& floor : floor_points_)
+                out.reaches_floor &= floor.depth[k] < std::numeric_limits<float>::infinity();
+            if (floor_points_.size() == 1)
+                box.extend(Eigen::Vector2f(floor_points_.front().x[k], floor_points_.front().y[k]));
+        }
+        const Eigen::Vector2f middle = box.center(), half = box.sizes() / 2;
+        out.x = middle.x(), out.y = middle.y(), out.half_x = half.x(), out.half_y = half.y();
+        return out;
+    };
+    const std::size_t in_row = blocks_wide_ * block_samples_;
+    for (std::size_t first = 0; first < ray_x_.size(); first += block_samples_) {
+        blocks_.push_back(extent(first, block_samples_));
+        nearest_floor_.push_back(std::numeric_limits<float>::infinity());
+        for (const FloorPoints& floor : floor_points_)
+            for (std::size_t k = first; k < first + block_samples_; ++k)
+                nearest_floor_.back() = std::min(nearest_floor_.back(), floor.depth[k]);
     }
-    whole_.extent = extent(all);
+    for (std::size_t first = 0; first < ray_x_.size(); first += in_row)
+        rows_.push_back(extent(first, in_row));
+    whole_ = extent(0, ray_x_.size());
 }
 
-/// Bounds of all points that `count` samples can see between the heights `lowest` and `highest`, m.
-Camera::Bounds Camera::bounds(std::size_t first, std::size_t count, double lowest, double highest) const {
+/// Bounds of all points that the samples can see between the heights `lowest` and `highest`, m.
+Camera::Bounds Camera::bounds(double lowest, double highest) const {
     const Eigen::Vector3d eye = mount_.translation();
     const auto down_to = [&](std::size_t k, double z) -> Eigen::Vector3d {
         const double depth = eye.z() <= z    ? 0.0
@@ -183,21 +182,22 @@ Camera::Bounds Camera::bounds(std::size_t first, std::size_t count, double lowes
                                  : down_to(k, lowest);
     };
     Eigen::AlignedBox3d box;
-    for (std::size_t k = first; k < first + count; ++k) box.extend(down_to(k, highest)).extend(last(k));
+    for (std::size_t k = 0; k < ray_x_.size(); ++k) box.extend(down_to(k, highest)).extend(last(k));
     Bounds out{box, box.center(), 0};
-    for (std::size_t k = first; k < first + count; ++k)
+    for (std::size_t k = 0; k < ray_x_.size(); ++k)
         for (const Eigen::Vector3d& end : {down_to(k, highest), last(k)})
             out.radius = std::max(out.radius, (end - out.centre).norm());
     return out;
 }
 
-void Camera::make_bounds(double lowest) {
-    const auto bound = [&](Tile& tile, std::size_t first, std::size_t count) {
-        tile.all = bounds(first, count, lowest, std::numeric_limits<double>::infinity());
-        tile.low = bounds(first, count, lowest, low_height);
-    };
-    for (Tile& tile : tiles_) bound(tile, tile.first, static_cast<std::size_t>(tile.pixels * samples_));
-    bound(whole_, 0, ray_x_.size());
+Area Camera::view_area(const Pose2& robot) const {
+    const Eigen::Vector3d middle = all_.box.center(), half = all_.box.sizes() / 2;
+    const double c = std::cos(robot.yaw), s = std::sin(robot.yaw);
+    const double x = robot.x + c * middle.x() - s * middle.y(), y = robot.y + s * middle.x() + c * middle.y();
+    constexpr double margin = 1e-6;
+    const double half_x = std::abs(c) * half.x() + std::abs(s) * half.y() + margin,
+                 half_y = std::abs(s) * half.x() + std::abs(c) * half.y() + margin;
+    return {x - half_x, y - half_y, x + half_x, y + half_y};
 }
 
 std::optional<Eigen::Vector2d> Camera::floor_point(int column, int row) const {

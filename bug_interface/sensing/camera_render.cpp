@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -9,16 +10,23 @@
 #include "bug_interface/sensing/solid_ray.h"
 
 namespace forage::bug {
+
 namespace {
 
-constexpr std::size_t tile_samples = 32 * 16;  ///< the largest number in a tile
+constexpr double safely =
+    1 - 1e-6;  ///< a factor for depths: nearer at some rays is nearer at all between them
+constexpr double pixel_margin = 0.01;  ///< pixels; rays are in single precision
 
-/// The samples of one tile while it is rendered.
-struct Samples {
-    std::array<Eigen::Array4f, tile_samples> rgb;  ///< the fourth number is unused
-    std::array<float, tile_samples> depth;  ///< depth of the nearest surface so far, along the optical axis
-    std::array<double, tile_samples> entry, face;  ///< entries into one solid, as in Entries
-};
+/// The first pixel that may show what begins at `at`, and one past the last that may show what ends there.
+int first_pixel(double at) { return static_cast<int>(std::clamp(at - pixel_margin, 0.0, 1e6)); }
+int end_pixel(double at, int pixels) {
+    return static_cast<int>(std::ceil(std::clamp(at + pixel_margin, 0.0, static_cast<double>(pixels))));
+}
+
+void fill(const float* colour, std::size_t pixels, float* rgb) {
+    const float red = colour[0], green = colour[1], blue = colour[2];
+    for (std::size_t i = 0; i < pixels; ++i) rgb[3 * i] = red, rgb[3 * i + 1] = green, rgb[3 * i + 2] = blue;
+}
 
 }  // namespace
 
@@ -43,6 +51,8 @@ struct Camera::View {
         float v(float x, float y) const { return vx * x + vy * y + v0; }
     };
 
+    struct OnFloor;
+
     Pose2 robot;
     Pose pose;                            ///< pose of the robot in the world, in three dimensions
     const FloorSurface* floor = nullptr;  ///< the only floor, if there is one and it is low
@@ -58,70 +68,261 @@ struct Camera::View {
     }
 };
 
-void Camera::render(const Pose2& robot, std::span<const VisualSolid* const> moving, std::span<float> rgb) {
-    const View view(robot, scene_->floors());
-    windows_.clear();
-    const auto add_window = [&](const VisualSolid& visual) {
-        if (!sees(view, whole_, visual)) return;
-        const Window w = window(view, visual);
-        if (w.first_column < w.end_column && w.first_row < w.end_row) windows_.push_back(w);
-    };
-    for (const VisualSolid& visual : scene_->solids()) add_window(visual);
-    for (const VisualSolid* visual : moving) add_window(*visual);
-    std::array<float, 3> colour;
-    if (windows_.empty() && whole_.reaches_floor && uniform_colour(view, whole_.extent, colour.data())) {
-        for (std::size_t i = 0; i < rgb.size(); i += 3) std::copy_n(colour.begin(), 3, &rgb[i]);
-        return;
+struct Camera::Samples {
+    std::array<double, max_block> depth, entry, face;  ///< as in Nearest; face 0 is the ground
+    std::array<Eigen::Array4f, max_block>
+        ground;                   ///< where it has several colours; the fourth number is unused
+    bool uniform_ground = false;  ///< whether the colour of all ground is `ground.front()`
+};
+
+void Camera::set_own(std::span<const VisualSolid> boxes) {
+    const View view({}, scene_->floors());
+    windows_.clear(), spans_.clear(), own_.clear();
+    own_.reserve(blocks_.size());
+    double first_face = 1;
+    for (const VisualSolid& box : boxes) {
+        if (add_window(view, box)) windows_.back().first_face = first_face;
+        first_face += faces;
     }
-    for (const Tile& tile : tiles_) {
-        float* out = &rgb[3 * (static_cast<std::size_t>(tile.row) * static_cast<std::size_t>(width_) +
-                               static_cast<std::size_t>(tile.column))];
-        const bool bare = std::none_of(windows_.begin(), windows_.end(),
-                                       [&](const Window& w) { return sees(view, tile, w); });
-        if (!bare || !draw_bare_floor(view, tile, out)) draw_all(view, tile, out);
+    Samples samples;
+    for (std::size_t block = 0; block < blocks_.size(); ++block) {
+        own_blocks_[block] = -1;
+        samples.depth.fill(far_), samples.face.fill(0);
+        if (!meet_solids(block, samples)) continue;
+        own_blocks_[block] = static_cast<int>(own_.size());
+        OwnBlock& own = own_.emplace_back();
+        for (std::size_t k = 0; k < block_samples_; ++k) {
+            own.depth[k] = samples.face[k] > 0 ? static_cast<float>(samples.depth[k])
+                                               : std::numeric_limits<float>::infinity();
+            own.face[k] = static_cast<std::uint16_t>(samples.face[k]);
+            if (own.face[k]) own.farthest = std::max(own.farthest, own.depth[k]);
+        }
     }
 }
 
-/// The pixels between the projected corners of a solid's bounding box; all pixels when a corner is behind the
-/// camera.
-Camera::Window Camera::window(const View& view, const VisualSolid& visual) const {
+/// Meets the samples of a block with the solids whose windows meet it. Returns false when there are none.
+bool Camera::meet_solids(std::size_t block, Samples& samples) const {
+    bool any = false;
+    for (const Window& w : windows_)
+        if (meets(w, block))
+            any = true, meet(w.solid, rays_of(block), w.first_face,
+                             {samples.depth.data(), samples.entry.data(), samples.face.data()});
+    return any;
+}
+
+void Camera::render(const Pose2& robot, std::span<const VisualSolid* const> moving, std::span<float> rgb,
+                    std::size_t own) {
+    const View view(robot, scene_->floors());
+    const Lighting& lighting = scene_->lighting();
+    windows_.clear(), spans_.clear(), near_.clear(), colours_.resize(1);
+    const auto add_colours = [&](const VisualSolid& visual) {
+        for (int face = 0; face < 6; ++face) {
+            const Colour c = lighting.shade(visual.material, visual.solid.pose.linear() * face_normal(face));
+            colours_.emplace_back(c[0], c[1], c[2], 0.0f);
+        }
+        colours_.emplace_back();
+    };
+    own_drawn_ = own > 0;
+    std::fill(cover_.begin(), cover_.end(), bare);
+    for (const VisualSolid* visual : moving.first(own)) add_colours(*visual);
+    const auto add = [&](const VisualSolid& visual) {
+        if (!sees(view, visual.solid) || !add_window(view, visual)) return;
+        windows_.back().first_face = static_cast<double>(colours_.size());
+        add_colours(visual);
+        cover(windows_.back());
+    };
+    const Area area = view_area(robot);
+    solids_.visit(area, [&](std::size_t i) { near_.push_back(i); });
+    std::sort(near_.begin(),
+              near_.end());  // the order of the scene decides between surfaces at the same depth
+    for (const std::size_t i : near_) add(scene_->solids()[i]);
+    for (const VisualSolid* visual : moving.subspan(own)) add(*visual);
+
+    std::array<float, 3> colour;
+    const float* ground = whole_.reaches_floor ? uniform_colour(view, whole_, colour.data()) : nullptr;
+    for (int row = 0; row < height_; ++row)
+        draw_row(view, row, ground,
+                 &rgb[3 * static_cast<std::size_t>(row) * static_cast<std::size_t>(width_)]);
+}
+
+/// Renders one row. `ground` is the colour of all ground, null when it may have several.
+void Camera::draw_row(const View& view, int row, const float* ground, float* rgb) const {
+    std::array<float, 3> of_row, of_block;
+    const Extent& all = rows_[static_cast<std::size_t>(row)];
+    if (!ground && all.reaches_floor) ground = uniform_colour(view, all, of_row.data());
+    if (ground) fill(ground, static_cast<std::size_t>(width_), rgb);
+    std::size_t block = static_cast<std::size_t>(row) * blocks_wide_;
+    for (int column = 0; column < width_; column += block_width, ++block, rgb += 3 * block_width) {
+        const int pixels = std::min(block_width, width_ - column), own = own_drawn_ ? own_blocks_[block] : -1;
+        if (cover_[block] == bare && ground && own < 0) continue;
+        const Extent& extent = blocks_[block];
+        const bool one_face = cover_[block] != bare && cover_[block] != mixed;
+        const float* behind = one_face               ? colours_[cover_[block]].data()
+                              : ground               ? ground
+                              : extent.reaches_floor ? uniform_colour(view, extent, of_block.data())
+                                                     : nullptr;
+        const bool plain = cover_[block] != mixed && behind;  // one colour, behind own solids
+        if (plain && own < 0)
+            fill(behind, static_cast<std::size_t>(pixels), rgb);
+        else if (plain && (cover_[block] != bare ||
+                           own_[static_cast<std::size_t>(own)].farthest < nearest_floor_[block]))
+            draw_own(own_[static_cast<std::size_t>(own)], {behind[0], behind[1], behind[2], 0}, pixels, rgb);
+        else if (cover_[block] == bare && own < 0 && extent.reaches_floor && shows_floor(view, extent))
+            draw_textured(view, block, pixels, rgb);
+        else
+            draw_block(view, block, pixels, one_face ? nullptr : behind, rgb);
+    }
+}
+
+/// Renders a block with own solids before something of one colour.
+void Camera::draw_own(const OwnBlock& own, const Eigen::Array4f& behind, int pixels, float* rgb) const {
+    const float mean = 1.0f / static_cast<float>(samples_);
+    const auto colour = [&](std::size_t k) -> const Eigen::Array4f& {
+        return own.face[k] ? colours_[own.face[k]] : behind;
+    };
+    for (std::size_t p = 0; p < static_cast<std::size_t>(pixels); ++p, rgb += 3) {
+        Eigen::Array4f sum = colour(p);
+        for (std::size_t k = p + block_width; k < block_samples_; k += block_width) sum += colour(k);
+        Eigen::Map<Eigen::Array3f>{rgb} = sum.head<3>() * mean;
+    }
+}
+
+/// Extends the columns of each row, from `first_row` on, by those of a line between two points, in pixels to
+/// the right and down.
+void Camera::extend(Eigen::Vector2d a, Eigen::Vector2d b, int first_row) {
+    if (a.y() > b.y()) std::swap(a, b);
+    const double slope = b.y() - a.y() > 1e-9 ? (b.x() - a.x()) / (b.y() - a.y()) : 0;
+    const int last_row = first_row + static_cast<int>(reach_.size()) - 1,
+              begin = std::max(first_row,
+                               static_cast<int>(std::floor(std::clamp(a.y() - pixel_margin, -1.0, 1e6)))),
+              end = std::min(last_row, static_cast<int>(std::clamp(b.y() + pixel_margin, -1.0, 1e6)));
+    for (int row = begin; row <= end; ++row) {
+        const double above = row - pixel_margin, below = row + 1 + pixel_margin;
+        const double x = a.y() > above ? a.x() : a.x() + slope * (above - a.y()),
+                     y = b.y() < below ? b.x() : a.x() + slope * (below - a.y());
+        std::array<double, 2>& reach = reach_[static_cast<std::size_t>(row - first_row)];
+        reach[0] = std::min({reach[0], x, y}), reach[1] = std::max({reach[1], x, y});
+    }
+}
+
+/// The only face that some blocks of a row show of a solid, as in Window::first_face; 0 when there may be
+/// several, or ground. A face is convex, so it fills what is between its rays.
+std::size_t Camera::full_face(const Window& w, std::size_t first_block, std::size_t last_block,
+                              double& least) const {
+    const auto per_axis = static_cast<std::size_t>(std::lround(std::sqrt(samples_)));
+    const std::size_t top = first_block * block_samples_,
+                      last = last_block * block_samples_ + block_width - 1,
+                      down = block_width * per_axis * (per_axis - 1), right = block_width * (per_axis - 1);
+    const std::array<std::size_t, 4> ends = {top, top + down, last + right, last + down + right};
+    constexpr std::size_t rays = 8;  // twice four, as fewer are not computed side by side
+    std::array<float, rays> x, y, z;
+    std::array<double, rays> depth, entry, face;
+    for (std::size_t i = 0; i < rays; ++i) {
+        const std::size_t k = ends[i % 4];
+        x[i] = ray_x_[k], y[i] = ray_y_[k], z[i] = ray_z_[k];
+        depth[i] = far_ * safely, face[i] = 0;
+        for (const FloorPoints& floor : floor_points_) depth[i] = std::min(depth[i], floor.depth[k] * safely);
+    }
+    meet(w.solid, {x.data(), y.data(), z.data(), rays}, w.first_face,
+         {depth.data(), entry.data(), face.data()});
+    least = depth[0];
+    for (std::size_t i = 1; i < 4; ++i) {
+        if (face[i] != face[0]) return 0;
+        least = std::min(least, depth[i]);
+    }
+    return face[0] == w.first_face + Nearest::curved ? 0 : static_cast<std::size_t>(face[0]);
+}
+
+/// Notes in which blocks a solid is seen.
+void Camera::cover(const Window& w) {
+    const auto note = [&](std::size_t block, std::size_t face, double depth) {
+        const int own = own_drawn_ ? own_blocks_[block] : -1;
+        const bool before = own >= 0 && !(own_[static_cast<std::size_t>(own)].farthest < safely * depth);
+        cover_[block] = cover_[block] == bare && face > 0 && face < mixed && !before
+                            ? static_cast<std::uint16_t>(face)
+                            : mixed;
+    };
+    for (int row = w.first_row; row < w.end_row; ++row) {
+        const Span s = span(w, row);
+        if (s.first >= s.end) continue;
+        const std::size_t begin = static_cast<std::size_t>(row) * blocks_wide_,
+                          first = begin + static_cast<std::size_t>(s.first / block_width),
+                          last = begin + static_cast<std::size_t>((s.end - 1) / block_width);
+        const bool from_edge = s.first % block_width == 0,
+                   to_edge = s.end % block_width == 0 || s.end == width_;
+        double depth = 0;
+        const std::size_t everywhere = from_edge && to_edge ? full_face(w, first, last, depth) : 0;
+        for (std::size_t block = first; block <= last; ++block) {
+            std::size_t face = everywhere;
+            if (!face && cover_[block] == bare && (block > first || from_edge) && (block < last || to_edge))
+                face = full_face(w, block, block, depth);
+            note(block, face, depth);
+        }
+    }
+}
+
+/// Adds the window of a solid: the pixels inside the outline of what is before the camera of its bounding
+/// box. Returns false when there are none.
+bool Camera::add_window(const View& view, const VisualSolid& visual) {
+    constexpr double near = 1e-6;  // m along the optical axis
     const Solid& solid = visual.solid;
     const Pose to_camera = (view.pose * mount_).inverse(Eigen::Isometry) * solid.pose;
     const Eigen::Vector3d middle = to_camera.translation();
     const Eigen::Matrix3d sides = to_camera.linear() * (solid.size / 2).asDiagonal();
-    Eigen::AlignedBox2d slopes;  // to the left and up, in m per m along the optical axis
-    for (int corner = 0; corner < 8; ++corner) {
-        const Eigen::Vector3d at = middle + (corner & 1 ? 1 : -1) * sides.col(0) +
-                                   (corner & 2 ? 1 : -1) * sides.col(1) +
-                                   (corner & 4 ? 1 : -1) * sides.col(2);
-        if (at.x() < 1e-3) return {&visual, 0, width_, 0, height_};
-        slopes.extend(Eigen::Vector2d(at.y() / at.x(), at.z() / at.x()));
-    }
-    constexpr double margin = 0.01;  // pixels; rays are in single precision
-    const auto pixel = [](double slope, double tan, int pixels) {
-        return std::clamp((1 - slope / tan) * pixels / 2, -2.0, pixels + 2.0);
+    std::array<Eigen::Vector3d, 8> corners;
+    for (int corner = 0; corner < 8; ++corner)
+        corners[static_cast<std::size_t>(corner)] = middle + (corner & 1 ? 1 : -1) * sides.col(0) +
+                                                    (corner & 2 ? 1 : -1) * sides.col(1) +
+                                                    (corner & 4 ? 1 : -1) * sides.col(2);
+    // The edges of the part before the camera, in pixels to the right and down. A plane cuts at most six
+    // edges of a box, and all lines between the cuts are inside the outline.
+    std::array<std::array<Eigen::Vector2d, 2>, 12 + 15> lines;
+    std::array<Eigen::Vector2d, 6> cuts;
+    std::size_t count = 0, cut = 0;
+    Eigen::AlignedBox2d box;
+    const auto pixel = [&](const Eigen::Vector3d& at) -> Eigen::Vector2d {
+        const Eigen::Vector2d p((1 - at.y() / at.x() / tan_x_) * width_ / 2,
+                                (1 - at.z() / at.x() / tan_y_) * height_ / 2);
+        box.extend(p);
+        return p;
     };
-    const auto first = [&](double p) { return std::max(0, static_cast<int>(std::floor(p - margin))); };
-    const auto end = [&](double p, int pixels) {
-        return std::min(pixels, static_cast<int>(std::ceil(p + margin)));
-    };
-    return {&visual, first(pixel(slopes.max().x(), tan_x_, width_)),
-            end(pixel(slopes.min().x(), tan_x_, width_), width_),
-            first(pixel(slopes.max().y(), tan_y_, height_)),
-            end(pixel(slopes.min().y(), tan_y_, height_), height_)};
+    for (std::size_t from = 0; from < 8; ++from)
+        for (const std::size_t bit : {1u, 2u, 4u}) {
+            if (from & bit) continue;
+            const Eigen::Vector3d *a = &corners[from], *b = &corners[from | bit];
+            if (a->x() > b->x()) std::swap(a, b);
+            if (b->x() < near) continue;
+            if (a->x() >= near) {
+                lines[count++] = {pixel(*a), pixel(*b)};
+                continue;
+            }
+            Eigen::Vector3d at = *a + (near - a->x()) / (b->x() - a->x()) * (*b - *a);
+            at.x() = near;
+            lines[count++] = {pixel(at), pixel(*b)};
+            if (cut < cuts.size()) cuts[cut++] = lines[count - 1][0];
+        }
+    for (std::size_t i = 0; i < cut; ++i)
+        for (std::size_t k = i + 1; k < cut; ++k) lines[count++] = {cuts[i], cuts[k]};
+    if (count == 0) return false;
+    const int first_row = first_pixel(box.min().y()), end_row = end_pixel(box.max().y(), height_);
+    if (first_pixel(box.min().x()) >= end_pixel(box.max().x(), width_) || first_row >= end_row) return false;
+    reach_.assign(static_cast<std::size_t>(end_row - first_row), {1e9, -1e9});
+    for (std::size_t i = 0; i < count; ++i) extend(lines[i][0], lines[i][1], first_row);
+    const std::size_t first_span = spans_.size();
+    for (const std::array<double, 2>& reach : reach_)
+        spans_.push_back({first_pixel(reach[0]), end_pixel(reach[1], width_)});
+    const Eigen::Matrix3d turn = solid.pose.linear().transpose() * view.pose.linear();
+    const Eigen::Vector3d eye =
+        solid.pose.linear().transpose() * (view.pose * mount_.translation() - solid.pose.translation());
+    windows_.push_back({&visual, {solid.kind, solid.size / 2, eye, turn}, 0, first_row, end_row, first_span});
+    return true;
 }
 
-bool Camera::sees(const View& view, const Tile& tile, const Window& w) {
-    return tile.row >= w.first_row && tile.row < w.end_row && tile.column < w.end_column &&
-           tile.column + tile.pixels > w.first_column && sees(view, tile, *w.visual);
-}
-
-/// Whether a solid may be visible in a tile: its box meets the tile's sphere, and the tile's box meets its
-/// sphere. Both tests are needed, as spheres are poor bounds of long walls and of rows of pixels.
-bool Camera::sees(const View& view, const Tile& tile, const VisualSolid& visual) {
-    const Solid& solid = visual.solid;
+/// Whether a solid may be visible: its box meets the sphere of all that the camera sees, and the box of that
+/// meets its sphere. Both tests are needed, as spheres are poor bounds of long walls.
+bool Camera::sees(const View& view, const Solid& solid) const {
     const bool low = solid.pose.translation().z() + half_height(solid) <= low_height;
-    const Bounds& bounds = low ? tile.low : tile.all;
+    const Bounds& bounds = low ? low_ : all_;
     const Eigen::Vector3d centre =
         solid.pose.linear().transpose() * (view.pose * bounds.centre - solid.pose.translation());
     const Eigen::Vector3d outside = (centre.cwiseAbs() - solid.size / 2).cwiseMax(0);
@@ -131,64 +332,52 @@ bool Camera::sees(const View& view, const Tile& tile, const VisualSolid& visual)
     return bounds.box.squaredExteriorDistance(middle) <= radius_squared(solid);
 }
 
+/// A rectangle on the texture of the only floor that contains all samples of an extent, texels.
+struct Camera::View::OnFloor {
+    float u_first, u_last, v_first, v_last;
+
+    OnFloor(const View& view, const Extent& e) {
+        constexpr float margin = 0.01f;  // texels; well above the errors of single precision
+        const ToTexels& to = *view.to_texels;
+        const float u = to.u(e.x, e.y), v = to.v(e.x, e.y),
+                    half_u = std::abs(to.ux) * e.half_x + std::abs(to.uy) * e.half_y + margin,
+                    half_v = std::abs(to.vx) * e.half_x + std::abs(to.vy) * e.half_y + margin;
+        u_first = u - half_u, u_last = u + half_u, v_first = v - half_v, v_last = v + half_v;
+    }
+    bool inside(const FloorTexture& texture) const {
+        return u_first >= 0 && u_last <= static_cast<float>(texture.width()) && v_first >= 0 &&
+               v_last <= static_cast<float>(texture.height());
+    }
+};
+
+/// Whether some rays that reach the floor show only the interior of the only one.
+bool Camera::shows_floor(const View& view, const Extent& extent) {
+    return view.floor && View::OnFloor(view, extent).inside(view.floor->texture);
+}
+
 /// Writes the colour of the floor in an extent to `colour` and returns it. Null when there are several
 /// colours.
-const float* Camera::uniform_colour(const View& view, const Extent& e, float* colour) const {
+const float* Camera::uniform_colour(const View& view, const Extent& extent, float* colour) const {
     if (!view.floor) return nullptr;
-    constexpr float margin = 0.01f;  // texels; well above the errors of single precision
-    const View::ToTexels& to = *view.to_texels;
-    const float u = to.u(e.x, e.y), half_u = std::abs(to.ux) * e.half_x + std::abs(to.uy) * e.half_y + margin;
-    const float v = to.v(e.x, e.y), half_v = std::abs(to.vx) * e.half_x + std::abs(to.vy) * e.half_y + margin;
-    const float u_first = u - half_u, u_last = u + half_u, v_first = v - half_v, v_last = v + half_v;
+    const View::OnFloor at(view, extent);
     const FloorTexture& texture = view.floor->texture;
-    if (!(u_first >= 0 && u_last <= static_cast<float>(texture.width()) && v_first >= 0 &&
-          v_last <= static_cast<float>(texture.height()) &&
-          texture.uniform(u_first, u_last, v_first, v_last)))
-        return nullptr;
-    const std::uint32_t texel = texture.texel(texture.index(u_first, v_first));
+    if (!at.inside(texture) || !texture.uniform(at.u_first, at.u_last, at.v_first, at.v_last)) return nullptr;
+    const std::uint32_t texel = texture.texel(texture.index(at.u_first, at.v_first));
     colour[0] = texture.red(texel), colour[1] = texture.green(texel), colour[2] = texture.blue(texel);
     return colour;
 }
 
-/// Renders a tile that shows only the interior of the only floor, which is the common case. Returns false
-/// when the tile may show something else.
-bool Camera::draw_bare_floor(const View& view, const Tile& tile, float* rgb) const {
-    if (!view.floor || !tile.reaches_floor) return false;
-    std::array<float, 3> colour;
-    const auto fill = [&](int pixels, float* to) {
-        for (int p = 0; p < pixels; ++p, to += 3) std::copy_n(colour.begin(), 3, to);
-    };
-    if (uniform_colour(view, tile.extent, colour.data())) return fill(tile.pixels, rgb), true;
-    const FloorSurface& floor = *view.floor;
-    const Eigen::Vector3d centre = view.pose * tile.low.centre;
-    const double cf = std::cos(floor.pose.yaw), sf = std::sin(floor.pose.yaw);
-    const double x = centre.x() - floor.pose.x, y = centre.y() - floor.pose.y;
-    if (!(std::abs(cf * x + sf * y) + tile.low.radius < floor.size_x / 2 &&
-          std::abs(cf * y - sf * x) + tile.low.radius < floor.size_y / 2))
-        return false;
-    for (int first = 0; first < tile.pixels; first += segment_width) {
-        const int pixels = std::min(segment_width, tile.pixels - first);
-        if (uniform_colour(view, tile.segments[static_cast<std::size_t>(first / segment_width)],
-                           colour.data()))
-            fill(pixels, rgb + 3 * first);
-        else
-            draw_textured(view, tile, first, pixels, rgb + 3 * first);
-    }
-    return true;
-}
-
-/// Renders pixels of a tile that show only the interior of the only floor.
-void Camera::draw_textured(const View& view, const Tile& tile, int first_pixel, int pixels,
-                           float* rgb) const {
+/// Renders pixels of a block that show only the interior of the only floor.
+void Camera::draw_textured(const View& view, std::size_t block, int pixels, float* rgb) const {
     const FloorTexture& texture = view.floor->texture;
     const View::ToTexels& to = *view.to_texels;
     const float mean = 1.0f / static_cast<float>(samples_);
-    for (int p = first_pixel; p < first_pixel + pixels; ++p, rgb += 3) {
+    for (int p = 0; p < pixels; ++p, rgb += 3) {
         std::array<float, max_samples> u, v;
         std::array<std::uint32_t, max_samples> texels{};
         bool uniform = true;
         for (int s = 0; s < samples_; ++s) {
-            const std::size_t k = tile.first + static_cast<std::size_t>(s * tile.pixels + p);
+            const std::size_t k = block * block_samples_ + static_cast<std::size_t>(s * block_width + p);
             const auto i = static_cast<std::size_t>(s);
             const float x = floor_points_.front().x[k], y = floor_points_.front().y[k];
             u[i] = to.u(x, y), v[i] = to.v(x, y);
@@ -206,82 +395,73 @@ void Camera::draw_textured(const View& view, const Tile& tile, int first_pixel, 
     }
 }
 
-/// Renders a tile with floors and solids.
-void Camera::draw_all(const View& view, const Tile& tile, float* rgb) const {
-    Samples samples;
-    const auto pixels = static_cast<std::size_t>(tile.pixels);
-    const std::size_t count = pixels * static_cast<std::size_t>(samples_);
-    std::fill_n(samples.rgb.begin(), count, Eigen::Array4f::Constant(Scene::background));
-    std::fill_n(samples.depth.begin(), count, static_cast<float>(far_));
-
-    std::array<float, 3> floor_colour;
-    const bool uniform = tile.reaches_floor && uniform_colour(view, tile.extent, floor_colour.data());
-    if (uniform) {
-        std::copy_n(&floor_points_.front().depth[tile.first], count, samples.depth.begin());
-        std::fill_n(samples.rgb.begin(), count,
-                    Eigen::Array4f(floor_colour[0], floor_colour[1], floor_colour[2], 0));
+/// Finds the ground of a block: the floors, and the background where there is none. `ground` as in
+/// draw_row().
+void Camera::draw_floors(const View& view, std::size_t block, const float* ground, Samples& samples) const {
+    const std::size_t first = block * block_samples_;
+    samples.uniform_ground = ground;
+    if (ground) {
+        samples.ground.front() << ground[0], ground[1], ground[2], 0;
+        std::copy_n(&floor_points_.front().depth[first], block_samples_, samples.depth.begin());
+        return;
     }
-    for (std::size_t f = 0; f < floor_points_.size() && !uniform; ++f) {  // a higher floor hides a lower one
+    std::fill_n(samples.ground.begin(), block_samples_, Eigen::Array4f::Constant(Scene::background));
+    std::fill_n(samples.depth.begin(), block_samples_, static_cast<float>(far_));
+    for (std::size_t f = 0; f < floor_points_.size(); ++f) {  // a higher floor hides a lower one
         const FloorSurface& floor = scene_->floors()[f];
         const View::ToTexels to(floor, view.robot.x, view.robot.y, view.robot.yaw);
         const auto width = static_cast<float>(floor.texture.width()),
                    height = static_cast<float>(floor.texture.height());
-        for (std::size_t k = 0; k < count; ++k) {
-            const float x = floor_points_[f].x[tile.first + k], y = floor_points_[f].y[tile.first + k];
+        for (std::size_t k = 0; k < block_samples_; ++k) {
+            const float x = floor_points_[f].x[first + k], y = floor_points_[f].y[first + k];
             const float u = to.u(x, y), v = to.v(x, y);
             if (!(u >= 0 && u <= width && v >= 0 && v <= height))
                 continue;  // also when the ray does not meet the floor and (u, v) is infinite
-            samples.depth[k] = floor_points_[f].depth[tile.first + k];
-            samples.rgb[k].setZero();
-            floor.texture.add(u, v, samples.rgb[k].data());
+            samples.depth[k] = floor_points_[f].depth[first + k];
+            samples.ground[k].setZero();
+            floor.texture.add(u, v, samples.ground[k].data());
         }
     }
+}
 
-    const Lighting& lighting = scene_->lighting();
+/// Renders a block with floors and solids.
+void Camera::draw_block(const View& view, std::size_t block, int pixels, const float* ground,
+                        float* rgb) const {
+    Samples samples;
+    draw_floors(view, block, ground, samples);
+    std::fill_n(samples.face.begin(), block_samples_, 0.0);
+    if (own_drawn_ && own_blocks_[block] >= 0) {
+        const OwnBlock& own = own_[static_cast<std::size_t>(own_blocks_[block])];
+        for (std::size_t k = 0; k < block_samples_; ++k) {
+            const bool nearer = own.depth[k] < samples.depth[k];
+            samples.depth[k] = nearer ? static_cast<double>(own.depth[k]) : samples.depth[k];
+            samples.face[k] = nearer ? static_cast<double>(own.face[k]) : samples.face[k];
+        }
+    }
+    meet_solids(block, samples);
+
+    std::array<Eigen::Array4f, max_block> colours;
+    std::array<std::size_t, max_block> faces_of;
+    for (std::size_t k = 0; k < block_samples_; ++k) {
+        faces_of[k] = static_cast<std::size_t>(samples.face[k]);
+        colours[k] = faces_of[k] ? colours_[faces_of[k]] : samples.ground[samples.uniform_ground ? 0 : k];
+    }
     for (const Window& w : windows_) {
-        if (!sees(view, tile, w)) continue;
-        const VisualSolid& visual = *w.visual;
-        const Solid& solid = visual.solid;
-        const Eigen::Matrix3d turn = solid.pose.linear().transpose() * view.pose.linear();
-        const Eigen::Vector3d half = solid.size / 2;
-        const Eigen::Vector3d eye =
-            solid.pose.linear().transpose() * (view.pose * mount_.translation() - solid.pose.translation());
-        std::array<Colour, 6> faces;
-        for (int face = 0; face < 6; ++face)
-            faces[static_cast<std::size_t>(face)] =
-                lighting.shade(visual.material, solid.pose.linear() * face_normal(face));
-        const auto from = static_cast<std::size_t>(std::max(0, w.first_column - tile.column)),
-                   to = static_cast<std::size_t>(std::min(tile.pixels, w.end_column - tile.column));
-        const bool by_sample = 2 * (to - from) < pixels;  // else the rays that miss cost less than more calls
-        const std::size_t runs = by_sample ? static_cast<std::size_t>(samples_) : 1,
-                          first = by_sample ? from : 0, last = by_sample ? to : count;
-        const auto draw = [&](std::size_t begin, std::size_t end) {
-            intersect(solid.kind, half, eye, turn,
-                      {&ray_x_[tile.first + begin], &ray_y_[tile.first + begin], &ray_z_[tile.first + begin],
-                       end - begin},
-                      {&samples.entry[begin], &samples.face[begin]});
-            for (std::size_t k = begin; k < end; ++k) {
-                if (!(samples.entry[k] < samples.depth[k])) continue;
-                const std::size_t i = tile.first + k;
-                samples.depth[k] = static_cast<float>(samples.entry[k]);
-                samples.rgb[k].head<3>() =
-                    samples.face[k] == Entries::curved
-                        ? lighting.shade(
-                              visual.material,
-                              solid.pose.linear() *
-                                  curved_normal(solid.kind, eye,
-                                                turn * Eigen::Vector3d(ray_x_[i], ray_y_[i], ray_z_[i]),
-                                                samples.entry[k]))
-                        : faces[static_cast<std::size_t>(samples.face[k])];
-            }
-        };
-        for (std::size_t run = 0; run < runs; ++run) draw(run * pixels + first, run * pixels + last);
+        if (!meets(w, block) || w.visual->solid.kind == ShapeKind::box) continue;
+        const auto curved = static_cast<std::size_t>(w.first_face + Nearest::curved);
+        const auto end = faces_of.begin() + static_cast<std::ptrdiff_t>(block_samples_);
+        if (std::find(faces_of.begin(), end, curved) == end) continue;
+        std::array<Eigen::Array4f, max_block> shades;
+        shade_curved(w.solid, w.visual->solid.pose.linear(), scene_->lighting(), w.visual->material,
+                     rays_of(block), samples.entry.data(), shades.front().data());
+        for (std::size_t k = 0; k < block_samples_; ++k)
+            if (faces_of[k] == curved) colours[k] = shades[k];
     }
 
     const float mean = 1.0f / static_cast<float>(samples_);
-    for (std::size_t p = 0; p < pixels; ++p, rgb += 3) {
-        Eigen::Array4f sum = samples.rgb[p];
-        for (std::size_t k = p + pixels; k < count; k += pixels) sum += samples.rgb[k];
+    for (std::size_t p = 0; p < static_cast<std::size_t>(pixels); ++p, rgb += 3) {
+        Eigen::Array4f sum = colours[p];
+        for (std::size_t k = p + block_width; k < block_samples_; k += block_width) sum += colours[k];
         Eigen::Map<Eigen::Array3f>{rgb} = sum.head<3>() * mean;
     }
 }

@@ -4,8 +4,11 @@
 
 namespace forage::bug {
 
+void Grid::reserve(std::size_t items) {
+    areas_.reserve(items), begin_.reserve((most_cells + 1) * (most_cells + 1) + 1), items_.reserve(4 * items);
+}
+
 void Grid::assign(const std::vector<Area>& areas, double cell) {
-    constexpr double most_cells = 64;  // per axis
     areas_ = areas;
     if (areas.empty()) return;
     Area all = areas.front();

@@ -27,6 +27,9 @@ class Grid {
     /// cover so much that there would be more than a few thousand cells.
     void assign(const std::vector<Area>& areas, double cell);
 
+    /// Makes room for `items` small items that are anywhere, so that assign() does not allocate memory.
+    void reserve(std::size_t items);
+
     /// Calls visit(i) once for each item whose area meets `area`, in the same order for the same items.
     template <class F>
     void visit(const Area& area, F&& visit) const {
@@ -47,6 +50,8 @@ class Grid {
     }
 
   private:
+    static constexpr int most_cells = 64;  ///< per axis
+
     static int index(double distance, double cell, int count) {
         return static_cast<int>(std::clamp(distance / cell, 0.0, count - 1.0));
     }

@@ -5,14 +5,56 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/simd.h"
+
 namespace forage::bug {
 namespace {
 
-/// Reduces `range` to the measurement of a ray that is inside a solid from `enter` to `leave`, all distances
-/// from the sensor in m.
-void keep_nearest(double enter, double leave, double min, double& range) {
-    const double hit = enter >= min ? enter : leave;  // a ray that starts inside measures the far side
-    if (leave >= min && hit < range) range = hit;
+constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+/// Returns the smaller one of `range` and the measurement of a ray that is inside a solid from `enter` to
+/// `leave`, all distances from the sensor in m. A ray that starts inside measures the far side.
+[[gnu::always_inline]] inline double nearest(double enter, double leave, double min, double range) {
+    const double hit = enter >= min ? enter : leave;
+    const bool nearer = enter <= leave && leave >= min && hit < range;
+    return nearer ? hit : range;
+}
+
+/// The constants of one rectangle for all rays.
+struct BoxInView {
+    double cos_yaw, sin_yaw, origin_x, origin_y, half_x, half_y;
+};
+
+FORAGE_SIMD void meet_rectangle(const BoxInView box, double min, const double* __restrict direction_x,
+                                const double* __restrict direction_y, std::size_t rays,
+                                double* __restrict ranges) {
+    for (std::size_t i = 0; i < rays; ++i) {
+        double enter = -nowhere, leave = nowhere;
+        const auto slab = [&](double direction, double origin, double half) {
+            const bool along = std::abs(direction) < 1e-12;  // always or never between the two sides
+            const double across = along ? 1.0 : direction;
+            const double centre = -origin / across, reach = half / std::abs(across);
+            const double nearer = along ? -nowhere : centre - reach;
+            const double farther = along ? (std::abs(origin) > half ? -nowhere : nowhere) : centre + reach;
+            enter = enter < nearer ? nearer : enter;
+            leave = farther < leave ? farther : leave;
+        };
+        slab(box.cos_yaw * direction_x[i] + box.sin_yaw * direction_y[i], box.origin_x, box.half_x);
+        slab(box.cos_yaw * direction_y[i] - box.sin_yaw * direction_x[i], box.origin_y, box.half_y);
+        ranges[i] = nearest(enter, leave, min, ranges[i]);
+    }
+}
+
+FORAGE_SIMD void meet_circle(double x, double y, double radius, double min,
+                             const double* __restrict direction_x, const double* __restrict direction_y,
+                             std::size_t rays, double* __restrict ranges) {
+    for (std::size_t i = 0; i < rays; ++i) {
+        const double along = direction_x[i] * x + direction_y[i] * y;
+        const double aside = direction_x[i] * y - direction_y[i] * x;
+        const double square = radius * radius - aside * aside;
+        const double half = std::sqrt(square < 0 ? 0.0 : square);
+        ranges[i] = nearest(square < 0 ? nowhere : along - half, along + half, min, ranges[i]);
+    }
 }
 
 }  // namespace
@@ -42,45 +84,15 @@ void RangeScanner::scan(const Pose2& robot, std::span<const Outline> outlines,
         // The outline relative to the sensor, in the orientation of the robot, in which the rays are
         // constant.
         const double forward = c * dx + s * dy, left = c * dy - s * dx;
-        if (o.round)
-            scan_circle(forward, left, o.radius, ranges);
-        else
-            scan_box(forward, left, c * o.cos_yaw + s * o.sin_yaw, c * o.sin_yaw - s * o.cos_yaw, o.half_x,
-                     o.half_y, ranges);
-    }
-}
-
-void RangeScanner::scan_circle(double x, double y, double radius, std::span<double> ranges) const {
-    for (std::size_t i = 0; i < ranges.size(); ++i) {
-        const double along = direction_x_[i] * x + direction_y_[i] * y;
-        const double aside = direction_x_[i] * y - direction_y_[i] * x;
-        const double square = radius * radius - aside * aside;
-        if (square < 0) continue;
-        const double half = std::sqrt(square);
-        keep_nearest(along - half, along + half, min_, ranges[i]);
-    }
-}
-
-void RangeScanner::scan_box(double x, double y, double cos_yaw, double sin_yaw, double half_x, double half_y,
-                            std::span<double> ranges) const {
-    const double origin[2] = {-(cos_yaw * x + sin_yaw * y),
-                              sin_yaw * x - cos_yaw * y};  // direction of the ray in the frame of the box
-    const double half[2] = {half_x, half_y};
-    for (std::size_t i = 0; i < ranges.size(); ++i) {
-        const double direction[2] = {cos_yaw * direction_x_[i] + sin_yaw * direction_y_[i],
-                                     cos_yaw * direction_y_[i] - sin_yaw * direction_x_[i]};
-        double enter = -std::numeric_limits<double>::infinity(), leave = -enter;
-        for (int axis = 0; axis < 2; ++axis) {
-            if (std::abs(direction[axis]) < 1e-12) {  // parallel to two sides: always or never between them
-                if (std::abs(origin[axis]) > half[axis]) leave = -std::numeric_limits<double>::infinity();
-                continue;
-            }
-            const double centre = -origin[axis] / direction[axis],
-                         reach = half[axis] / std::abs(direction[axis]);
-            enter = std::max(enter, centre - reach);
-            leave = std::min(leave, centre + reach);
+        if (o.round) {
+            meet_circle(forward, left, o.radius, min_, direction_x_.data(), direction_y_.data(),
+                        ranges.size(), ranges.data());
+            continue;
         }
-        if (enter <= leave) keep_nearest(enter, leave, min_, ranges[i]);
+        const double cos_yaw = c * o.cos_yaw + s * o.sin_yaw, sin_yaw = c * o.sin_yaw - s * o.cos_yaw;
+        meet_rectangle({cos_yaw, sin_yaw, -(cos_yaw * forward + sin_yaw * left),
+                        sin_yaw * forward - cos_yaw * left, o.half_x, o.half_y},
+                       min_, direction_x_.data(), direction_y_.data(), ranges.size(), ranges.data());
     }
 }
 

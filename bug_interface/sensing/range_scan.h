@@ -42,10 +42,6 @@ class RangeScanner {
     void to_activity(std::span<const double> ranges, std::span<double> cells) const;
 
   private:
-    void scan_circle(double x, double y, double radius, std::span<double> ranges) const;
-    void scan_box(double x, double y, double cos_yaw, double sin_yaw, double half_x, double half_y,
-                  std::span<double> ranges) const;
-
     Pose2 mount_;  ///< pose of the sensor in the robot
     double height_, min_, max_, noise_;
     std::vector<double> direction_x_, direction_y_;  ///< unit vectors of the rays in the frame of the robot

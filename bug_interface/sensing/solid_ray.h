@@ -3,8 +3,10 @@
 
 #include <span>
 
+#include "bug_interface/sensing/grid.h"
 #include "bug_interface/sensing/outline.h"
 #include "bug_interface/world/description.h"
+#include "bug_interface/world/material.h"
 
 namespace forage::bug {
 
@@ -21,6 +23,13 @@ inline double radius_squared(const Solid& solid) {
     return solid.size.squaredNorm() / 4;
 }
 
+/// The bounding rectangle of `solid` in the plane.
+inline Area area_of(const Solid& solid) {
+    const Eigen::Vector2d middle = solid.pose.translation().head<2>(),
+                          half = solid.pose.linear().topRows<2>().cwiseAbs() * solid.size / 2;
+    return {middle.x() - half.x(), middle.y() - half.y(), middle.x() + half.x(), middle.y() + half.y()};
+}
+
 /// The outward normal of a flat face: face 2 * axis is on the positive side of the axis, and 2 * axis + 1 on
 /// the negative side.
 inline Eigen::Vector3d face_normal(int face) { return Eigen::Vector3d::Unit(face / 2) * (face % 2 ? -1 : 1); }
@@ -31,21 +40,37 @@ struct Rays {
     std::size_t count;
 };
 
-/// The points where rays enter a solid from outside.
-struct Entries {
-    static constexpr double curved = 6;
-    double* depth;  ///< > 0, in units of the ray's direction; infinity when it misses or starts inside
-    double* face;   ///< the face number of face_normal(), or `curved`
+/// A box, cylinder or sphere as rays see it. It has the half extents `half` in its own frame, in which the
+/// rays start at `origin` and have the directions `rotation` * ray. Rays never meet a ShapeKind::plane.
+struct SolidInView {
+    ShapeKind kind;
+    double turn[9];  ///< the rotation, row by row
+    double origin[3], half[3];
+
+    SolidInView(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& origin,
+                const Eigen::Matrix3d& rotation);
 };
 
-/// Intersects rays with a box, cylinder or sphere that has the half extents `half` in its own frame. In that
-/// frame the rays start at `origin` and have the directions `rotation` * ray. Rays never meet a
-/// ShapeKind::plane.
-void intersect(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& origin,
-               const Eigen::Matrix3d& rotation, const Rays& rays, const Entries& out);
+/// The nearest surfaces that rays have met so far.
+struct Nearest {
+    static constexpr double curved = 6;  ///< the face of a point that is on no flat face
+    double* depth;                       ///< > 0, in units of the ray's direction, in single precision
+    double* entry;                       ///< the same in double precision, where a solid is nearest
+    double* face;                        ///< the number of the face, which selects its colour
+};
+
+/// Finds the rays that enter `solid` from outside nearer than `nearest`, and sets their depth, their entry
+/// and their face: `first_face` + that of face_normal(), or + Nearest::curved.
+void meet(const SolidInView& solid, const Rays& rays, double first_face, const Nearest& nearest);
 
 /// The outward unit normal at the point where a ray enters a cylinder or sphere through its curved face.
 Eigen::Vector3d curved_normal(ShapeKind kind, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                               double depth);
+
+/// Writes the colours of the points where rays enter the curved face of `solid`, at the depths `entry`, to
+/// `rgb`, four numbers per ray, the last of which is unused: `lighting.shade(material, to_world *
+/// curved_normal())` to the bit. Other rays get any numbers. At most 128 rays.
+void shade_curved(const SolidInView& solid, const Eigen::Matrix3d& to_world, const Lighting& lighting,
+                  const Material& material, const Rays& rays, const double* entry, float* rgb);
 
 }  // namespace forage::bug

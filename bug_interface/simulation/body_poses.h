@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cmath>
+#include <span>
 #include <vector>
 
+#include "bug_interface/sensing/grid.h"
 #include "bug_interface/sensing/outline.h"
 #include "bug_interface/sensing/scene.h"
 #include "bug_interface/world/description.h"
@@ -15,8 +17,17 @@ struct BodyPoses {
     std::vector<Pose2> bodies;
     std::vector<char> present;               ///< per body; a removed body is neither seen nor touched
     std::vector<std::vector<Pose2>> hinges;  ///< per body and hinge: the displacement of the turned links
+    /// Per body: an upper bound of the distance of its points from its origin, with its hinges at angle 0, m.
+    std::vector<double> radius;
+    Grid places;  ///< finds bodies by their place; made by sort()
+
+    /// Makes `places` from the poses.
+    void sort();
 
     void checkpoint(Archive& archive) { archive(bodies, present, hinges); }
+
+  private:
+    std::vector<Area> areas_;
 };
 
 /// An outline that moves with a body.
@@ -68,6 +79,26 @@ struct MovingVisual {
         return hinge < 0 ? body_pose * pose
                          : body_pose * in_space(poses.hinges[body][static_cast<std::size_t>(hinge)]) * pose;
     }
+};
+
+/// The visuals of all bodies. They are placed in the world when they are asked for.
+class MovingVisuals {
+  public:
+    /// Bodies are added in the order of their numbers.
+    void add(const MovingVisual& visual);
+    /// The bodies have moved.
+    void forget_places() { placed_.assign(placed_.size(), 0); }
+    /// The visuals of a body, placed at `poses`.
+    std::span<const MovingVisual> of(std::size_t body, const BodyPoses& poses);
+
+    auto begin() { return all_.begin(); }
+    auto end() { return all_.end(); }
+    const std::vector<MovingVisual>& all() const { return all_; }
+
+  private:
+    std::vector<MovingVisual> all_;
+    std::vector<std::size_t> first_;  ///< per body: its first visual
+    std::vector<char> placed_;        ///< per body
 };
 
 }  // namespace forage::bug

@@ -9,13 +9,6 @@
 
 namespace forage::bug {
 
-Pose in_space(const Pose2& pose) {
-    Pose out = Pose::Identity();
-    out.translation() = Eigen::Vector3d(pose.x, pose.y, 0);
-    out.linear() = Eigen::AngleAxisd(pose.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-    return out;
-}
-
 Robot::Robot(const Model& model, std::size_t robot_number, std::uint64_t seed, bool noise, Heights& heights,
              Diagnostics& diagnostics)
     : name(model.name),

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "bug_interface/sensing/solid_ray.h"
+
 namespace forage::bug {
 
 RandomStream robot_stream(std::uint64_t seed, const std::string& robot, RobotStream use) {
@@ -32,19 +34,28 @@ std::optional<RobotSensors::Scan> RobotSensors::make_scan(std::string_view senso
     Scan scan{RangeScanner(*found, link_pose_),
               robot_stream(seed_, robot_, use),
               SensorClock(found->rate, step),
-              0,
+              {},
+              {},
+              {},
               {},
               {},
               std::vector<double>(static_cast<std::size_t>(found->rays))};
     const double height = scan.scanner.height();
+    std::vector<Area> areas;
     for (const Solid& solid : fixed)
-        if (const auto outline = cross_section(solid, height)) scan.outlines.push_back(*outline);
-    for (const MovingSolid& m : moving)
+        if (const auto outline = cross_section(solid, height)) {
+            scan.fixed.push_back(*outline);
+            areas.push_back(area_of(solid));
+        }
+    scan.fixed_places.assign(areas, scan.scanner.max_range());
+    for (const MovingSolid& m : moving) {
+        scan.first_of_body.resize(m.body + 1, scan.moving.size());
         if (const auto outline = cross_section(m.solid, height);
             outline && !(m.body == body_ && m.is_central_disc))
             scan.moving.push_back({m.body, m.hinge, *outline});
-    scan.fixed = scan.outlines.size();
-    scan.outlines.reserve(scan.fixed + scan.moving.size());
+    }
+    scan.first_of_body.push_back(scan.moving.size());
+    scan.outlines.reserve(scan.fixed.size() + scan.moving.size());
     cells.assign(scan.ranges.size(), 0);
     return scan;
 }
@@ -64,18 +75,16 @@ void RobotSensors::make_scanners(std::span<const Solid> fixed, std::span<const M
 
 void RobotSensors::Scan::measure(const Pose2& robot, std::uint64_t sample, bool with_noise,
                                  const BodyPoses& poses, std::span<double> cells) {
-    outlines.resize(fixed);
-    std::size_t transformed = poses.bodies.size();  // the body that `body_pose` belongs to
-    Transform2 body_pose(0, 0, 1, 0);
-    for (const MovingOutline& m : moving) {
-        if (!poses.present[m.body]) continue;
-        const Pose2& pose = poses.bodies[m.body];
-        const double dx = pose.x - robot.x, dy = pose.y - robot.y;
-        const double reach = scanner.reach() + m.max_distance(poses);
-        if (dx * dx + dy * dy > reach * reach) continue;
-        if (transformed != m.body) transformed = m.body, body_pose = Transform2(pose);
-        outlines.push_back(m.at(poses, body_pose));
-    }
+    outlines.clear();
+    const Area reached = Area::around(robot.x, robot.y, scanner.reach());
+    fixed_places.visit(reached, [&](std::size_t i) { outlines.push_back(fixed[i]); });
+    poses.places.visit(reached, [&](std::size_t body) {
+        if (!poses.present[body] || first_of_body[body] == first_of_body[body + 1]) return;
+        const Pose2& pose = poses.bodies[body];
+        const Transform2 body_pose(pose);
+        for (std::size_t i = first_of_body[body]; i < first_of_body[body + 1]; ++i)
+            outlines.push_back(moving[i].at(poses, body_pose));
+    });
     scanner.scan(robot, outlines, ranges);
     if (with_noise) scanner.add_noise(ranges, noise, sample);
     scanner.to_activity(ranges, cells);
@@ -94,7 +103,7 @@ bool RobotSensors::due(double now) const {
            (image_requested_ && camera_clock_ && camera_clock_->due(now));
 }
 
-void RobotSensors::sense_due(double now, const BodyPoses& poses, std::span<const MovingVisual> visuals) {
+void RobotSensors::sense_due(double now, const BodyPoses& poses, MovingVisuals& visuals) {
     const Pose2& pose = poses.bodies[body_];
     const auto sense = [&](std::optional<Scan>& scan, std::vector<double>& cells) {
         if (!scan || !scan->clock.due(now)) return false;
@@ -117,28 +126,62 @@ void RobotSensors::make_camera(const std::shared_ptr<const Scene>& scene) {
     snapshot_.image.resize(values);
 }
 
-void RobotSensors::render(std::uint64_t sample, const BodyPoses& poses,
-                          std::span<const MovingVisual> visuals) {
+void RobotSensors::render(std::uint64_t sample, const BodyPoses& poses, MovingVisuals& visuals) {
     if (!camera_ || rendered_ == sample) return;
     take_picture(sample, poses, visuals, snapshot_.image);
     rendered_ = sample;
 }
 
 std::span<const std::uint8_t> RobotSensors::view(std::uint64_t sample, const BodyPoses& poses,
-                                                 std::span<const MovingVisual> visuals) {
+                                                 MovingVisuals& visuals) {
     if (!camera_) return {};
     view_.resize(picture_.size());
     take_picture(sample, poses, visuals, view_);
     return view_;
 }
 
-void RobotSensors::take_picture(std::uint64_t sample, const BodyPoses& poses,
-                                std::span<const MovingVisual> visuals, std::vector<std::uint8_t>& out) {
+/// Finds the moving solids that may be in the picture. Those that the camera has looked up come first; their
+/// number is returned.
+std::size_t RobotSensors::find_visible(const BodyPoses& poses, MovingVisuals& visuals) {
+    const auto is_own_box = [&](const MovingVisual& v) {
+        return v.body == body_ && !v.of_body_link && v.visual.solid.kind == ShapeKind::box;
+    };
     visible_.clear();
-    for (const MovingVisual& moving : visuals)
-        if (!(moving.body == body_ && moving.of_body_link) && poses.present[moving.body])
-            visible_.push_back(&moving.visual);
-    camera_->render(poses.bodies[body_], visible_, picture_);
+    const auto parts = visuals.of(body_, poses);
+    for (const MovingVisual& v : parts)
+        if (is_own_box(v)) visible_.push_back(&v.visual);
+    const std::size_t own = visible_.size();
+    const std::vector<Pose2>& hinges = poses.hinges[body_];
+    const bool moved = !std::equal(
+        hinges.begin(), hinges.end(), own_hinges_.begin(), own_hinges_.end(),
+        [](const Pose2& a, const Pose2& b) { return a.x == b.x && a.y == b.y && a.yaw == b.yaw; });
+    if (own > 0 && (own_.empty() || moved)) {
+        own_hinges_ = hinges;
+        own_.clear();
+        for (const MovingVisual& v : parts) {
+            if (!is_own_box(v)) continue;
+            own_.push_back(v.visual);
+            own_.back().solid.pose =
+                v.hinge < 0 ? v.pose : in_space(hinges[static_cast<std::size_t>(v.hinge)]) * v.pose;
+        }
+        camera_->set_own(own_);
+    }
+    near_.clear();
+    poses.places.visit(camera_->view_area(poses.bodies[body_]),
+                       [&](std::size_t body) { near_.push_back(body); });
+    std::sort(near_.begin(), near_.end());  // the order decides between surfaces at the same depth
+    for (const std::size_t body : near_) {
+        if (!poses.present[body]) continue;
+        for (const MovingVisual& v : visuals.of(body, poses))
+            if (!is_own_box(v) && !(body == body_ && v.of_body_link)) visible_.push_back(&v.visual);
+    }
+    return own;
+}
+
+void RobotSensors::take_picture(std::uint64_t sample, const BodyPoses& poses, MovingVisuals& visuals,
+                                std::vector<std::uint8_t>& out) {
+    const std::size_t own = find_visible(poses, visuals);
+    camera_->render(poses.bodies[body_], visible_, picture_, own);
     if (noise_) {
         camera_->quantise(picture_, out, image_noise_, sample);
     } else {

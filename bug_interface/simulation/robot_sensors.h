@@ -78,17 +78,16 @@ class RobotSensors {
     /// Writes the pose and the scans of `sample` into the snapshot.
     void scan(std::uint64_t sample, const BodyPoses& poses);
     /// Writes the image of `sample` into the snapshot, unless it is there already. `visuals` are those that
-    /// move, placed in the world. Has no effect before make_camera().
-    void render(std::uint64_t sample, const BodyPoses& poses, std::span<const MovingVisual> visuals);
+    /// move. Has no effect before make_camera().
+    void render(std::uint64_t sample, const BodyPoses& poses, MovingVisuals& visuals);
     /// Whether a sensor with a rate of its own is due at the simulated time `now`, s.
     bool due(double now) const;
     /// Updates the sensors that are due. The pose is updated with the proximity sensor, as in the original.
-    void sense_due(double now, const BodyPoses& poses, std::span<const MovingVisual> visuals);
+    void sense_due(double now, const BodyPoses& poses, MovingVisuals& visuals);
     void receive(const Message& message) { snapshot_.received = message; }
     /// The image of `sample` for display. The snapshot does not change. Valid until the next call; empty
     /// before make_camera().
-    std::span<const std::uint8_t> view(std::uint64_t sample, const BodyPoses& poses,
-                                       std::span<const MovingVisual> visuals);
+    std::span<const std::uint8_t> view(std::uint64_t sample, const BodyPoses& poses, MovingVisuals& visuals);
 
     /// The snapshot of the current cycle.
     const BugSnapshot& snapshot() const { return snapshot_; }
@@ -107,10 +106,12 @@ class RobotSensors {
         RangeScanner scanner;
         RandomStream noise;
         SensorClock clock;
-        std::size_t fixed = 0;          ///< number of outlines that never move
-        std::vector<Outline> outlines;  ///< the fixed ones, then the moving ones, in the world
-        std::vector<MovingOutline> moving;
-        std::vector<double> ranges;  ///< m
+        std::vector<Outline> fixed;  ///< outlines that never move
+        Grid fixed_places;
+        std::vector<MovingOutline> moving;       ///< in the order of their bodies
+        std::vector<std::size_t> first_of_body;  ///< per body: its first moving outline; one more at the end
+        std::vector<Outline> outlines;           ///< those in reach, in the world
+        std::vector<double> ranges;              ///< m
 
         void measure(const Pose2& robot, std::uint64_t sample, bool with_noise, const BodyPoses& poses,
                      std::span<double> cells);
@@ -118,7 +119,8 @@ class RobotSensors {
     std::optional<Scan> make_scan(std::string_view sensor, RobotStream use, std::span<const Solid> fixed,
                                   std::span<const MovingSolid> moving, double step,
                                   std::vector<double>& cells) const;
-    void take_picture(std::uint64_t sample, const BodyPoses& poses, std::span<const MovingVisual> visuals,
+    std::size_t find_visible(const BodyPoses& poses, MovingVisuals& visuals);
+    void take_picture(std::uint64_t sample, const BodyPoses& poses, MovingVisuals& visuals,
                       std::vector<std::uint8_t>& out);
 
     std::string robot_;
@@ -141,6 +143,9 @@ class RobotSensors {
     std::vector<float> picture_;  ///< height x width x 3, 0..1
     std::vector<std::uint8_t> view_;
     std::vector<const VisualSolid*> visible_;  ///< the moving solids that may be in the picture
+    std::vector<std::size_t> near_;            ///< bodies that may be in the picture
+    std::vector<VisualSolid> own_;             ///< boxes of its gripper that the camera has looked up
+    std::vector<Pose2> own_hinges_;            ///< where they were then
 };
 
 }  // namespace forage::bug

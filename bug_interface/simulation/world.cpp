@@ -182,6 +182,7 @@ void World::update_body_poses() {
         body_poses_.bodies[i] = physics_->pose(i);
         body_poses_.present[i] = physics_->present(i);
     }
+    body_poses_.sort();
     visuals_placed_ = false;
     if (description_.game) colour_resources();
 }
@@ -212,7 +213,7 @@ void World::checkpoint(Archive& archive) {
     archive(cycle_, substep_);
     for (Robot& robot : robots_) robot.checkpoint(archive);
     archive(body_poses_, game_, *physics_);
-    visuals_placed_ &= !archive.loading();
+    if (archive.loading()) body_poses_.sort(), visuals_placed_ = false;
     if (archive.loading() && description_.game) colour_resources();
 }
 

@@ -142,7 +142,7 @@ class World final : public Environment {
     const Game& game() const { return game_; }
     const Robot& robot(std::size_t bug) const { return robots_[bug]; }
     const BodyPoses& body_poses() const { return body_poses_; }  ///< poses at the end of the last cycle
-    std::span<const MovingVisual> moving_visuals() const { return moving_visuals_; }
+    std::span<const MovingVisual> moving_visuals() const { return moving_visuals_.all(); }
     /// The visible solids of static models and of movable objects, for drawing.
     std::vector<DrawnSolid> drawing() const;
     /// The static visuals, for cameras and maps. They are built by the first call. Throws std::runtime_error
@@ -176,7 +176,7 @@ class World final : public Environment {
     void exchange_messages();
     void remember();
     void make_camera(std::size_t bug);
-    std::span<const MovingVisual> placed_visuals();
+    MovingVisuals& visuals();
 
     WorldDescription description_;
     WorldOptions options_;
@@ -192,11 +192,11 @@ class World final : public Environment {
     std::vector<Transceiver*> transceivers_;
     Game game_;
     BodyPoses body_poses_;
-    std::vector<MovingVisual> moving_visuals_;  ///< visuals of all robots and movable objects
-    bool visuals_placed_ = false;               ///< whether moving_visuals_ are at the body poses
-    std::vector<char> driven_;                  ///< per robot: whether it is driven, not being reset
-    std::vector<Reach> reach_;                  ///< per body, per substep
-    std::vector<Velocity> drives_;              ///< of the robots in the current stride, with noise
+    MovingVisuals moving_visuals_;  ///< visuals of all robots and movable objects
+    bool visuals_placed_ = false;   ///< whether those that are placed are at the body poses
+    std::vector<char> driven_;      ///< per robot: whether it is driven, not being reset
+    std::vector<Reach> reach_;      ///< per body, per substep
+    std::vector<Velocity> drives_;  ///< of the robots in the current stride, with noise
     std::unique_ptr<Physics> physics_;
     mutable std::shared_ptr<const Scene> scene_;
     mutable std::optional<std::vector<Patch>> patches_;

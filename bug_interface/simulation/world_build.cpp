@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "bug_interface/sensing/solid_ray.h"
 #include "bug_interface/simulation/checks.h"
 #include "bug_interface/simulation/world.h"
 #include "bug_interface/world/material.h"
@@ -180,14 +181,21 @@ void World::add_sensors() {
     std::vector<MovingSolid> moving;
     for (const Robot& robot : robots_) {
         moving.insert(moving.end(), robot.solids.begin(), robot.solids.end());
-        moving_visuals_.insert(moving_visuals_.end(), robot.visuals.begin(), robot.visuals.end());
+        for (const MovingVisual& visual : robot.visuals) moving_visuals_.add(visual);
     }
     for (std::size_t i = 0; i < movable_objects_.size(); ++i) {
         const std::size_t body = robots_.size() + i;
         for (const Solid& solid : movable_objects_[i].solids) moving.push_back({body, -1, solid, false});
         for (MovingVisual visual : movable_objects_[i].visuals)
-            visual.body = body, moving_visuals_.push_back(visual);
+            visual.body = body, moving_visuals_.add(visual);
     }
+    body_poses_.radius.assign(bodies_.size(), 0);
+    const auto extend = [&](std::size_t body, const Pose& pose, const Solid& solid) {
+        double& radius = body_poses_.radius[body];
+        radius = std::max(radius, pose.translation().head<2>().norm() + std::sqrt(radius_squared(solid)));
+    };
+    for (const MovingSolid& m : moving) extend(m.body, m.solid.pose, m.solid);
+    for (const MovingVisual& v : moving_visuals_) extend(v.body, v.pose, v.visual.solid);
     for (Robot& robot : robots_) robot.sensors.make_scanners(fixed, moving, description_.step);
 }
 

@@ -10,7 +10,7 @@ void World::sense_due() {
     if (std::none_of(robots_.begin(), robots_.end(), [&](const Robot& r) { return r.sensors.due(now); }))
         return;
     update_body_poses();
-    for (Robot& robot : robots_) robot.sensors.sense_due(now, body_poses_, placed_visuals());
+    for (Robot& robot : robots_) robot.sensors.sense_due(now, body_poses_, visuals());
 }
 
 void World::scan() {
@@ -31,7 +31,7 @@ void World::exchange_messages() {
 void World::render() {
     if (!options_.sensor_rates)
         for (Robot& robot : robots_)
-            if (robot.sensors.image_requested()) robot.sensors.render(cycle_, body_poses_, placed_visuals());
+            if (robot.sensors.image_requested()) robot.sensors.render(cycle_, body_poses_, visuals());
     remember();
 }
 
@@ -44,11 +44,8 @@ std::shared_ptr<const Scene> World::scene() const {
     return scene_;
 }
 
-/// The visuals of all robots and movable objects, placed at the body poses.
-std::span<const MovingVisual> World::placed_visuals() {
-    if (!visuals_placed_)
-        for (MovingVisual& moving : moving_visuals_)
-            if (body_poses_.present[moving.body]) moving.visual.solid.pose = moving.at(body_poses_);
+MovingVisuals& World::visuals() {
+    if (!visuals_placed_) moving_visuals_.forget_places();
     visuals_placed_ = true;
     return moving_visuals_;
 }
@@ -61,13 +58,13 @@ std::span<const std::uint8_t> World::image(std::size_t bug) {
     make_camera(bug);
     RobotSensors& sensors = robots_[bug].sensors;
     if (sensors.image_requested() && !options_.sensor_rates) return sensors.snapshot().image;  // up to date
-    return sensors.view(cycle_, body_poses_, placed_visuals());
+    return sensors.view(cycle_, body_poses_, visuals());
 }
 
 void World::request_image(std::size_t bug, bool requested) {
     robots_[bug].sensors.request_image(requested);
     make_camera(bug);
-    if (requested) robots_[bug].sensors.render(cycle_, body_poses_, placed_visuals());
+    if (requested) robots_[bug].sensors.render(cycle_, body_poses_, visuals());
     if (cycle_ == 0) remember();
 }
 

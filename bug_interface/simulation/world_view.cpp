@@ -21,7 +21,7 @@ std::optional<std::size_t> World::find(std::string_view bug) const {
 
 std::vector<DrawnSolid> World::drawing() const {
     auto out = drawing_of(description_);
-    for (const MovingVisual& moving : moving_visuals_) {
+    for (const MovingVisual& moving : moving_visuals_.all()) {
         if (moving.body < robots_.size() || !body_poses_.present[moving.body]) continue;
         Solid solid = moving.visual.solid;
         solid.pose = moving.at(body_poses_);

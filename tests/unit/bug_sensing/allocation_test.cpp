@@ -22,14 +22,15 @@ TEST_CASE("Sensing does not allocate memory") {
     std::vector<double> ranges(32), cells(32), a(896), b(896), c(896);
     std::vector<float> rgb(3 * 896);
     std::vector<std::uint8_t> bytes(rgb.size());
+    ImageCells cropped(32, 28, 28, 28), resampled(32, 28, 16, 14);
     const auto sense = [&](const Pose2& body, std::uint64_t sample) {
         scanner.scan(body, outlines, ranges);
         scanner.add_noise(ranges, random, sample);
         scanner.to_activity(ranges, cells);
         camera.render(body, moving, rgb);
         camera.quantise(rgb, bytes, random, sample);
-        image_cells(bytes, 32, 28, ColourSpace::hsv, 28, 28, a, b, c);
-        image_cells(bytes, 32, 28, ColourSpace::rgb, 16, 14, a, b, c);
+        cropped.fill(bytes, ColourSpace::hsv, a, b, c);
+        resampled.fill(bytes, ColourSpace::rgb, a, b, c);
     };
     sense({0, 0, up}, 0);  // makes the table of normal numbers
     const std::size_t before = forage::test::allocations();

@@ -1,6 +1,8 @@
 // The camera's pictures of solids on the floor.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <random>
 
@@ -188,17 +190,18 @@ std::optional<Entry> entry(ShapeKind kind, const Eigen::Vector3d& half, const Ei
                            const Eigen::Vector3d& ray) {
     constexpr std::size_t count = 13;
     std::array<float, count> x, y, z;
-    std::array<double, count> depth, face;
+    std::array<double, count> depth, at, face;
+    depth.fill(std::numeric_limits<double>::infinity()), at = depth;
     x.fill(static_cast<float>(ray.x())), y.fill(static_cast<float>(ray.y()));
     z.fill(static_cast<float>(ray.z()));
-    forage::bug::intersect(kind, half, origin, Eigen::Matrix3d::Identity(),
-                           {x.data(), y.data(), z.data(), count}, {depth.data(), face.data()});
+    forage::bug::meet({kind, half, origin, Eigen::Matrix3d::Identity()},
+                      {x.data(), y.data(), z.data(), count}, 0, {depth.data(), at.data(), face.data()});
     for (std::size_t i = 1; i < count; ++i) {
-        CHECK(depth[i] == depth[0]);
-        CHECK(face[i] == face[0]);
+        CHECK(at[i] == at[0]);
+        CHECK((std::isinf(at[0]) || face[i] == face[0]));
     }
-    if (std::isinf(depth[0])) return {};
-    return Entry{depth[0], face[0]};
+    if (std::isinf(at[0])) return {};
+    return Entry{at[0], face[0]};
 }
 
 }  // namespace
@@ -218,7 +221,7 @@ TEST_CASE("A ray enters solids from outside only") {
     CHECK(entry(ShapeKind::box, half, {-5, 0, 0}, ahead)->face == 1);
     CHECK(entry(ShapeKind::cylinder, half, {0, 0, 9}, -Eigen::Vector3d::UnitZ())->face == 4);
     CHECK(entry(ShapeKind::cylinder, half, {0.5, 0, 9}, {0, 0.125, -1})->depth == Approx(6));
-    CHECK(entry(ShapeKind::cylinder, half, {-5, 0, 0}, ahead)->face == forage::bug::Entries::curved);
+    CHECK(entry(ShapeKind::cylinder, half, {-5, 0, 0}, ahead)->face == forage::bug::Nearest::curved);
     CHECK(forage::bug::curved_normal(ShapeKind::cylinder, {-5, 0, 0}, ahead, 4).x() == Approx(-1));
     CHECK(forage::bug::curved_normal(ShapeKind::cylinder, {-5, 0, 2}, ahead, 4).z() == 0);
 }
@@ -261,9 +264,9 @@ namespace {
 bool meets(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& origin,
            const Eigen::Vector3d& ray) {
     const Eigen::Vector3f r = ray.cast<float>();
-    double depth, face;
-    forage::bug::intersect(kind, half, origin, Eigen::Matrix3d::Identity(), {&r.x(), &r.y(), &r.z(), 1},
-                           {&depth, &face});
+    double depth = std::numeric_limits<double>::infinity(), at, face;
+    forage::bug::meet({kind, half, origin, Eigen::Matrix3d::Identity()}, {&r.x(), &r.y(), &r.z(), 1}, 0,
+                      {&depth, &at, &face});
     return depth < 20;  // m; the camera sees no farther
 }
 
@@ -318,4 +321,144 @@ TEST_CASE("A solid is drawn in the pixels whose rays meet it, and in no other") 
     CHECK(wrong == 0);
     CHECK(drawn > 200);
     CHECK(partly > 150);
+}
+
+namespace {
+
+/// The picture of a uniform floor and of solids, ray by ray, without any of the camera's shortcuts.
+std::vector<float> cast(const CameraSensor& sensor, const Pose& link_pose, const Scene& scene,
+                        const Pose2& body, const std::vector<const VisualSolid*>& solids) {
+    const Pose mount = link_pose * sensor.pose, robot = at(body.x, body.y, 0, body.yaw);
+    const double wide = std::tan(sensor.horizontal_fov / 2), tall = wide * sensor.height / sensor.width;
+    std::vector<float> out;
+    for (int row = 0; row < sensor.height; ++row)
+        for (int column = 0; column < sensor.width; ++column) {
+            Eigen::Array4f sum = Eigen::Array4f::Zero();
+            for (int s = 0; s < 4; ++s) {
+                const double left = (1 - 2 * (column + (s % 2 + 0.5) / 2) / sensor.width) * wide,
+                             above = (1 - 2 * (row + (s / 2 + 0.5) / 2) / sensor.height) * tall;
+                const Eigen::Vector3f ray =
+                    Eigen::Vector3d(mount.linear() * Eigen::Vector3d(1, left, above)).cast<float>();
+                Colour colour = Colour::Constant(Scene::background);
+                auto depth = static_cast<float>(sensor.far);
+                for (const FloorSurface& floor : scene.floors()) {
+                    const double down = (floor.z - mount.translation().z()) / ray.z();
+                    if (!(ray.z() < 0 && down > 0 && down <= sensor.far)) continue;
+                    colour.setZero(), depth = static_cast<float>(down);
+                    floor.texture.add(0.5f, 0.5f, colour.data());
+                }
+                for (const VisualSolid* visual : solids) {
+                    const Solid& body_of = visual->solid;
+                    const Eigen::Matrix3d turn = body_of.pose.linear().transpose() * robot.linear();
+                    const Eigen::Vector3d eye = body_of.pose.linear().transpose() *
+                                                (robot * mount.translation() - body_of.pose.translation());
+                    double nearest = depth, entry = 0, face = -1;
+                    meet({body_of.kind, body_of.size / 2, eye, turn}, {&ray.x(), &ray.y(), &ray.z(), 1}, 0,
+                         {&nearest, &entry, &face});
+                    if (face < 0) continue;
+                    depth = static_cast<float>(entry);
+                    colour = scene.lighting().shade(
+                        visual->material,
+                        body_of.pose.linear() *
+                            (face == Nearest::curved
+                                 ? curved_normal(body_of.kind, eye, turn * ray.cast<double>(), entry)
+                                 : face_normal(static_cast<int>(face))));
+                }
+                const Eigen::Array4f seen(colour[0], colour[1], colour[2], 0);
+                sum = s == 0 ? seen : Eigen::Array4f(sum + seen);
+            }
+            for (int channel = 0; channel < 3; ++channel) out.push_back(sum[channel] * 0.25f);
+        }
+    return out;
+}
+
+/// Adds a model with one visual to a world.
+void put(WorldDescription& world, ShapeKind kind, const Pose& pose, const Eigen::Vector3d& size,
+         const char* material) {
+    Visual visual;
+    visual.pose = pose, visual.shape = {kind, size}, visual.material = *named_material(material);
+    Link link;
+    link.visuals.push_back(visual);
+    Model model;
+    model.links.push_back(link);
+    world.models.push_back(model);
+}
+
+}  // namespace
+
+TEST_CASE("Pictures in company equal those that are cast ray by ray, to the bit") {
+    std::mt19937 chance(11);
+    const auto uniform = [&](double from, double to) {
+        return std::uniform_real_distribution<double>(from, to)(chance);
+    };
+    // An arena of 20 m with pillars at the edges of grid cells and elsewhere, walls, and paint on the floor.
+    WorldDescription world;
+    world.sun = Eigen::Vector3d(0.5, 0.3, 0.8).normalized();
+    put(world, ShapeKind::plane, at(0, 0, 0), {400, 400, 0}, "Gazebo/Grey");
+    for (const double side : {-10.0, 10.0}) {
+        put(world, ShapeKind::box, at(side, 0, 0.125, 1.5708), {20.2, 0.2, 0.25}, "Gazebo/Grey");
+        put(world, ShapeKind::box, at(0, side, 0.125), {20.2, 0.2, 0.25}, "Gazebo/White");
+    }
+    for (int i = 0; i < 40; ++i)
+        put(world, ShapeKind::cylinder,
+            i < 10 ? at(2.0 * (i - 5), 2.0 * (i % 5 - 2), 0.125) : at(uniform(-9, 9), uniform(-9, 9), 0.125),
+            {0.5, 0.5, 0.25}, i % 2 ? "Gazebo/Red" : "Gazebo/Orange");
+    put(world, ShapeKind::cylinder, at(-7, 7, 0.002), {6, 6, 0.0001}, "Gazebo/Black");
+    put(world, ShapeKind::cylinder, at(3, -4, 0.002), {4, 4, 0.0001}, "Gazebo/Turquoise");
+    const auto scene = std::make_shared<Scene>(world);
+    CameraSensor sensor = Arena::get().link.cameras.at(0);
+    sensor.pose = at(0.125, 0, 0.25) * Eigen::AngleAxisd(0.55, Eigen::Vector3d::UnitY());
+    sensor.horizontal_fov = 1;
+    const Pose link = at(0, 0, 0.1);
+    for (const bool with_floor : {true, false}) {
+        WorldDescription bare = world;
+        if (!with_floor) bare.models.erase(bare.models.begin());
+        const auto seen = with_floor ? scene : std::make_shared<const Scene>(bare);
+        Camera camera(sensor, link, seen);
+        int wrong = 0, busy = 0;
+        std::vector<VisualSolid> own;
+        for (int i = 0; i < 150; ++i) {
+            const Pose2 body{uniform(-9.7, 9.7), uniform(-9.7, 9.7), uniform(-3.2, 3.2)};
+            const Pose robot = at(body.x, body.y, 0, body.yaw);
+            if (i % 10 == 0) {  // the gripper moves
+                own.clear();
+                for (const double side : {-1.0, 1.0}) {
+                    own.push_back(solid(ShapeKind::box, at(0.24, 0.1 * side, 0.08, side * uniform(0, 1)),
+                                        {0.16, 0.04, 0.06}, "Gazebo/Grey"));
+                    own.push_back(solid(ShapeKind::box, at(0.34, 0.14 * side, 0.08, -side * uniform(0, 0.5)),
+                                        {0.1, 0.04, 0.06}, "Gazebo/Blue"));
+                }
+                camera.set_own(own);
+            }
+            std::vector<VisualSolid> moving = own;
+            for (VisualSolid& part : moving) part.solid.pose = robot * part.solid.pose;
+            for (int k = 0; k < 12; ++k) {  // balls and other robots, near and far, beside and behind it
+                const double away = uniform(0.25, k < 6 ? 1.5 : 4), aside = uniform(-1.2, 1.2);
+                const double x = body.x + away * std::cos(body.yaw + aside),
+                             y = body.y + away * std::sin(body.yaw + aside);
+                if (k % 3 == 0)
+                    moving.push_back(
+                        solid(ShapeKind::sphere, at(x, y, 0.08), {0.16, 0.16, 0.16}, "Gazebo/Blue"));
+                if (k % 3 == 1)
+                    moving.push_back(
+                        solid(ShapeKind::cylinder, at(x, y, 0.1), {0.4, 0.4, 0.2}, "Gazebo/Green"));
+                if (k % 3 == 2)
+                    moving.push_back(solid(ShapeKind::box, at(x, y, 0.08, uniform(-3, 3)), {0.16, 0.04, 0.06},
+                                           "Gazebo/Yellow"));
+            }
+            if (i % 5 == 0) moving.resize(own.size());
+            std::vector<const VisualSolid*> pointers, all;
+            for (const VisualSolid& v : moving) pointers.push_back(&v);
+            all.assign(pointers.begin(), pointers.begin() + static_cast<std::ptrdiff_t>(own.size()));
+            for (const VisualSolid& v : seen->solids()) all.push_back(&v);
+            all.insert(all.end(), pointers.begin() + static_cast<std::ptrdiff_t>(own.size()), pointers.end());
+            std::vector<float> rgb(3 * 32 * 28);
+            camera.render(body, pointers, rgb, own.size());
+            const auto expected = cast(sensor, link, *seen, body, all);
+            wrong += rgb != expected;
+            busy += std::count(rgb.begin(), rgb.end(), rgb.front()) < 2000;
+        }
+        CHECK(wrong == 0);
+        CHECK(busy > 75);
+    }
 }
