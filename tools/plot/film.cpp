@@ -68,16 +68,18 @@ class Film::Screen {
         panel_.draw(canvas_, film_margin + map_.width() + film_margin, film_head);
     }
 
-    Pixels pixels() const {
+    const Pixels& pixels() {
         cairo_surface_flush(surface_.get());
-        Pixels out{width_, height_, {}};
+        pixels_.width = width_, pixels_.height = height_;
+        pixels_.rgb.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
         const auto* data = cairo_image_surface_get_data(surface_.get());
         const int stride = cairo_image_surface_get_stride(surface_.get());
+        auto to = pixels_.rgb.begin();
         for (int y = 0; y < height_; ++y) {
             const auto* row = reinterpret_cast<const std::uint32_t*>(data + y * stride);
-            for (int x = 0; x < width_; ++x) out.rgb.push_back(row[x] & 0xffffffu);
+            to = std::transform(row, row + width_, to, [](std::uint32_t pixel) { return pixel & 0xffffffu; });
         }
-        return out;
+        return pixels_;
     }
     void write_png(const std::string& name) const {
         if (cairo_surface_write_to_png(surface_.get(), name.c_str()) != CAIRO_STATUS_SUCCESS)
@@ -99,6 +101,7 @@ class Film::Screen {
     CairoSurface ground_, surface_;
     CairoContext context_;
     Canvas canvas_;
+    Pixels pixels_;
 };
 
 Film::Film(bug::World& world, std::string name, double seconds_per_frame, const std::string& title)

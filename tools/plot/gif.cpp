@@ -87,26 +87,28 @@ void GifFile::add(const Pixels& frame) {
     if (!file_) begin(frame);
     if (frame.width != width_ || frame.height != height_)
         throw std::runtime_error("the frames of a film differ in size");
-    now_.resize(frame.rgb.size());
+    const bool first = frames_ == 0;
+    if (first) rgb_.assign(frame.rgb.size(), ~0u), numbers_.resize(frame.rgb.size());
+    int left = width_, top = height_, right = 0, bottom = 0;  // of the rectangle that has changed
     std::uint32_t last = ~0u;
     std::uint8_t number = 0;
-    for (std::size_t i = 0; i < now_.size(); ++i) {
-        if (frame.rgb[i] != last) number = nearest_colour(last = frame.rgb[i]);
-        now_[i] = number;
+    for (int y = 0; y < height_; ++y) {
+        const std::size_t begin = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
+        const auto row = frame.rgb.begin() + static_cast<std::ptrdiff_t>(begin), end = row + width_;
+        const auto before = rgb_.begin() + static_cast<std::ptrdiff_t>(begin);
+        if (std::equal(row, end, before)) continue;
+        for (int x = 0; x < width_; ++x) {
+            const std::size_t i = begin + static_cast<std::size_t>(x);
+            if (frame.rgb[i] == rgb_[i]) continue;
+            if (frame.rgb[i] != last) number = nearest_colour(last = frame.rgb[i]);
+            if (number == numbers_[i] && !first) continue;
+            numbers_[i] = number;
+            left = std::min(left, x), right = std::max(right, x);
+            top = std::min(top, y), bottom = y;
+        }
+        std::copy(row, end, before);
     }
-    int left = 0, top = 0, right = width_ - 1, bottom = height_ - 1;
-    if (frames_ > 0) {
-        left = width_, top = height_, right = bottom = 0;
-        for (int y = 0; y < height_; ++y)
-            for (int x = 0; x < width_; ++x) {
-                const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                               static_cast<std::size_t>(x);
-                if (now_[i] == before_[i]) continue;
-                left = std::min(left, x), right = std::max(right, x);
-                top = std::min(top, y), bottom = std::max(bottom, y);
-            }
-        if (left > right) left = right = top = bottom = 0;  // a frame has at least one pixel
-    }
+    if (left > right) left = right = top = bottom = 0;  // a frame has at least one pixel
     GraphicsControlBlock control{};
     control.DisposalMode = DISPOSE_DO_NOT, control.DelayTime = hundredths_,
     control.TransparentColor = NO_TRANSPARENT_COLOR;
@@ -116,10 +118,9 @@ void GifFile::add(const Pixels& frame) {
           EGifPutImageDesc(file_, left, top, right - left + 1, bottom - top + 1, false, nullptr) == GIF_OK);
     for (int y = top; y <= bottom; ++y)
         check(EGifPutLine(file_,
-                          &now_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                                static_cast<std::size_t>(left)],
+                          &numbers_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                                    static_cast<std::size_t>(left)],
                           right - left + 1) == GIF_OK);
-    before_.swap(now_);
     ++frames_;
 }
 

@@ -42,7 +42,8 @@ class GifFile {
     GifFileType* file_ = nullptr;
     int width_ = 0, height_ = 0;
     std::size_t frames_ = 0;
-    std::vector<std::uint8_t> before_, now_;  ///< colour numbers of the last frame and of this one
+    std::vector<std::uint32_t> rgb_;     ///< the last frame
+    std::vector<std::uint8_t> numbers_;  ///< its colour numbers
 };
 
 }  // namespace forage::plot
