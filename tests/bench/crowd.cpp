@@ -1,5 +1,5 @@
-// How much do several robots cost? Eight robots run in an arena, and each of them runs alone with the same
-// commands and all sensors.
+// How much do several robots cost? Eight robots run in an arena, each of them runs alone with the same
+// commands and all sensors, and 64 run in eight such arenas without walls between them.
 //
 //     bench_crowd
 //
@@ -7,7 +7,6 @@
 // docs/design/performance.md.
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -23,22 +22,43 @@
 namespace {
 
 using namespace forage;
-using Clock = std::chrono::steady_clock;
 
-/// The team arena with some of eight robots in a ring.
-std::unique_ptr<bug::World> arena(const bug::WorldDescription& read, std::vector<int> robots,
+/// `tiles` team arenas, two of them above each other, inside one wall, with these robots. There are eight
+/// robots per arena, in a ring.
+std::unique_ptr<bug::World> arena(const bug::WorldDescription& read, std::vector<int> robots, int tiles,
                                   Diagnostics& diagnostics) {
+    constexpr double side = 14;
+    const int wide = (tiles + 1) / 2, high = std::min(tiles, 2);
+    const auto corner = [&](int tile) {
+        return Eigen::Vector3d((tile / 2 - (wide - 1) / 2.0) * side, (tile % 2 - (high - 1) / 2.0) * side, 0);
+    };
     bug::WorldDescription world = read;
     world.game.reset();
+    world.models.clear();
     bug::Model robot;
-    for (const auto& m : world.models)
+    for (bug::Model m : read.models) {
         if (m.name == "A_1") robot = m;
-    std::erase_if(world.models,
-                  [](const bug::Model& m) { return m.name.starts_with("A_") || m.name.starts_with("B_"); });
+        if (m.name.starts_with("A_") || m.name.starts_with("B_")) continue;
+        for (int tile = 0; tile < (m.name == "Walls" || m.name.starts_with("Home_") ? tiles : 1); ++tile) {
+            bug::Model copy = m;
+            copy.pose.pretranslate(corner(tile));
+            copy.name += tile ? std::to_string(tile) : "";
+            std::erase_if(copy.links, [&](const bug::Link& link) {  // walls between arenas
+                const Eigen::Vector3d at = copy.pose * link.pose.translation();
+                return m.name == "Walls" && std::abs(at.x()) < wide * side / 2 - 0.1 &&
+                       std::abs(at.y()) < high * side / 2 - 0.1 && !link.name.starts_with("pillar");
+            });
+            for (bug::Link& link : copy.links)
+                for (bug::Visual& v : link.visuals)
+                    if (v.shape.kind == bug::ShapeKind::plane) v.shape.size *= 4;
+            world.models.push_back(copy);
+        }
+    }
     for (const int i : robots) {
         const double angle = 2 * M_PI * i / 8;
         robot.name = fmt::format("R{}", i);
         robot.pose = bug::in_space({4 * std::cos(angle), 4 * std::sin(angle), angle});
+        robot.pose.pretranslate(corner(i / 8));
         world.models.push_back(robot);
     }
     return bug::World::make(world, {}, diagnostics);
@@ -53,17 +73,16 @@ class Course {
             world_->request_image(i, true), world_->request_gripper_scan(i, true);
     }
 
-    static constexpr std::uint64_t block = 250;  ///< cycles
-    using Parts = std::array<double, 3>;         ///< motion, scans, pictures; us per cycle
+    using Parts = std::array<double, 3>;  ///< motion, scans, pictures; us per cycle
 
-    Parts drive() {
+    Parts drive(std::uint64_t cycles = 250) {
         Parts times{};
-        const auto timed = [](double& sum, auto&& part) {
-            const auto begin = Clock::now();
+        const auto timed = [&](double& sum, auto&& part) {
+            const double begin = bench::thread_seconds();
             part();
-            sum += 1e6 * std::chrono::duration<double>(Clock::now() - begin).count() / block;
+            sum += 1e6 * (bench::thread_seconds() - begin) / static_cast<double>(cycles);
         };
-        for (std::uint64_t end = cycle_ + block; cycle_ < end; ++cycle_) {
+        for (std::uint64_t end = cycle_ + cycles; cycle_ < end; ++cycle_) {
             for (std::size_t i = 0; i < world_->bugs(); ++i) {
                 const auto n = 3 * (first_ + static_cast<std::uint32_t>(i));
                 world_->command(i, {1.4 * random_.uniform(cycle_ / 25, n) - 0.2,
@@ -105,10 +124,14 @@ int main() {
     Diagnostics diagnostics;
     const auto read =
         bug::read_world(std::string(FORAGE_SOURCE_DIR) + "/systems/worlds/team_arena.world", diagnostics);
-    std::vector<Course> alone, crowd;
-    for (const std::vector<int>& robots :
-         std::vector<std::vector<int>>{{0}, {1}, {2}, {3}, {4}, {5}, {6}, {7}, {0, 1, 2, 3, 4, 5, 6, 7}}) {
-        auto world = read ? arena(*read, robots, diagnostics) : nullptr;
+    std::vector<std::vector<int>> runs = {{0}, {1}, {2}, {3}, {4}, {5}, {6}, {7}, {}, {}};
+    for (int i = 0; i < 64; ++i) {
+        if (i < 8) runs[8].push_back(i);
+        runs[9].push_back(i);
+    }
+    std::vector<Course> alone, crowd;  // the crowd of 8 and that of 64
+    for (const std::vector<int>& robots : runs) {
+        auto world = read ? arena(*read, robots, robots.size() > 8 ? 8 : 1, diagnostics) : nullptr;
         if (!world) {
             fmt::print(stderr, "{}", format(diagnostics));
             return 2;
@@ -118,26 +141,32 @@ int main() {
     }
     // The worlds take turns, as the speed of a busy machine changes.
     constexpr int rounds = 20;
-    Course::Parts mean_alone{}, mean_crowd{};
-    std::vector<double> ratios;
+    Course::Parts mean_alone{}, mean_crowd{}, mean_64{};
+    std::vector<double> ratios, of_64, senses_of_64;
     for (int round = 0; round < rounds; ++round) {
-        Course::Parts a{}, c{};
+        Course::Parts a{}, c{}, many{};
         const auto add = [](Course::Parts& to, const Course::Parts& from, double weight) {
             for (std::size_t i = 0; i < to.size(); ++i) to[i] += weight * from[i];
         };
         for (Course& course : alone) {
             add(a, course.drive(), 1.0 / 8);
-            if (&course == &alone[3]) add(c, crowd.front().drive(), 1);
+            if (&course == &alone[3]) add(c, crowd[0].drive(), 1), add(many, crowd[1].drive(25), 1);
         }
-        add(mean_alone, a, 1.0 / rounds), add(mean_crowd, c, 1.0 / rounds);
+        add(mean_alone, a, 1.0 / rounds), add(mean_crowd, c, 1.0 / rounds), add(mean_64, many, 1.0 / rounds);
         ratios.push_back(sum(a) / sum(c));
+        of_64.push_back(sum(many) / sum(c));
+        senses_of_64.push_back((many[1] + many[2]) / (c[1] + c[2]));
     }
     std::sort(ratios.begin(), ratios.end());
     double contacts = 0;
     for (const Course& course : alone) contacts += course.contacts() / 8;
-    tell(1, mean_alone, contacts), tell(8, mean_crowd, crowd.front().contacts());
+    tell(1, mean_alone, contacts), tell(8, mean_crowd, crowd[0].contacts()),
+        tell(64, mean_64, crowd[1].contacts());
     fmt::print(
         "8 robots run at {:.3f} of the rate of one (median of {} rounds, quartiles {:.3f} and {:.3f})\n",
         ratios[rounds / 2], rounds, ratios[rounds / 4], ratios[3 * rounds / 4]);
     bench::result("crowd", "rate of 8 robots / of one", ratios[rounds / 2], "");
+    fmt::print("64 robots cost {:.1f} times as much as 8, their scans and pictures {:.1f} times\n",
+               bench::median(of_64), bench::median(senses_of_64));
+    bench::result("crowd", "cost of 64 / of 8", bench::median(of_64), "");
 }
