@@ -8,7 +8,7 @@ namespace forage::bug {
 namespace {
 
 constexpr float box_half_height = 1;   ///< m; has no effect, since all contacts are horizontal
-constexpr btScalar residual = 1e-11f;  ///< (m/s)^2; stops the solver at errors of about 3e-6 m/s
+constexpr btScalar residual = 1e-10f;  ///< (m/s)^2; stops the solver at errors of about 1e-5 m/s
 constexpr std::size_t most_algorithms = 1024;
 
 /// Memory pools for a few contacts; Bullet allocates more when needed. Its default takes megabytes.

@@ -7,7 +7,7 @@ namespace forage::bug {
 namespace {
 
 constexpr int most_turns = 100;
-constexpr double settled = 1e-6;  ///< m/s; smaller changes of all velocities end the turns
+constexpr double settled = 1e-5;  ///< m/s; smaller changes of all velocities end the turns
 
 }  // namespace
 
