@@ -203,7 +203,7 @@ void Physics::find_pairs() {
 
 /// While nothing is near, a stride ends where something may be; while bodies touch, it is a few steps.
 std::uint64_t Physics::stride(std::size_t island, std::uint64_t left) {
-    if (contacts_ == Contacts::always_bullet) return 1;
+    if (left == 1 || contacts_ == Contacts::always_bullet) return 1;
     const auto steps_of = [](double distance, double per_step, std::uint64_t most) {
         const double steps = distance / per_step;
         return steps < 1 ? 1 : steps < static_cast<double>(most) ? static_cast<std::uint64_t>(steps) : most;

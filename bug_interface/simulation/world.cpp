@@ -78,15 +78,18 @@ void World::move_bodies(std::uint64_t steps) {
 void World::move_island(std::size_t island, std::uint64_t steps) {
     const auto bodies = physics_->island(island);
     const auto is_robot = [this](std::size_t body) { return body < robots_.size(); };
-    if (!is_robot(bodies.front())) {  // objects without robots: the robots have the lower numbers
-        if (physics_->is_free(island)) return physics_->move_freely(island);
-    } else if (steps > 1 && physics_->is_free(island) && may_stride(bodies.front(), steps)) {
-        return drive_freely(island, steps);
+    const bool by_substep = std::any_of(bodies.begin(), bodies.end(), [&](std::size_t i) {
+        return is_robot(i) && may_reach_target(i, steps);
+    });
+    if (physics_->is_free(island) && !by_substep) {
+        const std::size_t body = bodies.front();
+        if (!is_robot(body)) return physics_->move_freely(island);
+        const double turn = std::abs(robots_[body].command.turn) + speed_noise;
+        if (steps > 1 && turn * static_cast<double>(steps) * description_.step < max_free_turn)
+            return drive_freely(island, steps);
     }
     for (std::uint64_t done = 0; done < steps;) {
-        std::uint64_t stride = physics_->stride(island, steps - done);
-        for (const std::size_t i : bodies)
-            if (is_robot(i) && !may_stride(i, stride)) stride = 1;
+        const std::uint64_t stride = by_substep ? 1 : physics_->stride(island, steps - done);
         for (const std::size_t i : bodies) {
             if (!is_robot(i)) continue;
             drives_[i] = drive(i, substep_ + done, stride);
@@ -99,16 +102,13 @@ void World::move_island(std::size_t island, std::uint64_t steps) {
     }
 }
 
-/// Whether several substeps of a robot can be one stride: its trial does not end near a target, and it does
-/// not turn too far for the closed form.
-bool World::may_stride(std::size_t bug, std::uint64_t steps) const {
+/// Whether a robot is so near to a target that every substep of its path counts.
+bool World::may_reach_target(std::size_t bug, std::uint64_t steps) const {
     constexpr double near_target = 1;  ///< m
-    const Robot& robot = robots_[bug];
-    const double seconds = static_cast<double>(steps) * description_.step;
-    if (!((std::abs(robot.command.turn) + speed_noise) * seconds < max_free_turn)) return false;
-    const double near = near_target + (std::abs(robot.command.forward) + speed_noise) * seconds;
+    const double near = near_target + (std::abs(robots_[bug].command.forward) + speed_noise) *
+                                          static_cast<double>(steps) * description_.step;
     const Eigen::Vector2d at(physics_->pose(bug).x, physics_->pose(bug).y);
-    return std::none_of(targets_.begin(), targets_.end(), [&](const Eigen::Vector2d& target) {
+    return std::any_of(targets_.begin(), targets_.end(), [&](const Eigen::Vector2d& target) {
         return (target - at).squaredNorm() < near * near;
     });
 }

@@ -165,7 +165,7 @@ class World final : public Environment {
     bool every_substep_matters(std::uint64_t steps) const;
     void move_bodies(std::uint64_t steps);
     void move_island(std::size_t island, std::uint64_t steps);
-    bool may_stride(std::size_t bug, std::uint64_t steps) const;
+    bool may_reach_target(std::size_t bug, std::uint64_t steps) const;
     Velocity drive(std::size_t bug, std::uint64_t substep, std::uint64_t steps);
     void drive_freely(std::size_t island, std::uint64_t steps);
     bool update_reset(std::size_t bug);
