@@ -152,8 +152,9 @@ void Physics::begin(std::span<const Reach> reach, std::uint64_t steps) {
     if (members_.size() > 1) find_pairs();
     // A stable order: bodies by their number, islands by their first body.
     for (const std::size_t i : members_) root_[i] = find_root(i);
-    std::stable_sort(members_.begin(), members_.end(),
-                     [&](std::size_t a, std::size_t b) { return root_[a] < root_[b]; });
+    std::sort(members_.begin(), members_.end(), [&](std::size_t a, std::size_t b) {
+        return root_[a] != root_[b] ? root_[a] < root_[b] : a < b;
+    });
     for (std::size_t k = 0; k < members_.size(); ++k) {
         const std::size_t i = members_[k];
         if (k == 0 || root_[i] != root_[members_[k - 1]]) islands_.push_back({k, 0, false});

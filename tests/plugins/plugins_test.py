@@ -45,7 +45,7 @@ CORPUS = {
     "restless_parameter": (r"'synapseRestlessParameter' that does not work: it promises event_driven\(\), and changes "
                            r"state 'weight' while its source is silent: \S+ becomes \S+, with rate = 0\.", ""),
     "other_size": (r"'neuronOtherSize' that does not work: it computes with columns of different sizes", ""),
-    "other_version": (r"was built with version 11 of the SDK, this program has version 10", "build the plugin again"),
+    "other_version": (r"was built with version \d+ of the SDK, this program has version \d+", "build the plugin again"),
     "shipped_name": (r"has a neuron type 'neuronLinearThreshold', and so has Forage itself", "another name"),
     "restless": (r"'synapseRestless' that does not work: it promises event_driven\(\), and changes state 'weight'", ""),
     "restless_output": (r"'synapseRestlessOutput' that does not work: it promises event_driven\(\), and puts out something", ""),
