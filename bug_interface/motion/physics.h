@@ -28,15 +28,15 @@ namespace forage::bug {
 /// where bodies touch, a few; the strides of an island depend on nothing outside it.
 ///
 /// Contacts that have a round side are found in closed form (round_contacts.h); Bullet finds and solves those
-/// of an island in which two boxes may touch (contact_solver.h). Collisions have no restitution. Contacts do
-/// not persist from stride to stride; only movable objects keep their velocity.
+/// of an island in which two boxes may touch (contact_solver.h). Collisions have no restitution. No contact
+/// outlives begin(); only movable objects keep their velocity.
 ///
 /// After a stride no two shapes penetrate each other by more than 0.8 mm, or by more than before it if that
 /// was deeper (separation.cpp).
 class Physics {
   public:
-    /// How contacts are found and solved. `always_bullet` is the reference for tests: one island, one step at
-    /// a time, and Bullet in each of them.
+    /// How contacts are found and solved. `always_bullet` is the reference for tests: one step at a time, with
+    /// Bullet in each of them.
     enum class Contacts { when_near, always_bullet };
 
     /// `step` is the duration of a time step, s. `collision_masks[i]` are the layers that collide with layer

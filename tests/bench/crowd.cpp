@@ -95,10 +95,9 @@ class Course {
         }
         return times;
     }
-    /// The share of the substeps in which Bullet was called.
+    /// The mean number of strides per cycle in which contacts were near.
     double contacts() const {
-        return static_cast<double>(world_->physics().contact_steps()) /
-               static_cast<double>(world_->substeps());
+        return static_cast<double>(world_->physics().contact_steps()) / static_cast<double>(world_->cycle());
     }
 
   private:
@@ -112,10 +111,10 @@ double sum(const Course::Parts& parts) { return parts[0] + parts[1] + parts[2]; 
 
 void tell(int robots, const Course::Parts& mean, double contacts) {
     fmt::print(
-        "{} robot{} {:7.1f} us per cycle of 40 ms: motion {:.1f}, scans {:.1f}, pictures {:.1f}; contacts "
-        "looked "
-        "for in {:.0f} % of the steps\n",
-        robots, robots > 1 ? "s" : " ", sum(mean), mean[0], mean[1], mean[2], 100 * contacts);
+        "{} robot{} {:7.1f} us per cycle of 40 ms: motion {:.1f}, scans {:.1f}, pictures {:.1f}; {:.1f} "
+        "strides "
+        "with contacts near\n",
+        robots, robots > 1 ? "s" : " ", sum(mean), mean[0], mean[1], mean[2], contacts);
 }
 
 }  // namespace
