@@ -35,8 +35,8 @@ namespace forage::bug {
 /// was deeper (separation.cpp).
 class Physics {
   public:
-    /// How contacts are found and solved. `always_bullet` is the reference for tests: one step at a time, with
-    /// Bullet in each of them.
+    /// How contacts are found and solved. `always_bullet` is the reference for tests: one step at a time,
+    /// with Bullet in each of them.
     enum class Contacts { when_near, always_bullet };
 
     /// `step` is the duration of a time step, s. `collision_masks[i]` are the layers that collide with layer

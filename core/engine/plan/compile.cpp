@@ -201,8 +201,7 @@ class Compiler {
         if (about.type.has_gain) {
             if (plan.pruned) return;
             lengthen(c, plan);
-            if (!budget_.exceeded())
-                plan.kernel = make_kernel(std::move(synapses), source, target, forms_);
+            if (!budget_.exceeded()) plan.kernel = make_kernel(std::move(synapses), source, target, forms_);
             return;
         }
         plan.feedback = feedback_states(c, about.type, plan);
