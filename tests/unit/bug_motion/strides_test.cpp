@@ -120,7 +120,7 @@ TEST_CASE("A crowd of robots with grippers and balls moves as in steps of 1 ms")
     text.game.reset();
     const RandomStream random(6, "crowd");
     std::vector<double> ways[2], carried[2], ends[2];
-    for (std::uint64_t run = 0; run < 48; ++run) {
+    for (std::uint64_t run = 0; run < 24; ++run) {
         WorldDescription world = text;
         std::erase_if(world.models,
                       [](const Model& m) { return m.name.starts_with("A_") || m.name.starts_with("B_"); });
