@@ -115,7 +115,7 @@ void Physics::solve_with_bullet(std::uint64_t steps) {
     pairs_.clear();
     const std::size_t first_body = obstacles_.size();
     for (const Encounter& e : encounters_)
-        pairs_.push_back({e.is_obstacle ? e.other : first_body + e.other, first_body + e.body});
+        pairs_.emplace_back(e.is_obstacle ? e.other : first_body + e.other, first_body + e.body);
     std::sort(pairs_.begin(), pairs_.end());
     contact_solver_->solve(step_, steps, active_, pairs_, states_, velocities_, touched_);
 }

@@ -38,6 +38,7 @@ template <int sources>
             Lanes weight;
             std::memcpy(&weight, own.weights[k] + i, sizeof weight);
             __builtin_prefetch(own.next[k] + i, 0, 2);
+            // NOLINTNEXTLINE(misc-redundant-expression): only a NaN differs from itself
             sum += weight == weight ? weight * own.activity[k] : Lanes{};
         }
         std::memcpy(sums + i, &sum, sizeof sum);
