@@ -229,7 +229,7 @@ TEST_CASE("A ray enters solids from outside only") {
 TEST_CASE("Rays enter solids at the point that small steps along the ray find") {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> any(-2, 2);
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 300; ++i) {
         const auto kind = std::array{ShapeKind::box, ShapeKind::cylinder,
                                      ShapeKind::sphere}[static_cast<std::size_t>(i % 3)];
         const Eigen::Vector3d half(0.7, kind == ShapeKind::box ? 0.4 : 0.7,
@@ -417,7 +417,7 @@ TEST_CASE("Pictures in company equal those that are cast ray by ray, to the bit"
         Camera camera(sensor, link, seen);
         int wrong = 0, busy = 0;
         std::vector<VisualSolid> own;
-        for (int i = 0; i < 150; ++i) {
+        for (int i = 0; i < 20; ++i) {  // casting rays one by one takes long with sanitizers
             const Pose2 body{uniform(-9.7, 9.7), uniform(-9.7, 9.7), uniform(-3.2, 3.2)};
             const Pose robot = at(body.x, body.y, 0, body.yaw);
             if (i % 10 == 0) {  // the gripper moves
@@ -459,6 +459,6 @@ TEST_CASE("Pictures in company equal those that are cast ray by ray, to the bit"
             busy += std::count(rgb.begin(), rgb.end(), rgb.front()) < 2000;
         }
         CHECK(wrong == 0);
-        CHECK(busy > 75);
+        CHECK(busy > 10);
     }
 }
