@@ -7,9 +7,9 @@
 namespace forage::bug {
 namespace {
 
-constexpr float box_half_height = 1;   ///< m; has no effect, since all contacts are horizontal
-constexpr btScalar residual = 1e-10f;  ///< (m/s)^2; stops the solver at errors of about 1e-5 m/s
-constexpr std::size_t most_algorithms = 1024;
+constexpr float box_half_height = 1;           ///< m; has no effect, since all contacts are horizontal
+constexpr btScalar residual = 1e-10f;          ///< (m/s)^2; stops the solver at errors of about 1e-5 m/s
+constexpr std::size_t most_algorithms = 1024;  ///< pairs whose memory is kept
 
 /// Memory pools for a few contacts; Bullet allocates more when needed. Its default takes megabytes.
 btDefaultCollisionConstructionInfo small_pools() {
@@ -85,8 +85,10 @@ void Physics::ContactSolver::prepare(std::size_t body, std::uint64_t steps, Stat
     object.setLinearVelocity(vector(velocity.x, velocity.y));
     object.setAngularVelocity({0, 0, scalar(velocity.turn)});
     if (!object_info_[obstacles_ + body].driven || steps_[body] == steps) return;
-    const btScalar factor = static_cast<btScalar>(steps) / static_cast<btScalar>(steps_[body]);
-    object.setMassProps(object.getMass() * factor, object.getLocalInertia() * factor);
+    // From the mass of the description: what was set before would leave its rounding errors.
+    const auto& [mass, inertia] = object_info_[obstacles_ + body].mass;
+    const double n = static_cast<double>(steps);
+    object.setMassProps(scalar(n * mass), btVector3(1, 1, 1) * scalar(n * inertia));
     object.updateInertiaTensor();
     steps_[body] = steps;
 }
@@ -189,7 +191,7 @@ void Physics::ContactSolver::filter_contacts(std::span<State> states, std::span<
             }
             point.m_combinedFriction = std::min(a.friction[static_cast<std::size_t>(shape_a)],
                                                 b.friction[static_cast<std::size_t>(shape_b)]);
-            if (static_cast<double>(point.getDistance()) < touching) {
+            if (static_cast<double>(point.getDistance()) < touch_distance) {
                 if (a.movable && b.driven) ++states[first - obstacles_].contacts_in_stride;
                 if (b.movable && a.driven) ++states[second - obstacles_].contacts_in_stride;
                 if (a.driven && !touched.empty()) touched[first - obstacles_] = 1;
@@ -223,12 +225,12 @@ void Physics::ContactSolver::add(const Obstacle& o) {
         btRigidBody::btRigidBodyConstructionInfo(0, nullptr, shape_of(o.outline)));
     body->setWorldTransform(transform_of(o.outline));
     body->setUserIndex(static_cast<int>(objects_.size()));
-    object_info_.push_back({false, false, o.layers, {0}, {scalar(o.friction)}});
+    object_info_.push_back({false, false, o.layers, {0}, {scalar(o.friction)}, {}});
     objects_.push_back(std::move(body));
 }
 
 void Physics::ContactSolver::add(const Body& b) {
-    ObjectInfo info{b.driven, !b.driven, 0, {}, {}};
+    ObjectInfo info{b.driven, !b.driven, 0, {}, {}, {}};
     btCollisionShape* shape = nullptr;
     if (b.radius > 0) {
         shape = shapes_.emplace_back(std::make_unique<btSphereShape>(scalar(b.radius))).get();
@@ -246,9 +248,10 @@ void Physics::ContactSolver::add(const Body& b) {
         shape = shapes_.emplace_back(std::move(compound)).get();
     }
     const double mass = contact_mass(b, heaviest_);
-    const btScalar inertia = scalar(b.inertia * mass / b.mass);
-    auto body = std::make_unique<btRigidBody>(
-        btRigidBody::btRigidBodyConstructionInfo(scalar(mass), nullptr, shape, {inertia, inertia, inertia}));
+    const double inertia = b.inertia * mass / b.mass;
+    info.mass = {mass, inertia};
+    auto body = std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(
+        scalar(mass), nullptr, shape, btVector3(1, 1, 1) * scalar(inertia)));
     body->setLinearFactor({1, 1, 0});
     body->setAngularFactor({0, 0, 1});
     body->setFlags(0);  // no gyroscopic forces

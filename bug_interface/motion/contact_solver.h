@@ -51,6 +51,7 @@ class Physics::ContactSolver {
         LayerMask obstacle_layers = 0;  ///< 0 for a body
         std::vector<int> layers;        ///< one per shape
         std::vector<btScalar> friction;
+        std::pair<double, double> mass;  ///< of a body in one step: its mass, kg, and its inertia, kg m^2
     };
 
     btRigidBody& rigid(std::size_t body) { return *objects_[obstacles_ + body]; }

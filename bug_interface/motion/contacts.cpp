@@ -26,9 +26,7 @@ void Physics::solve_contacts(std::span<const std::size_t> bodies, std::uint64_t 
 
 void Physics::find_encounters(double seconds) {
     const auto reach = [&](std::size_t i) {
-        const Velocity& v = velocities_[i];
-        return 2 * (near_distance +
-                    max_displacement(i, std::hypot(v.x, v.y) * seconds, std::abs(v.turn) * seconds));
+        return 2 * (near_distance + max_displacement(i, velocities_[i], seconds));
     };
     encounters_.clear();
     for (const std::size_t i : active_) {
@@ -76,7 +74,7 @@ bool Physics::find_round_contacts(std::uint64_t steps) {
             const Eigen::Vector2d point = Eigen::Vector2d(disc.x, disc.y) + to_surface * in.normal;
             round_contacts_.add_contact({obstacles_.size() + e.body, p, name, q}, number_[e.body], number, in,
                                         point, std::min(shape.friction, friction));
-            if (in.depth > -touching) touching_.push_back(e);
+            if (in.depth > -touch_distance) touching_.push_back(e);
         };
         for (std::size_t p = 0; round && p < of_body.size(); ++p) {
             if (e.is_obstacle) {

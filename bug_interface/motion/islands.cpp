@@ -128,9 +128,7 @@ double Physics::max_displacement(std::size_t body, double travel, double turn) c
 
 /// An upper bound of the displacement of any point of a body in a step in which nothing pushes it, m.
 double Physics::displacement_per_step(std::size_t body) const {
-    const Velocity& v = velocities_[body];
-    if (!bodies_[body].driven)
-        return is_zero(v) ? 0 : max_displacement(body, speed(body) * step_, std::abs(v.turn) * step_);
+    if (!bodies_[body].driven) return max_displacement(body, velocities_[body], step_);
     const Reach& r = reach_[body];
     return max_displacement(body, r.travel, r.turn) + r.parts;
 }
@@ -216,22 +214,16 @@ std::uint64_t Physics::stride(std::size_t island, std::uint64_t left) {
         left = std::min(left, steps_of(max_turn, turn, left));
         const std::uint64_t in_contact = std::min(steps_of(contact_stride, per_step, contact_steps_at_once),
                                                   steps_of(contact_turn, turn, left));
-        if (may_touch_something(i, static_cast<double>(in_contact) * per_step))
-            left = std::min(left, states_[i].touching
-                                      ? in_contact
-                                      : steps_of(states_[i].clearance() - near_distance, per_step, left));
-        else
-            left = std::min(left, steps_of(states_[i].clearance() - near_distance, per_step, left));
+        const bool contact =
+            may_touch_something(i, static_cast<double>(in_contact) * per_step) && states_[i].touching;
+        left = std::min(
+            left, contact ? in_contact : steps_of(states_[i].clearance() - near_distance, per_step, left));
     }
     return left;
 }
 
 /// Activates the bodies near active ones, as they may be pushed.
 void Physics::activate_neighbours(std::span<const std::size_t> bodies, double seconds) {
-    const auto speed_bound = [&](std::size_t i) {
-        const Velocity& v = velocities_[i];
-        return max_displacement(i, std::sqrt(v.x * v.x + v.y * v.y), std::abs(v.turn));
-    };
     for (bool more = true; more;) {
         more = false;
         for (const std::size_t i : bodies) {
@@ -239,7 +231,9 @@ void Physics::activate_neighbours(std::span<const std::size_t> bodies, double se
             for (const std::size_t j : near_[i]) {
                 State& other = states_[j];
                 if (other.active) continue;
-                const double distance = 4 * near_distance + 2 * seconds * (speed_bound(i) + speed_bound(j));
+                const double distance =
+                    4 * near_distance + 2 * (max_displacement(i, velocities_[i], seconds) +
+                                             max_displacement(j, velocities_[j], seconds));
                 if (may_be_closer_than(i, j, distance)) other.active = more = true;
             }
         }

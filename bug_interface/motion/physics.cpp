@@ -108,8 +108,7 @@ void Physics::coast(std::size_t body, std::uint64_t steps, Velocity& mean, Veloc
 void Physics::move(std::size_t body, const Velocity& mean, double seconds) {
     State& s = states_[body];
     if (is_zero(mean)) return;
-    double distance =
-        max_displacement(body, std::hypot(mean.x, mean.y) * seconds, std::abs(mean.turn) * seconds);
+    double distance = max_displacement(body, mean, seconds);
     const double allowed = push_ - s.displacement;
     if (s.active && distance > allowed) {
         seconds *= std::max(0.0, allowed) / distance;
@@ -169,9 +168,7 @@ void Physics::advance(std::size_t island, std::span<const Velocity> velocities, 
         for (const std::size_t i : members) {
             State& s = states_[i];
             if (s.active || (is_zero(velocities_[i]) && !bodies_[i].driven)) continue;
-            const Velocity& v = velocities_[i];
-            if (may_touch_something(
-                    i, max_displacement(i, std::hypot(v.x, v.y) * seconds, std::abs(v.turn) * seconds)))
+            if (may_touch_something(i, max_displacement(i, velocities_[i], seconds)))
                 s.active = contacts = true;
         }
     if (contacts) {

@@ -107,11 +107,13 @@ class Physics {
 
     std::uint64_t contact_steps() const { return contact_steps_; }  ///< number of strides with contacts near
 
-    /// Reads or writes the poses and velocities. Bullet keeps no state between steps.
+    /// Reads or writes the poses, clearances and velocities. Contacts keep no state that matters.
     void checkpoint(Archive& archive) {
-        for (State& s : states_)
+        for (State& s : states_) {
+            if (archive.loading()) s.measured = false;
             archive(s.pose, s.present, s.touching, s.obstacle_clearance, s.bounding_radius, s.layers,
                     s.robot_contacts);
+        }
         for (Velocity& v : velocities_) archive(v.x, v.y, v.turn);
         archive(contact_steps_);
         for (std::size_t i = 0; i < bodies_.size(); ++i) checkpoint_parts(i, archive);
@@ -163,7 +165,7 @@ class Physics {
     class ContactSolver;  ///< calls Bullet
 
     static constexpr double near_distance = 0.001;  ///< m; well above the errors of Bullet's single precision
-    static constexpr double touching = 0.0005;      ///< m; shapes closer than this touch
+    static constexpr double touch_distance = 0.0005;  ///< m; shapes closer than this touch
 
     void coast(std::size_t body, std::uint64_t steps, Velocity& mean, Velocity& end) const;
     void move(std::size_t body, const Velocity& mean, double seconds);
@@ -178,6 +180,9 @@ class Physics {
     bool may_be_closer_than(std::size_t a, std::size_t b, double distance);
     double lever_arm(std::size_t body) const;
     double max_displacement(std::size_t body, double travel, double turn) const;
+    double max_displacement(std::size_t body, const Velocity& v, double seconds) const {
+        return max_displacement(body, std::hypot(v.x, v.y) * seconds, std::abs(v.turn) * seconds);
+    }
     double displacement_per_step(std::size_t body) const;
     bool may_touch_something(std::size_t body, double displacement);
     void measure_clearance(std::size_t body);

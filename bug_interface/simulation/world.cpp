@@ -47,15 +47,22 @@ void World::advance_bodies() {
 
 /// Whether a robot may begin or end a reset within `steps` substeps, or sensors have rates of their own.
 bool World::every_substep_matters(std::uint64_t steps) const {
-    return options_.sensor_rates || std::any_of(robots_.begin(), robots_.end(), [&](const Robot& robot) {
-               if (!robot.reset) return false;
-               if (robot.reset->running()) return true;
-               const double travel = (std::abs(robot.command.forward) + speed_noise) * description_.step *
-                                     static_cast<double>(steps);
-               const Eigen::Vector2d at(physics_->pose(robot.number).x, physics_->pose(robot.number).y);
-               const Eigen::AlignedBox2d& bounds = robot.reset->plan().bounds;
-               return !((at - bounds.min()).minCoeff() > travel && (bounds.max() - at).minCoeff() > travel);
-           });
+    if (options_.sensor_rates) return true;
+    const auto travel = [&](const Robot& robot) {
+        return (std::abs(robot.command.forward) + speed_noise) * description_.step *
+               static_cast<double>(steps);
+    };
+    double pushed = 0;  // in company a robot may be pushed, at most twice as far as the fastest one drives
+    if (bodies_.size() > 1)
+        for (const Robot& robot : robots_) pushed = std::max(pushed, 2 * travel(robot));
+    return std::any_of(robots_.begin(), robots_.end(), [&](const Robot& robot) {
+        if (!robot.reset) return false;
+        if (robot.reset->running()) return true;
+        const double margin = std::max(pushed, travel(robot));
+        const Eigen::Vector2d at(physics_->pose(robot.number).x, physics_->pose(robot.number).y);
+        const Eigen::AlignedBox2d& bounds = robot.reset->plan().bounds;
+        return !((at - bounds.min()).minCoeff() > margin && (bounds.max() - at).minCoeff() > margin);
+    });
 }
 
 /// Moves all bodies through some substeps, island by island.

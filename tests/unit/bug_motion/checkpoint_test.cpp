@@ -1,5 +1,8 @@
 // Checkpoints of the physics and of worlds.
+#include <cmath>
 #include <random>
+
+#include <fmt/format.h>
 
 #include "tests/unit/bug_motion/worlds.h"
 
@@ -110,4 +113,45 @@ TEST_CASE("A world continues from a checkpoint of any cycle, in trials and reset
         REQUIRE(one.bytes() == other.bytes());
     }
     CHECK(reset);
+}
+
+TEST_CASE("Grippers that press against each other and the walls continue from a checkpoint of any cycle") {
+    WorldDescription text = test::description("team_arena");
+    text.game.reset();
+    const Model robot = *test::find_model(text, "A_1");
+    std::erase_if(text.models,
+                  [](const Model& m) { return m.name.starts_with("A_") || m.name.starts_with("B_"); });
+    for (int i = 0; i < 4; ++i) {  // in the corner of the arena
+        text.models.push_back(robot);
+        text.models.back().name = fmt::format("R{}", i);
+        text.models.back().pose = in_space({5.3 + 0.9 * (i % 2), 5.3 + 0.9 * (i / 2), 0.8});
+    }
+    const auto through = test::make_world(text);
+    const auto step = [](World& world) {
+        std::mt19937 chance(static_cast<unsigned>(world.cycle() / 10));  // the same in every world
+        for (std::size_t i = 0; i < 4; ++i) {
+            const double forward = static_cast<double>(chance() % 1000) / 700 - 0.2,
+                         turn = static_cast<double>(chance() % 1000) / 500 - 1;
+            world.command(i, {forward, turn}), world.grip(i, chance() % 2);
+        }
+        world.step();
+    };
+    const auto state = [](World& world) {
+        Archive out;
+        world.checkpoint(out);
+        return out.bytes();
+    };
+    for (int stop = 0; stop < 12; ++stop) {
+        for (int i = 0; i < 23; ++i) step(*through);
+        const auto resumed = test::make_world(text);
+        if (stop % 2)
+            for (int i = 0; i < 9; ++i) step(*resumed);  // has had other contacts before
+        const std::string before = state(*through);
+        Archive in{std::string_view(before)};
+        resumed->checkpoint(in);
+        for (int i = 0; i < 20; ++i) step(*through), step(*resumed);
+        const bool same = state(*through) == state(*resumed);
+        REQUIRE(same);
+    }
+    CHECK(through->physics().contact_steps() > 2 * through->cycle());
 }
