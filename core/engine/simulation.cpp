@@ -160,6 +160,12 @@ ConstColumn Simulation::state(int group, int state) const {
             parts_->plan->groups[group].cells};
 }
 
+bool Simulation::in_place(int group, int state) const {
+    require_computed(*parts_->plan, group);
+    const auto& g = parts_->plan->groups[group];
+    return parts_->state->batches[g.batch].states[static_cast<std::size_t>(state)].depth == 1;
+}
+
 Column Simulation::output(int group) { return writable_state(group, layout().groups[group].type.output()); }
 
 Column Simulation::writable_state(int group, int state) {

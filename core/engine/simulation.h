@@ -127,6 +127,9 @@ class Simulation {
     ConstColumn input(int group, InputKind kind) const;
     /// Returns a state of a group, one number per cell.
     ConstColumn state(int group, int state) const;
+    /// Returns whether state() returns the same memory in every cycle, so that what it returned stays
+    /// current.
+    bool in_place(int group, int state) const;
     /// Returns a group's activity, to overwrite after update_groups(). It must be called again in every
     /// cycle. Throws std::logic_error for a group that the demand does not let users overwrite.
     Column output(int group);

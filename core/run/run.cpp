@@ -31,10 +31,6 @@ std::string describe(const engine::NotFinite& what, const engine::Layout& layout
                        cell);
 }
 
-void throw_errors(const Diagnostics& diagnostics) {
-    if (diagnostics.failed()) throw InputError(format(diagnostics));
-}
-
 }  // namespace
 
 std::optional<Run> Run::make(model::System system, Registry registry,
@@ -65,16 +61,17 @@ Run& Run::operator=(Run&& other) noexcept {
 Run::~Run() = default;
 
 void Run::add_observer(std::unique_ptr<Observer> observer) {
-    if (simulation_) {
-        engine::Demand wanted;
-        observer->declare(wanted);
-        if (!demand_.covers(wanted))
-            throw InputError(
-                "this run does not compute what the observer reads or overwrites: add it before the first "
-                "cycle, or compute "
-                "everything");
-    }
+    engine::Demand wanted;
+    observer->declare(wanted);
+    require(wanted, "what the observer reads or overwrites");
     observers_.push_back(std::move(observer));
+}
+
+void Run::require(const engine::Demand& wanted, std::string_view name) const {
+    if (!simulation_ || demand_.covers(wanted)) return;
+    throw InputError(fmt::format("{} is not computed in this run", name),
+                     "demand it before the first cycle, as an observer or when the run is opened, or compute "
+                     "everything");
 }
 
 void Run::remove(const Observer& observer) {
@@ -119,9 +116,11 @@ RunView Run::view() { return {*simulation_, environment_.get(), time(), *this}; 
 
 void Run::step() {
     if (!simulation_) start();
+    if (failed_) throw engine::RunError(fmt::format("cycle {} of this run failed: it cannot go on", cycle()));
     auto& simulation = *simulation_;
     RunView before = view();
     for (const auto& o : observers_) o->before_cycle(before);
+    failed_ = true;
     simulation.update_groups();
     if (simulation.not_finite() && divergence_.empty())
         divergence_ = describe(*simulation.not_finite(), simulation.layout());
@@ -129,21 +128,32 @@ void Run::step() {
     simulation.update_modules();
     simulation.update_connections();
     if (environment_) environment_->step();
+    failed_ = false;
     RunView after = view();
     for (const auto& o : observers_) o->after_cycle(after);
 }
 
 std::string Run::until(const RunLength& length) {
+    const EarlyEnd end = advance(length);
+    return end.held ? fmt::format("'{}' held", length.until.text) : end.timeout;
+}
+
+EarlyEnd Run::advance(const RunLength& length, const AfterCycle& after_cycle) {
     Diagnostics diagnostics;
     const StopCondition stop = StopCondition::make(length, *this, diagnostics);
     throw_errors(diagnostics);
+    engine::Demand wanted;
+    stop.declare(wanted);
+    require(wanted, fmt::format("what '{}' reads", length.until.text));
+    if (!simulation_) stop.declare(demand_);
     start();
     const auto origin = stop.begin(*this);
     while (!stop.reached(*this, origin)) {
         step();
-        if (auto why = stop.timeout_reason(*this); !why.empty()) return why;
+        if (after_cycle) after_cycle(stop, origin);
+        if (auto why = stop.timeout_reason(*this); !why.empty()) return {false, std::move(why)};
     }
-    return stop.holds(*this) ? fmt::format("'{}' held", length.until.text) : std::string();
+    return {stop.holds(*this), {}};
 }
 
 std::vector<double> Run::read(std::string_view text) {
@@ -151,6 +161,9 @@ std::vector<double> Run::read(std::string_view text) {
     const auto source = observe::find_source(layout(), text, "read", diagnostics);
     throw_errors(diagnostics);
     start();
+    engine::Demand wanted;
+    source->declare(wanted);
+    require(wanted, fmt::format("'{}'", text));
     std::vector<double> out(source->what().size());
     source->read(*simulation_, out);
     return out;
@@ -163,6 +176,9 @@ void Run::write(std::string_view text, std::span<const double> values) {
     if (column->state < 0)
         throw InputError(fmt::format("'{}' is an input, which cannot be overwritten", text));
     start();
+    engine::Demand wanted;
+    wanted.overwrite_group(column->group);
+    require(wanted, fmt::format("'{}', to be overwritten,", text));
     Column state = simulation_->writable_state(column->group, column->state);
     if (values.size() != static_cast<std::size_t>(state.size()))
         throw InputError(fmt::format("'{}' has {} cells, not {}", text, state.size(), values.size()));

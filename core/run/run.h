@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -13,6 +14,7 @@
 #include "core/model/system.h"
 #include "core/observe/observer.h"
 #include "core/run/environment.h"
+#include "core/run/input_error.h"
 #include "core/run/memory_recorder.h"
 #include "core/run/run_measures.h"
 #include "core/run/run_spec.h"
@@ -21,13 +23,15 @@
 
 namespace forage {
 
-/// Mistakes in files, systems, plugins or expressions. what() lists all of them, as `forage check` prints
-/// them.
-class InputError : public std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
 class ModuleFiles;
+class StopCondition;
+struct StopOrigin;
+
+/// How Run::advance() ended before its length was reached.
+struct EarlyEnd {
+    bool held = false;    ///< whether the condition held
+    std::string timeout;  ///< the trial that took too long, in words; empty when none did
+};
 
 /// Runs a system cycle by cycle in its environment and calls the observers at fixed points (observer.h). The
 /// system is compiled at the first cycle, or by start(). Until then any observer may be added; afterwards
@@ -72,6 +76,10 @@ class Run {
     /// The demand in addition to those of observers. Callers may add to it before the run starts.
     engine::Demand& demand() { return demand_; }
 
+    /// Throws InputError, with the name of what is wanted, when the run was compiled without it. Does nothing
+    /// before the run starts.
+    void require(const engine::Demand& wanted, std::string_view name) const;
+
     /// Compiles the system for what the observers demand, lets the observers check it, and starts the
     /// modules. Returns false without starting when `diagnostics` has an error, even an earlier one.
     bool start(Diagnostics& diagnostics);
@@ -81,11 +89,16 @@ class Run {
     bool started() const { return simulation_.has_value(); }
 
     /// Runs one cycle of the system, its environment and the observers. Starts the run if necessary. Throws
-    /// engine::RunError, and whatever an observer throws.
+    /// engine::RunError, also when an earlier cycle failed, and whatever an observer throws.
     void step();
     /// Runs until `length` is reached, counted from now. Returns the reason for an early end: the condition
     /// held, or a trial took too long. Empty when the end was not early.
     std::string until(const RunLength& length);
+    /// Does the same, and calls `after_cycle` after each cycle, with the condition that will end the run and
+    /// the time from which its length is counted. The callback may read and change the run, but not step it.
+    /// What it throws ends the call; the run can go on. Throws InputError for a length that is impossible.
+    using AfterCycle = std::function<void(const StopCondition&, const StopOrigin&)>;
+    EarlyEnd advance(const RunLength& length, const AfterCycle& after_cycle = {});
 
     /// The compiled system. Starts the run if necessary.
     engine::Simulation& simulation() { return start(), *simulation_; }
@@ -141,6 +154,7 @@ class Run {
     ModuleFiles* module_files_;                     ///< one of the observers
     std::optional<engine::Simulation> simulation_;  ///< destroyed first: its modules use the streams
     std::string divergence_;
+    bool failed_ = false;  ///< whether a cycle threw; always false between cycles of a run that can go on
 };
 
 }  // namespace forage

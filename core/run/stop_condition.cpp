@@ -80,11 +80,11 @@ std::string StopCondition::timeout_reason(const Run& run) const {
                        run.environment()->trials(0).size() + 1, length_.trial_timeout);
 }
 
-double StopCondition::fraction_done(const Run& run) const {
+double StopCondition::fraction_done(const Run& run, const Origin& origin) const {
     if (length_.trials)
-        return static_cast<double>(run.environment()->trials(0).size()) /
+        return static_cast<double>(run.environment()->trials(0).size() - origin.trials) /
                static_cast<double>(*length_.trials);
-    return cycles_ ? static_cast<double>(run.cycle()) / static_cast<double>(*cycles_) : 0;
+    return cycles_ ? static_cast<double>(run.cycle() - origin.cycles) / static_cast<double>(*cycles_) : 0;
 }
 
 std::string StopCondition::progress(const Run& run) const {

@@ -11,17 +11,19 @@
 
 namespace forage {
 
+/// The numbers of completed cycles and trials at the time from which the length of a run is counted.
+struct StopOrigin {
+    std::uint64_t cycles = 0;
+    std::size_t trials = 0;
+};
+
 /// Ends a run after a number of cycles, seconds or trials, or as soon as a condition holds.
 class StopCondition {
   public:
     /// Reports lengths that are impossible in the run's environment, and mistakes in the condition.
     static StopCondition make(const RunLength& length, const Run& run, Diagnostics& diagnostics);
 
-    /// The numbers of completed cycles and trials at the time from which the length is counted.
-    struct Origin {
-        std::uint64_t cycles = 0;
-        std::size_t trials = 0;
-    };
+    using Origin = StopOrigin;
     /// The origin that counts from now on, instead of from the start of the run.
     static Origin begin(const Run& run);
 
@@ -32,7 +34,7 @@ class StopCondition {
     bool holds(const Run& run) const;
     /// The reason for an early end: a trial took too long. Empty when the run may continue.
     std::string timeout_reason(const Run& run) const;
-    double fraction_done(const Run& run) const;  ///< 0..1
+    double fraction_done(const Run& run, const Origin& origin = {}) const;  ///< 0..1; 0 without a length
     /// The progress in words, such as "12/30 trials, 11 at the target"; empty for a run without trials.
     std::string progress(const Run& run) const;
     /// The number of cycles after which the run ends; empty when trials end it.

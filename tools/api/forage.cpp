@@ -9,16 +9,22 @@
 namespace forage {
 namespace {
 
-void throw_errors(const Diagnostics& diagnostics) {
-    if (diagnostics.failed()) throw InputError(format(diagnostics));
+void declare(const OpenOptions& options, Run& run, Diagnostics& diagnostics) {
+    for (const auto& text : options.observe.value_or(std::vector<std::string>()))
+        if (const auto source = observe::find_source(run.layout(), text, "observe", diagnostics))
+            source->declare(run.demand());
+    for (const auto& text : options.overwrite.value_or(std::vector<std::string>()))
+        if (const auto column = observe::find_column(run.layout(), text, "overwrite", diagnostics))
+            run.demand().overwrite_group(column->group);
 }
 
 Run make_run(model::System system, Registry types, std::unique_ptr<Environment> environment,
              const OpenOptions& options, Diagnostics& diagnostics) {
-    auto run = Run::make(
-        std::move(system), std::move(types), std::move(environment),
-        {.seed = options.seed, .threads = options.threads, .compute_everything = options.compute_everything},
-        diagnostics);
+    const bool everything = options.compute_everything && !options.observe && !options.overwrite;
+    auto run = Run::make(std::move(system), std::move(types), std::move(environment),
+                         {.seed = options.seed, .threads = options.threads, .compute_everything = everything},
+                         diagnostics);
+    if (run) declare(options, *run, diagnostics);
     throw_errors(diagnostics);
     if (const Environment* world = run->environment())
         for (std::size_t i = 0; i < world->robot_names().size(); ++i)
@@ -36,7 +42,7 @@ Registry types(const std::vector<std::string>& plugins) {
     return out;
 }
 
-Run open(const std::string& system, const OpenOptions& options) {
+Run open(const std::string& system, const OpenOptions& options, Diagnostics* warnings) {
     RunInput input;
     input.system = system, input.world = options.world, input.seed = options.seed,
     input.plugins = options.plugins;
@@ -46,8 +52,10 @@ Run open(const std::string& system, const OpenOptions& options) {
     Diagnostics diagnostics;
     auto loaded = load(input, diagnostics);
     throw_errors(diagnostics);
-    return make_run(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world), options,
-                    diagnostics);
+    Run out = make_run(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world),
+                       options, diagnostics);
+    if (warnings) *warnings = std::move(diagnostics);
+    return out;
 }
 
 Run open(model::System system, Registry types, std::unique_ptr<Environment> environment,

@@ -95,7 +95,7 @@ TEST_CASE("A run that computes only what is read reports when something else is 
     run.record("P/A");
     run.step();
     CHECK_THROWS_AS(run.record("P/Alone"), InputError);
-    CHECK_THROWS_AS(run.read("P/Alone"), std::logic_error);
+    CHECK_THROWS_AS(run.read("P/Alone"), InputError);
     Run all = tidal();
     all.step();
     all.record("P/Alone");

@@ -43,10 +43,14 @@ struct OpenOptions {
     /// run computes only what modules and the observers that are added before the first cycle read: faster,
     /// with the same numbers.
     bool compute_everything = true;
+    /// Sources such as "Bug/Light" that will be read, and groups that will be overwritten as well. When
+    /// either is given, the run computes nothing else but what observers and modules read.
+    std::optional<std::vector<std::string>> observe = {}, overwrite = {};
 };
 
-/// Opens a system file (.iqr) with its world. The run is ready for step(). Throws InputError.
-Run open(const std::string& system, const OpenOptions& options = {});
+/// Opens a system file (.iqr) with its world. The run is ready for step(). Throws InputError. Warnings about
+/// the files are added to `warnings`, if it is not null.
+Run open(const std::string& system, const OpenOptions& options = {}, Diagnostics* warnings = nullptr);
 /// Opens a system that was built in code, with the types that it uses, in an environment of the caller, which
 /// may be null. Throws InputError. The options world, plugins, lenient, noise and real_time_factor have no
 /// effect.

@@ -1,0 +1,53 @@
+// Exceptions of the library as those of forage/_errors.py.
+#include "core/base/archive.h"
+#include "core/run/checkpoint_file.h"
+#include "tools/python/python.h"
+
+namespace forage::python {
+namespace {
+
+py::object python_class(const char* name) { return py::module_::import("forage._errors").attr(name); }
+
+py::object diagnostic(const Diagnostic& d) {
+    const bool in_file = d.where.file != nullptr;
+    const auto number = [](int n) { return n > 0 ? py::object(py::int_(n)) : py::none(); };
+    return python_class("Diagnostic")(d.severity == Severity::error ? "error" : "warning", d.message, d.hint,
+                                      in_file ? py::object(py::str(d.where.file->path)) : py::none(),
+                                      number(d.where.line), number(d.where.column), format(d));
+}
+
+void raise(const InputError& e) {
+    py::list all;
+    for (const auto& d : e.diagnostics().all()) all.append(diagnostic(d));
+    const py::object type = python_class("InputError");
+    PyErr_SetObject(type.ptr(), type(e.what(), all).ptr());
+}
+
+void raise(const char* type, const std::exception& e) { PyErr_SetString(python_class(type).ptr(), e.what()); }
+
+}  // namespace
+
+void warn(const Diagnostics& diagnostics) {
+    for (const auto& d : diagnostics.all())
+        if (d.severity == Severity::warning &&
+            PyErr_WarnEx(python_class("InputWarning").ptr(), format(d).c_str(), 2) != 0)
+            throw py::error_already_set();
+}
+
+void add_errors(py::module_&) {
+    py::register_exception_translator([](std::exception_ptr thrown) {
+        try {
+            if (thrown) std::rethrow_exception(thrown);
+        } catch (const InputError& e) {
+            raise(e);
+        } catch (const CheckpointError& e) {
+            raise(InputError(e.what()));
+        } catch (const ArchiveError& e) {
+            raise(InputError(e.what()));
+        } catch (const engine::RunError& e) {
+            raise("RunError", e);
+        }
+    });
+}
+
+}  // namespace forage::python

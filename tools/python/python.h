@@ -1,0 +1,23 @@
+// What the files of the Python package share.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include <forage/forage.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+namespace forage::python {
+
+namespace py = pybind11;
+
+/// The classes of the package are part of the module `_forage`; each function adds those of one file.
+void add_errors(py::module_& module);
+void add_groups(py::module_& module);
+void add_runs(py::module_& module);
+
+/// Issues one warning of Python, forage.InputWarning, per warning among the diagnostics.
+void warn(const Diagnostics& diagnostics);
+
+}  // namespace forage::python

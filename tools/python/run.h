@@ -1,0 +1,59 @@
+// A run as Python sees it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tools/python/python.h"
+
+namespace forage::python {
+
+/// A run, its callbacks, and the right to use it: one thread at a time steps a run, while other threads of
+/// Python go on. All functions are called with the GIL.
+class PythonRun : public std::enable_shared_from_this<PythonRun> {
+  public:
+    explicit PythonRun(Run run);
+
+    /// The run, to read and to change. Throws RunError when it is closed, or used by another thread.
+    Run& use() const { return *owner(); }
+    /// The same run, as an owner of the memory that a view shows.
+    std::shared_ptr<Run> owner() const;
+
+    void step();
+    /// Runs until `length` is reached. `progress` is called ten times per second with the fraction that is
+    /// done and a text; it may be None. Throws RunError when a trial takes too long.
+    bool advance(const RunLength& length, const py::object& progress);
+    void on_cycle(py::object callback, std::uint64_t every);
+    /// Forgets the run. Views of its numbers stay valid.
+    void close();
+    bool closed() const { return !run_; }
+
+    /// The object that is made by `make` at the first call with these arguments: the view of a state that
+    /// always stands at the same place.
+    py::object view_of(int group, int state, const std::function<py::object()>& make);
+
+    int traverse(visitproc visit, void* arg) const;  ///< for Python's search for cycles of references
+    void clear() { callbacks_.clear(), views_.clear(); }
+
+  private:
+    class Running;
+    void call_back();
+    void after_cycle(const std::function<void()>& report, bool signals);
+
+    struct Callback {
+        py::object function;
+        std::uint64_t every;
+    };
+    std::shared_ptr<Run> run_;
+    std::vector<Callback> callbacks_;
+    std::map<std::pair<int, int>, py::object> views_;
+    std::optional<std::thread::id> runner_;  ///< the thread that is running cycles
+};
+
+}  // namespace forage::python
