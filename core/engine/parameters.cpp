@@ -127,4 +127,19 @@ void set_parameter(const Plan& plan, State& state, Cycle& cycle, const Assignmen
     }
 }
 
+ParameterValue parameter(const Plan& plan, const State& state, const Assignment& a) {
+    const int i = number_of(plan.layout, a);
+    if (!a.parameter) return i >= 0;  // whether a module is enabled
+    if (i < 0) throw RunError(fmt::format("'{}': the module is disabled", a.text));
+    switch (a.owner) {
+        case Assignment::Owner::group:
+            return a.parameter->get(state.groups[i].neuron->parameters());
+        case Assignment::Owner::connection:
+            return a.parameter->get(state.connections[i].synapse->parameters());
+        case Assignment::Owner::process:
+            break;
+    }
+    return a.parameter->get(state.modules[i].module->parameters());
+}
+
 }  // namespace forage::engine

@@ -16,4 +16,7 @@ void check_changes(const Plan& plan, const State& state, std::span<const model::
 /// Changes a parameter. Throws RunError for a parameter that cannot change while the system runs.
 void set_parameter(const Plan& plan, State& state, Cycle& cycle, const model::Assignment& change);
 
+/// Returns the present value of a parameter.
+ParameterValue parameter(const Plan& plan, const State& state, const model::Assignment& which);
+
 }  // namespace forage::engine

@@ -140,6 +140,10 @@ void Simulation::set(const model::Assignment& change) {
     set_parameter(*parts_->plan, *parts_->state, parts_->cycle, change);
 }
 
+ParameterValue Simulation::parameter(const model::Assignment& which) const {
+    return engine::parameter(*parts_->plan, *parts_->state, which);
+}
+
 void Simulation::checkpoint(Archive& archive) { parts_->state->checkpoint(*parts_->plan, archive); }
 
 const Layout& Simulation::layout() const { return parts_->plan->layout; }

@@ -112,6 +112,9 @@ class Simulation {
     /// the demand lets users overwrite activities there.
     void set(const model::Assignment& change);
 
+    /// Returns the present value of a parameter. Throws RunError for a module that is disabled.
+    ParameterValue parameter(const model::Assignment& which) const;
+
     /// Writes or reads all that decides the cycles to come, and what can be read now: states, inputs,
     /// parameters, what modules keep. It is called between cycles, after start(). A checkpoint is read into a
     /// simulation of the same system, built with the same seed. Throws ArchiveError when it does not fit, and

@@ -64,13 +64,12 @@ std::string which(const std::vector<Owner>& owners, std::string_view where) {
 
 }  // namespace
 
-std::optional<Assignment> parse_assignment(const System& system, const Registry& registry,
-                                           std::string_view text, std::string_view what,
-                                           Diagnostics& diagnostics, Location at) {
-    const expression::Context context{text, what, diagnostics, at};
-    const auto said = context.parsed(&expression::parse_assignment);
-    if (!said) return std::nullopt;
-    const auto& [where, parameter, value] = *said;
+namespace {
+
+/// Resolves the owner and the parameter of an assignment; the value is still unset.
+std::optional<Assignment> resolve(const System& system, const Registry& registry,
+                                  const expression::Assignment& said, const expression::Context& context) {
+    const auto& [where, parameter, value] = said;
     const auto problem = [&](const expression::Piece& piece, std::string message, std::string hint) {
         context.error(piece.at, std::move(message), std::move(hint));
         return std::nullopt;
@@ -83,14 +82,9 @@ std::optional<Assignment> parse_assignment(const System& system, const Registry&
                        which(owners, where.text));
     const Owner& owner = owners.front();
 
-    Assignment out{owner.kind, owner.id, nullptr, {}, std::string(text), at};
+    Assignment out{owner.kind, owner.id, nullptr, {}, std::string(context.text), context.at};
     const bool is_process = owner.kind == Assignment::Owner::process;
-    if (is_process && parameter.text == "enableModule") {
-        const auto flag = parse_parameter(ParameterKind::boolean, value.text);
-        if (!flag) return problem(value, fmt::format("'{}' is not true or false", value.text), "");
-        out.value = *flag;
-        return out;
-    }
+    if (is_process && parameter.text == "enableModule") return out;
     if (!owner.parameters)
         return problem(where,
                        owner.use ? fmt::format("the type '{}' is not known", owner.use->type)
@@ -105,14 +99,63 @@ std::optional<Assignment> parse_assignment(const System& system, const Registry&
         return problem(parameter, fmt::format("{} has no parameter '{}'", owner.use->type, parameter.text),
                        suggest(parameter.text, known));
     }
-    const auto parsed = parse_parameter(it->kind, value.text);
-    if (!parsed)
-        return problem(value, fmt::format("'{}' is not {}", value.text, describe(it->kind)), it->doc);
-    if (outside(*parsed, it->range))
-        diagnostics.warning(at, fmt::format("{} '{}': outside the usual range {} to {}", what, text,
-                                            to_text(it->range->low), to_text(it->range->high)));
     out.parameter = &*it;
-    out.value = it->is_path ? ParameterValue(resolved(value.text, at)) : *parsed;
+    return out;
+}
+
+}  // namespace
+
+std::optional<Assignment> find_parameter(const System& system, const Registry& registry,
+                                         std::string_view name, std::string_view what,
+                                         Diagnostics& diagnostics) {
+    const std::string text = fmt::format("{}=", name);
+    if (const auto said = expression::Context{text, what, diagnostics}.parsed(&expression::parse_assignment))
+        return resolve(system, registry, *said, {name, what, diagnostics});
+    return std::nullopt;
+}
+
+std::vector<std::string> parameter_names(const System& system, const Registry& registry) {
+    std::vector<std::string> out;
+    const auto add = [&](std::string_view where, const auto* type) {
+        for (const auto& p : type ? type->parameters : std::vector<Parameter>())
+            out.push_back(fmt::format("{}.{}", where, p.name));
+    };
+    for (const auto& p : system.processes) {
+        if (p.module && p.module_enabled) add(trim(p.name), registry.module(p.module->type));
+        for (const auto& g : p.groups) add(path(system, p, g), registry.neuron(g.neuron.type));
+    }
+    const auto same_name = [&](const Connection& c) {
+        return std::ranges::count_if(system.connections,
+                                     [&](const auto& other) { return trim(other.name) == trim(c.name); });
+    };
+    for (const auto& c : system.connections)
+        if (c.synapse)
+            add(same_name(c) > 1 ? std::string_view(c.id) : trim(c.name), registry.synapse(c.synapse->type));
+    return out;
+}
+
+std::optional<Assignment> parse_assignment(const System& system, const Registry& registry,
+                                           std::string_view text, std::string_view what,
+                                           Diagnostics& diagnostics, Location at) {
+    const expression::Context context{text, what, diagnostics, at};
+    const auto said = context.parsed(&expression::parse_assignment);
+    if (!said) return std::nullopt;
+    auto out = resolve(system, registry, *said, context);
+    if (!out) return std::nullopt;
+    const auto& value = said->value;
+    const auto kind = out->parameter ? out->parameter->kind : ParameterKind::boolean;
+    const auto parsed = parse_parameter(kind, value.text);
+    if (!parsed) {
+        context.error(value.at, fmt::format("'{}' is not {}", value.text, describe(kind)),
+                      out->parameter ? out->parameter->doc : "");
+        return std::nullopt;
+    }
+    out->value = *parsed;
+    if (!out->parameter) return out;
+    if (const auto& range = out->parameter->range; outside(*parsed, range))
+        diagnostics.warning(at, fmt::format("{} '{}': outside the usual range {} to {}", what, text,
+                                            to_text(range->low), to_text(range->high)));
+    if (out->parameter->is_path) out->value = resolved(value.text, at);
     return out;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/model/system.h"
 #include "core/types/registry.h"
@@ -30,6 +31,13 @@ struct Assignment {
 std::optional<Assignment> parse_assignment(const System& system, const Registry& registry,
                                            std::string_view text, std::string_view what,
                                            Diagnostics& diagnostics, Location at = {});
+
+/// The parameter that "WHERE.parameter" names, without a value. Reports mistakes like parse_assignment().
+std::optional<Assignment> find_parameter(const System& system, const Registry& registry,
+                                         std::string_view name, std::string_view what,
+                                         Diagnostics& diagnostics);
+/// The names of all parameters of groups, enabled modules and connections, as find_parameter() takes them.
+std::vector<std::string> parameter_names(const System& system, const Registry& registry);
 
 /// Sets the parameter in the system, which must be the one that parse_assignment() was given.
 void set(System& system, const Assignment& assignment);

@@ -38,6 +38,13 @@ struct Measure {
     Location at;
 };
 
+/// The names of the kinds of measures, in their order.
+inline constexpr std::array measure_kinds = {"success", "duration", "distance", "first",   "final", "trials",
+                                             "cycles",  "mean",     "minimum",  "maximum", "robot"};
+/// Reads of which trials a measure takes the mean, "all" or "last 100", from `what` to `last`. Reports an
+/// error for another text. Does nothing for measures of something else.
+void read_trials(Measure& measure, Diagnostics& diagnostics);
+
 struct RecordingSpec {
     Expression column;
     std::uint64_t every = 1;  ///< cycles between two rows

@@ -34,6 +34,7 @@ class Manipulation final : public Observer {
         std::optional<Condition> from{}, until{};  ///< empty: from the first cycle, until the last
     };
     explicit Manipulation(Settings settings);
+    const Settings& settings() const { return s_; }
 
     /// Begins and ends the manipulation when its conditions first hold.
     void before_cycle(RunView& run) override;

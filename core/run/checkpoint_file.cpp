@@ -24,30 +24,23 @@ std::string previous_checkpoint_path(const std::string& directory) {
     return directory + "/checkpoint.previous.forage";
 }
 
-void write_checkpoint(const std::string& directory, std::string_view content) {
+std::string sealed(std::string_view content) {
     Archive head;
     std::uint32_t number = format_version;
     std::uint64_t length = content.size();
     std::string sum = digest(content);
     head(number, length, sum);
-    write_durably(checkpoint_path(directory), fmt::format("{}{}{}", magic, head.bytes(), content),
-                  previous_checkpoint_path(directory));
+    return fmt::format("{}{}{}", magic, head.bytes(), content);
 }
 
-std::string read_checkpoint(const std::string& path) {
+std::string unsealed(std::string_view text, std::string_view name) {
     const auto refuse = [&](const std::string& why) {
-        throw CheckpointError(fmt::format("checkpoint '{}' {}", path, why));
+        throw CheckpointError(fmt::format("{} {}", name, why));
     };
-    std::error_code none;
-    if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
-        refuse("is not a file");
-    std::ifstream in(path, std::ios::binary);
-    if (!in) refuse(fmt::format("cannot be read: {}", std::strerror(errno)));
-    const std::string text(std::istreambuf_iterator<char>(in), {});
     if (!text.starts_with(magic))
         refuse(text.size() < magic.size() && magic.starts_with(text) ? "is damaged: it ends too early"
                                                                      : "is not a checkpoint of forage");
-    Archive head{std::string_view(text).substr(magic.size())};
+    Archive head{text.substr(magic.size())};
     std::uint32_t number = 0;
     std::uint64_t length = 0;
     std::string sum;
@@ -64,6 +57,20 @@ std::string read_checkpoint(const std::string& path) {
         refuse(fmt::format("is damaged: it has {} bytes instead of {}", content.size(), length));
     if (digest(content) != sum) refuse("is damaged: its checksum is wrong");
     return std::string(content);
+}
+
+void write_checkpoint(const std::string& directory, std::string_view content) {
+    write_durably(checkpoint_path(directory), sealed(content), previous_checkpoint_path(directory));
+}
+
+std::string read_checkpoint(const std::string& path) {
+    const std::string name = fmt::format("checkpoint '{}'", path);
+    std::error_code none;
+    if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
+        throw CheckpointError(name + " is not a file");
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw CheckpointError(fmt::format("{} cannot be read: {}", name, std::strerror(errno)));
+    return unsealed(std::string(std::istreambuf_iterator<char>(in), {}), name);
 }
 
 bool has_checkpoint(const std::string& directory) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/base/column.h"
@@ -20,6 +21,7 @@ class MemoryRecorder final : public Observer {
         : source_(std::move(source)), every_(every) {}
 
     const observe::Recorded& what() const { return source_.what(); }
+    std::uint64_t every() const { return every_; }
     /// The recorded cycles.
     const std::vector<std::uint64_t>& cycles() const { return cycles_; }
     /// The recorded numbers: one row per recorded cycle, one column per cell. Valid until the next cycle.
@@ -27,6 +29,14 @@ class MemoryRecorder final : public Observer {
         return {numbers_.data(), static_cast<Index>(cycles_.size()),
                 static_cast<Index>(source_.what().size())};
     }
+
+    /// What was recorded since the start, or since the last call.
+    struct Taken {
+        std::vector<std::uint64_t> cycles;
+        std::vector<double> numbers;  ///< of all rows
+    };
+    /// Hands over what was recorded, and forgets it.
+    Taken take() { return {std::exchange(cycles_, {}), std::exchange(numbers_, {})}; }
 
     void declare(engine::Demand& demand) const override { source_.declare(demand); }
     void after_cycle(RunView& view) override {

@@ -138,8 +138,10 @@ std::string Run::until(const RunLength& length) {
     return end.held ? fmt::format("'{}' held", length.until.text) : end.timeout;
 }
 
-EarlyEnd Run::advance(const RunLength& length, const AfterCycle& after_cycle) {
+EarlyEnd Run::advance(const RunLength& wanted_length, const AfterCycle& after_cycle) {
     Diagnostics diagnostics;
+    RunLength length = wanted_length;
+    length.in_code = true;
     const StopCondition stop = StopCondition::make(length, *this, diagnostics);
     throw_errors(diagnostics);
     engine::Demand wanted;
@@ -185,7 +187,7 @@ void Run::write(std::string_view text, std::span<const double> values) {
     std::copy(values.begin(), values.end(), state.data());
 }
 
-void Run::set(std::string_view assignment) {
+void Run::set(std::string_view assignment, Diagnostics* warnings) {
     Diagnostics diagnostics;
     const auto change = model::parse_assignment(system_, registry_, assignment, "set", diagnostics);
     throw_errors(diagnostics);
@@ -193,6 +195,15 @@ void Run::set(std::string_view assignment) {
     simulation_->check({&*change, 1}, diagnostics);
     throw_errors(diagnostics);
     simulation_->set(*change);
+    if (warnings) *warnings = std::move(diagnostics);
+}
+
+ParameterValue Run::parameter(std::string_view name) {
+    Diagnostics diagnostics;
+    const auto which = model::find_parameter(system_, registry_, name, "parameter", diagnostics);
+    throw_errors(diagnostics);
+    start();
+    return simulation_->parameter(*which);
 }
 
 MemoryRecorder& Run::record(std::string_view text, std::uint64_t every) {

@@ -117,8 +117,11 @@ class Run {
     /// Throws InputError, also when `values` does not have one number per cell.
     void write(std::string_view column, std::span<const double> values);
     /// Changes a parameter between two cycles: "Process/Group.parameter=value", "Process.parameter=value" of
-    /// a module, "Connection.parameter=value" of a synapse. Throws InputError.
-    void set(std::string_view assignment);
+    /// a module, "Connection.parameter=value" of a synapse. Throws InputError. Warnings are added to
+    /// `warnings`, if it is not null.
+    void set(std::string_view assignment, Diagnostics* warnings = nullptr);
+    /// The present value of a parameter such as "Process/Group.threshold". Throws InputError.
+    ParameterValue parameter(std::string_view name);
 
     /// Records a source in memory, from the next cycle on, every `every`-th cycle. Throws InputError.
     MemoryRecorder& record(std::string_view source, std::uint64_t every = 1);
@@ -133,6 +136,8 @@ class Run {
 
     /// Reads or writes everything that changes in the run. May be called between cycles, after start().
     void checkpoint(Archive& archive);
+    /// How the run was opened, as forage::save_state() needs it; empty for a run of a system built in code.
+    std::string opened_as;
     /// A digest of everything in system and environment that decides the following cycles. Equal runs have
     /// equal digests.
     std::string digest();

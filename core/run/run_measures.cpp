@@ -63,6 +63,12 @@ RunMeasures::RunMeasures(std::span<const model::Measure> measures, const engine:
     }
 }
 
+std::vector<model::Measure> RunMeasures::specs() const {
+    std::vector<model::Measure> out;
+    for (const auto& e : entries_) out.push_back(e.spec);
+    return out;
+}
+
 void RunMeasures::declare(engine::Demand& demand) const {
     for (const auto& e : entries_) {
         if (e.condition) e.condition->declare(demand);

@@ -21,6 +21,8 @@ class RunMeasures final : public Observer {
     RunMeasures(std::span<const model::Measure> measures, const engine::Layout& layout,
                 Environment* environment, Diagnostics& diagnostics);
 
+    /// The measures as they were given.
+    std::vector<model::Measure> specs() const;
     void declare(engine::Demand& demand) const override;
     /// Warns of conditions on cells that hold before the first cycle, when all cells are 0: they are probably
     /// mistakes.

@@ -45,7 +45,8 @@ struct RunLength {
     std::optional<std::uint64_t> trials = {};  ///< length in trials of the first robot
     double trial_timeout = 300;                ///< the run stops when a trial takes longer, s of the world
     model::Expression until = {};              ///< a condition; none when empty
-    Location at = {};  ///< where the length is given; without a file, the command line
+    Location at = {};      ///< where the length is given; without a file, the command line or code
+    bool in_code = false;  ///< whether a program gives the length, which then has no options
 };
 
 /// The interval between checkpoints.

@@ -18,18 +18,20 @@ std::uint64_t cycles_in(double seconds, double seconds_per_cycle) {
 }
 
 void check_trials(const RunLength& length, const Run& run, Diagnostics& diagnostics) {
-    const bool in_file = length.at.file != nullptr;
-    const std::string trials = in_file ? "trials" : "--trials";
+    const bool in_file = length.at.file != nullptr, plain = in_file || length.in_code;
+    const std::string trials = plain ? "trials" : "--trials";
     const std::string otherwise =
-        in_file ? "give the length in cycles or seconds" : "give the length with --cycles or --seconds";
+        plain ? "give the length in cycles or seconds" : "give the length with --cycles or --seconds";
     const auto refuse = [&](const std::string& why, const std::string& hint) {
         diagnostics.error(length.at, why, hint);
     };
     const Environment* environment = run.environment();
     if (!environment) {
-        refuse(
-            trials + (in_file ? " need a world" : " needs a world"),
-            fmt::format("add {}, or {}", in_file ? "<world file=\"..\"/>" : "--world FILE.world", otherwise));
+        const char* add = in_file          ? "add <world file=\"..\"/>"
+                          : length.in_code ? "open the run with a world"
+                                           : "add --world FILE.world";
+        refuse(trials + (plain ? " need a world" : " needs a world"),
+               fmt::format("{}, or {}", add, otherwise));
     } else if (environment->robot_names().empty()) {
         refuse(trials + ": there is no robot in the world", otherwise);
     } else if (environment->start_poses().empty()) {
@@ -38,7 +40,9 @@ void check_trials(const RunLength& length, const Run& run, Diagnostics& diagnost
     } else if (environment->seconds_per_cycle() > 1) {
         refuse(fmt::format("{}: a cycle takes {:g} s of the world, longer than a reset", trials,
                            environment->seconds_per_cycle()),
-               in_file ? "choose a smaller pace of the world" : "choose a smaller --real-time-factor");
+               in_file          ? "choose a smaller pace of the world"
+               : length.in_code ? "choose a smaller real_time_factor"
+                                : "choose a smaller --real-time-factor");
     }
 }
 
@@ -55,8 +59,8 @@ StopCondition StopCondition::make(const RunLength& length, const Run& run, Diagn
     out.timeout_ = cycles_in(length.trial_timeout, run.seconds_per_cycle());
     if (!length.until.empty())
         out.until_ = observe::parse_condition(run.layout(), run.has_trials(), length.until.text,
-                                              length.until.at.file ? "until" : "--until", diagnostics,
-                                              length.until.at);
+                                              length.in_code || length.until.at.file ? "until" : "--until",
+                                              diagnostics, length.until.at);
     return out;
 }
 
@@ -76,8 +80,8 @@ bool StopCondition::holds(const Run& run) const {
 
 std::string StopCondition::timeout_reason(const Run& run) const {
     if (!length_.trials || run.environment()->current_trial(0).cycles < timeout_) return {};
-    return fmt::format("trial {} did not end within {:g} s (--trial-timeout)",
-                       run.environment()->trials(0).size() + 1, length_.trial_timeout);
+    return fmt::format("trial {} did not end within {:g} s ({})", run.environment()->trials(0).size() + 1,
+                       length_.trial_timeout, length_.in_code ? "trial_timeout" : "--trial-timeout");
 }
 
 double StopCondition::fraction_done(const Run& run, const Origin& origin) const {

@@ -168,12 +168,8 @@ class ExperimentReader {
         experiment_.manipulations.push_back(std::move(m));
     }
 
-    /// The attributes of measures, in the order of model::Measure::Kind, and that of synapses.
-    static constexpr std::array measured = {"success", "duration", "distance", "first",   "final", "trials",
-                                            "cycles",  "mean",     "minimum",  "maximum", "robot", "to"};
-
     void measure(const Element& e) {
-        const char* kind = one_of(e, std::span(measured).first(measured.size() - 1));
+        const char* kind = one_of(e, model::measure_kinds);
         if (kind) experiment_.measures.push_back(measure_of(e, kind, "name", experiment_.measures));
     }
 
@@ -184,8 +180,9 @@ class ExperimentReader {
         m.name = e[name].text(), m.at = e[name].where(), m.what = written(e[kind]), m.of = written(e["of"]);
         if (m.name.empty() && e[name])
             out_.error(m.at, "a measure needs a name", "names are columns of the table of results");
-        m.kind = static_cast<model::Measure::Kind>(std::find(measured.begin(), measured.end(), kind) -
-                                                   measured.begin());
+        m.kind = static_cast<model::Measure::Kind>(
+            std::find(model::measure_kinds.begin(), model::measure_kinds.end(), kind) -
+            model::measure_kinds.begin());
         if (e["of"] && m.kind != model::Measure::Kind::robot)
             out_.error(m.of.at, fmt::format("'{}' is not a measure of a robot", kind),
                        "leave out 'of', which names a robot");
@@ -194,29 +191,28 @@ class ExperimentReader {
                 out_.error(m.at,
                            fmt::format("there is a measure '{}' already, on line {}", m.name, other.at.line),
                            "names are columns of the table of results");
-        using Kind = model::Measure::Kind;
-        if (m.kind == Kind::success || m.kind == Kind::duration || m.kind == Kind::distance) {
-            const auto said = words(m.what.text);
-            const auto n = said.size() == 2 && said[0] == "last" ? parse_number<int>(said[1]) : std::nullopt;
-            if (n && *n > 0)
-                m.last = static_cast<std::uint64_t>(*n);
-            else if (m.what.text != "all")
-                out_.error(m.what.at, fmt::format("{} = '{}' does not name any trials", kind, m.what.text),
-                           "'all', or for example 'last 100'");
-        }
+        model::read_trials(m, out_);
         return m;
     }
+
+    /// The attributes of requirements: measures, and `to` for synapses.
+    static constexpr auto required = [] {
+        std::array<const char*, model::measure_kinds.size() + 1> out{};
+        std::ranges::copy(model::measure_kinds, out.begin());
+        out.back() = "to";
+        return out;
+    }();
 
     void exercise(const Element& e) {
         model::Exercise exercise{file(e["start"]), e["start"].where(), {}};
         std::vector<model::Measure> measures = experiment_.measures;
         for (const Element& child : e.children("require")) {
-            const char* kind = one_of(child, measured);
+            const char* kind = one_of(child, required);
             if (!kind) continue;
             model::Requirement r;
             r.what = child["what"].text(), r.advice = child.text(), r.kind = child["kind"].text();
             r.at_least = child["at-least"].number(), r.at_most = child["at-most"].number();
-            if (kind == measured.back()) {
+            if (kind == required.back()) {
                 r.to = written(child["to"]), r.from = written(child["from"]);
                 if (!r.at_least && !r.at_most) r.at_least = 1;
             } else {

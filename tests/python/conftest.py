@@ -8,13 +8,18 @@ import forage
 
 PROJECT = pathlib.Path(__file__).parents[2]
 SYSTEMS = PROJECT / "systems"
+SMALL = SYSTEMS / "cookbook/oscillator.iqr"  # without a world
 WORLD = SYSTEMS / "worlds/basic_arena.world"
+
+
+def open_dac(**options):
+    """The DAC system in its arena."""
+    return forage.open(SYSTEMS / "dac_foraging.iqr", world=WORLD, **options)
 
 
 @pytest.fixture
 def dac():
-    """The DAC system in its arena."""
-    with forage.open(SYSTEMS / "dac_foraging.iqr", world=WORLD) as run:
+    with open_dac() as run:
         yield run
 
 

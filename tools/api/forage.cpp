@@ -5,6 +5,7 @@
 #include "tools/api/experiment.h"
 #include "tools/api/prepare.h"
 #include "tools/api/results.h"
+#include "tools/api/saved_run.h"
 
 namespace forage {
 namespace {
@@ -43,17 +44,20 @@ Registry types(const std::vector<std::string>& plugins) {
 }
 
 Run open(const std::string& system, const OpenOptions& options, Diagnostics* warnings) {
-    RunInput input;
+    RunSpec spec;
+    RunInput& input = spec.input;
     input.system = system, input.world = options.world, input.seed = options.seed,
     input.plugins = options.plugins;
     input.lenient = options.lenient, input.noise = options.noise,
     input.real_time_factor = options.real_time_factor;
     for (const auto& setting : options.settings) input.settings.push_back({setting});
     Diagnostics diagnostics;
-    auto loaded = load(input, diagnostics);
+    const Sources sources = read_sources(input, diagnostics);
+    auto loaded = assemble(sources, input, diagnostics);
     throw_errors(diagnostics);
     Run out = make_run(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world),
                        options, diagnostics);
+    out.opened_as = origin_of(system, options, input_files(spec, sources));
     if (warnings) *warnings = std::move(diagnostics);
     return out;
 }

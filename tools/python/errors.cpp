@@ -1,5 +1,6 @@
 // Exceptions of the library as those of forage/_errors.py.
 #include "core/base/archive.h"
+#include "core/base/named_file.h"
 #include "core/run/checkpoint_file.h"
 #include "tools/python/python.h"
 
@@ -40,6 +41,10 @@ void add_errors(py::module_&) {
             if (thrown) std::rethrow_exception(thrown);
         } catch (const InputError& e) {
             raise(e);
+        } catch (const FileError& e) {
+            Diagnostics found;
+            report(e, found);
+            raise(InputError(std::move(found)));
         } catch (const CheckpointError& e) {
             raise(InputError(e.what()));
         } catch (const ArchiveError& e) {

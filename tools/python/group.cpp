@@ -1,4 +1,4 @@
-// Groups: their states as views.
+// Groups: their states as views, and what overwrites them.
 #include "tools/python/group.h"
 
 #include <algorithm>
@@ -6,28 +6,29 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include "tools/python/values.h"
+
 namespace forage::python {
 namespace {
 
-/// The shape of an array with one number per cell: rows and columns, or the cells of a sparse group.
-std::vector<py::ssize_t> array_shape(const GroupShape& s) {
-    if (s.cells != s.width * s.height) return {s.cells};
-    return {s.height, s.width};
-}
+using namespace py::literals;
+using observe::Manipulation;
+
+constexpr const char* input_names[] = {"excIn", "inhIn", "modIn"};
 
 void make_read_only(const py::array& array) { array.attr("flags").attr("writeable") = false; }
 
 /// An array that shows `column` and keeps its run in memory.
-py::array view(const ConstColumn& column, const GroupShape& shape, const std::shared_ptr<Run>& owner) {
+py::object view(const ConstColumn& column, const GroupShape& shape, const std::shared_ptr<Run>& owner) {
     const py::capsule keeper(new std::shared_ptr<Run>(owner),
                              [](void* p) { delete static_cast<std::shared_ptr<Run>*>(p); });
-    py::array_t<double> out(array_shape(shape), column.data(), keeper);
+    py::array_t<double> out(shape_of(shape), column.data(), keeper);
     make_read_only(out);
     return out;
 }
 
-py::array copy(const ConstColumn& column, const GroupShape& shape) {
-    py::array_t<double> out(array_shape(shape), column.data());
+py::object copy(const ConstColumn& column, const GroupShape& shape) {
+    py::array_t<double> out(shape_of(shape), column.data());
     make_read_only(out);
     return out;
 }
@@ -39,11 +40,102 @@ py::object state(const PythonGroup& group, int number) {
     wanted.read_group(group.number);
     run.require(wanted, fmt::format("'{}'", about.path));
     const auto& simulation = run.simulation();
-    if (!simulation.in_place(group.number, number))
-        return copy(simulation.state(group.number, number), about.shape);
-    return group.run->view_of(group.number, number, [&] {
-        return view(simulation.state(group.number, number), about.shape, group.run->owner());
-    });
+    const auto column = simulation.state(group.number, number);
+    if (!simulation.in_place(group.number, number)) return copy(column, about.shape);
+    return group.run->view_of(group.number, number,
+                              [&] { return view(column, about.shape, group.run->owner()); });
+}
+
+py::object input(const PythonGroup& group, InputKind kind) {
+    Run& run = group.run->use();
+    const auto& about = group.about();
+    engine::Demand wanted;
+    wanted.read_input(group.number);
+    run.require(wanted, fmt::format("the input of '{}'", about.path));
+    return copy(run.simulation().input(group.number, kind), about.shape);
+}
+
+/// The index of the state with this name; -1 when there is none.
+int state_number(const PythonGroup& group, std::string_view name) {
+    const auto& states = group.about().type.states;
+    const auto it = std::ranges::find(states, name, &StateInfo::name);
+    return it == states.end() ? -1 : static_cast<int>(it - states.begin());
+}
+
+py::object attribute(const PythonGroup& group, const std::string& name) {
+    if (const int number = state_number(group, name); number >= 0) return state(group, number);
+    for (int kind = 0; kind < input_kinds; ++kind)
+        if (name == input_names[kind]) return input(group, static_cast<InputKind>(kind));
+    throw py::attribute_error(fmt::format("'{}' has no state '{}'", group.about().path, name));
+}
+
+std::vector<std::string> state_names(const PythonGroup& group) {
+    std::vector<std::string> out;
+    for (const auto& s : group.about().type.states) out.push_back(s.name);
+    return out;
+}
+
+py::list directory(const py::object& self) {
+    py::list out = py::module_::import("builtins").attr("object").attr("__dir__")(self);
+    for (const auto& name : state_names(self.cast<const PythonGroup&>())) out.append(name);
+    for (const char* name : input_names) out.append(name);
+    return out;
+}
+
+/// One pattern per cycle: `values` is a number, an array of the group's shape, or a list of such arrays.
+std::vector<std::vector<double>> patterns_of(const py::object& values, const GroupShape& group,
+                                             const std::string& what) {
+    const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(values);
+    if (!array) throw py::error_already_set();
+    std::vector<std::vector<double>> out;
+    if (array.ndim() == static_cast<py::ssize_t>(shape_of(group).size()) + 1)
+        for (const auto& pattern : array)
+            out.push_back(numbers_of(py::reinterpret_borrow<py::object>(pattern), group, what));
+    else
+        out.push_back(numbers_of(array, group, what));
+    if (out.empty()) throw InputError(what + ": there is no pattern");
+    return out;
+}
+
+PythonManipulation manipulate(PythonGroup& self, Manipulation::Mode mode, const py::object& values,
+                              std::uint64_t every, std::optional<std::uint64_t> times) {
+    const auto& about = self.about();
+    if (every == 0) throw InputError("every is 0", "1 applies a pattern in every cycle");
+    if (times && *times == 0) throw InputError("times is 0", "leave it out to repeat the patterns endlessly");
+    auto made = std::make_unique<Manipulation>(
+        Manipulation::Settings{.group = self.number,
+                               .mode = mode,
+                               .patterns = patterns_of(values, about.shape, about.path),
+                               .every = every,
+                               .times = times});
+    return {self.run, &self.run->use().add(std::move(made))};
+}
+
+template <Manipulation::Mode mode>
+PythonManipulation manipulate(PythonGroup& self, const py::object& values, std::uint64_t every,
+                              std::optional<std::uint64_t> times) {
+    return manipulate(self, mode, values, every, times);
+}
+
+void set(PythonGroup& self, const py::object& values, const std::optional<std::string>& state) {
+    const auto& about = self.about();
+    const auto numbers = numbers_of(values, about.shape, about.path);
+    self.run->use().write(state ? fmt::format("{}:{}", about.path, *state) : about.path, numbers);
+}
+
+std::string repr(const PythonGroup& self) {
+    const auto& about = self.about();
+    return fmt::format("<forage.Group '{}', {} x {}, {}>", about.path, about.shape.width, about.shape.height,
+                       about.type.name);
+}
+
+std::string repr(const PythonManipulation& self) {
+    if (!self.manipulation || self.run->closed()) return "<forage.Manipulation, removed>";
+    static constexpr const char* modes[] = {"clamp", "add", "multiply"};
+    const auto& settings = self.manipulation->settings();
+    return fmt::format("<forage.Manipulation: {} '{}', {} pattern{}>", modes[static_cast<int>(settings.mode)],
+                       self.run->use().layout().groups[static_cast<std::size_t>(settings.group)].path,
+                       settings.patterns.size(), settings.patterns.size() == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -52,23 +144,47 @@ PythonGroup find_group(PythonRun& run, const std::string& path) {
     Diagnostics diagnostics;
     const auto column = observe::find_column(run.use().layout(), path, "run[...]", diagnostics);
     throw_errors(diagnostics);
+    if (column->connection >= 0)
+        throw InputError(fmt::format("'{}' names a connection, not a group", path),
+                         "read its synapses with run.read() or run.probe()");
     return {run.shared_from_this(), column->group};
 }
 
+void PythonManipulation::remove() {
+    if (manipulation && !run->closed()) run->use().remove(*manipulation);
+    manipulation = nullptr;
+}
+
+std::vector<PythonManipulation> manipulations(PythonRun& run) {
+    std::vector<PythonManipulation> out;
+    for (const auto& o : run.use().observers())
+        if (const auto* m = dynamic_cast<const Manipulation*>(o.get()))
+            out.push_back({run.shared_from_this(), m});
+    return out;
+}
+
 void add_groups(py::module_& module) {
-    py::class_<PythonGroup>(module, "Group", "A group of cells of a run: `run[\"Process/Group\"]`.")
+    using Mode = Manipulation::Mode;
+    py::class_<PythonManipulation>(module, "Manipulation")
+        .def("remove", &PythonManipulation::remove)
+        .def("__enter__", [](const py::object& self) { return self; })
+        .def("__exit__", [](PythonManipulation& self, const py::args&) { self.remove(); })
+        .def("__repr__", [](const PythonManipulation& self) { return repr(self); });
+    py::class_<PythonGroup>(module, "Group")
+        .def_property_readonly("act", [](const PythonGroup& g) { return state(g, g.about().type.output()); })
+        .def_property_readonly("path", [](const PythonGroup& g) { return g.about().path; })
+        .def_property_readonly("type", [](const PythonGroup& g) { return g.about().type.name; })
         .def_property_readonly(
-            "act", [](const PythonGroup& self) { return state(self, self.about().type.output()); })
-        .def_property_readonly("path", [](const PythonGroup& self) { return self.about().path; })
-        .def_property_readonly("type", [](const PythonGroup& self) { return self.about().type.name; })
-        .def_property_readonly(
-            "shape",
-            [](const PythonGroup& self) { return py::tuple(py::cast(array_shape(self.about().shape))); })
-        .def("__repr__", [](const PythonGroup& self) {
-            const auto& about = self.about();
-            return fmt::format("<forage.Group '{}', {} x {}, {}>", about.path, about.shape.width,
-                               about.shape.height, about.type.name);
-        });
+            "shape", [](const PythonGroup& g) { return py::tuple(py::cast(shape_of(g.about().shape))); })
+        .def_property_readonly("states",
+                               [](const PythonGroup& g) { return py::tuple(py::cast(state_names(g))); })
+        .def("clamp", &manipulate<Mode::clamp>, "values"_a, "every"_a = 1, "times"_a = py::none())
+        .def("add", &manipulate<Mode::add>, "values"_a, "every"_a = 1, "times"_a = py::none())
+        .def("multiply", &manipulate<Mode::multiply>, "values"_a, "every"_a = 1, "times"_a = py::none())
+        .def("set", &set, "values"_a, "state"_a = py::none())
+        .def("__getattr__", &attribute, "name"_a)
+        .def("__dir__", &directory)
+        .def("__repr__", [](const PythonGroup& self) { return repr(self); });
 }
 
 }  // namespace forage::python

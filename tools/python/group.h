@@ -3,7 +3,9 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "core/observe/manipulation.h"
 #include "tools/python/run.h"
 
 namespace forage::python {
@@ -20,5 +22,16 @@ struct PythonGroup {
 
 /// The group that `path` names. Throws InputError.
 PythonGroup find_group(PythonRun& run, const std::string& path);
+
+/// A manipulation of a run, until it is removed.
+struct PythonManipulation {
+    std::shared_ptr<PythonRun> run;
+    const observe::Manipulation* manipulation;  ///< an observer of the run; null when it is removed
+
+    void remove();
+};
+
+/// The manipulations of a run, in the order in which they act.
+std::vector<PythonManipulation> manipulations(PythonRun& run);
 
 }  // namespace forage::python

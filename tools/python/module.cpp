@@ -6,5 +6,7 @@ PYBIND11_MODULE(_forage, module) {
     module.attr("__version__") = FORAGE_VERSION;
     add_errors(module);
     add_groups(module);
+    add_parameters(module);
+    add_probes(module);
     add_runs(module);
 }

@@ -15,6 +15,8 @@ namespace py = pybind11;
 /// The classes of the package are part of the module `_forage`; each function adds those of one file.
 void add_errors(py::module_& module);
 void add_groups(py::module_& module);
+void add_parameters(py::module_& module);
+void add_probes(py::module_& module);
 void add_runs(py::module_& module);
 
 /// Issues one warning of Python, forage.InputWarning, per warning among the diagnostics.

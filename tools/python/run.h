@@ -6,36 +6,38 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "tools/python/python.h"
 
 namespace forage::python {
 
-/// A run, its callbacks, and the right to use it: one thread at a time steps a run, while other threads of
+/// A run, its callbacks, and the right to use it: one thread at a time runs cycles, while other threads of
 /// Python go on. All functions are called with the GIL.
 class PythonRun : public std::enable_shared_from_this<PythonRun> {
   public:
     explicit PythonRun(Run run);
 
-    /// The run, to read and to change. Throws RunError when it is closed, or used by another thread.
+    /// The run, to read and to change. Throws RunError when it is closed, or running in another thread.
     Run& use() const { return *owner(); }
     /// The same run, as an owner of the memory that a view shows.
     std::shared_ptr<Run> owner() const;
 
     void step();
-    /// Runs until `length` is reached. `progress` is called ten times per second with the fraction that is
-    /// done and a text; it may be None. Throws RunError when a trial takes too long.
+    /// Runs until `length` is reached, and returns whether its condition held. `progress` is called ten times
+    /// per second with the fraction that is done and a text; it may be None. Throws RunError when a trial
+    /// takes too long, and what a callback or a signal handler raises; the run can go on.
     bool advance(const RunLength& length, const py::object& progress);
     void on_cycle(py::object callback, std::uint64_t every);
+    /// Removes the callback. Returns whether there was one.
+    bool remove_callback(const py::object& callback);
     /// Forgets the run. Views of its numbers stay valid.
     void close();
     bool closed() const { return !run_; }
 
-    /// The object that is made by `make` at the first call with these arguments: the view of a state that
-    /// always stands at the same place.
+    /// The view of a state that always stands at the same place: what `make` returned at the first call.
     py::object view_of(int group, int state, const std::function<py::object()>& make);
 
     int traverse(visitproc visit, void* arg) const;  ///< for Python's search for cycles of references
@@ -43,13 +45,13 @@ class PythonRun : public std::enable_shared_from_this<PythonRun> {
 
   private:
     class Running;
-    void call_back();
-    void after_cycle(const std::function<void()>& report, bool signals);
-
     struct Callback {
         py::object function;
         std::uint64_t every;
     };
+    bool due() const;
+    void call_back();
+
     std::shared_ptr<Run> run_;
     std::vector<Callback> callbacks_;
     std::map<std::pair<int, int>, py::object> views_;

@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/model/build.h"
@@ -46,6 +47,11 @@ struct OpenOptions {
     /// Sources such as "Bug/Light" that will be read, and groups that will be overwritten as well. When
     /// either is given, the run computes nothing else but what observers and modules read.
     std::optional<std::vector<std::string>> observe = {}, overwrite = {};
+
+    void checkpoint(Archive& archive) {
+        archive(world, seed, settings, plugins, threads, lenient, noise, real_time_factor, compute_everything,
+                observe, overwrite);
+    }
 };
 
 /// Opens a system file (.iqr) with its world. The run is ready for step(). Throws InputError. Warnings about
@@ -56,6 +62,15 @@ Run open(const std::string& system, const OpenOptions& options = {}, Diagnostics
 /// effect.
 Run open(model::System system, Registry types, std::unique_ptr<Environment> environment = nullptr,
          const OpenOptions& options = {});
+
+/// Everything that a run needs to go on in this program or another: how open() was called, the digests of its
+/// files, its recordings in memory, manipulations and measures, and its state. Throws InputError for a run
+/// that was not opened from a file or has other observers, and engine::RunError for modules of a type that
+/// does not declare what it keeps.
+std::string save_state(Run& run);
+/// Opens the run again and continues from the state. Throws InputError when its files have changed or cannot
+/// be read, CheckpointError and ArchiveError when `state` is not one or does not fit.
+Run resume(std::string_view state);
 
 /// Runs what `spec` describes to its end, and writes recordings, pictures and tables into spec.directory, as
 /// `forage run` does. RunOutcome::problems says what failed during the run. Throws InputError for mistakes in

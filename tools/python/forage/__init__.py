@@ -3,11 +3,14 @@
     import forage
 
     with forage.open("systems/dac_foraging.iqr", world="systems/worlds/basic_arena.world", seed=1) as run:
+        light = run.probe("Bug/Light", every=10)
         run.run(trials=30)
-        print(run["Bug/Light"].act)
+    print(light.to_pandas())
 """
 
 from ._errors import Diagnostic, InputError, InputWarning, RunError
-from ._forage import Group, Run, __version__, open
+from ._forage import Group, Manipulation, Parameters, Probe, Run, __version__, open, resume
+from ._recording import Recording
 
-__all__ = ["Diagnostic", "Group", "InputError", "InputWarning", "Run", "RunError", "open"]
+__all__ = ["Diagnostic", "Group", "InputError", "InputWarning", "Manipulation", "Parameters", "Probe", "Recording", "Run", "RunError",
+           "open", "resume"]

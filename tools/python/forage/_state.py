@@ -1,0 +1,7 @@
+"""What pickles refer to."""
+from . import _forage
+
+
+def resumed(state):
+    """The run that was pickled."""
+    return _forage.resume(state)

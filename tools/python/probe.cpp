@@ -1,0 +1,96 @@
+#include "tools/python/probe.h"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include "tools/python/values.h"
+
+namespace forage::python {
+namespace {
+
+using namespace py::literals;
+
+py::array cycles_array(std::vector<std::uint64_t> cycles) {
+    return py::array_t<std::uint64_t>(static_cast<py::ssize_t>(cycles.size()), cycles.data());
+}
+
+py::array rows_array(std::vector<double> numbers, std::size_t rows, const observe::Recorded& what) {
+    auto shape = shape_of(what);
+    shape.insert(shape.begin(), static_cast<py::ssize_t>(rows));
+    return array_of(std::move(numbers), shape);
+}
+
+/// A forage.Recording of these rows.
+py::object recording(const PythonProbe& self, MemoryRecorder::Taken taken) {
+    const auto& what = self.use().what();
+    std::vector<std::string> columns;
+    for (std::size_t i = 0; i < what.size(); ++i) columns.push_back(what.cell_name(i));
+    const auto rows = taken.cycles.size();
+    return py::module_::import("forage._recording")
+        .attr("Recording")("source"_a = what.name, "label"_a = what.label,
+                           "cycles"_a = cycles_array(std::move(taken.cycles)),
+                           "data"_a = rows_array(std::move(taken.numbers), rows, what), "columns"_a = columns,
+                           "first"_a = py::make_tuple(what.cells.x, what.cells.y),
+                           "every"_a = self.use().every(),
+                           "seconds_per_cycle"_a = self.owner->seconds_per_cycle());
+}
+
+py::object copied(const PythonProbe& self) {
+    const auto rows = self.use().rows();
+    return recording(self, {self.use().cycles(), {rows.data(), rows.data() + rows.size()}});
+}
+
+/// A method of Recording, called with what the probe holds.
+auto exported(const char* method) {
+    return [method](const PythonProbe& self) { return copied(self).attr(method)(); };
+}
+
+std::string repr(const PythonProbe& self) {
+    if (!self.recorder) return "<forage.Probe, removed>";
+    return fmt::format("<forage.Probe of '{}', every {}, {} rows>", self.use().what().name,
+                       self.use().every(), self.use().cycles().size());
+}
+
+}  // namespace
+
+MemoryRecorder& PythonProbe::use() const {
+    if (!run->closed()) run->use();
+    if (!recorder) throw engine::RunError("this probe is removed");
+    return *recorder;
+}
+
+void PythonProbe::remove() {
+    if (!run->closed()) run->use();
+    if (recorder) owner->remove(*recorder);
+    recorder = nullptr;
+}
+
+PythonProbe probe(PythonRun& run, const std::string& source, std::uint64_t every) {
+    if (every == 0) throw InputError("every is 0", "1 records every cycle");
+    return {run.shared_from_this(), run.owner(), &run.use().record(source, every)};
+}
+
+std::vector<PythonProbe> probes(PythonRun& run) {
+    std::vector<PythonProbe> out;
+    for (const auto& o : run.use().observers())
+        if (auto* recorder = dynamic_cast<MemoryRecorder*>(o.get()))
+            out.push_back({run.shared_from_this(), run.owner(), recorder});
+    return out;
+}
+
+void add_probes(py::module_& module) {
+    py::class_<PythonProbe>(module, "Probe")
+        .def_property_readonly("source", [](const PythonProbe& p) { return p.use().what().name; })
+        .def_property_readonly("every", [](const PythonProbe& p) { return p.use().every(); })
+        .def_property_readonly("cycles", [](const PythonProbe& p) { return cycles_array(p.use().cycles()); })
+        .def_property_readonly("data", [](const PythonProbe& p) -> py::object { return copied(p).attr("data"); })
+        .def("take", [](const PythonProbe& p) { return recording(p, p.use().take()); })
+        .def("to_xarray", exported("to_xarray"))
+        .def("to_pandas", exported("to_pandas"))
+        .def("to_neo", exported("to_neo"))
+        .def("remove", &PythonProbe::remove)
+        .def("__len__", [](const PythonProbe& p) { return p.use().cycles().size(); })
+        .def("__repr__", [](const PythonProbe& p) { return repr(p); });
+}
+
+}  // namespace forage::python

@@ -1,0 +1,136 @@
+#include "tools/python/tables.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include "tools/python/values.h"
+
+namespace forage::python {
+namespace {
+
+using namespace py::literals;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+py::object or_nan(const std::optional<double>& value) { return py::float_(value.value_or(nan)); }
+
+/// A structured array of rows, which are tuples; `fields` are pairs of a name and a type.
+py::array structured(const py::object& rows, const py::list& fields) {
+    return py::module_::import("numpy").attr("array")(rows, "dtype"_a = fields);
+}
+
+/// The fields of a trial and their types in NumPy; U: a text.
+constexpr std::pair<const char*, const char*> trial_fields[] = {
+    {"trial", "i8"},         {"start_x", "f8"},         {"start_y", "f8"},
+    {"start_yaw", "f8"},     {"cycles", "i8"},          {"smallest_distance", "f8"},
+    {"reached_target", "?"}, {"first_cycle", "i8"},     {"end_x", "f8"},
+    {"end_y", "f8"},         {"end_yaw", "f8"},         {"start", "i8"},
+    {"patches", "U"},        {"recent_success", "f8"},  {"discrepancy", "f8"},
+    {"cue_peak", "f8"},      {"distractor_peak", "f8"}, {"sequences", "i8"},
+    {"segments", "i8"}};
+
+/// Its values; -1 and NaN where there are none.
+py::tuple row_of(const MeasuredTrials& all, std::size_t i) {
+    const auto& t = all.finished[i];
+    const auto& m = t.measures;
+    const auto peaks = m.peaks();
+    const auto filled = [&](auto part) { return m.memory ? static_cast<long>(m.memory.value().*part) : -1; };
+    return py::make_tuple(t.number, t.start.x, t.start.y, t.start.yaw, t.cycles, t.smallest_distance,
+                          t.reached_target, t.first_cycle, t.end.x, t.end.y, t.end.yaw, m.start, t.route,
+                          all.recent_success(i + 1), or_nan(m.discrepancy), peaks ? peaks->cue : nan,
+                          peaks ? peaks->distractor : nan, filled(&MemoryFill::sequences),
+                          filled(&MemoryFill::segments));
+}
+
+/// The names of all parameters.
+py::list names_of(const Parameters& self) {
+    const Run& run = self.run->use();
+    return py::cast(model::parameter_names(run.system(), run.registry()));
+}
+
+void set_parameter(const Parameters& self, const std::string& name, const py::object& value) {
+    Diagnostics warnings;
+    self.run->use().set(fmt::format("{}={}", name, text_of(value)), &warnings);
+    warn(warnings);
+}
+
+}  // namespace
+
+py::array trials(PythonRun& run, std::size_t robot) {
+    const MeasuredTrials all = run.use().trials(robot);
+    std::size_t longest = 1;
+    for (const auto& t : all.finished) longest = std::max(longest, t.route.size());
+    py::list fields, rows;
+    for (const auto& [name, type] : trial_fields)
+        fields.append(py::make_tuple(name, *type == 'U' ? fmt::format("U{}", longest) : type));
+    for (std::size_t i = 0; i < all.finished.size(); ++i) rows.append(row_of(all, i));
+    return structured(rows, fields);
+}
+
+void add_measure(PythonRun& run, const std::string& name, const py::kwargs& kind) {
+    Run& r = run.use();
+    Diagnostics diagnostics;
+    model::Measure m;
+    m.name = name;
+    int kinds = 0;
+    for (const auto& [key, value] : kind) {
+        const auto text = key.cast<std::string>();
+        if (text == "of") {
+            m.of = {value.cast<std::string>()};
+            continue;
+        }
+        const auto* const at = std::ranges::find(model::measure_kinds, std::string_view(text));
+        if (at == model::measure_kinds.end())
+            diagnostics.error({}, fmt::format("measure '{}': '{}' is not a kind of measure", name, text),
+                              suggest(text, std::vector<std::string>(model::measure_kinds.begin(),
+                                                                     model::measure_kinds.end())));
+        m.kind = static_cast<model::Measure::Kind>(at - model::measure_kinds.begin());
+        m.what = {value.cast<std::string>()}, ++kinds;
+    }
+    if (kinds != 1 && !diagnostics.failed())
+        diagnostics.error({}, fmt::format("measure '{}': name one kind of measure, not {}", name, kinds),
+                          "for example run.measure('first light', first='max(Bug/Light) > 0.5')");
+    for (const auto& o : r.observers())
+        if (const auto* others = dynamic_cast<const RunMeasures*>(o.get()))
+            for (const auto& other : others->specs())
+                if (other.name == name)
+                    diagnostics.error({}, fmt::format("there is a measure '{}' already", name));
+    throw_errors(diagnostics);
+    model::read_trials(m, diagnostics);
+    auto measures = std::make_unique<RunMeasures>(std::span(&m, 1), r.layout(), r.environment(), diagnostics);
+    throw_errors(diagnostics);
+    measures->check(r.simulation(), diagnostics);
+    r.add(std::move(measures));
+    warn(diagnostics);
+}
+
+py::array measures(PythonRun& run) {
+    Run& r = run.use();
+    py::list fields, row;
+    for (const auto& o : r.observers())
+        if (auto* measures = dynamic_cast<RunMeasures*>(o.get())) {
+            for (const auto& m : measures->specs()) fields.append(py::make_tuple(m.name, "f8"));
+            for (const auto& value : r.measure(*measures)) row.append(or_nan(value));
+        }
+    return structured(py::tuple(row), fields);
+}
+
+void add_parameters(py::module_& module) {
+    py::class_<Parameters>(module, "Parameters")
+        .def("__getitem__", [](const Parameters& self,
+                               const std::string& name) { return value_of(self.run->use().parameter(name)); })
+        .def("__setitem__", &set_parameter)
+        .def("__contains__",
+             [](const Parameters& self, const py::object& name) { return names_of(self).contains(name); })
+        .def("__iter__", [](const Parameters& self) { return py::iter(names_of(self)); })
+        .def("__len__", [](const Parameters& self) { return py::len(names_of(self)); })
+        .def("keys", &names_of)
+        .def("__repr__", [](const Parameters& self) {
+            return fmt::format("<forage.Parameters, {}>", py::len(names_of(self)));
+        });
+}
+
+}  // namespace forage::python

@@ -1,0 +1,24 @@
+// Trials, measures and parameters of a run as Python sees them.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "tools/python/run.h"
+
+namespace forage::python {
+
+/// The parameters of a run, by name.
+struct Parameters {
+    std::shared_ptr<PythonRun> run;
+};
+
+/// The finished trials of a robot: a structured array with the columns of trials.csv.
+py::array trials(PythonRun& run, std::size_t robot);
+
+/// Takes a measure from now on, as an experiment does: `kind` is one keyword such as success="all".
+void add_measure(PythonRun& run, const std::string& name, const py::kwargs& kind);
+/// The present values of all measures: a structured array of one row, NaN where there is nothing to measure.
+py::array measures(PythonRun& run);
+
+}  // namespace forage::python

@@ -1,0 +1,70 @@
+#include "tools/python/values.h"
+
+#include <algorithm>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace forage::python {
+namespace {
+
+std::string shape_text(const std::vector<py::ssize_t>& shape) {
+    return shape.size() == 1 ? fmt::format("({},)", shape[0]) : fmt::format("({})", fmt::join(shape, ", "));
+}
+
+}  // namespace
+
+std::string text_of(const py::handle& value) {
+    if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
+    return py::str(value);
+}
+
+py::object value_of(const ParameterValue& value) {
+    return std::visit([](const auto& v) -> py::object { return py::cast(v); }, value);
+}
+
+std::vector<std::string> assignments(const py::object& settings) {
+    std::vector<std::string> out;
+    if (py::isinstance<py::dict>(settings))
+        for (const auto& [name, value] : settings.cast<py::dict>())
+            out.push_back(fmt::format("{}={}", name.cast<std::string>(), text_of(value)));
+    else if (!settings.is_none())
+        for (const auto& text : settings) out.push_back(text.cast<std::string>());
+    return out;
+}
+
+std::vector<py::ssize_t> shape_of(const GroupShape& g) {
+    if (g.cells != g.width * g.height) return {g.cells};
+    return {g.height, g.width};
+}
+
+std::vector<py::ssize_t> shape_of(const observe::Recorded& what) {
+    if (what.mean) return {};
+    if (what.numbered) return {static_cast<py::ssize_t>(what.size())};
+    return {what.cells.height, what.cells.width};
+}
+
+py::array array_of(std::vector<double> values, const std::vector<py::ssize_t>& shape) {
+    auto kept = std::make_unique<std::vector<double>>(std::move(values));
+    const double* data = kept->data();
+    const py::capsule keeper(kept.get(), [](void* p) { delete static_cast<std::vector<double>*>(p); });
+    kept.release();
+    return py::array_t<double>(shape, data, keeper);
+}
+
+std::vector<double> numbers_of(const py::object& values, const GroupShape& group, const std::string& what) {
+    const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(values);
+    if (!array) throw py::error_already_set();
+    const auto cells = static_cast<std::size_t>(group.cells);
+    if (array.ndim() == 0) return std::vector<double>(cells, *array.data());
+    const std::vector<py::ssize_t> given(array.shape(), array.shape() + array.ndim()),
+        wanted = shape_of(group);
+    if (given != wanted)
+        throw InputError(fmt::format("{}: the values have the shape {}, not {}", what, shape_text(given),
+                                     shape_text(wanted)),
+                         "give one number for all cells, or an array of that shape");
+    return {array.data(), array.data() + cells};
+}
+
+}  // namespace forage::python
