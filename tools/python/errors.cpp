@@ -31,14 +31,14 @@ void raise(const char* type, const std::exception& e) { PyErr_SetString(python_c
 void warn(const Diagnostics& diagnostics) {
     for (const auto& d : diagnostics.all())
         if (d.severity == Severity::warning &&
-            PyErr_WarnEx(python_class("InputWarning").ptr(), format(d).c_str(), 2) != 0)
+            PyErr_WarnEx(python_class("InputWarning").ptr(), format(d).c_str(), 1) != 0)
             throw py::error_already_set();
 }
 
 void add_errors(py::module_&) {
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
-            if (thrown) std::rethrow_exception(thrown);
+            if (thrown) std::rethrow_exception(std::move(thrown));
         } catch (const InputError& e) {
             raise(e);
         } catch (const FileError& e) {

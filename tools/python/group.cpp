@@ -165,23 +165,58 @@ std::vector<PythonManipulation> manipulations(PythonRun& run) {
 
 void add_groups(py::module_& module) {
     using Mode = Manipulation::Mode;
-    py::class_<PythonManipulation>(module, "Manipulation")
-        .def("remove", &PythonManipulation::remove)
+    py::class_<PythonManipulation>(module, "Manipulation",
+                                   R"(Overwrites the activity of a group in every cycle until it is removed.
+
+Group.clamp(), add() and multiply() make one. As a context manager it removes itself.)")
+        .def("remove", &PythonManipulation::remove, "Ends the manipulation. Does nothing when it has ended.")
         .def("__enter__", [](const py::object& self) { return self; })
         .def("__exit__", [](PythonManipulation& self, const py::args&) { self.remove(); })
         .def("__repr__", [](const PythonManipulation& self) { return repr(self); });
-    py::class_<PythonGroup>(module, "Group")
-        .def_property_readonly("act", [](const PythonGroup& g) { return state(g, g.about().type.output()); })
-        .def_property_readonly("path", [](const PythonGroup& g) { return g.about().path; })
-        .def_property_readonly("type", [](const PythonGroup& g) { return g.about().type.name; })
+    py::class_<PythonGroup>(module, "Group", R"(A group of cells of a run: run["Process/Group"].
+
+Each state and each input (excIn, inhIn, modIn) of its neurons is an attribute: an array of numbers without a unit, of shape (rows, columns), or
+(cells,) of a sparse group. Cell (x, y) of a file, which counts from 1, is [y - 1, x - 1].
+
+The array of a state is read-only, copies nothing, and is live: it shows the numbers of the last cycle, also after further cycles, and those of the
+cycle that is being computed while the run runs. It keeps its run in memory, and shows its last numbers when the run is closed. Inputs, and states of
+types that keep several cycles (history), are copies of the last cycle's numbers. `numpy.array(group.act)` is a copy, too.
+
+A state that is not observed raises InputError (forage.open, observe).)")
         .def_property_readonly(
-            "shape", [](const PythonGroup& g) { return py::tuple(py::cast(shape_of(g.about().shape))); })
-        .def_property_readonly("states",
-                               [](const PythonGroup& g) { return py::tuple(py::cast(state_names(g))); })
-        .def("clamp", &manipulate<Mode::clamp>, "values"_a, "every"_a = 1, "times"_a = py::none())
-        .def("add", &manipulate<Mode::add>, "values"_a, "every"_a = 1, "times"_a = py::none())
-        .def("multiply", &manipulate<Mode::multiply>, "values"_a, "every"_a = 1, "times"_a = py::none())
-        .def("set", &set, "values"_a, "state"_a = py::none())
+            "act", [](const PythonGroup& g) { return state(g, g.about().type.output()); },
+            "The activity: the state that connections read. See the class.")
+        .def_property_readonly(
+            "path", [](const PythonGroup& g) { return g.about().path; }, R"(The name, "Process/Group".)")
+        .def_property_readonly(
+            "type", [](const PythonGroup& g) { return g.about().type.name; }, "The name of the neuron type.")
+        .def_property_readonly(
+            "shape", [](const PythonGroup& g) { return py::tuple(py::cast(shape_of(g.about().shape))); },
+            "(rows, columns), or (cells,) of a sparse group.")
+        .def_property_readonly(
+            "states", [](const PythonGroup& g) { return py::tuple(py::cast(state_names(g))); },
+            "The names of the states of its neurons.")
+        .def(
+            "clamp", &manipulate<Mode::clamp>, "values"_a, "every"_a = 1, "times"_a = py::none(),
+            R"(Overwrites the activity right after each update of the group, from the next cycle on, until the result is removed.
+
+values: a number for all cells, an array of the group's shape, or an array with several of these patterns, which are played one after the other.
+every: the number of cycles from one pattern to the next; the activity is left alone in between.
+times: how often the patterns are played; None for endlessly.
+
+Returns a Manipulation. Raises InputError for another shape, and for a group that the run was not opened to overwrite.)")
+        .def("add", &manipulate<Mode::add>, "values"_a, "every"_a = 1, "times"_a = py::none(),
+             "Adds to the activity, otherwise like clamp().")
+        .def("multiply", &manipulate<Mode::multiply>, "values"_a, "every"_a = 1, "times"_a = py::none(),
+             "Multiplies the activity, cell by cell, otherwise like clamp().")
+        .def(
+            "set", &set, "values"_a, "state"_a = py::none(),
+            R"(Overwrites a state once, between two cycles. The next cycle reads the values as those of the last one.
+
+values: a number for all cells, or an array of the group's shape.
+state: the name of a state; the activity without it.
+
+Raises InputError for another shape, for an input, and for a group that the run was not opened to overwrite.)")
         .def("__getattr__", &attribute, "name"_a)
         .def("__dir__", &directory)
         .def("__repr__", [](const PythonGroup& self) { return repr(self); });

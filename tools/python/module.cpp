@@ -3,6 +3,9 @@
 
 PYBIND11_MODULE(_forage, module) {
     using namespace forage::python;
+    // The signatures are in forage/_forage.pyi, in the words of Python.
+    pybind11::options options;
+    options.disable_function_signatures();
     module.attr("__version__") = FORAGE_VERSION;
     add_errors(module);
     add_groups(module);

@@ -177,35 +177,98 @@ void add_runs(py::module_& module) {
     const auto none = py::none();
     py::class_<PythonRun, std::shared_ptr<PythonRun>> run(module, "Run",
                                                           py::custom_type_setup(visit_callbacks));
-    run.def("step", &PythonRun::step)
-        .def("run", &run_for, py::kw_only(), "cycles"_a = none, "seconds"_a = none, "trials"_a = none,
-             "progress"_a = none, "trial_timeout"_a = 300.0)
-        .def("run_until", &run_until, "condition"_a, py::kw_only(), "cycles"_a = none, "seconds"_a = none,
-             "trials"_a = none, "progress"_a = none, "trial_timeout"_a = 300.0)
-        .def("on_cycle", &on_cycle, "callback"_a = none, "every"_a = 1)
-        .def("remove", &remove, "what"_a)
-        .def("close", &PythonRun::close)
-        .def_property_readonly("closed", &PythonRun::closed);
-    run.def_property_readonly("cycle", [](const PythonRun& self) { return self.use().cycle(); })
-        .def_property_readonly("seconds", [](const PythonRun& self) { return self.use().seconds(); })
-        .def_property_readonly("seconds_per_cycle",
-                               [](const PythonRun& self) { return self.use().seconds_per_cycle(); })
-        .def_property_readonly("trial", [](const PythonRun& self) { return self.use().time().trial; })
-        .def_property_readonly("seed", [](const PythonRun& self) { return self.use().seed(); })
-        .def_property_readonly("divergence", [](const PythonRun& self) { return self.use().divergence(); })
-        .def_property_readonly("groups",
-                               [](const PythonRun& self) { return py::tuple(py::cast(group_paths(self))); })
-        .def_property_readonly("params", [](PythonRun& self) { return Parameters{self.shared_from_this()}; })
-        .def_property_readonly("probes", &probes)
-        .def_property_readonly("manipulations", &manipulations)
-        .def_property_readonly("trials", [](PythonRun& self) { return trials(self, 0); })
-        .def("trials_of", &trials, "robot"_a)
-        .def_property_readonly("measures", &measures)
-        .def("measure", &add_measure, "name"_a)
-        .def("probe", &probe, "source"_a, "every"_a = 1)
-        .def("read", &read, "source"_a)
-        .def("digest", [](PythonRun& self) { return self.use().digest(); })
-        .def("save_state", &save, "file"_a = none)
+    run.doc() = R"(A system in its world, run cycle by cycle. forage.open() makes one.
+
+It may be read and changed between any two cycles. One thread at a time uses a run; several runs in several threads of Python use several cores, as
+Python goes on while a run runs. As a context manager it closes itself. copy.copy() and pickle make runs in the same state, without callbacks.)";
+    run.def("step", &PythonRun::step,
+            "Runs one cycle. Raises RunError when a type or a module fails; such a run cannot go on.")
+        .def(
+            "run", &run_for, py::kw_only(), "cycles"_a = none, "seconds"_a = none, "trials"_a = none,
+            "progress"_a = none, "trial_timeout"_a = 300.0,
+            R"(Runs for a number of cycles, seconds of the world or trials of the first robot, from now on; for 60 seconds without any of them.
+
+progress: True for a bar on the standard error, or a function that is called ten times per second with the fraction that is done, 0 to 1, and a text.
+trial_timeout: seconds of the world. A trial that takes longer raises RunError.
+
+Ctrl-C raises KeyboardInterrupt between two cycles. After it, and after what a callback raises, the run can go on.)")
+        .def(
+            "run_until", &run_until, "condition"_a, py::kw_only(), "cycles"_a = none, "seconds"_a = none,
+            "trials"_a = none, "progress"_a = none, "trial_timeout"_a = 300.0,
+            R"(Runs until a condition such as "trial 30 || mean(Adaptive/discrepancy) < 0.1" holds, or a length is reached as in run().
+
+Returns whether the condition holds. Without a length, the run ends with the condition only. Raises InputError for mistakes in the condition.)")
+        .def(
+            "on_cycle", &on_cycle, "callback"_a = none, "every"_a = 1,
+            R"(Calls callback(run) between two cycles, whenever the number of completed cycles is a multiple of `every`.
+
+It may read and change the run, but not run or close it. What it raises ends run() or step() and is raised there. Returns the callback; without a
+callback, it is a decorator: @run.on_cycle(every=100).)")
+        .def("remove", &remove, "what"_a,
+             "Removes a callback, a probe or a manipulation. Raises ValueError for a callback that was not "
+             "added.")
+        .def("close", &PythonRun::close,
+             "Frees the run, apart from what views and probes show. Other uses then raise RunError.")
+        .def_property_readonly("closed", &PythonRun::closed, "Whether the run is closed.");
+    run.def_property_readonly(
+           "cycle", [](const PythonRun& self) { return self.use().cycle(); },
+           "The number of completed cycles, which is also the number of the next one.")
+        .def_property_readonly(
+            "seconds", [](const PythonRun& self) { return self.use().seconds(); },
+            "The time since the start, in seconds of the world.")
+        .def_property_readonly(
+            "seconds_per_cycle", [](const PythonRun& self) { return self.use().seconds_per_cycle(); },
+            "The length of a cycle, in seconds of the world.")
+        .def_property_readonly(
+            "trial", [](const PythonRun& self) { return self.use().time().trial; },
+            "The running trial, from 1; 0 in a run without trials.")
+        .def_property_readonly(
+            "seed", [](const PythonRun& self) { return self.use().seed(); },
+            "The number that decides everything random.")
+        .def_property_readonly(
+            "divergence", [](const PythonRun& self) { return self.use().divergence(); },
+            "The first number that was NaN or infinite, in words; empty while all numbers are finite.")
+        .def_property_readonly(
+            "groups", [](const PythonRun& self) { return py::tuple(py::cast(group_paths(self))); },
+            R"(The names of all groups, "Process/Group".)")
+        .def_property_readonly(
+            "params", [](PythonRun& self) { return Parameters{self.shared_from_this()}; },
+            "The parameters, by name, to read and to set.")
+        .def_property_readonly("probes", &probes, "The probes, in the order in which they were added.")
+        .def_property_readonly("manipulations", &manipulations,
+                               "The manipulations, in the order in which they act.")
+        .def_property_readonly(
+            "trials", [](PythonRun& self) { return trials(self, 0); },
+            R"(The finished trials of the first robot: a structured array with the columns of trials.csv (docs/reference/results.md).
+
+Positions are in m, angles in rad, counter-clockwise from the x axis. `reached_target` stands for the outcome; NaN and -1 for what does not apply.)")
+        .def("trials_of", &trials, "robot"_a, "The same of the robot with this number, from 0.")
+        .def_property_readonly("measures", &measures,
+                               "The present values of the measures: a structured array of shape () with a "
+                               "field per measure, NaN where there is nothing to measure.")
+        .def(
+            "measure", &add_measure, "name"_a,
+            R"(Takes a measure from the next cycle on, as an experiment file does: run.measure("first light", first="max(Bug/Light) > 0.5").
+
+The keyword is one of success, duration, distance ("all" or "last 100"), first, trials, cycles (a condition), final, mean, minimum, maximum (a
+quantity) and robot ("path length" and others, with of="NAME" of a robot that is not the first one); docs/reference/experiment.md explains them.)")
+        .def(
+            "probe", &probe, "source"_a, "every"_a = 1,
+            R"_(Records a source in memory, from the next cycle on, in each cycle whose number is a multiple of `every`. Returns a Probe.
+
+source: "Process/Group", "Process/Group:state", some cells of it "Process/Group(2..4,1)", "mean(Process/Group)", or "Connection:weight".)_")
+        .def("read", &read, "source"_a,
+             R"(The numbers of any source in the last cycle, see probe(). It is a copy.)")
+        .def(
+            "digest", [](PythonRun& self) { return self.use().digest(); },
+            "A short text that is equal for equal states of system and world: the state that `forage run "
+            "--hash` prints.")
+        .def(
+            "save_state", &save, "file"_a = none,
+            R"(Everything that the run needs to go on, in this program or another, with its probes, manipulations and measures. forage.resume() reads it.
+
+file: a path, or a file that is open to write bytes. Without it, the bytes are returned.
+Raises InputError for a run that was not opened from a file, and OSError when the file cannot be written.)")
         .def("__reduce__", &reduce);
     run.def("__getitem__", [](PythonRun& self, const std::string& path) { return find_group(self, path); })
         .def("__contains__", &has_group)
@@ -214,8 +277,28 @@ void add_runs(py::module_& module) {
         .def("__repr__", [](const PythonRun& self) { return repr(self); });
     module.def("open", &open_run, "system"_a, py::kw_only(), "world"_a = none, "seed"_a = 1,
                "settings"_a = none, "plugins"_a = std::vector<Path>(), "threads"_a = 1, "lenient"_a = false,
-               "noise"_a = true, "real_time_factor"_a = none, "observe"_a = none, "overwrite"_a = none);
-    module.def("resume", &resume_run, "state"_a);
+               "noise"_a = true, "real_time_factor"_a = none, "observe"_a = none, "overwrite"_a = none,
+               R"(Opens a system file (.iqr), ready for its first cycle.
+
+system: the path of the file.
+world: the path of a world file (.world) in which its robots live; none without it.
+seed: decides everything random.
+settings: parameters by name, {"Process/Group.threshold": 0.5}, or texts as for `forage run --set`.
+plugins: shared objects with types, and folders of them, in addition to FORAGE_PLUGIN_PATH and the folder "plugins" beside the system.
+threads: the largest number of threads that share a cycle; the numbers do not depend on it.
+lenient: whether mistakes that the original accepts are warnings, not errors.
+noise: whether motors and sensors are noisy.
+real_time_factor: seconds of the world per second of the clock; the world's own rate without it.
+observe: sources that will be read, such as "Bug/Light". With it, or with `overwrite`, the run computes nothing else but what these and modules need,
+    which is faster and gives the same numbers; reading something else raises InputError.
+overwrite: groups that will be overwritten, which may also be read.
+
+Raises InputError with all mistakes, and issues InputWarning.)");
+    module.def(
+        "resume", &resume_run, "state"_a,
+        R"(Continues a run from what Run.save_state() returned or wrote: bytes, a path, or a file that is open to read bytes.
+
+Raises InputError when the state is damaged, or the files of the system or the world have changed.)");
 }
 
 }  // namespace forage::python

@@ -79,16 +79,29 @@ std::vector<PythonProbe> probes(PythonRun& run) {
 }
 
 void add_probes(py::module_& module) {
-    py::class_<PythonProbe>(module, "Probe")
-        .def_property_readonly("source", [](const PythonProbe& p) { return p.use().what().name; })
-        .def_property_readonly("every", [](const PythonProbe& p) { return p.use().every(); })
-        .def_property_readonly("cycles", [](const PythonProbe& p) { return cycles_array(p.use().cycles()); })
-        .def_property_readonly("data", [](const PythonProbe& p) -> py::object { return copied(p).attr("data"); })
-        .def("take", [](const PythonProbe& p) { return recording(p, p.use().take()); })
-        .def("to_xarray", exported("to_xarray"))
-        .def("to_pandas", exported("to_pandas"))
-        .def("to_neo", exported("to_neo"))
-        .def("remove", &PythonProbe::remove)
+    py::class_<PythonProbe>(module, "Probe", R"(A recording in memory: run.probe("Process/Group").
+
+It can be read while the run lasts and after it is closed.)")
+        .def_property_readonly(
+            "source", [](const PythonProbe& p) { return p.use().what().name; },
+            R"(What is recorded, such as "Bug/Light:act".)")
+        .def_property_readonly(
+            "every", [](const PythonProbe& p) { return p.use().every(); },
+            "The number of cycles from one row to the next.")
+        .def_property_readonly(
+            "cycles", [](const PythonProbe& p) { return cycles_array(p.use().cycles()); },
+            "The numbers of the recorded cycles: an array of shape (rows,).")
+        .def_property_readonly(
+            "data", [](const PythonProbe& p) -> py::object { return copied(p).attr("data"); },
+            R"(A copy of the recorded numbers: an array of shape (rows of the recording, rows, columns), (rows, cells) of a sparse
+group, (rows,) of a mean, and (rows, targets, sources) of synapses.)")
+        .def(
+            "take", [](const PythonProbe& p) { return recording(p, p.use().take()); },
+            "Hands over what was recorded, as a Recording, and forgets it. It copies no numbers.")
+        .def("to_xarray", exported("to_xarray"), "What is recorded as a xarray.DataArray, see Recording.")
+        .def("to_pandas", exported("to_pandas"), "What is recorded as a pandas.DataFrame, see Recording.")
+        .def("to_neo", exported("to_neo"), "What is recorded as a neo.AnalogSignal, see Recording.")
+        .def("remove", &PythonProbe::remove, "Ends the recording, and forgets it.")
         .def("__len__", [](const PythonProbe& p) { return p.use().cycles().size(); })
         .def("__repr__", [](const PythonProbe& p) { return repr(p); });
 }

@@ -119,7 +119,12 @@ py::array measures(PythonRun& run) {
 }
 
 void add_parameters(py::module_& module) {
-    py::class_<Parameters>(module, "Parameters")
+    py::class_<Parameters>(module, "Parameters",
+                           R"(The parameters of a run: run.params["Process/Group.threshold"].
+
+Names are those of `forage run --set`: "Process/Group.parameter", "Process.parameter" of a module, "Connection.parameter" of a synapse. A value is a
+bool, int, float or str. Setting one acts from the next cycle on; it raises InputError for unknown names, values that the type refuses, and parameters
+that are read at the start only, and warns of values outside the usual range.)")
         .def("__getitem__", [](const Parameters& self,
                                const std::string& name) { return value_of(self.run->use().parameter(name)); })
         .def("__setitem__", &set_parameter)
@@ -127,7 +132,7 @@ void add_parameters(py::module_& module) {
              [](const Parameters& self, const py::object& name) { return names_of(self).contains(name); })
         .def("__iter__", [](const Parameters& self) { return py::iter(names_of(self)); })
         .def("__len__", [](const Parameters& self) { return py::len(names_of(self)); })
-        .def("keys", &names_of)
+        .def("keys", &names_of, "The names of all parameters.")
         .def("__repr__", [](const Parameters& self) {
             return fmt::format("<forage.Parameters, {}>", py::len(names_of(self)));
         });
