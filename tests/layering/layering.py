@@ -32,7 +32,7 @@ ALLOWED = {
                   'neurons', 'synapses', 'modules', 'bug_interface', 'tools/plot'},
 }
 ALLOWED['tools'] = set(ALLOWED) - {'core/connectivity', 'core/plugin', 'core/types', 'modules', 'neurons', 'synapses'}
-ALLOWED['tools/python'] = {'core/base', 'core/run'}  # and <forage/forage.h>
+ALLOWED['tools/python'] = {'core/base', 'core/observe', 'core/run'}  # and <forage/forage.h>
 ROOMS = set(ALLOWED)
 
 # Libraries that belong to one room: the beginnings of their headers' names, and the rooms that may include them.

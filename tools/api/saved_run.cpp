@@ -103,11 +103,11 @@ void check_files(const InputFiles& files) {
 
 }  // namespace
 
-std::string origin_of(const std::string& system, OpenOptions options, InputFiles files) {
+std::string origin_of(const std::string& system, OpenOptions options, const InputFiles& files) {
     options.world = absolute(options.world);
     for (auto& p : options.plugins) p = absolute(p);
     InputFiles there;
-    for (auto& [path, digest] : files) there[absolute(path)] = std::move(digest);
+    for (const auto& [path, digest] : files) there[absolute(path)] = digest;
     Origin origin{.system = absolute(system), .options = std::move(options), .files = std::move(there)};
     Archive archive;
     archive(origin);

@@ -10,6 +10,6 @@
 namespace forage {
 
 /// The origin of a run from files, for Run::opened_as. Relative paths become absolute ones.
-std::string origin_of(const std::string& system, OpenOptions options, InputFiles files);
+std::string origin_of(const std::string& system, OpenOptions options, const InputFiles& files);
 
 }  // namespace forage

@@ -1,7 +1,6 @@
 #include "tools/python/values.h"
 
 #include <algorithm>
-#include <memory>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -46,11 +45,9 @@ std::vector<py::ssize_t> shape_of(const observe::Recorded& what) {
 }
 
 py::array array_of(std::vector<double> values, const std::vector<py::ssize_t>& shape) {
-    auto kept = std::make_unique<std::vector<double>>(std::move(values));
-    const double* data = kept->data();
-    const py::capsule keeper(kept.get(), [](void* p) { delete static_cast<std::vector<double>*>(p); });
-    kept.release();
-    return py::array_t<double>(shape, data, keeper);
+    auto* kept = new std::vector<double>(std::move(values));
+    const py::capsule keeper(kept, [](void* p) { delete static_cast<std::vector<double>*>(p); });
+    return py::array_t<double>(shape, kept->data(), keeper);
 }
 
 std::vector<double> numbers_of(const py::object& values, const GroupShape& group, const std::string& what) {
