@@ -1,8 +1,9 @@
-// The contacts of an island in a stride: which there may be, and which solver gets them.
+// The contacts of an island in a stride.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "bug_interface/motion/contact_solver.h"
+#include "bug_interface/motion/bullet_contacts.h"
 #include "bug_interface/motion/overlap.h"
 #include "bug_interface/motion/physics.h"
 
@@ -18,10 +19,13 @@ void Physics::solve_contacts(std::span<const std::size_t> bodies, std::uint64_t 
     const double seconds = static_cast<double>(steps) * step_;
     find_encounters(seconds);
     if (encounters_.empty()) return;
-    if (contacts_ == Contacts::when_near && find_round_contacts(steps))
-        round_contacts_.solve(seconds);
+    std::swap(point_contacts_, contacts_before_);
+    find_contacts(steps);
+    begin_with_impulses_before(steps);
+    if (contacts_ == Contacts::always_bullet)
+        bullet_contacts_->solve(pushed_bodies_, point_contacts_, seconds);
     else
-        solve_with_bullet(steps);
+        contact_solver_.solve(pushed_bodies_, point_contacts_, seconds);
 }
 
 void Physics::find_encounters(double seconds) {
@@ -44,43 +48,49 @@ void Physics::find_encounters(double seconds) {
     }
 }
 
-/// Finds the contacts of all encounters when each has a round side; returns false when there is one of two
-/// boxes.
-bool Physics::find_round_contacts(std::uint64_t steps) {
-    round_contacts_.begin_stride(static_cast<double>(steps));
+/// Finds the contacts of all encounters.
+void Physics::find_contacts(std::uint64_t steps) {
+    pushed_bodies_.clear(), point_contacts_.clear();
     for (const std::size_t i : active_) {
         const Body& b = bodies_[i];
         const Pose2& pose = states_[i].pose;
         const double mass = contact_mass(b, heaviest_) * (b.driven ? static_cast<double>(steps) : 1);
-        number_[i] =
-            round_contacts_.add_body(pose.x, pose.y, mass, b.inertia * mass / b.mass, velocities_[i]);
+        number_[i] = pushed_bodies_.size();
+        pushed_bodies_.push_back({pose.x, pose.y, mass, b.inertia * mass / b.mass, &velocities_[i]});
     }
-    touching_.clear();
-    bool round = true;
     for (const Encounter& e : encounters_) {
         const auto& of_body = shapes(e.body);
         const auto test = [&](std::size_t p, std::size_t q, const Outline& other, double radius,
                               double friction, std::size_t number, std::size_t name) {
             const PlacedShape& shape = of_body[p];
             if (!closer_than(other, shape.outline, e.reach + radius + shape.bounding_radius)) return;
-            const Overlap in = overlap(other, shape.outline, -e.reach);
-            if (in.depth <= -e.reach) return;
-            if (!shape.outline.round && !other.round) {
-                round = false;
-                return;
+            const bool boxes = !shape.outline.round && !other.round;
+            const double least = boxes ? 0 : -e.reach;  // Bullet finds contacts of boxes when they overlap
+            const Overlap in = overlap(other, shape.outline, least);
+            if (in.depth <= least) return;
+            const auto add = [&](const Overlap& of_point, const Eigen::Vector2d& point, std::size_t index) {
+                point_contacts_.push_back({{obstacles_.size() + e.body, p, name, q, index},
+                                           number_[e.body],
+                                           number,
+                                           of_point,
+                                           point,
+                                           std::min(shape.friction, friction)});
+            };
+            if (boxes) {
+                const auto points = box_contacts_->find(shape.outline, other);
+                for (std::size_t i = 0; i < points.size(); ++i) add(points[i].overlap, points[i].point, i);
+            } else {
+                const Outline& disc = shape.outline.round ? shape.outline : other;
+                const double to_surface = shape.outline.round ? -disc.radius : disc.radius;
+                add(in, Eigen::Vector2d(disc.x, disc.y) + to_surface * in.normal, 0);
             }
-            const Outline& disc = shape.outline.round ? shape.outline : other;
-            const double to_surface = shape.outline.round ? -disc.radius : disc.radius;
-            const Eigen::Vector2d point = Eigen::Vector2d(disc.x, disc.y) + to_surface * in.normal;
-            round_contacts_.add_contact({obstacles_.size() + e.body, p, name, q}, number_[e.body], number, in,
-                                        point, std::min(shape.friction, friction));
-            if (in.depth > -touch_distance) touching_.push_back(e);
+            if (in.depth > -touch_distance) note_touch(e);
         };
-        for (std::size_t p = 0; round && p < of_body.size(); ++p) {
+        for (std::size_t p = 0; p < of_body.size(); ++p) {
             if (e.is_obstacle) {
                 const Obstacle& o = obstacles_[e.other];
                 if (o.layers >> of_body[p].layer & 1u)
-                    test(p, 0, o.outline, bounding_radius(o.outline), o.friction, RoundContacts::fixed,
+                    test(p, 0, o.outline, bounding_radius(o.outline), o.friction, PointContact::fixed,
                          e.other);
                 continue;
             }
@@ -91,9 +101,17 @@ bool Physics::find_round_contacts(std::uint64_t steps) {
                          number_[e.other], obstacles_.size() + e.other);
         }
     }
-    if (!round) return false;
-    for (const Encounter& e : touching_) note_touch(e);
-    return true;
+}
+
+/// Contacts begin with the impulses that they had in the stride before, per step.
+void Physics::begin_with_impulses_before(std::uint64_t steps) {
+    const double ratio =
+        static_cast<double>(steps) / static_cast<double>(std::exchange(steps_before_, steps));
+    for (PointContact& c : point_contacts_) {
+        const auto same = std::find_if(contacts_before_.begin(), contacts_before_.end(),
+                                       [&](const PointContact& was) { return was.name == c.name; });
+        if (same != contacts_before_.end()) c.push = same->push * ratio, c.rub = same->rub * ratio;
+    }
 }
 
 /// Notes that the bodies of an encounter touch each other at one point.
@@ -105,17 +123,6 @@ void Physics::note_touch(const Encounter& e) {
     };
     note(e.body);
     if (!e.is_obstacle) note(e.other);
-}
-
-void Physics::solve_with_bullet(std::uint64_t steps) {
-    if (!contact_solver_)
-        contact_solver_ = std::make_unique<ContactSolver>(obstacles_, bodies_, collision_masks_);
-    pairs_.clear();
-    const std::size_t first_body = obstacles_.size();
-    for (const Encounter& e : encounters_)
-        pairs_.emplace_back(e.is_obstacle ? e.other : first_body + e.other, first_body + e.body);
-    std::sort(pairs_.begin(), pairs_.end());
-    contact_solver_->solve(step_, steps, active_, pairs_, states_, velocities_, touched_);
 }
 
 }  // namespace forage::bug

@@ -60,7 +60,8 @@ const std::vector<Physics::PlacedShape>& Physics::shapes(std::size_t body) {
     return cache.shapes;
 }
 
-/// A lower bound of the gap between the shapes of two bodies, m; never below circle_gap().
+/// A lower bound of the gap between the shapes of two bodies, m; never below circle_gap(). At most 0 when any
+/// two of them overlap.
 double Physics::shape_gap(std::size_t a, std::size_t b) {
     double gap = std::numeric_limits<double>::infinity();
     for (const PlacedShape& p : shapes(a))
@@ -70,6 +71,7 @@ double Physics::shape_gap(std::size_t a, std::size_t b) {
             if (limit >= 0 && !closer_than(p.outline, q.outline, limit)) continue;
             if (can_collide(LayerMask{1} << p.layer, q.layer))
                 gap = std::min(gap, -overlap(p.outline, q.outline).depth);
+            if (gap <= 0) return gap;
         }
     return std::max(gap, circle_gap(a, b));
 }
@@ -135,7 +137,7 @@ double Physics::displacement_per_step(std::size_t body) const {
 
 void Physics::begin(std::span<const Reach> reach, std::uint64_t steps) {
     steps_ = steps;
-    members_.clear(), islands_.clear(), round_contacts_.forget();
+    members_.clear(), islands_.clear(), point_contacts_.clear();
     push_ = 0;
     const double n = static_cast<double>(steps);
     for (std::size_t i = 0; i < states_.size(); ++i) {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "bug_interface/motion/contact_solver.h"
+#include "bug_interface/motion/bullet_contacts.h"
 #include "bug_interface/motion/overlap.h"
 
 namespace forage::bug {
@@ -32,7 +32,9 @@ Physics::Physics(std::span<const Obstacle> obstacles, std::span<const Body> bodi
       velocities_(bodies.size()),
       step_(step),
       contacts_(contacts),
-      collision_masks_(std::move(collision_masks)) {
+      collision_masks_(std::move(collision_masks)),
+      bullet_contacts_(std::make_unique<BulletContacts>()),
+      box_contacts_(std::make_unique<BoxContacts>()) {
     collision_masks_.resize(max_layers, ~LayerMask{0});
     std::size_t most_parts = 0;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {

@@ -11,13 +11,16 @@
 #include <vector>
 
 #include "bug_interface/motion/body.h"
+#include "bug_interface/motion/contact_solver.h"
 #include "bug_interface/motion/motor.h"
-#include "bug_interface/motion/round_contacts.h"
 #include "bug_interface/sensing/grid.h"
 #include "bug_interface/sensing/outline.h"
 #include "bug_interface/world/description.h"
 
 namespace forage::bug {
+
+class BoxContacts;
+class BulletContacts;
 
 /// Moves bodies in time steps. In every step each driven body gets the velocity of its command; contacts and
 /// friction reduce the velocities; then x += v cos(yaw) dt, y += v sin(yaw) dt, yaw += w dt, with the yaw at
@@ -27,16 +30,16 @@ namespace forage::bug {
 /// steps, so each is simulated by itself (islands.cpp). Where nothing is near, many steps are one stride, and
 /// where bodies touch, a few; the strides of an island depend on nothing outside it.
 ///
-/// Contacts that have a round side are found in closed form (round_contacts.h); Bullet finds and solves those
-/// of an island in which two boxes may touch (contact_solver.h). Collisions have no restitution. No contact
-/// outlives begin(); only movable objects keep their velocity.
+/// Contacts that have a round side are found in closed form, those of two boxes by Bullet
+/// (bullet_contacts.h). All of a stride are solved together (contact_solver.h). Collisions have no
+/// restitution. No contact outlives begin(); only movable objects keep their velocity.
 ///
 /// After a stride no two shapes penetrate each other by more than 0.8 mm, or by more than before it if that
 /// was deeper (separation.cpp).
 class Physics {
   public:
-    /// How contacts are found and solved. `always_bullet` is the reference for tests: one step at a time,
-    /// with Bullet in each of them.
+    /// How contacts are solved. `always_bullet` is the reference for tests: one step at a time, each of them
+    /// by Bullet's solver.
     enum class Contacts { when_near, always_bullet };
 
     /// `step` is the duration of a time step, s. `collision_masks[i]` are the layers that collide with layer
@@ -162,8 +165,6 @@ class Physics {
         Pose2 pose;
         bool valid = false;
     };
-    class ContactSolver;  ///< calls Bullet
-
     static constexpr double near_distance = 0.001;  ///< m; well above the errors of Bullet's single precision
     static constexpr double touch_distance = 0.0005;  ///< m; shapes closer than this touch
 
@@ -206,9 +207,9 @@ class Physics {
     };
     void solve_contacts(std::span<const std::size_t> bodies, std::uint64_t steps);
     void find_encounters(double seconds);
-    bool find_round_contacts(std::uint64_t steps);
+    void find_contacts(std::uint64_t steps);
+    void begin_with_impulses_before(std::uint64_t steps);
     void note_touch(const Encounter& encounter);
-    void solve_with_bullet(std::uint64_t steps);
     // ---- separation ----
     template <class F>
     void for_each_penetration(std::span<const std::size_t> bodies, F&& visit);
@@ -264,17 +265,19 @@ class Physics {
                                                     ///< velocity in the stride, and the one after it
     std::vector<std::size_t> active_;               ///< the active bodies of the island
     std::vector<Encounter> encounters_;
-    std::vector<std::pair<std::size_t, std::size_t>> pairs_;  ///< the encounters as Bullet's objects
-    RoundContacts round_contacts_;
-    std::vector<std::size_t> number_;  ///< per body: its number in round_contacts_
-    std::vector<Encounter> touching_;
+    std::vector<std::size_t> number_;  ///< per active body: its number in pushed_bodies_
+    std::vector<PushedBody> pushed_bodies_;
+    std::vector<PointContact> point_contacts_, contacts_before_;  ///< of this stride and of the one before
+    std::uint64_t steps_before_ = 1;                              ///< of the stride before
+    ContactSolver contact_solver_;
     std::vector<Pose2> poses_before_;        ///< before the current stride
     std::vector<char> reverted_;             ///< whether a body is put back to its pose before
     std::vector<Velocity> step_velocities_;  ///< of step(), and step_reach_, too
     std::vector<Reach> step_reach_;
     std::vector<Outline> outlines_before_;               ///< outlines of parts before rotate_parts()
     std::vector<std::pair<std::size_t, Pose2>> pushed_;  ///< bodies that parts pushed, with the poses before
-    std::unique_ptr<ContactSolver> contact_solver_;
+    std::unique_ptr<BulletContacts> bullet_contacts_;
+    std::unique_ptr<BoxContacts> box_contacts_;
 };
 
 }  // namespace forage::bug

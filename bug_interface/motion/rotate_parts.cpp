@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bug_interface/motion/contact_solver.h"
 #include "bug_interface/motion/overlap.h"
 #include "bug_interface/motion/physics.h"
 
@@ -140,7 +139,6 @@ bool Physics::rotate_parts(std::size_t body, std::span<const std::pair<std::size
     state.moved(displacement);
     for (const auto& [object, from] : pushed_)
         states_[object].moved(std::hypot(states_[object].pose.x - from.x, states_[object].pose.y - from.y));
-    if (contact_solver_) contact_solver_->update_shapes(body, shape.parts);
     return true;
 }
 
@@ -149,7 +147,6 @@ void Physics::checkpoint_parts(std::size_t body, Archive& archive) {
     auto& parts = bodies_[body].parts;
     for (Part& p : parts) archive(p.outline.x, p.outline.y, p.outline.cos_yaw, p.outline.sin_yaw);
     shape_caches_[body].valid = false;
-    if (archive.loading() && contact_solver_ && !parts.empty()) contact_solver_->update_shapes(body, parts);
 }
 
 }  // namespace forage::bug
