@@ -214,16 +214,15 @@ std::size_t Camera::full_face(const Window& w, std::size_t first_block, std::siz
                       last = last_block * block_samples_ + block_width - 1,
                       down = block_width * per_axis * (per_axis - 1), right = block_width * (per_axis - 1);
     const std::array<std::size_t, 4> ends = {top, top + down, last + right, last + down + right};
-    constexpr std::size_t rays = 8;  // twice four, as fewer are not computed side by side
-    std::array<float, rays> x, y, z;
-    std::array<double, rays> depth, entry, face;
-    for (std::size_t i = 0; i < rays; ++i) {
-        const std::size_t k = ends[i % 4];
+    std::array<float, 4> x, y, z;
+    std::array<double, 4> depth, entry, face;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        const std::size_t k = ends[i];
         x[i] = ray_x_[k], y[i] = ray_y_[k], z[i] = ray_z_[k];
         depth[i] = far_ * safely, face[i] = 0;
         for (const FloorPoints& floor : floor_points_) depth[i] = std::min(depth[i], floor.depth[k] * safely);
     }
-    meet(w.solid, {x.data(), y.data(), z.data(), rays}, w.first_face,
+    meet(w.solid, {x.data(), y.data(), z.data(), x.size()}, w.first_face,
          {depth.data(), entry.data(), face.data()});
     least = depth[0];
     for (std::size_t i = 1; i < 4; ++i) {

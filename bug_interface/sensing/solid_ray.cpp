@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bug_interface/sensing/four.h"
 #include "core/base/simd.h"
 
 namespace forage::bug {
@@ -11,102 +12,97 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The interval of a ray inside the intersection of slabs and round shapes; empty when leave < enter. There
-/// are no branches, so that loops over rays are vectorised.
+/// The intervals of four rays inside the intersection of slabs and round shapes; empty when leave < enter.
 struct Inside {
-    double enter = -infinity, leave = infinity, face = Nearest::curved;
+    Four enter = four(-infinity), leave = four(infinity), face = four(Nearest::curved);
 
     /// Intersects with the slab |x_axis| <= half.
-    [[gnu::always_inline]] void slab(int axis, double origin, double direction, double half) {
-        const bool along = std::abs(direction) < 1e-12;
-        const double inverse = 1 / (along ? 1.0 : direction);
-        const double centre = -origin * inverse, reach = half * std::abs(inverse);
-        const double nearer = along ? -infinity : centre - reach;
-        const double farther = along ? (std::abs(origin) > half ? -infinity : infinity) : centre + reach;
-        const double side = direction > 0 ? 2.0 * axis + 1 : 2.0 * axis;
+    [[gnu::always_inline]] void slab(int axis, double origin, const Four& direction, double half) {
+        const auto along = magnitude(direction) < 1e-12;
+        const Four inverse = 1 / (along ? four(1) : direction);
+        const Four centre = -four(origin) * inverse, reach = half * magnitude(inverse);
+        const Four nearer = along ? four(-infinity) : centre - reach;
+        const Four outside = magnitude(four(origin)) > half ? four(-infinity) : four(infinity);
+        const Four farther = along ? outside : centre + reach;
+        const Four side = direction > 0 ? four(2.0 * axis + 1) : four(2.0 * axis);
         face = nearer > enter ? side : face;
         enter = nearer > enter ? nearer : enter;
         leave = farther < leave ? farther : leave;
     }
 
     /// Intersects with a sphere or an infinite cylinder: direction^2 t^2 + 2 mixed t + rest <= 0.
-    [[gnu::always_inline]] void round(double direction_squared, double mixed, double rest) {
-        const bool along = direction_squared < 1e-24;
-        const double inverse = 1 / (along ? 1.0 : direction_squared);
-        const double discriminant = along ? -rest : mixed * mixed - direction_squared * rest;
-        const double root = std::sqrt(discriminant > 0 ? discriminant : 0.0);
-        const double nearer = along ? -infinity : (-mixed - root) * inverse;
-        const double farther = discriminant < 0 ? -infinity : (along ? infinity : (-mixed + root) * inverse);
-        face = nearer > enter ? Nearest::curved : face;
+    [[gnu::always_inline]] void round(const Four& direction_squared, const Four& mixed, const Four& rest) {
+        const auto along = direction_squared < 1e-24;
+        const Four inverse = 1 / (along ? four(1) : direction_squared);
+        const Four discriminant = along ? -rest : mixed * mixed - direction_squared * rest;
+        const Four half = square_root(discriminant > 0 ? discriminant : four(0));
+        const Four nearer = along ? four(-infinity) : (-mixed - half) * inverse;
+        const Four farther =
+            discriminant < 0 ? four(-infinity) : (along ? four(infinity) : (-mixed + half) * inverse);
+        face = nearer > enter ? four(Nearest::curved) : face;
         enter = nearer > enter ? nearer : enter;
         leave = farther < leave ? farther : leave;
     }
-
-    /// Keeps the entry when it is nearer than the nearest one so far.
-    [[gnu::always_inline]] void keep(double first_face, double& depth, double& entry,
-                                     double& nearest_face) const {
-        const double at = enter > 0 && enter <= leave ? enter : infinity;
-        const bool nearer = at < depth;
-        depth = nearer ? static_cast<double>(static_cast<float>(at)) : depth;
-        entry = nearer ? at : entry;
-        nearest_face = nearer ? first_face + face : nearest_face;
-    }
 };
 
-FORAGE_SIMD void meet_box(const SolidInView f, const float* __restrict x, const float* __restrict y,
-                          const float* __restrict z, std::size_t count, double first_face,
-                          double* __restrict depth, double* __restrict entry, double* __restrict face) {
+/// Finds the entries into a solid: `intersect` gets the directions of four rays in the frame of the solid.
+/// Those that are nearer than the nearest ones so far are kept.
+template <class Intersect>
+[[gnu::always_inline]] inline void meet_all(const SolidInView& f, const Rays& rays, double first_face,
+                                            const Nearest& nearest, Intersect intersect) {
     const double* t = f.turn;
-    for (std::size_t i = 0; i < count; ++i) {
-        const double a = x[i], b = y[i], c = z[i];
+    for (std::size_t i = 0; i < rays.count; i += 4) {
+        const Four a = load(rays.x + i), b = load(rays.y + i), c = load(rays.z + i);
         Inside inside;
-        inside.slab(0, f.origin[0], t[0] * a + t[1] * b + t[2] * c, f.half[0]);
-        inside.slab(1, f.origin[1], t[3] * a + t[4] * b + t[5] * c, f.half[1]);
-        inside.slab(2, f.origin[2], t[6] * a + t[7] * b + t[8] * c, f.half[2]);
-        inside.keep(first_face, depth[i], entry[i], face[i]);
+        intersect(inside, t[0] * a + t[1] * b + t[2] * c, t[3] * a + t[4] * b + t[5] * c,
+                  t[6] * a + t[7] * b + t[8] * c);
+        const Four depth = load(nearest.depth + i), entry = load(nearest.entry + i),
+                   face = load(nearest.face + i);
+        const auto nearer = (inside.enter > 0) & (inside.enter <= inside.leave) & (inside.enter < depth);
+        store(nearer ? rounded_to_single(inside.enter) : depth, nearest.depth + i);
+        store(nearer ? inside.enter : entry, nearest.entry + i);
+        store(nearer ? first_face + inside.face : face, nearest.face + i);
     }
 }
 
-FORAGE_SIMD void meet_cylinder(const SolidInView f, const float* __restrict x, const float* __restrict y,
-                               const float* __restrict z, std::size_t count, double first_face,
-                               double* __restrict depth, double* __restrict entry, double* __restrict face) {
-    const double* t = f.turn;
-    const double rest = f.origin[0] * f.origin[0] + f.origin[1] * f.origin[1] - f.half[0] * f.half[0];
-    for (std::size_t i = 0; i < count; ++i) {
-        const double a = x[i], b = y[i], c = z[i];
-        const double dx = t[0] * a + t[1] * b + t[2] * c, dy = t[3] * a + t[4] * b + t[5] * c,
-                     dz = t[6] * a + t[7] * b + t[8] * c;
-        Inside inside;
-        inside.round(dx * dx + dy * dy, f.origin[0] * dx + f.origin[1] * dy, rest);
-        inside.slab(2, f.origin[2], dz, f.half[2]);
-        inside.keep(first_face, depth[i], entry[i], face[i]);
-    }
+FORAGE_SIMD void meet_box(const SolidInView& f, const Rays& rays, double first_face, const Nearest& nearest) {
+    meet_all(
+        f, rays, first_face, nearest,
+        [&](Inside & inside, const Four& x, const Four& y, const Four& z) __attribute__((always_inline)) {
+            inside.slab(0, f.origin[0], x, f.half[0]);
+            inside.slab(1, f.origin[1], y, f.half[1]);
+            inside.slab(2, f.origin[2], z, f.half[2]);
+        });
 }
 
-FORAGE_SIMD void meet_sphere(const SolidInView f, const float* __restrict x, const float* __restrict y,
-                             const float* __restrict z, std::size_t count, double first_face,
-                             double* __restrict depth, double* __restrict entry, double* __restrict face) {
-    const double* t = f.turn;
-    const double rest = f.origin[0] * f.origin[0] + f.origin[1] * f.origin[1] + f.origin[2] * f.origin[2] -
-                        f.half[0] * f.half[0];
-    for (std::size_t i = 0; i < count; ++i) {
-        const double a = x[i], b = y[i], c = z[i];
-        const double dx = t[0] * a + t[1] * b + t[2] * c, dy = t[3] * a + t[4] * b + t[5] * c,
-                     dz = t[6] * a + t[7] * b + t[8] * c;
-        Inside inside;
-        inside.round(dx * dx + dy * dy + dz * dz, f.origin[0] * dx + f.origin[1] * dy + f.origin[2] * dz,
-                     rest);
-        inside.keep(first_face, depth[i], entry[i], face[i]);
-    }
+FORAGE_SIMD void meet_cylinder(const SolidInView& f, const Rays& rays, double first_face,
+                               const Nearest& nearest) {
+    const Four x0 = four(f.origin[0]), y0 = four(f.origin[1]), radius = four(f.half[0]),
+               rest = x0 * x0 + y0 * y0 - radius * radius;
+    meet_all(
+        f, rays, first_face, nearest,
+        [&](Inside & inside, const Four& x, const Four& y, const Four& z) __attribute__((always_inline)) {
+            inside.round(x * x + y * y, x0 * x + y0 * y, rest);
+            inside.slab(2, f.origin[2], z, f.half[2]);
+        });
 }
 
-struct Vector {
-    double x, y, z;
-};
+FORAGE_SIMD void meet_sphere(const SolidInView& f, const Rays& rays, double first_face,
+                             const Nearest& nearest) {
+    const Four x0 = four(f.origin[0]), y0 = four(f.origin[1]), z0 = four(f.origin[2]),
+               radius = four(f.half[0]), rest = x0 * x0 + y0 * y0 + z0 * z0 - radius * radius;
+    meet_all(
+        f, rays, first_face, nearest,
+        [&](Inside & inside, const Four& x, const Four& y, const Four& z) __attribute__((always_inline)) {
+            inside.round(x * x + y * y + z * z, x0 * x + y0 * y + z0 * z, rest);
+        });
+}
 
 /// A row of a matrix times a vector, summed as Eigen does.
-[[gnu::always_inline]] inline double dot(const double* row, const Vector& v) {
-    return row[0] * v.x + (row[1] * v.y + row[2] * v.z);
+template <class Number>
+[[gnu::always_inline]] inline Number dot(const double* row, const Number& x, const Number& y,
+                                         const Number& z) {
+    return row[0] * x + (row[1] * y + row[2] * z);
 }
 
 /// What shading needs, as plain numbers.
@@ -115,20 +111,19 @@ struct Surface {
     double to_world[9], sun[3];
 };
 
-FORAGE_SIMD void shade(const SolidInView f, const Surface surface, const float* __restrict x,
-                       const float* __restrict y, const float* __restrict z, std::size_t count,
-                       const double* __restrict entry, float* __restrict lit) {
-    for (std::size_t i = 0; i < count; ++i) {
-        const Vector ray{x[i], y[i], z[i]};
-        Vector n{f.origin[0] + entry[i] * dot(f.turn, ray), f.origin[1] + entry[i] * dot(f.turn + 3, ray),
-                 surface.upright ? 0.0 : f.origin[2] + entry[i] * dot(f.turn + 6, ray)};
-        const double square = n.x * n.x + (n.y * n.y + n.z * n.z);
-        const double length = std::sqrt(square > 0 ? square : 1.0);
-        n.x /= length, n.y /= length, n.z /= length;
-        const Vector normal{dot(surface.to_world, n), dot(surface.to_world + 3, n),
-                            dot(surface.to_world + 6, n)};
-        const double towards = dot(surface.sun, normal);
-        lit[i] = static_cast<float>(towards > 0 ? towards : 0.0);
+/// Writes how much each point of entry faces the sun, 0..1, to `lit`, whose size is a multiple of four.
+FORAGE_SIMD void shade(const SolidInView& f, const Surface& surface, const Rays& rays, const double* entry,
+                       double* lit) {
+    for (std::size_t i = 0; i < rays.count; i += 4) {
+        const Four a = load(rays.x + i), b = load(rays.y + i), c = load(rays.z + i), depth = load(entry + i);
+        Four x = f.origin[0] + depth * dot(f.turn, a, b, c),
+             y = f.origin[1] + depth * dot(f.turn + 3, a, b, c),
+             z = surface.upright ? four(0) : f.origin[2] + depth * dot(f.turn + 6, a, b, c);
+        const Four square = x * x + (y * y + z * z), length = square_root(square > 0 ? square : four(1));
+        x /= length, y /= length, z /= length;
+        const double* w = surface.to_world;
+        const Four towards = dot(surface.sun, dot(w, x, y, z), dot(w + 3, x, y, z), dot(w + 6, x, y, z));
+        store(towards > 0 ? towards : four(0), lit + i);
     }
 }
 
@@ -149,14 +144,11 @@ SolidInView::SolidInView(ShapeKind shape, const Eigen::Vector3d& half_extents, c
 void meet(const SolidInView& solid, const Rays& rays, double first_face, const Nearest& nearest) {
     switch (solid.kind) {
         case ShapeKind::box:
-            return meet_box(solid, rays.x, rays.y, rays.z, rays.count, first_face, nearest.depth,
-                            nearest.entry, nearest.face);
+            return meet_box(solid, rays, first_face, nearest);
         case ShapeKind::cylinder:
-            return meet_cylinder(solid, rays.x, rays.y, rays.z, rays.count, first_face, nearest.depth,
-                                 nearest.entry, nearest.face);
+            return meet_cylinder(solid, rays, first_face, nearest);
         case ShapeKind::sphere:
-            return meet_sphere(solid, rays.x, rays.y, rays.z, rays.count, first_face, nearest.depth,
-                               nearest.entry, nearest.face);
+            return meet_sphere(solid, rays, first_face, nearest);
         case ShapeKind::plane:
             return;
     }
@@ -173,14 +165,15 @@ void shade_curved(const SolidInView& solid, const Eigen::Matrix3d& to_world, con
                   const Material& material, const Rays& rays, const double* entry, float* rgb) {
     Surface surface{solid.kind == ShapeKind::cylinder, {}, {}};
     copy_rows(to_world, surface.to_world);
-    std::array<float, 128> lit{};
+    std::array<double, 128> lit{};
     if (lighting.sun) {
         for (int axis = 0; axis < 3; ++axis) surface.sun[axis] = (*lighting.sun)[axis];
-        shade(solid, surface, rays.x, rays.y, rays.z, rays.count, entry, lit.data());
+        shade(solid, surface, rays, entry, lit.data());
     }
     const Colour ambient = material.ambient * lighting.ambient;
     for (std::size_t i = 0; i < rays.count; ++i)
-        Eigen::Map<Colour>(rgb + 4 * i) = (ambient + material.diffuse * lit[i]).min(1.0f).max(0.0f);
+        Eigen::Map<Colour>(rgb + 4 * i) =
+            (ambient + material.diffuse * static_cast<float>(lit[i])).min(1.0f).max(0.0f);
 }
 
 }  // namespace forage::bug

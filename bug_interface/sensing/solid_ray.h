@@ -37,7 +37,7 @@ inline Eigen::Vector3d face_normal(int face) { return Eigen::Vector3d::Unit(face
 /// Rays from one point. Ray i has the direction (x[i], y[i], z[i]).
 struct Rays {
     const float *x, *y, *z;
-    std::size_t count;
+    std::size_t count;  ///< a multiple of four
 };
 
 /// A box, cylinder or sphere as rays see it. It has the half extents `half` in its own frame, in which the

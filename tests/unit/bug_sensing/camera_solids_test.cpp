@@ -185,22 +185,24 @@ struct Entry {
     double depth, face;
 };
 
-/// Intersects 13 equal rays, as the code for many rays differs from that for one.
+/// Intersects eight equal rays that see as far as `far`. Empty when they do not meet the solid.
 std::optional<Entry> entry(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& origin,
-                           const Eigen::Vector3d& ray) {
-    constexpr std::size_t count = 13;
+                           const Eigen::Vector3d& ray, double far = std::numeric_limits<double>::infinity(),
+                           const Eigen::Matrix3d& turn = Eigen::Matrix3d::Identity()) {
+    constexpr std::size_t count = 8;
     std::array<float, count> x, y, z;
     std::array<double, count> depth, at, face;
-    depth.fill(std::numeric_limits<double>::infinity()), at = depth;
+    depth.fill(far), at.fill(0), face.fill(-1);
     x.fill(static_cast<float>(ray.x())), y.fill(static_cast<float>(ray.y()));
     z.fill(static_cast<float>(ray.z()));
-    forage::bug::meet({kind, half, origin, Eigen::Matrix3d::Identity()},
-                      {x.data(), y.data(), z.data(), count}, 0, {depth.data(), at.data(), face.data()});
+    forage::bug::meet({kind, half, origin, turn}, {x.data(), y.data(), z.data(), count}, 0,
+                      {depth.data(), at.data(), face.data()});
     for (std::size_t i = 1; i < count; ++i) {
         CHECK(at[i] == at[0]);
-        CHECK((std::isinf(at[0]) || face[i] == face[0]));
+        CHECK(face[i] == face[0]);
     }
-    if (std::isinf(at[0])) return {};
+    if (face[0] < 0) return {};
+    for (const double d : depth) CHECK(d == static_cast<float>(at[0]));
     return Entry{at[0], face[0]};
 }
 
@@ -263,11 +265,7 @@ namespace {
 
 bool meets(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& origin,
            const Eigen::Vector3d& ray) {
-    const Eigen::Vector3f r = ray.cast<float>();
-    double depth = std::numeric_limits<double>::infinity(), at, face;
-    forage::bug::meet({kind, half, origin, Eigen::Matrix3d::Identity()}, {&r.x(), &r.y(), &r.z(), 1}, 0,
-                      {&depth, &at, &face});
-    return depth < 20;  // m; the camera sees no farther
+    return entry(kind, half, origin, ray, 20).has_value();  // m; the camera sees no farther
 }
 
 }  // namespace
@@ -352,17 +350,16 @@ std::vector<float> cast(const CameraSensor& sensor, const Pose& link_pose, const
                     const Eigen::Matrix3d turn = body_of.pose.linear().transpose() * robot.linear();
                     const Eigen::Vector3d eye = body_of.pose.linear().transpose() *
                                                 (robot * mount.translation() - body_of.pose.translation());
-                    double nearest = depth, entry = 0, face = -1;
-                    meet({body_of.kind, body_of.size / 2, eye, turn}, {&ray.x(), &ray.y(), &ray.z(), 1}, 0,
-                         {&nearest, &entry, &face});
-                    if (face < 0) continue;
-                    depth = static_cast<float>(entry);
+                    const auto met =
+                        entry(body_of.kind, body_of.size / 2, eye, ray.cast<double>(), depth, turn);
+                    if (!met) continue;
+                    depth = static_cast<float>(met->depth);
                     colour = scene.lighting().shade(
                         visual->material,
                         body_of.pose.linear() *
-                            (face == Nearest::curved
-                                 ? curved_normal(body_of.kind, eye, turn * ray.cast<double>(), entry)
-                                 : face_normal(static_cast<int>(face))));
+                            (met->face == Nearest::curved
+                                 ? curved_normal(body_of.kind, eye, turn * ray.cast<double>(), met->depth)
+                                 : face_normal(static_cast<int>(met->face))));
                 }
                 const Eigen::Array4f seen(colour[0], colour[1], colour[2], 0);
                 sum = s == 0 ? seen : Eigen::Array4f(sum + seen);
