@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <stdexcept>
 
+#include "bug_interface/sensing/four.h"
 #include "core/base/simd.h"
 
 namespace forage::bug {
@@ -20,35 +21,36 @@ double cubic(double x) {
     return 0;
 }
 
-typedef double Four __attribute__((vector_size(4 * sizeof(double))));  // NOLINT: no `using` for these
-constexpr std::size_t stretch = 12;                                    ///< numbers that are summed together
-constexpr std::size_t padded(std::size_t numbers) { return (numbers + stretch - 1) / stretch * stretch; }
+constexpr std::size_t channels = 4;  ///< of a pixel: red, green, blue and an unused one, side by side
+constexpr std::size_t together = 4;  ///< pixels that are summed side by side
+constexpr std::size_t padded(std::size_t pixels) { return (pixels + together - 1) / together * together; }
 
-/// Adds four numbers at any address, times `weight`.
-[[gnu::always_inline]] inline void add(Four& sum, const Four& weight, const double* at) {
-    Four numbers;
-    std::memcpy(&numbers, at, sizeof numbers);
-    sum += weight * numbers;
+/// Writes the sum of four numbers, rounded to 0..255.
+[[gnu::always_inline]] inline void write_level(const Four& sum, double* to) {
+    typedef std::int32_t Integers __attribute__((vector_size(4 * sizeof(std::int32_t))));  // NOLINT
+    Four level = sum + 0.5;
+    level = level < 0 ? four(0) : level;
+    level = level > 255 ? four(255) : level;
+    store(__builtin_convertvector(__builtin_convertvector(level, Integers), Four), to);
 }
 
-/// out[i] = the sum of weights[k] * from[k * line + i], rounded to 0..255, for i < `line`, a multiple of
-/// `stretch`. The terms of each sum are added in their order.
-FORAGE_SIMD void mix(const double* weights, std::size_t count, const double* from, std::size_t line,
-                     double* out) {
-    for (std::size_t first = 0; first < line; first += stretch) {
-        Four a{}, b{}, c{};  // not an array, which GCC 12 would not keep in registers
-        for (std::size_t k = 0; k < count; ++k) {
-            const double* at = from + k * line + first;
-            const Four weight = Four{} + weights[k];
-            add(a, weight, at), add(b, weight, at + 4), add(c, weight, at + 8);
+/// Sets each of `pixels` pixels, a multiple of `together`, to the sum of `count` pixels that are `step`
+/// numbers apart, times their weights. The terms of each sum are added in their order. `from` are the first
+/// ones of the first pixels; the next pixel's are `apart` numbers from them, and it is written `to_apart`
+/// from it.
+FORAGE_SIMD void mix(const double* weights, std::size_t count, std::size_t step, const double* from,
+                     std::size_t apart, std::size_t pixels, double* to, std::size_t to_apart) {
+    for (std::size_t first = 0; first < pixels; first += together) {
+        Four a{}, b{}, c{}, d{};  // not an array, which GCC 12 would not keep in registers
+        const double* at = from;
+        for (std::size_t k = 0; k < count; ++k, at += step) {
+            const Four weight = four(weights[k]);
+            a += weight * load(at), b += weight * load(at + apart);
+            c += weight * load(at + 2 * apart), d += weight * load(at + 3 * apart);
         }
-        double sums[stretch];
-        std::memcpy(sums, &a, sizeof a), std::memcpy(sums + 4, &b, sizeof b);
-        std::memcpy(sums + 8, &c, sizeof c);
-        for (std::size_t i = 0; i < stretch; ++i) {
-            const double level = sums[i] + 0.5;
-            out[first + i] = static_cast<int>(level < 0 ? 0.0 : level > 255 ? 255.0 : level);
-        }
+        write_level(a, to), write_level(b, to + to_apart);
+        write_level(c, to + 2 * to_apart), write_level(d, to + 3 * to_apart);
+        from += together * apart, to += together * to_apart;
     }
 }
 
@@ -130,28 +132,28 @@ ImageCells::ImageCells(int width, int height, int w, int h, const ImageQuirks& q
         return;
     }
     columns_ = Side(width_, w_), rows_ = Side(height_, h_);
-    source_.resize(width_ * padded(3 * height_)), narrow_.resize(w_ * padded(3 * height_));
-    turned_.resize(height_ * padded(3 * w_)), result_.resize(h_ * padded(3 * w_));
+    source_.resize(channels * width_ * padded(height_));
+    narrow_.resize(channels * padded(w_) * padded(height_));
+    result_.resize(channels * padded(w_) * h_);
 }
 
-/// Resamples the columns, then the rows. Each pass computes whole lines, whose pixels have the same weights.
+/// Resamples the rows of the picture, then the columns of the result.
 void ImageCells::resample(const std::uint8_t* rgb) {
-    const std::size_t tall = padded(3 * height_), wide = padded(3 * w_);
-    for (std::size_t row = 0; row < height_; ++row)
-        for (std::size_t column = 0; column < width_; ++column, rgb += 3)
-            for (std::size_t i = 0; i < 3; ++i) source_[column * tall + 3 * row + i] = rgb[i];
-    const auto pass = [](const Side& side, const double* from, std::size_t line, double* to) {
-        for (const Side::Window& w : side.windows) {
-            mix(&side.weights[w.first_weight], w.count, from + w.first * line, line, to);
-            to += line;
-        }
-    };
-    pass(columns_, source_.data(), tall, narrow_.data());
-    for (std::size_t row = 0; row < height_; ++row)
-        for (std::size_t column = 0; column < w_; ++column)
-            for (std::size_t i = 0; i < 3; ++i)
-                turned_[row * wide + 3 * column + i] = narrow_[column * tall + 3 * row + i];
-    pass(rows_, turned_.data(), wide, result_.data());
+    const std::size_t wide = channels * width_, narrow = channels * padded(w_);
+    for (std::size_t pixel = 0; pixel < width_ * height_; ++pixel, rgb += 3)
+        for (std::size_t i = 0; i < 3; ++i) source_[channels * pixel + i] = rgb[i];
+    double* to = narrow_.data();
+    for (const Side::Window& w : columns_.windows) {
+        mix(&columns_.weights[w.first_weight], w.count, channels, &source_[channels * w.first], wide,
+            padded(height_), to, narrow);
+        to += channels;
+    }
+    to = result_.data();
+    for (const Side::Window& w : rows_.windows) {
+        mix(&rows_.weights[w.first_weight], w.count, narrow, &narrow_[narrow * w.first], channels, padded(w_),
+            to, channels);
+        to += narrow;
+    }
 }
 
 void ImageCells::fill(std::span<const std::uint8_t> rgb, ColourSpace space, std::span<double> first,
@@ -166,8 +168,8 @@ void ImageCells::fill(std::span<const std::uint8_t> rgb, ColourSpace space, std:
         resample(rgb.data());
         const auto byte = [](double level) { return static_cast<std::uint8_t>(level); };
         for (std::size_t row = 0; row < h_; ++row) {
-            const double* pixel = &result_[row * padded(3 * w_)];
-            for (std::size_t column = 0; column < w_; ++column, pixel += 3)
+            const double* pixel = &result_[channels * row * padded(w_)];
+            for (std::size_t column = 0; column < w_; ++column, pixel += channels)
                 cells.set(cell++, byte(pixel[0]), byte(pixel[1]), byte(pixel[2]));
         }
         return;

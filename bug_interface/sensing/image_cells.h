@@ -61,9 +61,9 @@ class ImageCells {
     ImageQuirks quirks_;
     bool resampled_;
     Side columns_, rows_;
-    /// Channels of the pixels while a picture is resampled, 0..255: lines of one column of the picture, the
-    /// same after its width has been resampled, then lines of one row of that, and of one row of the result.
-    std::vector<double> source_, narrow_, turned_, result_;
+    /// Pixels while a picture is resampled, four numbers each, 0..255: of the picture, of the picture with
+    /// its width resampled, and of the result.
+    std::vector<double> source_, narrow_, result_;
 };
 
 }  // namespace forage::bug
