@@ -133,12 +133,18 @@ void RandomStream::uniform(std::uint64_t cycle, std::span<double> out, std::uint
 }
 
 void RandomStream::normal(std::uint64_t cycle, std::span<double> out) const {
-    for (std::size_t i = 0; i < out.size(); i += 2) {
-        const auto [a, b] = words(philox::draw_of(key_, cycle, 0), static_cast<std::uint32_t>(i / 2));
-        const double radius = std::sqrt(-2 * std::log(1 - to_unit(a)));  // 1 - u is in (0, 1]
-        const double angle = 2 * std::numbers::pi * to_unit(b);
-        out[i] = radius * std::cos(angle);
-        if (i + 1 < out.size()) out[i + 1] = radius * std::sin(angle);
+    static const auto set = philox::best_instruction_set();
+    const Draw d = philox::draw_of(key_, cycle, 0);
+    std::array<std::uint64_t, 64> words;
+    for (std::size_t first = 0; first < out.size(); first += words.size()) {
+        const std::size_t count = std::min(words.size(), out.size() - first);
+        philox::bits(set, d, {words.data(), count + count % 2}, first);
+        for (std::size_t i = 0; i < count; i += 2) {
+            const double radius = std::sqrt(-2 * std::log(1 - to_unit(words[i])));  // 1 - u is in (0, 1]
+            const double angle = 2 * std::numbers::pi * to_unit(words[i + 1]);
+            out[first + i] = radius * std::cos(angle);
+            if (i + 1 < count) out[first + i + 1] = radius * std::sin(angle);
+        }
     }
 }
 
