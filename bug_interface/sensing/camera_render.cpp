@@ -28,6 +28,40 @@ void fill(const float* colour, std::size_t pixels, float* rgb) {
     for (std::size_t i = 0; i < pixels; ++i) rgb[3 * i] = red, rgb[3 * i + 1] = green, rgb[3 * i + 2] = blue;
 }
 
+/// The corners of a prism with four or eight sides as a camera sees it, m.
+struct Prism {
+    static constexpr std::size_t most_sides = 8, most_edges = 3 * most_sides;
+    static constexpr std::size_t most_cuts = most_sides + 2;  ///< edges that a plane cuts
+    std::size_t sides = 4;
+    bool flat = false;  ///< whether there is only one polygon, `top`
+    std::array<Eigen::Vector3d, most_sides> top, bottom;
+
+    /// Contains `solid`, whose pose in the camera is `pose`; or what the camera sees of it.
+    Prism(const Solid& solid, const Pose& pose) {
+        const Eigen::Vector3d middle = pose.translation();
+        Eigen::Matrix3d axes = pose.linear() * (solid.size / 2).asDiagonal();
+        const double radius = solid.size.x() / 2, square = radius * radius / middle.squaredNorm();
+        if (solid.kind == ShapeKind::sphere && square < 1) {  // a circle that fills the same part of the view
+            flat = true;
+            axes.col(0) = radius / std::sqrt(1 - square) * middle.unitOrthogonal();
+            axes.col(1) = middle.normalized().cross(axes.col(0));
+            axes.col(2).setZero();
+        }
+        // The corners of a square and of an octagon around a circle with the radius 1.
+        constexpr double t = 0.41421356237309509;  // tan(pi / 8), rounded up
+        constexpr double square_x[] = {1, -1, -1, 1}, square_y[] = {1, 1, -1, -1};
+        constexpr double octagon_x[] = {1, t, -t, -1, -1, -t, t, 1},
+                         octagon_y[] = {t, 1, 1, t, -t, -1, -1, -t};
+        const bool round = flat || solid.kind == ShapeKind::cylinder;
+        if (round) sides = most_sides;
+        for (std::size_t i = 0; i < sides; ++i) {
+            const Eigen::Vector3d at = middle + (round ? octagon_x : square_x)[i] * axes.col(0) +
+                                       (round ? octagon_y : square_y)[i] * axes.col(1);
+            top[i] = at + axes.col(2), bottom[i] = at - axes.col(2);
+        }
+    }
+};
+
 }  // namespace
 
 struct Camera::View {
@@ -260,23 +294,19 @@ void Camera::cover(const Window& w) {
     }
 }
 
-/// Adds the window of a solid: the pixels inside the outline of what is before the camera of its bounding
-/// box. Returns false when there are none.
+/// Adds the window of a solid: the pixels inside the outline of what is before the camera of a prism around
+/// the solid. Returns false when there are none.
 bool Camera::add_window(const View& view, const VisualSolid& visual) {
     constexpr double near = 1e-6;  // m along the optical axis
     const Solid& solid = visual.solid;
     const Pose to_camera = (view.pose * mount_).inverse(Eigen::Isometry) * solid.pose;
-    const Eigen::Vector3d middle = to_camera.translation();
-    const Eigen::Matrix3d sides = to_camera.linear() * (solid.size / 2).asDiagonal();
-    std::array<Eigen::Vector3d, 8> corners;
-    for (int corner = 0; corner < 8; ++corner)
-        corners[static_cast<std::size_t>(corner)] = middle + (corner & 1 ? 1 : -1) * sides.col(0) +
-                                                    (corner & 2 ? 1 : -1) * sides.col(1) +
-                                                    (corner & 4 ? 1 : -1) * sides.col(2);
-    // The edges of the part before the camera, in pixels to the right and down. A plane cuts at most six
-    // edges of a box, and all lines between the cuts are inside the outline.
-    std::array<std::array<Eigen::Vector2d, 2>, 12 + 15> lines;
-    std::array<Eigen::Vector2d, 6> cuts;
+    const Prism prism(solid, to_camera);
+    // The edges of the part before the camera, in pixels to the right and down. All lines between the cuts
+    // through a plane are inside the outline.
+    std::array<std::array<Eigen::Vector2d, 2>,
+               Prism::most_edges + Prism::most_cuts*(Prism::most_cuts - 1) / 2>
+        lines;
+    std::array<Eigen::Vector2d, Prism::most_cuts> cuts;
     std::size_t count = 0, cut = 0;
     Eigen::AlignedBox2d box;
     const auto pixel = [&](const Eigen::Vector3d& at) -> Eigen::Vector2d {
@@ -285,21 +315,26 @@ bool Camera::add_window(const View& view, const VisualSolid& visual) {
         box.extend(p);
         return p;
     };
-    for (std::size_t from = 0; from < 8; ++from)
-        for (const std::size_t bit : {1u, 2u, 4u}) {
-            if (from & bit) continue;
-            const Eigen::Vector3d *a = &corners[from], *b = &corners[from | bit];
-            if (a->x() > b->x()) std::swap(a, b);
-            if (b->x() < near) continue;
-            if (a->x() >= near) {
-                lines[count++] = {pixel(*a), pixel(*b)};
-                continue;
-            }
-            Eigen::Vector3d at = *a + (near - a->x()) / (b->x() - a->x()) * (*b - *a);
-            at.x() = near;
-            lines[count++] = {pixel(at), pixel(*b)};
-            if (cut < cuts.size()) cuts[cut++] = lines[count - 1][0];
+    const auto add_edge = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+        const Eigen::Vector3d *a = &from, *b = &to;
+        if (a->x() > b->x()) std::swap(a, b);
+        if (b->x() < near) return;
+        if (a->x() >= near) {
+            lines[count++] = {pixel(*a), pixel(*b)};
+            return;
         }
+        Eigen::Vector3d at = *a + (near - a->x()) / (b->x() - a->x()) * (*b - *a);
+        at.x() = near;
+        lines[count++] = {pixel(at), pixel(*b)};
+        if (cut < cuts.size()) cuts[cut++] = lines[count - 1][0];
+    };
+    for (std::size_t i = 0; i < prism.sides; ++i) {
+        const std::size_t next = (i + 1) % prism.sides;
+        add_edge(prism.top[i], prism.top[next]);
+        if (prism.flat) continue;
+        add_edge(prism.bottom[i], prism.bottom[next]);
+        add_edge(prism.top[i], prism.bottom[i]);
+    }
     for (std::size_t i = 0; i < cut; ++i)
         for (std::size_t k = i + 1; k < cut; ++k) lines[count++] = {cuts[i], cuts[k]};
     if (count == 0) return false;
