@@ -34,23 +34,22 @@ constexpr std::size_t padded(std::size_t pixels) { return (pixels + together - 1
     store(__builtin_convertvector(__builtin_convertvector(level, Integers), Four), to);
 }
 
-/// Sets each of `pixels` pixels, a multiple of `together`, to the sum of `count` pixels that are `step`
-/// numbers apart, times their weights. The terms of each sum are added in their order. `from` are the first
-/// ones of the first pixels; the next pixel's are `apart` numbers from them, and it is written `to_apart`
-/// from it.
-FORAGE_SIMD void mix(const double* weights, std::size_t count, std::size_t step, const double* from,
-                     std::size_t apart, std::size_t pixels, double* to, std::size_t to_apart) {
-    for (std::size_t first = 0; first < pixels; first += together) {
+/// Resamples one side of `together` lines of pixels that lie side by side, where the next pixel of a line
+/// comes after `step` numbers. The terms of each sum are added in their order. In `to`, the next pixel of a
+/// line comes after `to_step` numbers, and the next line after `to_line`.
+FORAGE_SIMD void mix(const ResampledSide& side, const double* from, std::size_t step, double* to,
+                     std::size_t to_step, std::size_t to_line) {
+    for (const ResampledSide::Window& w : side.windows) {
+        const double *weights = &side.weights[w.first_weight], *at = from + step * w.first;
         Four a{}, b{}, c{}, d{};  // not an array, which GCC 12 would not keep in registers
-        const double* at = from;
-        for (std::size_t k = 0; k < count; ++k, at += step) {
+        for (std::size_t k = 0; k < w.count; ++k, at += step) {
             const Four weight = four(weights[k]);
-            a += weight * load(at), b += weight * load(at + apart);
-            c += weight * load(at + 2 * apart), d += weight * load(at + 3 * apart);
+            a += weight * load(at), b += weight * load(at + channels);
+            c += weight * load(at + 2 * channels), d += weight * load(at + 3 * channels);
         }
-        write_level(a, to), write_level(b, to + to_apart);
-        write_level(c, to + 2 * to_apart), write_level(d, to + 3 * to_apart);
-        from += together * apart, to += together * to_apart;
+        write_level(a, to), write_level(b, to + to_line);
+        write_level(c, to + 2 * to_line), write_level(d, to + 3 * to_line);
+        to += to_step;
     }
 }
 
@@ -100,7 +99,7 @@ struct Cells {
 
 /// Shrinking widens the filter. Pixels outside the picture have no weight; the weights of a window have the
 /// sum 1.
-ImageCells::Side::Side(std::size_t from, std::size_t to) {
+ResampledSide::ResampledSide(std::size_t from, std::size_t to) {
     const double scale = static_cast<double>(to) / static_cast<double>(from), narrow = std::min(scale, 1.0),
                  reach = 2 / narrow;
     for (std::size_t index = 0; index < to; ++index) {
@@ -131,29 +130,25 @@ ImageCells::ImageCells(int width, int height, int w, int h, const ImageQuirks& q
         if (w > width || h > height) throw std::invalid_argument("cannot crop a picture to more than it has");
         return;
     }
-    columns_ = Side(width_, w_), rows_ = Side(height_, h_);
-    source_.resize(channels * width_ * padded(height_));
+    columns_ = ResampledSide(width_, w_), rows_ = ResampledSide(height_, h_);
+    source_.resize(channels * together * width_);
     narrow_.resize(channels * padded(w_) * padded(height_));
     result_.resize(channels * padded(w_) * h_);
 }
 
-/// Resamples the rows of the picture, then the columns of the result.
+/// Resamples the rows of the picture, four at a time, then the columns of the result.
 void ImageCells::resample(const std::uint8_t* rgb) {
-    const std::size_t wide = channels * width_, narrow = channels * padded(w_);
-    for (std::size_t pixel = 0; pixel < width_ * height_; ++pixel, rgb += 3)
-        for (std::size_t i = 0; i < 3; ++i) source_[channels * pixel + i] = rgb[i];
-    double* to = narrow_.data();
-    for (const Side::Window& w : columns_.windows) {
-        mix(&columns_.weights[w.first_weight], w.count, channels, &source_[channels * w.first], wide,
-            padded(height_), to, narrow);
-        to += channels;
+    constexpr std::size_t four_pixels = channels * together;
+    const std::size_t wide = channels * padded(w_);
+    for (std::size_t row = 0; row < height_; row += together) {
+        for (std::size_t line = 0; line < std::min(together, height_ - row); ++line)
+            for (std::size_t column = 0; column < width_; ++column, rgb += 3)
+                for (std::size_t i = 0; i < 3; ++i)
+                    source_[four_pixels * column + channels * line + i] = rgb[i];
+        mix(columns_, source_.data(), four_pixels, &narrow_[wide * row], channels, wide);
     }
-    to = result_.data();
-    for (const Side::Window& w : rows_.windows) {
-        mix(&rows_.weights[w.first_weight], w.count, narrow, &narrow_[narrow * w.first], channels, padded(w_),
-            to, channels);
-        to += narrow;
-    }
+    for (std::size_t first = 0; first < wide; first += four_pixels)
+        mix(rows_, &narrow_[first], wide, &result_[first], wide, channels);
 }
 
 void ImageCells::fill(std::span<const std::uint8_t> rgb, ColourSpace space, std::span<double> first,

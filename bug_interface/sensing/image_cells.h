@@ -25,6 +25,19 @@ struct ImageQuirks {
     double grey_green = 0.7512;
 };
 
+/// How one side of a picture is resampled: pixel i of the result is the sum of weights[first_weight + k] x
+/// source pixel (first + k), for the window i.
+struct ResampledSide {
+    struct Window {
+        std::size_t first, count, first_weight;
+    };
+    std::vector<Window> windows;
+    std::vector<double> weights;
+
+    ResampledSide() = default;
+    ResampledSide(std::size_t from, std::size_t to);
+};
+
 /// Fills three groups of w x h cells, row 0 at the top, from 8-bit pictures (rows from the top, three bytes
 /// per pixel). Values are in 0..1; grey values are at most 1.036.
 ///
@@ -42,27 +55,14 @@ class ImageCells {
               std::span<double> second, std::span<double> third);
 
   private:
-    /// How one side of the picture is resampled: pixel i of the result is the sum of weights[first_weight +
-    /// k] x source pixel (first + k).
-    struct Side {
-        struct Window {
-            std::size_t first, count, first_weight;
-        };
-        std::vector<Window> windows;
-        std::vector<double> weights;
-
-        Side() = default;
-        Side(std::size_t from, std::size_t to);
-    };
-
     void resample(const std::uint8_t* rgb);
 
     std::size_t width_, height_, w_, h_;
     ImageQuirks quirks_;
     bool resampled_;
-    Side columns_, rows_;
-    /// Pixels while a picture is resampled, four numbers each, 0..255: of the picture, of the picture with
-    /// its width resampled, and of the result.
+    ResampledSide columns_, rows_;
+    /// Pixels while a picture is resampled, four numbers each, 0..255: four rows of the picture, side by
+    /// side, then the picture with its width resampled, and the result.
     std::vector<double> source_, narrow_, result_;
 };
 
