@@ -121,15 +121,17 @@ class Camera {
     bool meet_solids(std::size_t block, Samples& samples) const;
     std::size_t full_face(const Window& window, std::size_t first_block, std::size_t last_block,
                           double& depth) const;
-    void draw_own(const OwnBlock& own, const Eigen::Array4f& behind, int pixels, float* rgb) const;
+    void draw_own(const OwnBlock& own, const float* behind, int pixels, float* rgb);
     Span span(const Window& window, int row) const {
         return spans_[window.first_span + static_cast<std::size_t>(row - window.first_row)];
     }
     const float* uniform_colour(const View& view, const Extent& extent, float* colour) const;
     static bool shows_floor(const View& view, const Extent& extent);
-    void draw_row(const View& view, int row, const float* ground, float* rgb) const;
+    void draw_row(const View& view, int row, const float* ground, float* rgb);
     void draw_textured(const View& view, std::size_t block, int pixels, float* rgb) const;
-    void draw_block(const View& view, std::size_t block, int pixels, const float* ground, float* rgb) const;
+    void draw_block(const View& view, std::size_t block, int pixels, const float* ground, float* rgb);
+    void shade_curved(const Window& window, std::size_t block, const Samples& samples,
+                      const std::int32_t* faces_of, Eigen::Array4f* colours) const;
     void draw_floors(const View& view, std::size_t block, const float* ground, Samples& samples) const;
     Rays rays_of(std::size_t block) const {
         const std::size_t first = block * block_samples_;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -21,6 +22,21 @@ constexpr double pixel_margin = 0.01;  ///< pixels; rays are in single precision
 int first_pixel(double at) { return static_cast<int>(std::clamp(at - pixel_margin, 0.0, 1e6)); }
 int end_pixel(double at, int pixels) {
     return static_cast<int>(std::ceil(std::clamp(at + pixel_margin, 0.0, static_cast<double>(pixels))));
+}
+
+Eigen::Array4f wide(const Colour& c) { return {c[0], c[1], c[2], 0}; }
+Eigen::Array4f wide(const float* c) { return {c[0], c[1], c[2], 0}; }
+
+/// Writes the mean colours of pixels whose samples are `apart` from each other.
+template <class ColourOf>
+void write_means(int pixels, int samples, std::size_t apart, float* rgb, ColourOf colour_of) {
+    const float mean = 1.0f / static_cast<float>(samples);
+    for (std::size_t p = 0; p < static_cast<std::size_t>(pixels); ++p, rgb += 3) {
+        Eigen::Array4f sum = colour_of(p);
+        for (int s = 1; s < samples; ++s) sum += colour_of(p + static_cast<std::size_t>(s) * apart);
+        sum *= mean;
+        std::memcpy(rgb, sum.data(), 3 * sizeof(float));
+    }
 }
 
 void fill(const float* colour, std::size_t pixels, float* rgb) {
@@ -105,8 +121,7 @@ struct Camera::View {
 struct Camera::Samples {
     std::array<double, max_block> depth, entry, face;  ///< as in Nearest; face 0 is the ground
     std::array<Eigen::Array4f, max_block>
-        ground;                   ///< where it has several colours; the fourth number is unused
-    bool uniform_ground = false;  ///< whether the colour of all ground is `ground.front()`
+        ground;  ///< where it has several colours; the fourth number is unused
 };
 
 void Camera::set_own(std::span<const VisualSolid> boxes) {
@@ -151,8 +166,8 @@ void Camera::render(const Pose2& robot, std::span<const VisualSolid* const> movi
     windows_.clear(), spans_.clear(), near_.clear(), colours_.resize(1);
     const auto add_colours = [&](const VisualSolid& visual) {
         for (int face = 0; face < 6; ++face) {
-            const Colour c = lighting.shade(visual.material, visual.solid.pose.linear() * face_normal(face));
-            colours_.emplace_back(c[0], c[1], c[2], 0.0f);
+            const Eigen::Vector3d normal = visual.solid.pose.linear() * face_normal(face);
+            colours_.push_back(wide(lighting.shade(visual.material, normal)));
         }
         colours_.emplace_back();
     };
@@ -180,7 +195,7 @@ void Camera::render(const Pose2& robot, std::span<const VisualSolid* const> movi
 }
 
 /// Renders one row. `ground` is the colour of all ground, null when it may have several.
-void Camera::draw_row(const View& view, int row, const float* ground, float* rgb) const {
+void Camera::draw_row(const View& view, int row, const float* ground, float* rgb) {
     std::array<float, 3> of_row, of_block;
     const Extent& all = rows_[static_cast<std::size_t>(row)];
     if (!ground && all.reaches_floor) ground = uniform_colour(view, all, of_row.data());
@@ -200,7 +215,7 @@ void Camera::draw_row(const View& view, int row, const float* ground, float* rgb
             fill(behind, static_cast<std::size_t>(pixels), rgb);
         else if (plain && (cover_[block] != bare ||
                            own_[static_cast<std::size_t>(own)].farthest < nearest_floor_[block]))
-            draw_own(own_[static_cast<std::size_t>(own)], {behind[0], behind[1], behind[2], 0}, pixels, rgb);
+            draw_own(own_[static_cast<std::size_t>(own)], behind, pixels, rgb);
         else if (cover_[block] == bare && own < 0 && extent.reaches_floor && shows_floor(view, extent))
             draw_textured(view, block, pixels, rgb);
         else
@@ -209,16 +224,10 @@ void Camera::draw_row(const View& view, int row, const float* ground, float* rgb
 }
 
 /// Renders a block with own solids before something of one colour.
-void Camera::draw_own(const OwnBlock& own, const Eigen::Array4f& behind, int pixels, float* rgb) const {
-    const float mean = 1.0f / static_cast<float>(samples_);
-    const auto colour = [&](std::size_t k) -> const Eigen::Array4f& {
-        return own.face[k] ? colours_[own.face[k]] : behind;
-    };
-    for (std::size_t p = 0; p < static_cast<std::size_t>(pixels); ++p, rgb += 3) {
-        Eigen::Array4f sum = colour(p);
-        for (std::size_t k = p + block_width; k < block_samples_; k += block_width) sum += colour(k);
-        Eigen::Map<Eigen::Array3f>{rgb} = sum.head<3>() * mean;
-    }
+void Camera::draw_own(const OwnBlock& own, const float* behind, int pixels, float* rgb) {
+    colours_.front() = wide(behind);
+    write_means(pixels, samples_, block_width, rgb,
+                [&](std::size_t k) -> const Eigen::Array4f& { return colours_[own.face[k]]; });
 }
 
 /// Extends the columns of each row, from `first_row` on, by those of a line between two points, in pixels to
@@ -433,9 +442,7 @@ void Camera::draw_textured(const View& view, std::size_t block, int pixels, floa
 /// draw_row().
 void Camera::draw_floors(const View& view, std::size_t block, const float* ground, Samples& samples) const {
     const std::size_t first = block * block_samples_;
-    samples.uniform_ground = ground;
     if (ground) {
-        samples.ground.front() << ground[0], ground[1], ground[2], 0;
         std::copy_n(&floor_points_.front().depth[first], block_samples_, samples.depth.begin());
         return;
     }
@@ -459,8 +466,7 @@ void Camera::draw_floors(const View& view, std::size_t block, const float* groun
 }
 
 /// Renders a block with floors and solids.
-void Camera::draw_block(const View& view, std::size_t block, int pixels, const float* ground,
-                        float* rgb) const {
+void Camera::draw_block(const View& view, std::size_t block, int pixels, const float* ground, float* rgb) {
     Samples samples;
     draw_floors(view, block, ground, samples);
     std::fill_n(samples.face.begin(), block_samples_, 0.0);
@@ -474,30 +480,41 @@ void Camera::draw_block(const View& view, std::size_t block, int pixels, const f
     }
     meet_solids(block, samples);
 
+    std::array<std::int32_t, max_block> faces_of;
+    std::copy_n(samples.face.begin(), block_samples_, faces_of.begin());
+    if (ground) colours_.front() = wide(ground);
     std::array<Eigen::Array4f, max_block> colours;
-    std::array<std::size_t, max_block> faces_of;
-    for (std::size_t k = 0; k < block_samples_; ++k) {
-        faces_of[k] = static_cast<std::size_t>(samples.face[k]);
-        colours[k] = faces_of[k] ? colours_[faces_of[k]] : samples.ground[samples.uniform_ground ? 0 : k];
-    }
-    for (const Window& w : windows_) {
-        if (!meets(w, block) || w.visual->solid.kind == ShapeKind::box) continue;
-        const auto curved = static_cast<std::size_t>(w.first_face + Nearest::curved);
-        const auto end = faces_of.begin() + static_cast<std::ptrdiff_t>(block_samples_);
-        if (std::find(faces_of.begin(), end, curved) == end) continue;
-        std::array<Eigen::Array4f, max_block> shades;
-        shade_curved(w.solid, w.visual->solid.pose.linear(), scene_->lighting(), w.visual->material,
-                     rays_of(block), samples.entry.data(), shades.front().data());
-        for (std::size_t k = 0; k < block_samples_; ++k)
-            if (faces_of[k] == curved) colours[k] = shades[k];
-    }
+    for (std::size_t k = 0; k < block_samples_; ++k)
+        colours[k] = colours_[static_cast<std::size_t>(faces_of[k])];
+    for (std::size_t k = 0; k < block_samples_ && !ground; ++k)
+        if (faces_of[k] == 0) colours[k] = samples.ground[k];
+    for (const Window& w : windows_)
+        if (meets(w, block) && w.visual->solid.kind != ShapeKind::box)
+            shade_curved(w, block, samples, faces_of.data(), colours.data());
+    write_means(pixels, samples_, block_width, rgb,
+                [&](std::size_t k) -> const Eigen::Array4f& { return colours[k]; });
+}
 
-    const float mean = 1.0f / static_cast<float>(samples_);
-    for (std::size_t p = 0; p < static_cast<std::size_t>(pixels); ++p, rgb += 3) {
-        Eigen::Array4f sum = colours[p];
-        for (std::size_t k = p + block_width; k < block_samples_; k += block_width) sum += colours[k];
-        Eigen::Map<Eigen::Array3f>{rgb} = sum.head<3>() * mean;
-    }
+/// Replaces the colours of the samples of a block that show the curved face of a solid.
+void Camera::shade_curved(const Window& w, std::size_t block, const Samples& samples,
+                          const std::int32_t* faces_of, Eigen::Array4f* colours) const {
+    const auto curved = static_cast<std::int32_t>(w.first_face + Nearest::curved);
+    bool any = false;
+    for (std::size_t k = 0; k < block_samples_; ++k) any |= faces_of[k] == curved;
+    if (!any) return;
+    const Lighting& lighting = scene_->lighting();
+    const Material& material = w.visual->material;
+    std::array<double, max_block> lit;
+    if (lighting.sun)
+        light_curved(w.solid, w.visual->solid.pose.linear(), *lighting.sun, rays_of(block),
+                     samples.entry.data(), lit.data());
+    else
+        lit.fill(0);
+    const Eigen::Array4f ambient = wide(material.ambient * lighting.ambient),
+                         diffuse = wide(material.diffuse);
+    for (std::size_t k = 0; k < block_samples_; ++k)
+        if (faces_of[k] == curved)
+            colours[k] = (ambient + diffuse * static_cast<float>(lit[k])).min(1.0f).max(0.0f);
 }
 
 }  // namespace forage::bug

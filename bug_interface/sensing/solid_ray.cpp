@@ -105,14 +105,13 @@ template <class Number>
     return row[0] * x + (row[1] * y + row[2] * z);
 }
 
-/// What shading needs, as plain numbers.
+/// What light() needs, as plain numbers.
 struct Surface {
     bool upright;  ///< whether normals are horizontal in the frame of the solid
     double to_world[9], sun[3];
 };
 
-/// Writes how much each point of entry faces the sun, 0..1, to `lit`, whose size is a multiple of four.
-FORAGE_SIMD void shade(const SolidInView& f, const Surface& surface, const Rays& rays, const double* entry,
+FORAGE_SIMD void light(const SolidInView& f, const Surface& surface, const Rays& rays, const double* entry,
                        double* lit) {
     for (std::size_t i = 0; i < rays.count; i += 4) {
         const Four a = load(rays.x + i), b = load(rays.y + i), c = load(rays.z + i), depth = load(entry + i);
@@ -161,19 +160,12 @@ Eigen::Vector3d curved_normal(ShapeKind kind, const Eigen::Vector3d& origin, con
     return normal.normalized();
 }
 
-void shade_curved(const SolidInView& solid, const Eigen::Matrix3d& to_world, const Lighting& lighting,
-                  const Material& material, const Rays& rays, const double* entry, float* rgb) {
+void light_curved(const SolidInView& solid, const Eigen::Matrix3d& to_world, const Eigen::Vector3d& sun,
+                  const Rays& rays, const double* entry, double* lit) {
     Surface surface{solid.kind == ShapeKind::cylinder, {}, {}};
     copy_rows(to_world, surface.to_world);
-    std::array<double, 128> lit{};
-    if (lighting.sun) {
-        for (int axis = 0; axis < 3; ++axis) surface.sun[axis] = (*lighting.sun)[axis];
-        shade(solid, surface, rays, entry, lit.data());
-    }
-    const Colour ambient = material.ambient * lighting.ambient;
-    for (std::size_t i = 0; i < rays.count; ++i)
-        Eigen::Map<Colour>(rgb + 4 * i) =
-            (ambient + material.diffuse * static_cast<float>(lit[i])).min(1.0f).max(0.0f);
+    for (int axis = 0; axis < 3; ++axis) surface.sun[axis] = sun[axis];
+    light(solid, surface, rays, entry, lit);
 }
 
 }  // namespace forage::bug

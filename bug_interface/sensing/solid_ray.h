@@ -67,10 +67,10 @@ void meet(const SolidInView& solid, const Rays& rays, double first_face, const N
 Eigen::Vector3d curved_normal(ShapeKind kind, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                               double depth);
 
-/// Writes the colours of the points where rays enter the curved face of `solid`, at the depths `entry`, to
-/// `rgb`, four numbers per ray, the last of which is unused: `lighting.shade(material, to_world *
-/// curved_normal())` to the bit. Other rays get any numbers. At most 128 rays.
-void shade_curved(const SolidInView& solid, const Eigen::Matrix3d& to_world, const Lighting& lighting,
-                  const Material& material, const Rays& rays, const double* entry, float* rgb);
+/// Writes how much of the light from `sun`, a unit vector, falls on the points where rays enter the curved
+/// face of `solid`, at the depths `entry`: max(0, sun * to_world * curved_normal()) to the bit. Other rays
+/// get any numbers.
+void light_curved(const SolidInView& solid, const Eigen::Matrix3d& to_world, const Eigen::Vector3d& sun,
+                  const Rays& rays, const double* entry, double* lit);
 
 }  // namespace forage::bug
