@@ -11,6 +11,18 @@ install(DIRECTORY docs DESTINATION ${FORAGE_DOC_DIR} COMPONENT doc PATTERN Doxyf
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${FORAGE_DOC_DIR} COMPONENT doc)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/site/ DESTINATION ${FORAGE_DOC_DIR}/html COMPONENT doc OPTIONAL)  # `./tools/docs` makes it
 
+# The Python package goes where the distribution's interpreter looks for packages, which depends on the prefix.
+if(FORAGE_HAS_PYTHON)
+  install(CODE "if(CMAKE_INSTALL_PREFIX STREQUAL \"/usr\")
+  set(python_dir lib/python3/dist-packages)
+else()
+  set(python_dir lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/${FORAGE_PYTHON_PACKAGES})
+endif()" COMPONENT python)
+  install(TARGETS forage_python LIBRARY DESTINATION "\${python_dir}/forage" COMPONENT python)
+  install(DIRECTORY tools/python/forage DESTINATION "\${python_dir}" COMPONENT python
+          FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN py.typed PATTERN __pycache__ EXCLUDE)
+endif()
+
 # Includes of headers are written from the project's root: <forage/plugin.h> for users, "core/..." in the headers.
 install(DIRECTORY tools/api/forage/ DESTINATION ${FORAGE_HEADER_DIR} COMPONENT dev FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY core/base core/types core/model core/engine core/observe core/run DESTINATION ${FORAGE_HEADER_DIR}/core COMPONENT dev

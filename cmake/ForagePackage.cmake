@@ -1,4 +1,5 @@
-# The packages that `cpack` makes: forage (the program and its systems), forage-dev (to write plugins and programs) and forage-doc.
+# The packages that `cpack` makes: forage (the program and its systems), forage-dev (to write plugins and programs), forage-doc and, where
+# it can be built, python3-forage.
 # `./tools/package` builds them so that they are the same byte for byte wherever they are built.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "The Forage authors <forage@forage.invalid>")
@@ -42,6 +43,20 @@ set(CPACK_DEBIAN_DOC_DESCRIPTION
 "This package contains the tutorial, how-to pages and references as text and,
 in html/, as a site with search and the reference of the interface for
 programs.")
+
+if(FORAGE_HAS_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  math(EXPR next "${Python3_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-forage)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_DESCRIPTION
+"This package contains the Python module forage: systems and robots are run,
+read, changed, recorded and drawn from Python and in notebooks, with NumPy.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "forage, fonts-dejavu-core")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "forage-dev, forage-doc, python3-pandas, python3-xarray, python3-scipy, jupyter-notebook")
+endif()
 
 # What every package of Debian has in share/doc, and the manual page.
 file(WRITE ${PROJECT_BINARY_DIR}/package/changelog "forage (${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}) unstable; urgency=medium

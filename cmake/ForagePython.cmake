@@ -28,6 +28,7 @@ if(NOT FORAGE_PYBIND11_DIR)
 endif()
 if(NOT missing)
   set(FORAGE_HAS_PYTHON ON)
+  get_filename_component(FORAGE_PYTHON_PACKAGES "${Python3_SITEARCH}" NAME)  # dist-packages of Debian, or site-packages
   message(STATUS "Python package: for ${Python3_EXECUTABLE} (${Python3_VERSION})")
 elseif(FORAGE_PYTHON STREQUAL "ON")
   message(FATAL_ERROR "FORAGE_PYTHON=ON: ${Python3_EXECUTABLE} (${Python3_VERSION}) lacks what Debian calls: ${missing}")
