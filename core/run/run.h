@@ -136,6 +136,8 @@ class Run {
 
     /// Reads or writes everything that changes in the run. May be called between cycles, after start().
     void checkpoint(Archive& archive);
+    /// The subtitle of pictures, such as "dac.iqr in arena.world, seed 1"; may be empty.
+    std::string title;
     /// How the run was opened, as forage::save_state() needs it; empty for a run of a system built in code.
     std::string opened_as;
     /// A digest of everything in system and environment that decides the following cycles. Equal runs have

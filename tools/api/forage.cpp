@@ -2,6 +2,8 @@
 
 #include "core/base/named_file.h"
 #include "core/plugin/search.h"
+#include "core/run/path_recorder.h"
+#include "core/run/run_json.h"
 #include "tools/api/experiment.h"
 #include "tools/api/prepare.h"
 #include "tools/api/results.h"
@@ -28,8 +30,10 @@ Run make_run(model::System system, Registry types, std::unique_ptr<Environment> 
     if (run) declare(options, *run, diagnostics);
     throw_errors(diagnostics);
     if (const Environment* world = run->environment())
-        for (std::size_t i = 0; i < world->robot_names().size(); ++i)
+        for (std::size_t i = 0; i < world->robot_names().size(); ++i) {
             run->add(std::make_unique<TrialRecorder>(*world, i, run->layout(), "trials.csv"));
+            if (options.paths) run->add(std::make_unique<PathRecorder>(*world, i, "trajectory.csv"));
+        }
     return std::move(*run);
 }
 
@@ -57,6 +61,7 @@ Run open(const std::string& system, const OpenOptions& options, Diagnostics* war
     throw_errors(diagnostics);
     Run out = make_run(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world),
                        options, diagnostics);
+    out.title = run_title(input);
     out.opened_as = origin_of(system, options, input_files(spec, sources));
     if (warnings) *warnings = std::move(diagnostics);
     return out;

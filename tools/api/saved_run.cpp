@@ -8,6 +8,8 @@
 #include "core/observe/manipulation.h"
 #include "core/run/checkpoint_file.h"
 #include "core/run/module_files.h"
+#include "core/run/path_recorder.h"
+#include "tools/plot/plots.h"
 
 namespace forage {
 namespace {
@@ -29,10 +31,11 @@ void keep(Archive& archive, Manipulation::Settings& s) {
 
 void keep(Archive& archive, model::Measure& m) { archive(m.name, m.kind, m.what.text, m.of.text, m.last); }
 
-/// Writes one observer. Returns false for those that open() adds itself.
+/// Writes one observer. Returns false for those that open() adds itself, and for films.
 bool save(Archive& archive, const Observer& observer) {
-    if (dynamic_cast<const ModuleFiles*>(&observer) || dynamic_cast<const TrialRecorder*>(&observer))
-        return false;
+    if (dynamic_cast<const ModuleFiles*>(&observer) || dynamic_cast<const TrialRecorder*>(&observer) ||
+        dynamic_cast<const PathRecorder*>(&observer) || dynamic_cast<const plot::FilmRecorder*>(&observer))
+        return false;  // a film stays with the run
     const auto begin = [&](Saved kind) { archive(kind); };
     if (const auto* recorder = dynamic_cast<const MemoryRecorder*>(&observer)) {
         begin(Saved::recording);

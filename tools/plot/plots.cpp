@@ -9,7 +9,6 @@
 #include "core/run/environment.h"
 #include "core/run/result_files.h"
 #include "tools/plot/structure.h"
-#include "tools/plot/trajectory.h"
 
 namespace forage::plot {
 namespace {
@@ -145,15 +144,20 @@ void RowPlotter::after_cycle(RunView& run) {
     plot_.add(run.time.cycle - 1, row_);
 }
 
-void RowPlotter::finish(RunView& run, ResultFiles& files) {
-    PlotContext context{title_, run.run.seconds_per_cycle(), {}};
-    if (run.run.has_trials()) {
+PlotContext context_of(const Run& run, const std::string& title) {
+    PlotContext context{title, run.seconds_per_cycle(), {}};
+    if (run.has_trials()) {
         const auto add = [&](const Trial& t) {
             context.trials.push_back(static_cast<double>(t.first_cycle));
         };
-        for (const auto& t : run.environment->trials(0)) add(t);
-        if (const auto running = run.environment->current_trial(0); running.cycles > 0) add(running);
+        for (const auto& t : run.environment()->trials(0)) add(t);
+        if (const auto running = run.environment()->current_trial(0); running.cycles > 0) add(running);
     }
+    return context;
+}
+
+void RowPlotter::finish(RunView& run, ResultFiles& files) {
+    const PlotContext context = context_of(run.run, title_);
     files.write(plot_.spec().file(format_), [&] { return plot_.draw(format_, context); });
     if (const auto missing = plot_.missing(); !missing.empty())
         files.warn(fmt::format("'{}': the run ended before cycle {}", plot_.spec().text, missing),
@@ -178,13 +182,18 @@ void StructurePlotter::finish(RunView& run, ResultFiles& files) {
     });
 }
 
-void TrajectoryPlotter::finish(RunView&, ResultFiles& files) {
+std::vector<Path> paths_of(const PathRecorder& recorder, const bug::World& world) {
     std::vector<Path> paths;
-    for (const auto& path : recorder_.paths(world_)) {
+    for (const auto& path : recorder.paths(world)) {
         Path& drawn = paths.emplace_back();
         for (const auto& p : path.points) drawn.points.emplace_back(p.pose.x, p.pose.y);
         drawn.reached = path.reached, drawn.finished = path.finished, drawn.trial = paths.size();
     }
+    return paths;
+}
+
+void TrajectoryPlotter::finish(RunView&, ResultFiles& files) {
+    std::vector<Path> paths = paths_of(recorder_, world_);
     const auto leads_somewhere = [](const Path& path) { return path.points.size() > 1; };
     if (!spec_ && std::none_of(paths.begin(), paths.end(), leads_somewhere)) return;
     if (spec_)

@@ -17,6 +17,7 @@
 #include "tools/plot/plot_spec.h"
 #include "tools/plot/space.h"
 #include "tools/plot/time.h"
+#include "tools/plot/trajectory.h"
 #include "tools/plot/wiring.h"
 
 namespace forage::plot {
@@ -27,6 +28,9 @@ struct PlotContext {
     double seconds_per_cycle = 0;  ///< 0 if unknown
     std::vector<double> trials;    ///< the first cycle of each trial
 };
+
+/// The facts about a run.
+PlotContext context_of(const Run& run, const std::string& title);
 
 /// Collects the rows of a source and draws them, in bounded memory. A time plot joins neighbours in time, and
 /// neighbouring cells when there are more cells than a picture has rows. An animation without given cycles
@@ -109,6 +113,9 @@ class StructurePlotter final : public Observer {
     std::vector<int> connections_;  ///< the connections that the picture shows
 };
 
+/// The paths that a recorder has collected.
+std::vector<Path> paths_of(const PathRecorder& recorder, const bug::World& world);
+
 /// Draws the path of a robot.
 class TrajectoryPlotter final : public Observer {
   public:
@@ -140,6 +147,8 @@ class FilmRecorder final : public Observer {
   public:
     /// `world` is the run's environment, `seconds_per_cycle` is that of the run.
     FilmRecorder(bug::World& world, std::string name, double seconds_per_cycle, const std::string& title);
+
+    Film& film() { return film_; }
 
     void after_cycle(RunView& run) override;
     void finish(RunView& run, ResultFiles& files) override;

@@ -172,6 +172,7 @@ Group.clamp(), add() and multiply() make one. As a context manager it removes it
         .def("remove", &PythonManipulation::remove, "Ends the manipulation. Does nothing when it has ended.")
         .def("__enter__", [](const py::object& self) { return self; })
         .def("__exit__", [](PythonManipulation& self, const py::args&) { self.remove(); })
+        .def("_repr_html_", html("plain"))
         .def("__repr__", [](const PythonManipulation& self) { return repr(self); });
     py::class_<PythonGroup>(module, "Group", R"(A group of cells of a run: run["Process/Group"].
 
@@ -219,6 +220,7 @@ state: the name of a state; the activity without it.
 Raises InputError for another shape, for an input, and for a group that the run was not opened to overwrite.)")
         .def("__getattr__", &attribute, "name"_a)
         .def("__dir__", &directory)
+        .def("_repr_html_", html("group"))
         .def("__repr__", [](const PythonGroup& self) { return repr(self); });
 }
 

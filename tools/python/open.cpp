@@ -10,6 +10,7 @@
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
 #include "tools/python/group.h"
+#include "tools/python/picture.h"
 #include "tools/python/probe.h"
 #include "tools/python/run.h"
 #include "tools/python/tables.h"
@@ -36,7 +37,8 @@ std::shared_ptr<PythonRun> open_run(const Path& system, const std::optional<Path
                         .noise = noise,
                         .real_time_factor = real_time_factor,
                         .observe = observe,
-                        .overwrite = overwrite};
+                        .overwrite = overwrite,
+                        .paths = true};
     for (const auto& p : plugins) options.plugins.push_back(p.string());
     Diagnostics warnings;
     std::shared_ptr<PythonRun> run;
@@ -269,11 +271,31 @@ source: "Process/Group", "Process/Group:state", some cells of it "Process/Group(
 
 file: a path, or a file that is open to write bytes. Without it, the bytes are returned.
 Raises InputError for a run that was not opened from a file, and OSError when the file cannot be written.)")
-        .def("__reduce__", &reduce);
+        .def("__reduce__", &reduce)
+        .def(
+            "plot", &plot, "picture"_a, "format"_a = "png", "robot"_a = 0,
+            R"_(Draws a picture of the run as it is now, as `forage run --plot` does. Returns a Picture, which notebooks show.
+
+picture: "time:SOURCE" over time, "space:SOURCE" the last cycle or "space:SOURCE@100,200", "movie:SOURCE", "trajectory", "diagram" or
+    "diagram:Process", "connection:NAME", "wiring:NAME" (docs/reference/expressions.md). Pictures over time show what a probe has recorded.
+format: png, svg or pdf. A movie is always an animated png.
+robot: whose trajectory, from 0.
+
+Raises InputError.)_")
+        .def("diagram", &diagram, "process"_a = none, "format"_a = "svg",
+             "Draws the processes, groups and connections of the system, or of one process. Returns a "
+             "Picture.")
+        .def(
+            "film", &film, "file"_a,
+            R"(Films the world and what the robots see, from the next cycle on: with run.film("robot.gif"): run.run(trials=1).
+
+file: a name that ends with .gif, or with .png for numbered pictures.
+Returns a Film, which is complete when it or the run is closed. Raises InputError, also without a world.)");
     run.def("__getitem__", [](PythonRun& self, const std::string& path) { return find_group(self, path); })
         .def("__contains__", &has_group)
         .def("__enter__", [](PythonRun& self) { return self.shared_from_this(); })
         .def("__exit__", [](PythonRun& self, const py::args&) { self.close(); })
+        .def("_repr_html_", html("run"))
         .def("__repr__", [](const PythonRun& self) { return repr(self); });
     module.def("open", &open_run, "system"_a, py::kw_only(), "world"_a = none, "seed"_a = 1,
                "settings"_a = none, "plugins"_a = std::vector<Path>(), "threads"_a = 1, "lenient"_a = false,

@@ -103,6 +103,7 @@ group, (rows,) of a mean, and (rows, targets, sources) of synapses.)")
         .def("to_neo", exported("to_neo"), "What is recorded as a neo.AnalogSignal, see Recording.")
         .def("remove", &PythonProbe::remove, "Ends the recording, and forgets it.")
         .def("__len__", [](const PythonProbe& p) { return p.use().cycles().size(); })
+        .def("_repr_html_", html("plain"))
         .def("__repr__", [](const PythonProbe& p) { return repr(p); });
 }
 

@@ -16,8 +16,16 @@ namespace py = pybind11;
 void add_errors(py::module_& module);
 void add_groups(py::module_& module);
 void add_parameters(py::module_& module);
+void add_pictures(py::module_& module);
 void add_probes(py::module_& module);
 void add_runs(py::module_& module);
+
+/// The method _repr_html_ of a class: the function of forage/_html.py with this name, called with the object.
+inline auto html(const char* function) {
+    return [function](const py::object& self) {
+        return py::module_::import("forage._html").attr(function)(self);
+    };
+}
 
 /// Issues one warning of Python, forage.InputWarning, per warning among the diagnostics.
 void warn(const Diagnostics& diagnostics);

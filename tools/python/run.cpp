@@ -51,8 +51,15 @@ std::shared_ptr<Run> PythonRun::owner() const {
 
 void PythonRun::close() {
     if (runner_) throw engine::RunError("this run is running: it cannot be closed");
+    while (!films_.empty()) finish_film(*films_.back());
     clear();
     run_.reset();
+}
+
+std::size_t PythonRun::finish_film(Observer& film) {
+    Run& run = use();
+    std::erase(films_, &film);
+    return forage::finish_film(run, film);
 }
 
 void PythonRun::on_cycle(py::object callback, std::uint64_t every) {

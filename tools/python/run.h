@@ -35,6 +35,10 @@ class PythonRun : public std::enable_shared_from_this<PythonRun> {
     bool remove_callback(const py::object& callback);
     /// Forgets the run. Views of its numbers stay valid.
     void close();
+    /// Adds a film, which close() completes.
+    void add_film(Observer& film) { films_.push_back(&film); }
+    /// Completes a film. Returns the number of its frames.
+    std::size_t finish_film(Observer& film);
     bool closed() const { return !run_; }
 
     /// The view of a state that always stands at the same place: what `make` returned at the first call.
@@ -55,6 +59,7 @@ class PythonRun : public std::enable_shared_from_this<PythonRun> {
     std::shared_ptr<Run> run_;
     std::vector<Callback> callbacks_;
     std::map<std::pair<int, int>, py::object> views_;
+    std::vector<Observer*> films_;           ///< those that are not completed
     std::optional<std::thread::id> runner_;  ///< the thread that is running cycles
 };
 

@@ -133,6 +133,7 @@ that are read at the start only, and warns of values outside the usual range.)")
         .def("__iter__", [](const Parameters& self) { return py::iter(names_of(self)); })
         .def("__len__", [](const Parameters& self) { return py::len(names_of(self)); })
         .def("keys", &names_of, "The names of all parameters.")
+        .def("_repr_html_", html("parameters"))
         .def("__repr__", [](const Parameters& self) {
             return fmt::format("<forage.Parameters, {}>", py::len(names_of(self)));
         });

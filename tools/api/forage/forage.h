@@ -47,10 +47,11 @@ struct OpenOptions {
     /// Sources such as "Bug/Light" that will be read, and groups that will be overwritten as well. When
     /// either is given, the run computes nothing else but what observers and modules read.
     std::optional<std::vector<std::string>> observe = {}, overwrite = {};
+    bool paths = false;  ///< whether the paths of the robots are kept, for the picture "trajectory"
 
     void checkpoint(Archive& archive) {
         archive(world, seed, settings, plugins, threads, lenient, noise, real_time_factor, compute_everything,
-                observe, overwrite);
+                observe, overwrite, paths);
     }
 };
 
@@ -85,6 +86,20 @@ RunOutcome run(const RunSpec& spec, const RunCallbacks& callbacks = {});
 std::vector<std::string> draw(const std::string& from, const std::vector<std::string>& plots = {},
                               const std::string& directory = {}, const std::string& format = "png",
                               const std::vector<std::string>& where = {});
+
+/// Draws a picture of a run as it is now, such as "time:Process/Group", "diagram" and "trajectory", as
+/// `forage run --plot` does. Returns the content of a file in a format that is png, svg or pdf. Pictures over
+/// time show what was recorded in memory (Run::record()); "space:SOURCE" without a recording shows the last
+/// cycle. A trajectory is that of one robot, and needs OpenOptions::paths. Throws InputError. Warnings are
+/// added to `warnings`, if it is not null.
+std::string draw(Run& run, const std::string& picture, const std::string& format = "png",
+                 std::size_t robot = 0, Diagnostics* warnings = nullptr);
+/// Films the world of a run, from the next cycle on, into a file that ends with .gif, or into numbered
+/// pictures for a name that ends with .png, until finish_film(). Throws InputError.
+Observer& film(Run& run, const std::string& file);
+/// Completes a film of a run and removes it from the run. Returns the number of its frames. Throws
+/// std::runtime_error when the file cannot be written.
+std::size_t finish_film(Run& run, Observer& film);
 
 struct ExperimentOutcome {
     std::vector<PlannedRun> runs;

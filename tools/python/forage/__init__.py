@@ -9,8 +9,9 @@
 """
 
 from ._errors import Diagnostic, InputError, InputWarning, RunError
-from ._forage import Group, Manipulation, Parameters, Probe, Run, __version__, open, resume
+from ._forage import Film, Group, Manipulation, Parameters, Probe, Run, __version__, open, resume
+from ._picture import Picture
 from ._recording import Recording
 
-__all__ = ["Diagnostic", "Group", "InputError", "InputWarning", "Manipulation", "Parameters", "Probe", "Recording", "Run", "RunError",
+__all__ = ["Diagnostic", "Film", "Group", "InputError", "InputWarning", "Manipulation", "Parameters", "Picture", "Probe", "Recording", "Run", "RunError",
            "open", "resume"]

@@ -1,0 +1,91 @@
+"""Pictures and films are those of the command line; notebooks show every object."""
+import copy
+from html import escape
+
+import pytest
+
+import forage
+from conftest import SYSTEMS, WORLD, open_dac
+
+PICTURES = ["time:Bug/Light", "time:mean(Bug/Light)", "space:Bug/Light@100,200", "movie:Bug/Motor@0..100/10", "diagram", "diagram:Bug",
+            "connection:Light to US", "trajectory"]
+FILES = ["time_Bug_Light.png", "time_mean_Bug_Light.png", "space_Bug_Light_100_200.png", "movie_Bug_Motor_0..100_10.png", "diagram.png",
+         "diagram_Bug.png", "connection_Light_to_US.png", "trajectory.png"]
+
+
+def test_pictures_are_those_of_the_command_line(dac, command, tmp_path):
+    arguments = [a for picture in PICTURES for a in ("--plot", picture)]
+    command("run", SYSTEMS / "dac_foraging.iqr", "--world", WORLD, "--cycles", 400, "-o", tmp_path / "out", *arguments)
+    written = {file.name: file.read_bytes() for file in (tmp_path / "out").glob("*.png")}
+    for source in ("Bug/Light", "mean(Bug/Light)", "Bug/Motor"):
+        dac.probe(source)
+    dac.run(cycles=400)
+    drawn = {dac.plot(picture).data for picture in PICTURES}
+    assert drawn == set(written.values()) and len(drawn) == len(PICTURES)
+
+
+def test_pictures_have_formats_and_are_saved(dac, tmp_path):
+    dac.run(cycles=10)
+    png, svg = dac.plot("trajectory"), dac.diagram()
+    assert png._repr_png_().startswith(b"\x89PNG") and png._repr_svg_() is None
+    assert svg._repr_svg_().lstrip().startswith("<?xml") and svg._repr_png_() is None
+    assert dac.diagram("Bug", format="pdf").data.startswith(b"%PDF")
+    svg.save(tmp_path / "diagram.svg")
+    assert (tmp_path / "diagram.svg").read_bytes() == svg.data
+    assert dac.plot("space:Bug/Light").data  # the last cycle needs no probe
+    twin = copy.copy(dac)
+    assert twin.plot("trajectory").data == png.data
+
+
+def test_what_cannot_be_drawn_says_why(dac):
+    for picture, message in (("time:Bug/Light", "is not recorded"), ("time:Bug/Ligth", "'Bug' has no group 'Ligth'|there is no group"),
+                             ("curve:success", "results of several runs"), ("nothing:x", "nothing"), ("connection:None", "None"),
+                             ("diagram:None", "there is no process 'None'")):
+        with pytest.raises(forage.InputError, match=message):
+            dac.plot(picture)
+    with pytest.raises(forage.InputError, match="format"):
+        dac.plot("diagram", format="gif")
+    with pytest.raises(forage.InputError, match="there is no robot 7"):
+        dac.plot("trajectory", robot=7)
+    with forage.open(SYSTEMS / "cookbook/oscillator.iqr") as run:
+        with pytest.raises(forage.InputError, match="needs a world"):
+            run.plot("trajectory")
+        with pytest.raises(forage.InputError, match="needs a world"):
+            run.film("film.gif")
+
+
+def test_a_film_is_that_of_the_command_line(dac, command, tmp_path):
+    with dac.film(tmp_path / "robot.gif") as film:
+        dac.run(cycles=30)
+        assert not film.closed and "not complete" in repr(film)
+    assert film.frames > 1 and film.closed and "data:image/gif;base64" in film._repr_html_()
+    command("run", SYSTEMS / "dac_foraging.iqr", "--world", WORLD, "--cycles", 30, "--video", tmp_path / "other.gif", "-o", "")
+    assert (tmp_path / "robot.gif").read_bytes() == (tmp_path / "other.gif").read_bytes()
+    film.close()
+    (tmp_path / "folder.gif").mkdir()
+    for name in ("film.mp4", tmp_path / "folder.gif"):
+        with pytest.raises(forage.InputError):
+            dac.film(name)
+
+
+def test_a_film_is_completed_with_its_run(tmp_path):
+    with open_dac() as run:
+        film = run.film(tmp_path / "robot.gif")
+        run.run(cycles=10)
+        twin = copy.copy(run)
+    assert film.closed and (tmp_path / "robot.gif").stat().st_size > 1000
+    twin.run(cycles=10)
+    assert [file.name for file in tmp_path.iterdir()] == ["robot.gif"]
+
+
+def test_notebooks_show_every_object(dac, tmp_path):
+    dac.run(cycles=3)
+    shown = [dac, dac["Bug/Light"], dac.probe("Bug/Light"), dac.params, dac["Bug/Motor"].clamp(0), dac.film(tmp_path / "a.gif")]
+    for thing in shown:
+        html = thing._repr_html_()
+        assert html.startswith("<") and escape(repr(thing).split("'")[0]) in html
+    assert "Bug/Light" in dac._repr_html_() and "neuronLinearThreshold" in dac._repr_html_()
+    assert "<script" not in dac.params._repr_html_()
+    dac.close()
+    for thing in shown[:3]:
+        assert thing._repr_html_()

@@ -1,0 +1,51 @@
+#include "tools/python/picture.h"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+namespace forage::python {
+
+void PythonFilm::close() {
+    if (!complete()) frames = run->finish_film(*film);
+    film = nullptr;
+}
+
+py::object plot(PythonRun& run, const std::string& picture, const std::string& format, std::size_t robot) {
+    Diagnostics warnings;
+    const std::string content = draw(run.use(), picture, format, robot, &warnings);
+    warn(warnings);
+    const bool movie = picture.starts_with("movie:");
+    return py::module_::import("forage._picture").attr("Picture")(py::bytes(content), movie ? "png" : format);
+}
+
+py::object diagram(PythonRun& run, const std::optional<std::string>& process, const std::string& format) {
+    return plot(run, process ? "diagram:" + *process : "diagram", format, 0);
+}
+
+std::unique_ptr<PythonFilm> film(PythonRun& run, const std::filesystem::path& file) {
+    const std::string path = std::filesystem::absolute(file).string();
+    Observer& made = forage::film(run.use(), path);
+    run.add_film(made);
+    return std::make_unique<PythonFilm>(PythonFilm{run.shared_from_this(), &made, path});
+}
+
+void add_pictures(py::module_& module) {
+    py::class_<PythonFilm>(module, "Film", R"(A film of a run: with run.film("robot.gif"): run.run(trials=1).
+
+Notebooks show it when it is closed.)")
+        .def("close", &PythonFilm::close,
+             "Completes the file. Does nothing when it is complete. Raises RuntimeError when it cannot be "
+             "written.")
+        .def_property_readonly("closed", &PythonFilm::complete, "Whether the film is complete.")
+        .def_readonly("file", &PythonFilm::file, "The absolute path of the file.")
+        .def_readonly("frames", &PythonFilm::frames, "The number of frames, once close() was called.")
+        .def("__enter__", [](const py::object& self) { return self; })
+        .def("__exit__", [](PythonFilm& self, const py::args&) { self.close(); })
+        .def("_repr_html_", html("film"))
+        .def("__repr__", [](const PythonFilm& self) {
+            return fmt::format("<forage.Film '{}'{}>", self.file, self.complete() ? "" : ", not complete");
+        });
+}
+
+}  // namespace forage::python

@@ -1,0 +1,27 @@
+// Pictures and films of a run as Python sees them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "tools/python/run.h"
+
+namespace forage::python {
+
+/// A film that grows while its run runs.
+struct PythonFilm {
+    std::shared_ptr<PythonRun> run;
+    Observer* film;    ///< an observer of the run; null when the film is complete
+    std::string file;  ///< an absolute path
+    std::size_t frames = 0;
+
+    bool complete() const { return !film || run->closed(); }
+    void close();
+};
+
+py::object plot(PythonRun& run, const std::string& picture, const std::string& format, std::size_t robot);
+py::object diagram(PythonRun& run, const std::optional<std::string>& process, const std::string& format);
+std::unique_ptr<PythonFilm> film(PythonRun& run, const std::filesystem::path& file);
+
+}  // namespace forage::python
