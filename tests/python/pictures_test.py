@@ -87,5 +87,5 @@ def test_notebooks_show_every_object(dac, tmp_path):
     assert "Bug/Light" in dac._repr_html_() and "neuronLinearThreshold" in dac._repr_html_()
     assert "<script" not in dac.params._repr_html_()
     dac.close()
-    for thing in shown[:3]:
-        assert thing._repr_html_()
+    for thing in shown:
+        assert thing._repr_html_() and repr(thing)

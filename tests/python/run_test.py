@@ -157,7 +157,7 @@ def test_threads_of_python_go_on_while_a_run_runs(dac):
         try:
             assert dac.cycle in (0, 20_000)  # before and after
         except forage.RunError as error:
-            assert "running in another thread" in str(error)
+            assert "running in another thread" in str(error) and "running in another thread" in repr(dac)
             break
     else:
         pytest.fail("the run held Python up")

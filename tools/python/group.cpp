@@ -124,6 +124,8 @@ void set(PythonGroup& self, const py::object& values, const std::optional<std::s
 }
 
 std::string repr(const PythonGroup& self) {
+    if (const auto why = self.run->obstacle(); !why.empty())
+        return fmt::format("<forage.Group of a run that is {}>", why);
     const auto& about = self.about();
     return fmt::format("<forage.Group '{}', {} x {}, {}>", about.path, about.shape.width, about.shape.height,
                        about.type.name);
@@ -131,6 +133,8 @@ std::string repr(const PythonGroup& self) {
 
 std::string repr(const PythonManipulation& self) {
     if (!self.manipulation || self.run->closed()) return "<forage.Manipulation, removed>";
+    if (const auto why = self.run->obstacle(); !why.empty())
+        return fmt::format("<forage.Manipulation of a run that is {}>", why);
     static constexpr const char* modes[] = {"clamp", "add", "multiply"};
     const auto& settings = self.manipulation->settings();
     return fmt::format("<forage.Manipulation: {} '{}', {} pattern{}>", modes[static_cast<int>(settings.mode)],

@@ -146,7 +146,7 @@ void remove(PythonRun& self, const py::object& what) {
 }
 
 std::string repr(const PythonRun& self) {
-    if (self.closed()) return "<forage.Run, closed>";
+    if (const auto why = self.obstacle(); !why.empty()) return fmt::format("<forage.Run, {}>", why);
     const Run& r = self.use();
     std::string out =
         fmt::format("<forage.Run of '{}', seed {}, cycle {}", r.system().name, r.seed(), r.cycle());

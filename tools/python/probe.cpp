@@ -47,6 +47,8 @@ auto exported(const char* method) {
 
 std::string repr(const PythonProbe& self) {
     if (!self.recorder) return "<forage.Probe, removed>";
+    if (const auto why = self.run->obstacle(); !why.empty() && !self.run->closed())
+        return fmt::format("<forage.Probe of a run that is {}>", why);
     return fmt::format("<forage.Probe of '{}', every {}, {} rows>", self.use().what().name,
                        self.use().every(), self.use().cycles().size());
 }

@@ -43,10 +43,13 @@ class PythonRun::Running {
 PythonRun::PythonRun(Run run) : run_(std::make_shared<Run>(std::move(run))) { run_->start(); }
 
 std::shared_ptr<Run> PythonRun::owner() const {
-    if (!run_) throw engine::RunError("this run is closed");
-    if (runner_ && *runner_ != std::this_thread::get_id())
-        throw engine::RunError("this run is running in another thread");
+    if (const auto why = obstacle(); !why.empty()) throw engine::RunError("this run is " + std::string(why));
     return run_;
+}
+
+std::string_view PythonRun::obstacle() const {
+    if (!run_) return "closed";
+    return runner_ && *runner_ != std::this_thread::get_id() ? "running in another thread" : "";
 }
 
 void PythonRun::close() {

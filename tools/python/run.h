@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -40,6 +41,8 @@ class PythonRun : public std::enable_shared_from_this<PythonRun> {
     /// Completes a film. Returns the number of its frames.
     std::size_t finish_film(Observer& film);
     bool closed() const { return !run_; }
+    /// Why use() throws, in words; empty when it does not.
+    std::string_view obstacle() const;
 
     /// The view of a state that always stands at the same place: what `make` returned at the first call.
     py::object view_of(int group, int state, const std::function<py::object()>& make);

@@ -135,6 +135,8 @@ that are read at the start only, and warns of values outside the usual range.)")
         .def("keys", &names_of, "The names of all parameters.")
         .def("_repr_html_", html("parameters"))
         .def("__repr__", [](const Parameters& self) {
+            if (const auto why = self.run->obstacle(); !why.empty())
+                return fmt::format("<forage.Parameters of a run that is {}>", why);
             return fmt::format("<forage.Parameters, {}>", py::len(names_of(self)));
         });
 }

@@ -1,5 +1,6 @@
 """What notebooks show of the objects."""
 import base64
+import os
 from html import escape
 
 from ._errors import InputError, RunError
@@ -7,6 +8,17 @@ from ._errors import InputError, RunError
 
 def plain(thing):
     return f"<code>{escape(repr(thing))}</code>"
+
+
+def with_table(head, rows):
+    """Shows what repr() gives and a table; no table of a run that is closed or running, or that does not compute these numbers."""
+    def show(self):
+        try:
+            return plain(self) + table(head, rows(self))
+        except (InputError, RunError):
+            return plain(self)
+
+    return show
 
 
 def table(head, rows):
@@ -24,31 +36,26 @@ def size(group):
     return " x ".join(map(str, reversed(group.shape)))
 
 
-def run(self):
-    if self.closed:
-        return plain(self)
-    groups = [self[path] for path in self.groups]
-    rows = [(g.path, size(g), g.type) for g in groups]
-    return plain(self) + f"<p>{self.seconds:.6g} s of the world</p>" + table(("group", "cells", "type"), rows)
+def _groups(run):
+    return [(g.path, size(g), g.type) for g in map(run.__getitem__, run.groups)]
 
 
-def group(self):
-    rows = []
-    for name in self.states:
-        try:
-            values = getattr(self, name)
-        except (InputError, RunError):  # not observed, or closed
-            return plain(self)
-        rows.append((name, float(values.min()), float(values.mean()), float(values.max())))
-    return plain(self) + table(("state", "smallest", "mean", "largest"), rows)
+def _states(group):
+    states = [(name, getattr(group, name)) for name in group.states]
+    return [(name, float(values.min()), float(values.mean()), float(values.max())) for name, values in states]
 
 
-def parameters(self):
-    return plain(self) + table(("parameter", "value"), [(name, self[name]) for name in self])
+def _values(parameters):
+    return [(name, parameters[name]) for name in parameters]
+
+
+run = with_table(("group", "cells", "type"), _groups)
+group = with_table(("state", "smallest", "mean", "largest"), _states)
+parameters = with_table(("parameter", "value"), _values)
 
 
 def film(self):
-    if not self.closed or not self.file.endswith(".gif"):
+    if not self.closed or not self.file.endswith(".gif") or not os.path.isfile(self.file):  # there is none without a frame
         return plain(self)
     with open(self.file, "rb") as file:
         data = base64.b64encode(file.read()).decode()
