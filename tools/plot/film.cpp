@@ -33,8 +33,7 @@ class Film::Screen {
         : world_(world),
           map_(map_of(world)),
           panel_(world),
-          width_(static_cast<int>(
-              std::ceil(film_margin + map_.width() + film_margin + panel_width + film_margin))),
+          width_(static_cast<int>(std::ceil(panel_left() + panel_width + film_margin))),
           height_(
               static_cast<int>(std::ceil(film_head + std::max(map_.height(), panel_.height()) + film_foot))),
           ground_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_)),
@@ -46,6 +45,7 @@ class Film::Screen {
         canvas.fill(0, 0, width_, height_, white);
         canvas.text(film_margin, 20, title, 14, 0, black, true);
         draw_legend(canvas, world, film_margin, width_ - film_margin, height_ - 9);
+        panel_.draw_names(canvas, panel_left(), film_head);
         cairo_rectangle(context.get(), film_margin, film_head, map_.width(), map_.height());
         cairo_clip(context.get());
         map_.draw_ground(canvas);
@@ -65,21 +65,15 @@ class Film::Screen {
         if (world_.bugs() > 1)
             for (std::size_t i = 0; i < world_.bugs(); ++i) draw_number(i);
         cairo_restore(c);
-        panel_.draw(canvas_, film_margin + map_.width() + film_margin, film_head);
+        panel_.draw(canvas_, panel_left(), film_head);
     }
 
-    const Pixels& pixels() {
+    Pixels pixels() {
         cairo_surface_flush(surface_.get());
-        pixels_.width = width_, pixels_.height = height_;
-        pixels_.rgb.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-        const auto* data = cairo_image_surface_get_data(surface_.get());
-        const int stride = cairo_image_surface_get_stride(surface_.get());
-        auto to = pixels_.rgb.begin();
-        for (int y = 0; y < height_; ++y) {
-            const auto* row = reinterpret_cast<const std::uint32_t*>(data + y * stride);
-            to = std::transform(row, row + width_, to, [](std::uint32_t pixel) { return pixel & 0xffffffu; });
-        }
-        return pixels_;
+        return {
+            width_, height_,
+            static_cast<std::size_t>(cairo_image_surface_get_stride(surface_.get())) / sizeof(std::uint32_t),
+            reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(surface_.get()))};
     }
     void write_png(const std::string& name) const {
         if (cairo_surface_write_to_png(surface_.get(), name.c_str()) != CAIRO_STATUS_SUCCESS)
@@ -87,6 +81,7 @@ class Film::Screen {
     }
 
   private:
+    double panel_left() const { return film_margin + map_.width() + film_margin; }
     void draw_number(std::size_t i) {
         const auto& at = world_.pose(i);
         const double x = map_.px(at.x), y = map_.py(at.y) - world_.robot(i).body.radius * map_.scale() - 4;
@@ -101,11 +96,10 @@ class Film::Screen {
     CairoSurface ground_, surface_;
     CairoContext context_;
     Canvas canvas_;
-    Pixels pixels_;
 };
 
-Film::Film(bug::World& world, std::string name, double seconds_per_frame, const std::string& title)
-    : name_(std::move(name)), screen_(std::make_unique<Screen>(world, title)) {
+Film::Film(bug::World& world, std::string name, double seconds_per_frame, std::string title)
+    : world_(world), name_(std::move(name)), title_(std::move(title)) {
     if (name_.ends_with(".gif")) gif_.emplace(name_, seconds_per_frame);
 }
 
@@ -118,6 +112,8 @@ std::string Film::frame_name(const std::string& name, std::size_t frame) {
 }
 
 void Film::add() {
+    // The ground is drawn now, because it has the names of the sensors that the first cycle has asked for.
+    if (!screen_) screen_ = std::make_unique<Screen>(world_, title_);
     screen_->draw();
     if (gif_)
         gif_->add(screen_->pixels());

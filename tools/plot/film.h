@@ -16,7 +16,7 @@ class Film {
   public:
     /// `seconds_per_frame` is the simulated time between two frames; the film is played at this rate. `world`
     /// must outlive the film.
-    Film(bug::World& world, std::string name, double seconds_per_frame, const std::string& title);
+    Film(bug::World& world, std::string name, double seconds_per_frame, std::string title);
     ~Film();
     /// Adds a frame with the current state of the world. Throws std::runtime_error when it cannot be written.
     void add();
@@ -30,7 +30,8 @@ class Film {
 
   private:
     class Screen;
-    std::string name_;
+    bug::World& world_;
+    std::string name_, title_;
     std::unique_ptr<Screen> screen_;
     std::optional<GifFile> gif_;
     std::size_t frames_ = 0;

@@ -7,6 +7,7 @@
 #include <cairo.h>
 #include <fmt/format.h>
 
+#include "tools/plot/axes.h"
 #include "tools/plot/cairo_handle.h"
 #include "tools/plot/world_map.h"
 
@@ -23,6 +24,15 @@ struct Bars {
 };
 constexpr Bars large_bars{16, 36, 6}, small_bars{11, 16, 3};
 
+/// Draws the cells of a ray sensor, ordered from the left to the right of the robot.
+void draw_bars(Canvas& canvas, const std::vector<double>& cells, const Colour& colour, const Box& box) {
+    canvas.fill(box.x, box.y, box.width, box.height, pale);
+    const double wide = box.width / static_cast<double>(cells.size());
+    for (std::size_t k = 0; k < cells.size(); ++k)
+        canvas.fill(box.x + static_cast<double>(k) * wide, box.y + box.height * (1 - cells[k]), wide * 0.9,
+                    box.height * cells[k], colour);
+}
+
 }  // namespace
 
 double FilmPanel::part_height() const {
@@ -37,20 +47,53 @@ double FilmPanel::height() const {
     return clock_height + rows * part_height();
 }
 
-void FilmPanel::draw(Canvas& canvas, double x, double y) {
-    draw_clock(canvas, x, y);
-    for (std::size_t i = 0; i < robots_shown(); ++i) {
-        const double left = x + (i % 2 ? part_width() + 10 : 0),
-                     top = y + clock_height + static_cast<double>(i / 2) * part_height();
+template <class Draw>
+void FilmPanel::for_each_robot(double x, double y, Draw draw) {
+    for (std::size_t i = 0; i < robots_shown(); ++i)
+        draw(i, x + (i % 2 ? part_width() + 10 : 0),
+             y + clock_height + static_cast<double>(i / 2) * part_height());
+}
+
+template <class Draw>
+void FilmPanel::for_each_ray_sensor(std::size_t robot, double y, Draw draw) {
+    if (world_.bugs() > most_with_rays) return;
+    const auto& sensors = world_.robot(robot).sensors;
+    const auto& seen = sensors.snapshot();
+    const Bars size = single() ? large_bars : small_bars;
+    y += name_height + part_width() * picture_aspect + size.name;
+    const auto add = [&](const char* name, const std::vector<double>& cells, const Colour& colour) {
+        if (cells.empty()) return;
+        draw(name, cells, colour, y);
+        y += size.total();
+    };
+    add(single() ? "light, from the left to the right" : "light, left to right", seen.target, light_ray);
+    add("proximity", seen.proximity, near_ray);
+    if (sensors.gripper_scan_requested()) add("between the fingers", seen.gripper, {0.4, 0.4, 0.8});
+}
+
+void FilmPanel::draw_names(Canvas& canvas, double x, double y) {
+    for_each_robot(x, y, [&](std::size_t i, double left, double top) {
         const std::string name = world_.robot_names()[i];
         canvas.text(left, top + 10,
                     canvas.fitted(single() ? "camera of " + name : fmt::format("{} {}", i + 1, name), 11,
                                   part_width()),
                     11);
+        for_each_ray_sensor(i, top, [&](const char* sensor, const auto&, const Colour&, double bars_top) {
+            canvas.text(left, bars_top - 3, sensor, single() ? 11 : 9);
+        });
+    });
+}
+
+void FilmPanel::draw(Canvas& canvas, double x, double y) {
+    draw_clock(canvas, x, y);
+    for_each_robot(x, y, [&](std::size_t i, double left, double top) {
         draw_picture(canvas, i, left, top + name_height);
-        if (world_.bugs() <= most_with_rays)
-            draw_rays(canvas, i, left, top + name_height + part_width() * picture_aspect);
-    }
+        for_each_ray_sensor(
+            i, top, [&](const char*, const auto& cells, const Colour& colour, double bars_top) {
+                draw_bars(canvas, cells, colour,
+                          {left, bars_top, part_width(), (single() ? large_bars : small_bars).height});
+            });
+    });
 }
 
 void FilmPanel::draw_clock(Canvas& canvas, double x, double y) {
@@ -91,26 +134,6 @@ void FilmPanel::draw_picture(Canvas& canvas, std::size_t robot, double x, double
     cairo_pattern_set_filter(cairo_get_source(c), CAIRO_FILTER_NEAREST);
     cairo_paint(c);
     cairo_restore(c);
-}
-
-/// Draws the cells of the ray sensors, ordered from the left to the right of the robot.
-void FilmPanel::draw_rays(Canvas& canvas, std::size_t robot, double x, double y) {
-    const auto& seen = world_.robot(robot).sensors.snapshot();
-    const Bars size = single() ? large_bars : small_bars;
-    const auto bars = [&](const char* name, const std::vector<double>& cells, const Colour& colour) {
-        if (cells.empty()) return;
-        canvas.text(x, y + size.name - 3, name, single() ? 11 : 9);
-        canvas.fill(x, y + size.name, part_width(), size.height, pale);
-        const double wide = part_width() / static_cast<double>(cells.size());
-        for (std::size_t k = 0; k < cells.size(); ++k)
-            canvas.fill(x + static_cast<double>(k) * wide, y + size.name + size.height * (1 - cells[k]),
-                        wide * 0.9, size.height * cells[k], colour);
-        y += size.total();
-    };
-    bars(single() ? "light, from the left to the right" : "light, left to right", seen.target, light_ray);
-    bars("proximity", seen.proximity, near_ray);
-    if (world_.robot(robot).sensors.gripper_scan_requested())
-        bars("between the fingers", seen.gripper, {0.4, 0.4, 0.8});
 }
 
 }  // namespace forage::plot

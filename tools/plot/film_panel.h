@@ -18,7 +18,9 @@ class FilmPanel {
     explicit FilmPanel(bug::World& world) : world_(world) {}
 
     double height() const;  ///< maximum height, pixels
-    /// Draws the current state of the world. (x, y) is the upper left corner.
+    /// Draws what is the same in all frames: names. (x, y) is the upper left corner.
+    void draw_names(Canvas& canvas, double x, double y);
+    /// Draws the current state of the world, in the same place.
     void draw(Canvas& canvas, double x, double y);
 
   private:
@@ -26,9 +28,15 @@ class FilmPanel {
     bool single() const { return world_.bugs() == 1; }
     double part_width() const { return single() ? panel_width : (panel_width - 10) / 2; }
     double part_height() const;
+    /// Calls `draw` for each robot with its number and its upper left corner.
+    template <class Draw>
+    void for_each_robot(double x, double y, Draw draw);
+    /// Calls `draw` for each ray sensor of a robot with its name, cells, colour, and the upper edge of its
+    /// bars.
+    template <class Draw>
+    void for_each_ray_sensor(std::size_t robot, double y, Draw draw);
     void draw_clock(Canvas& canvas, double x, double y);
     void draw_picture(Canvas& canvas, std::size_t robot, double x, double y);
-    void draw_rays(Canvas& canvas, std::size_t robot, double x, double y);
 
     bug::World& world_;
 };

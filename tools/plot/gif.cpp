@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 #include <stdexcept>
 
@@ -13,7 +14,7 @@
 namespace forage::plot {
 namespace {
 
-constexpr int cube = 6, greys = 256 - cube * cube * cube;
+constexpr int cube = 6, transparent = 255, greys = transparent - cube * cube * cube;
 
 int cube_level(int i) { return (i * 255 + (cube - 1) / 2) / (cube - 1); }
 int grey_level(int i) { return ((i + 1) * 255 + (greys + 1) / 2) / (greys + 1); }
@@ -71,6 +72,8 @@ void GifFile::begin(const Pixels& frame) {
     file_ = EGifOpenFileName((name_ + ".part").c_str(), false, &error);
     check(file_ != nullptr);
     width_ = frame.width, height_ = frame.height;
+    const auto pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+    rgb_.resize(pixels), numbers_.resize(pixels), changes_.assign(pixels, transparent);
     EGifSetGifVersion(file_, true);
     auto table = make_table();
     const std::unique_ptr<ColorMapObject, void (*)(ColorMapObject*)> colours(
@@ -87,40 +90,44 @@ void GifFile::add(const Pixels& frame) {
     if (!file_) begin(frame);
     if (frame.width != width_ || frame.height != height_)
         throw std::runtime_error("the frames of a film differ in size");
-    const bool first = frames_ == 0;
-    if (first) rgb_.assign(frame.rgb.size(), ~0u), numbers_.resize(frame.rgb.size());
+    const auto width = static_cast<std::size_t>(width_);
     int left = width_, top = height_, right = 0, bottom = 0;  // of the rectangle that has changed
-    std::uint32_t last = ~0u;
-    std::uint8_t number = 0;
+    std::uint32_t last = 0;
+    std::uint8_t number = nearest_colour(last);
     for (int y = 0; y < height_; ++y) {
-        const std::size_t begin = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
-        const auto row = frame.rgb.begin() + static_cast<std::ptrdiff_t>(begin), end = row + width_;
-        const auto before = rgb_.begin() + static_cast<std::ptrdiff_t>(begin);
-        if (std::equal(row, end, before)) continue;
+        const std::uint32_t* row = frame.rgb + static_cast<std::size_t>(y) * frame.stride;
+        const std::size_t begin = static_cast<std::size_t>(y) * width;
+        std::uint32_t* before = &rgb_[begin];
+        if (frames_ > 0 && std::memcmp(row, before, width * sizeof *row) == 0) continue;
+        constexpr int chunk = 16;  // most chunks of a row are as before, too
         for (int x = 0; x < width_; ++x) {
+            if (frames_ > 0 && x % chunk == 0)
+                while (x + chunk <= width_ && std::memcmp(row + x, before + x, chunk * sizeof *row) == 0)
+                    x += chunk;
+            if (x == width_) break;
+            if (frames_ > 0 && row[x] == before[x]) continue;
+            if (row[x] != last) number = nearest_colour(last = row[x]);
             const std::size_t i = begin + static_cast<std::size_t>(x);
-            if (frame.rgb[i] == rgb_[i]) continue;
-            if (frame.rgb[i] != last) number = nearest_colour(last = frame.rgb[i]);
-            if (number == numbers_[i] && !first) continue;
-            numbers_[i] = number;
+            if (frames_ > 0 && number == numbers_[i]) continue;
+            numbers_[i] = changes_[i] = number;
             left = std::min(left, x), right = std::max(right, x);
             top = std::min(top, y), bottom = y;
         }
-        std::copy(row, end, before);
+        std::memcpy(before, row, width * sizeof *row);
     }
     if (left > right) left = right = top = bottom = 0;  // a frame has at least one pixel
     GraphicsControlBlock control{};
     control.DisposalMode = DISPOSE_DO_NOT, control.DelayTime = hundredths_,
-    control.TransparentColor = NO_TRANSPARENT_COLOR;
+    control.TransparentColor = transparent;
     std::array<GifByteType, 4> bytes{};
     EGifGCBToExtension(&control, bytes.data());
     check(EGifPutExtension(file_, GRAPHICS_EXT_FUNC_CODE, 4, bytes.data()) == GIF_OK &&
           EGifPutImageDesc(file_, left, top, right - left + 1, bottom - top + 1, false, nullptr) == GIF_OK);
-    for (int y = top; y <= bottom; ++y)
-        check(EGifPutLine(file_,
-                          &numbers_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                                    static_cast<std::size_t>(left)],
-                          right - left + 1) == GIF_OK);
+    for (int y = top; y <= bottom; ++y) {
+        std::uint8_t* row = &changes_[static_cast<std::size_t>(y) * width];
+        check(EGifPutLine(file_, row + left, right - left + 1) == GIF_OK);
+        std::fill(row + left, row + right + 1, std::uint8_t{transparent});
+    }
     ++frames_;
 }
 

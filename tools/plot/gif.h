@@ -10,16 +10,18 @@ struct GifFileType;
 
 namespace forage::plot {
 
-/// The pixels of a picture, in cairo's format: 0x00RRGGBB.
+/// The pixels of a picture, which remain cairo's: 0x??RRGGBB.
 struct Pixels {
     int width = 0, height = 0;
-    std::vector<std::uint32_t> rgb;
+    std::size_t stride = 0;  ///< from row to row, in pixels
+    const std::uint32_t* rgb = nullptr;
 };
 
-/// Writes an animated GIF that repeats forever, frame by frame. The colours are from a fixed table of 256 (6
-/// x 6 x 6 colours and 40 greys), so that the same frames give the same bytes. Only the rectangle of a frame
-/// that has changed is written. The file is called NAME.part until finish(); without frames, no file remains.
-/// Functions throw std::runtime_error when the file cannot be written.
+/// Writes an animated GIF that repeats forever, frame by frame. The colours are from a fixed table (6 x 6 x 6
+/// colours and 39 greys), so that the same frames give the same bytes. Only the rectangle of a frame that has
+/// changed is written, and what has not changed in it is transparent, which compresses best. The file is
+/// called NAME.part until finish(); without frames, no file remains. Functions throw std::runtime_error when
+/// the file cannot be written.
 class GifFile {
   public:
     GifFile(std::string name, double seconds_per_frame);
@@ -44,6 +46,7 @@ class GifFile {
     std::size_t frames_ = 0;
     std::vector<std::uint32_t> rgb_;     ///< the last frame
     std::vector<std::uint8_t> numbers_;  ///< its colour numbers
+    std::vector<std::uint8_t> changes_;  ///< the numbers that have changed; the others are transparent
 };
 
 }  // namespace forage::plot
