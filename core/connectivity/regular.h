@@ -16,6 +16,7 @@ struct Regular {
         int dx, dy;
         double attenuation;
         int delay;
+        bool operator==(const Tap&) const = default;
     };
     bool all_to_all = false;    ///< every source cell is connected, in order, with the values of the only tap
     int width = 0, height = 0;  ///< size of source and target, cells; unused if all_to_all is set

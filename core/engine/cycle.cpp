@@ -262,8 +262,11 @@ void Cycle::deliver_to(int batch, const Share* share) {
         now.changed = false;
         const Kernel* joint = now.alike ? d.joint.get() : nullptr;
         for (const int c : d.connections) {
-            deliver_through(d, c, joint ? *joint : *plan_.connections[c].kernel, share);
-            if (joint) break;
+            if (joint) {
+                deliver_through(d, c, *joint, now.workspace.get(), share);
+                break;
+            }
+            deliver_through(d, c, *plan_.connections[c].kernel, state_.connections[c].workspace.get(), share);
         }
     }
 }
@@ -299,7 +302,8 @@ void Cycle::receive_from_modules(int batch) {
 }
 
 /// The cells of `connection` are the first ones that the kernel reads and adds to.
-void Cycle::deliver_through(const DeliveryPlan& d, int connection, const Kernel& kernel, const Share* share) {
+void Cycle::deliver_through(const DeliveryPlan& d, int connection, const Kernel& kernel, Workspace* workspace,
+                            const Share* share) {
     const auto& plan = plan_.connections[connection];
     const auto& from = plan_.batches[d.source];
     const auto &source = state_.batches[d.source], &target = state_.batches[d.target];
@@ -311,7 +315,7 @@ void Cycle::deliver_through(const DeliveryPlan& d, int connection, const Kernel&
         *c.synapse,
         c.feedback,
         state_.numbers.data(),
-        c.workspace.get()};
+        workspace};
     double* row = target.inputs[static_cast<std::size_t>(plan.kind)][target.row ^ 1] + plan.target_first;
     try {
         auto* shared = share ? dynamic_cast<const SharedKernel*>(&kernel) : nullptr;

@@ -91,7 +91,7 @@ class Cycle {
     bool receives_the_same(int batch) const;
     void receive_from_modules(int batch);
     void deliver_through(const DeliveryPlan& delivery, int connection, const Kernel& kernel,
-                         const Share* share);
+                         Workspace* workspace, const Share* share);
     void note_changes(int module);
     void show_inputs(int module);
 

@@ -115,6 +115,8 @@ void State::begin(const Plan& plan) {
         if (p.plastic) p.plastic->begin(numbers.data());
         if (p.kernel) connections[i].workspace = p.kernel->make_workspace();
     }
+    for (std::size_t i = 0; i < deliveries.size(); ++i)
+        if (const auto& joint = plan.deliveries[i].joint) deliveries[i].workspace = joint->make_workspace();
 }
 
 void State::checkpoint(const Plan& plan, Archive& archive) {

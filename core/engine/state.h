@@ -45,8 +45,9 @@ struct ModuleState {
 };
 
 struct DeliveryState {
-    bool changed = false;  ///< from outside, since it delivered
-    bool alike = true;     ///< the parameters of all connections are the same
+    bool changed = false;                  ///< from outside, since it delivered
+    bool alike = true;                     ///< the parameters of all connections are the same
+    std::unique_ptr<Workspace> workspace;  ///< of the joint kernel, as in ConnectionState
 };
 
 struct ConnectionState {

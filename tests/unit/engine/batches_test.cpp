@@ -45,12 +45,12 @@ class ManyGroups {
         for (const char* type : {"neuronRandomSpike", "neuronLinearThreshold", "neuronLinearThreshold",
                                  "neuronIntegrateFire", "neuronSigmoid"}) {
             auto& ring = rings_.emplace_back();
-            const int each = 1 + upto(40);
+            const int each = 1 + upto(40), rows = upto(2) ? 1 : 2 + upto(3);
             const bool same_size = upto(4) > 0;
             for (int i = 0; i < groups; ++i) {
                 const int cells = same_size ? each : 1 + upto(40);
                 ring.push_back(
-                    model::add_group(system, process, "G" + std::to_string(count_++), cells, 1, type));
+                    model::add_group(system, process, "G" + std::to_string(count_++), cells, rows, type));
                 auto& neuron = model::find_group(system, ring.back())->neuron;
                 if (rings_.size() == 1 && upto(2)) model::set_parameter(neuron, "probability", "1");
                 if (rings_.size() == 3) model::set_parameter(neuron, "probability", "0.6");
@@ -87,13 +87,13 @@ class ManyGroups {
     void connect_all(const std::vector<std::string>& from, const std::vector<std::string>& to,
                      std::size_t shift) {
         const auto kind = upto(3) ? InputKind::excitatory : InputKind::inhibitory;
-        const int delay = upto(3), width = upto(2) ? 1 : 1 + upto(3);
+        const int delay = upto(3), width = upto(2) ? 1 : 1 + upto(3), height = upto(2) ? 1 : 1 + upto(3);
         const double weight = 0.1 * (1 + upto(9));
         for (std::size_t i = 0; i < from.size(); ++i) {
             auto& c = connect(system, from[i], to[(i + shift) % to.size()], kind, "synapseFixedWeight");
             model::set_parameter(*c.synapse, "weight", std::to_string(upto(12) ? weight : 0.35));
             c.delay = uniform(upto(12) ? delay : 1);
-            c.arborization.shape = model::RectArbor{width, 1};
+            c.arborization.shape = model::RectArbor{width, height};
             c.attenuation = uniform(0.05);
         }
     }
