@@ -1,5 +1,5 @@
 #!/bin/sh
-# What a new user does with the installed packages forage and forage-dev, in an empty folder.
+# What a new user does with the installed packages forage, forage-dev and python3-forage, in an empty folder.
 set -e
 cp -r /usr/share/forage/systems .
 forage run systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world --trials 30 -o forage-out | tee said
@@ -7,6 +7,11 @@ grep -q "30 of 30" said
 test -s forage-out/trajectory.png
 forage tutorial 1.1
 forage new neuron leaky
+python3 -c 'import forage
+with forage.open("systems/dac_foraging.iqr", world="systems/worlds/basic_arena.world") as run:
+    run.run(trials=1)
+    run.plot("trajectory").save("path.png")'
+test -s path.png
 cd leaky
 forage build-plugin leaky.cpp
 forage run example.iqr --cycles 20 --record Example/Cells

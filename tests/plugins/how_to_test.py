@@ -113,6 +113,15 @@ FORAGE_PLUGIN(Wrong);
         self.assertEqual(re.findall(r"error: (static assertion failed: )?(.*)", done.stderr)[0][1], message)
         self.assertEqual(done.stderr.count("error: "), 2, done.stderr)  # the compiler's, and "does not compile"
 
+    def test_the_python_package_is_found_and_runs(self):
+        if "python3-forage" not in self.packages:
+            self.skipTest("the Python package is not built")
+        run(["dpkg-deb", "-x", self.packages["python3-forage"], self.folder / "root"], self.folder)
+        environment = {**self.environment, "PYTHONPATH": str(self.folder / "root/usr/lib/python3/dist-packages")}
+        code = "import forage; run = forage.open('systems/cookbook/oscillator.iqr'); run.run(cycles=5); print(run.cycle, forage.__file__)"
+        printed = run(["/usr/bin/python3", "-c", code], self.folder / "root/usr/share/forage", environment)
+        self.assertEqual(printed.split(), ["5", str(self.folder / "root/usr/lib/python3/dist-packages/forage/__init__.py")])
+
     def test_embed(self):
         self.assertGreaterEqual(self.follow("embed"), 3)
 

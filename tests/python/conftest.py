@@ -28,7 +28,8 @@ def command(tmp_path):
     """Runs the command line, and returns what it prints."""
 
     def call(*arguments):
-        done = subprocess.run([os.environ["FORAGE"], *map(str, arguments)], cwd=tmp_path, capture_output=True, text=True)
+        environment = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}  # of a sanitizer
+        done = subprocess.run([os.environ["FORAGE"], *map(str, arguments)], cwd=tmp_path, env=environment, capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
         return done.stdout
 

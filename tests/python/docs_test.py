@@ -1,0 +1,29 @@
+"""The examples of the how-to are executed in order, and print what it says."""
+import contextlib
+import io
+import re
+
+import pytest
+
+from conftest import PROJECT, SYSTEMS
+
+BLOCK = re.compile(r"^```(python|text)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+
+
+@pytest.mark.parametrize("page", ["python"])
+def test_a_page_is_followed_to_its_end(page, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "systems").symlink_to(SYSTEMS)
+    text = (PROJECT / f"docs/how-to/{page}.md").read_text()
+    blocks = BLOCK.findall(text)
+    names, printed = {"__name__": "__main__"}, ""
+    for language, content in blocks:
+        if language == "text":
+            assert printed == content
+            printed = ""
+        else:
+            assert printed == "", "what is printed is not shown"
+            with contextlib.redirect_stdout(io.StringIO()) as out:
+                exec(compile(content, f"{page}.md", "exec"), names)
+            printed = out.getvalue()
+    assert printed == "" and len(blocks) > 5
