@@ -7,6 +7,7 @@ import sys
 import pytest
 
 import forage
+from conftest import PROJECT
 
 PACKAGE = os.environ["PYTHONPATH"]
 
@@ -21,9 +22,10 @@ def check(module, *arguments, folder):
 
 def test_stubs_agree_with_the_package(tmp_path):
     (tmp_path / "mypy.ini").write_text("[mypy]\nignore_missing_imports = True\n")  # packages that are imported when they are needed
-    # The metaclass and the constructor are pybind11's.
+    # The metaclass and the constructor are pybind11's; annotations use names that are imported for mypy only.
     (tmp_path / "allowed").write_text(r"""forage(\._forage)?\.[A-Z]\w*
 forage(\._forage)?\.[A-Z]\w*\.__init__
+forage\._\w+\.(Any|Sequence|DTypeLike|NDArray|numpy)
 """)
     check("mypy.stubtest", "--mypy-config-file", "mypy.ini", "--allowlist", "allowed", "--ignore-unused-allowlist", "forage", folder=tmp_path)
 
@@ -48,6 +50,12 @@ try:
 except forage.InputError as error:
     print(error.file, error.line, error.column, error.hint)
 """
+
+
+def test_the_package_itself_is_checked_strictly(tmp_path):
+    (tmp_path / "mypy.ini").write_text("[mypy]\nignore_missing_imports = True\n")
+    modules = [str(PROJECT / f"tools/python/forage/{name}.py") for name in ("_errors", "_picture", "_recording")]
+    check("mypy", "--strict", "--config-file", "mypy.ini", "--cache-dir", str(tmp_path / "cache"), *modules, folder=tmp_path)
 
 
 def test_programs_are_checked_strictly(tmp_path):

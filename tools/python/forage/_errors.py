@@ -1,4 +1,9 @@
 """What Forage raises."""
+from __future__ import annotations
+
+TYPE_CHECKING = False  # that of `typing`, whose import takes time
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 
 class Diagnostic:
@@ -6,7 +11,8 @@ class Diagnostic:
 
     __slots__ = ("severity", "message", "hint", "file", "line", "column", "text")
 
-    def __init__(self, severity, message, hint="", file=None, line=None, column=None, text=""):
+    def __init__(self, severity: str, message: str, hint: str = "", file: str | None = None, line: int | None = None,
+                 column: int | None = None, text: str = "") -> None:
         self.severity = severity
         """"error" or "warning"."""
         self.message = message
@@ -20,10 +26,10 @@ class Diagnostic:
         """Counted from 1, in bytes."""
         self.text = text
 
-    def __str__(self):
+    def __str__(self) -> str:
         return self.text
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         place = ":".join(str(p) for p in (self.file, self.line, self.column) if p is not None)
         return f"<{self.severity}{' at ' + place if place else ''}: {self.message}>"
 
@@ -35,35 +41,36 @@ class InputError(ValueError):
     input; `file`, `line`, `column` and `hint` are those of the first mistake.
     """
 
-    def __init__(self, text, diagnostics=()):
+    def __init__(self, text: str, diagnostics: Sequence[Diagnostic] = ()) -> None:
         super().__init__(text, diagnostics)
         self.diagnostics = list(diagnostics)
 
-    def __str__(self):
+    def __str__(self) -> str:
         return str(self.args[0]).rstrip("\n")
 
-    def _first(self, name):
-        return next((getattr(d, name) for d in self.diagnostics if d.severity == "error"), None)
+    @property
+    def _first(self) -> Diagnostic:
+        return next((d for d in self.diagnostics if d.severity == "error"), Diagnostic("error", str(self)))
 
     @property
-    def file(self):
+    def file(self) -> str | None:
         """The path of the file with the first mistake; None when it is in an argument."""
-        return self._first("file")
+        return self._first.file
 
     @property
-    def line(self):
+    def line(self) -> int | None:
         """The line of the first mistake, from 1; None when it is not in a line."""
-        return self._first("line")
+        return self._first.line
 
     @property
-    def column(self):
+    def column(self) -> int | None:
         """The column of the first mistake, from 1, in bytes; None like the line."""
-        return self._first("column")
+        return self._first.column
 
     @property
-    def hint(self):
+    def hint(self) -> str:
         """How to correct the first mistake; may be empty."""
-        return self._first("hint") or ""
+        return self._first.hint
 
 
 class InputWarning(UserWarning):
