@@ -69,7 +69,6 @@ std::string add_process(System& system, std::string name, std::string id) {
     Process p;
     p.id = claim(system, std::move(id), "process");
     p.name = std::move(name);
-    p.icon.emplace();
     system.processes.push_back(std::move(p));
     return system.processes.back().id;
 }
@@ -84,7 +83,6 @@ std::string add_group(System& system, std::string_view process, std::string name
     g.name = std::move(name);
     g.topology = RectTopology{width, height};
     g.neuron.type = std::move(neuron_type);
-    g.icon.emplace();
     p->groups.push_back(std::move(g));
     return p->groups.back().id;
 }

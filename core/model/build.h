@@ -12,8 +12,8 @@
 
 namespace forage::model {
 
-/// Adds an empty process and returns its id. When `id` is empty, a new id is made. Throws
-/// std::invalid_argument when the id is taken.
+/// Adds an empty process without a place in the diagram and returns its id. When `id` is empty, a new id is
+/// made. Throws std::invalid_argument when the id is taken.
 std::string add_process(System& system, std::string name, std::string id = {});
 
 /// Adds a group of width x height cells with the defaults of its neuron type and returns its id. Throws

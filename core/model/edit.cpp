@@ -1,6 +1,9 @@
 #include "core/model/edit.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -62,9 +65,19 @@ std::string which(const std::vector<Owner>& owners, std::string_view where) {
     return fmt::format("use one of '{}'", fmt::join(names, "', '"));
 }
 
-}  // namespace
-
-namespace {
+/// The item that `where` names. Reports an unknown name, and one that several items have.
+std::optional<Owner> find_owner(const System& system, const Registry& registry,
+                                const expression::Piece& where, const expression::Context& context) {
+    const auto owners = find_owners(system, registry, where.text);
+    if (owners.size() == 1) return owners.front();
+    if (owners.empty())
+        context.error(where.at, fmt::format("there is no '{}'", where.text),
+                      suggest_owner(where.text, system));
+    else
+        context.error(where.at, fmt::format("'{}' names {} items", where.text, owners.size()),
+                      which(owners, where.text));
+    return std::nullopt;
+}
 
 /// Resolves the owner and the parameter of an assignment; the value is still unset.
 std::optional<Assignment> resolve(const System& system, const Registry& registry,
@@ -74,13 +87,9 @@ std::optional<Assignment> resolve(const System& system, const Registry& registry
         context.error(piece.at, std::move(message), std::move(hint));
         return std::nullopt;
     };
-    const auto owners = find_owners(system, registry, where.text);
-    if (owners.empty())
-        return problem(where, fmt::format("there is no '{}'", where.text), suggest_owner(where.text, system));
-    if (owners.size() > 1)
-        return problem(where, fmt::format("'{}' names {} items", where.text, owners.size()),
-                       which(owners, where.text));
-    const Owner& owner = owners.front();
+    const auto found = find_owner(system, registry, where, context);
+    if (!found) return std::nullopt;
+    const Owner& owner = *found;
 
     Assignment out{owner.kind, owner.id, nullptr, {}, std::string(context.text), context.at};
     const bool is_process = owner.kind == Assignment::Owner::process;
@@ -101,6 +110,25 @@ std::optional<Assignment> resolve(const System& system, const Registry& registry
     }
     out.parameter = &*it;
     return out;
+}
+
+template <class Items>
+auto& with_id(Items& items, std::string_view id) {
+    return *std::find_if(items.begin(), items.end(), [&](const auto& item) { return item.id == id; });
+}
+
+/// The use of a type that has the parameter.
+template <class S>  // System or const System
+auto& use_of(S& system, const Assignment& a) {
+    using Use = std::conditional_t<std::is_const_v<S>, const TypeUse, TypeUse>;
+    if (a.owner == Assignment::Owner::process)
+        return static_cast<Use&>(*with_id(system.processes, a.id).module);
+    if (a.owner == Assignment::Owner::connection)
+        return static_cast<Use&>(*with_id(system.connections, a.id).synapse);
+    for (auto& p : system.processes)
+        for (auto& g : p.groups)
+            if (g.id == a.id) return static_cast<Use&>(g.neuron);
+    throw std::invalid_argument(fmt::format("there is no group with the id '{}'", a.id));
 }
 
 }  // namespace
@@ -159,25 +187,55 @@ std::optional<Assignment> parse_assignment(const System& system, const Registry&
     return out;
 }
 
+std::optional<Assignment> find_item(const System& system, std::string_view where, std::string_view what,
+                                    Diagnostics& diagnostics) {
+    const expression::Context context{where, what, diagnostics};
+    const auto owner = find_owner(system, Registry(), {std::string(where), 0}, context);
+    if (!owner) return std::nullopt;
+    return Assignment{owner->kind, owner->id, nullptr, {}, std::string(where), {}};
+}
+
+ParameterValue value_of(const System& system, const Assignment& a) {
+    if (!a.parameter) return with_id(system.processes, a.id).module_enabled;
+    for (const auto& s : use_of(system, a).settings)
+        if (s.name == a.parameter->name)
+            if (auto value = parse_parameter(a.parameter->kind, s.value)) return *std::move(value);
+    return a.parameter->default_value;
+}
+
+void unset(System& system, const Assignment& a) {
+    if (a.parameter)
+        std::erase_if(use_of(system, a).settings, [&](const auto& s) { return s.name == a.parameter->name; });
+    else
+        with_id(system.processes, a.id).module_enabled = true;
+}
+
+void move_files(System& system, const std::string& from, const std::string& to, const Registry& registry) {
+    namespace fs = std::filesystem;
+    const fs::path old_place = fs::absolute(from).parent_path(), new_place = fs::absolute(to).parent_path();
+    if (fs::weakly_canonical(old_place) == fs::weakly_canonical(new_place)) return;
+    const auto move = [&](std::string& path) {
+        if (!path.empty() && fs::path(path).is_relative())
+            path = fs::relative(old_place / path, new_place).generic_string();
+    };
+    for (auto& p : system.processes) {
+        auto& written = p.linked() ? p.placeholder.front() : p;
+        move(written.path);
+        const ModuleType* type = written.module ? registry.module(written.module->type) : nullptr;
+        if (!type) continue;
+        for (auto& s : written.module->settings)
+            for (const auto& parameter : type->parameters)
+                if (parameter.is_path && parameter.name == s.name) move(s.value);
+    }
+}
+
 void set(System& system, const Assignment& a) {
     if (a.owner == Assignment::Owner::process && !a.parameter) {
         find_process(system, a.id)->module_enabled = std::get<bool>(a.value);
         return;
     }
-    TypeUse* use = nullptr;
-    switch (a.owner) {
-        case Assignment::Owner::group:
-            use = &find_group(system, a.id)->neuron;
-            break;
-        case Assignment::Owner::process:
-            use = &*find_process(system, a.id)->module;
-            break;
-        case Assignment::Owner::connection:
-            use = &*find_connection(system, a.id)->synapse;
-            break;
-    }
     const bool as_written = !a.parameter->is_path;
-    set_parameter(*use, a.parameter->name,
+    set_parameter(use_of(system, a), a.parameter->name,
                   as_written ? std::string(trim(std::string_view(a.text).substr(a.text.find('=') + 1)))
                              : to_text(a.value));
 }

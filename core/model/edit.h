@@ -41,6 +41,19 @@ std::vector<std::string> parameter_names(const System& system, const Registry& r
 
 /// Sets the parameter in the system, which must be the one that parse_assignment() was given.
 void set(System& system, const Assignment& assignment);
+/// The value that the system has for a parameter: what its file sets, or the default of its type.
+ParameterValue value_of(const System& system, const Assignment& parameter);
+/// Gives a parameter its default.
+void unset(System& system, const Assignment& parameter);
+
+/// The kind and the id of the group, process or connection that `where` names, as before the dot of an
+/// assignment. Reports mistakes like parse_assignment().
+std::optional<Assignment> find_item(const System& system, std::string_view where, std::string_view what,
+                                    Diagnostics& diagnostics);
+
+/// The links and the names of files in a system are relative to its file. Changes them so that they are valid
+/// from the file `to` instead of `from`.
+void move_files(System& system, const std::string& from, const std::string& to, const Registry& registry);
 
 /// Reads an assignment from the command line (--set) or from a file, and applies it to the system.
 void set(System& system, const Registry& registry, std::string_view assignment, Diagnostics& diagnostics,

@@ -79,7 +79,8 @@ void RunMeasures::declare(engine::Demand& demand) const {
 void RunMeasures::check(const engine::Simulation& simulation, Diagnostics& diagnostics) const {
     const SimTime start{0, 0, 1};
     for (const auto& e : entries_)
-        if (e.spec.kind == Kind::first && e.condition->sees_cells() && e.condition->holds(simulation, start))
+        if (e.spec.kind == Kind::first && e.condition && e.condition->sees_cells() &&
+            e.condition->holds(simulation, start))
             diagnostics.warning(e.spec.what.at,
                                 fmt::format("measure '{}' holds before the first cycle, when all cells are 0",
                                             e.spec.what.text),

@@ -27,6 +27,8 @@ struct RunInput {
     bool sensor_rates = false;  ///< scans and pictures at the rates of the world's files
     int latency = 0;            ///< cycles by which sensed values arrive later
     bool game = false;          ///< play the challenge's game
+    /// The text of `system` when it is not a file but a system that was built in code; otherwise empty.
+    std::string text = {};
 };
 
 /// The options of all recordings of a run.

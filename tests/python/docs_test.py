@@ -10,8 +10,10 @@ from conftest import PROJECT, SYSTEMS
 BLOCK = re.compile(r"^```(python|text)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
-@pytest.mark.parametrize("page", ["python"])
-def test_a_page_is_followed_to_its_end(page, tmp_path, monkeypatch):
+@pytest.mark.parametrize("page, needed", [("python", []), ("python-models", ["pandas", "scipy"])])
+def test_a_page_is_followed_to_its_end(page, needed, tmp_path, monkeypatch):
+    for package in needed:
+        pytest.importorskip(package)
     monkeypatch.chdir(tmp_path)
     (tmp_path / "systems").symlink_to(SYSTEMS)
     text = (PROJECT / f"docs/how-to/{page}.md").read_text()

@@ -23,8 +23,8 @@ def check(module, *arguments, folder):
 def test_stubs_agree_with_the_package(tmp_path):
     (tmp_path / "mypy.ini").write_text("[mypy]\nignore_missing_imports = True\n")  # packages that are imported when they are needed
     # The metaclass and the constructor are pybind11's; annotations use names that are imported for mypy only.
-    (tmp_path / "allowed").write_text(r"""forage(\._forage)?\.[A-Z]\w*
-forage(\._forage)?\.[A-Z]\w*\.__init__
+    (tmp_path / "allowed").write_text(r"""forage(\._forage)?\._?[A-Z]\w*(\.[A-Z]\w*)?
+forage(\._forage)?\._?[A-Z]\w*(\.[A-Z]\w*)?\.__init__
 forage\._\w+\.(Any|Sequence|DTypeLike|NDArray|numpy)
 """)
     check("mypy.stubtest", "--mypy-config-file", "mypy.ini", "--allowlist", "allowed", "--ignore-unused-allowlist", "forage", folder=tmp_path)
@@ -49,12 +49,22 @@ try:
     forage.resume(state).run(seconds=1, progress=True)
 except forage.InputError as error:
     print(error.file, error.line, error.column, error.hint)
+
+with forage.System("a") as system:
+    a = system.add_process("P").add_group("A", 3, threshold=0.5)
+    connection = system.connect(a, "P/A", pattern=forage.Pattern.foreach(), delay=3, weight=0.5)
+    connection.attenuation = 0.5  # type: ignore[assignment]
+    connection.source = a
+a.params["threshold"] = 1
+table = forage.sweep(system, values={"P/A.threshold": [0, 1]}, seeds=2, cycles=3, measure={"act": lambda run: run["P/A"].act.max()})
+where: str | None = forage.experiment("a.xml", jobs=2).directory
+print(table["act"], table.to_pandas(), where)
 """
 
 
 def test_the_package_itself_is_checked_strictly(tmp_path):
     (tmp_path / "mypy.ini").write_text("[mypy]\nignore_missing_imports = True\n")
-    modules = [str(PROJECT / f"tools/python/forage/{name}.py") for name in ("_errors", "_picture", "_recording")]
+    modules = [str(PROJECT / f"tools/python/forage/{name}.py") for name in ("_errors", "_experiment", "_picture", "_recording")]
     check("mypy", "--strict", "--config-file", "mypy.ini", "--cache-dir", str(tmp_path / "cache"), *modules, folder=tmp_path)
 
 

@@ -67,17 +67,14 @@ std::optional<PreparedRun> PreparedExperiment::prepare(const RunSpec& spec, Diag
     return forage::prepare(sources.at(spec.input.system), spec, diagnostics);
 }
 
-std::optional<PreparedExperiment> prepare_experiment(const std::string& file, std::string directory,
-                                                     const std::vector<std::string>& plugins,
-                                                     Diagnostics& diagnostics, const std::string& system) {
-    auto wanted = xml::read_experiment(file, diagnostics);
-    if (wanted && !system.empty()) wanted = with_system(std::move(*wanted), system);
-    if (!wanted || !files_are_there(*wanted, diagnostics)) return std::nullopt;
-    if (directory.empty()) directory = "forage-out/" + std::filesystem::path(file).stem().string();
-    PreparedExperiment out{std::move(*wanted), std::move(directory), {}, {}, {}};
+std::optional<PreparedExperiment> plan_experiment(model::Experiment wanted, std::string directory,
+                                                  const std::vector<std::string>& plugins,
+                                                  Diagnostics& diagnostics, bool exercise) {
+    if (!files_are_there(wanted, diagnostics)) return std::nullopt;
+    PreparedExperiment out{std::move(wanted), std::move(directory), {}, {}, {}};
     out.runs = planned_runs(out.experiment, out.directory, plugins);
     out.sources = read_all(out.runs, diagnostics);
-    if (!system.empty() && out.experiment.exercise) {
+    if (exercise && out.experiment.exercise) {
         RunInput start;
         start.system = out.experiment.exercise->start;
         const Sources begun = read_sources(start, diagnostics);
@@ -88,20 +85,39 @@ std::optional<PreparedExperiment> prepare_experiment(const std::string& file, st
     check_experiment(
         out.experiment, [&](const RunSpec& spec, Diagnostics& d) { return out.prepare(spec, d); }, out.runs,
         diagnostics);
-    if (!system.empty() && !diagnostics.failed()) findings(out, {}, diagnostics);  // checks the names
+    if (exercise && !diagnostics.failed()) findings(out, {}, diagnostics);  // checks the names
     if (diagnostics.failed()) return std::nullopt;
+    return out;
+}
+
+std::optional<PreparedExperiment> prepare_experiment(model::Experiment wanted, std::string directory,
+                                                     const std::vector<std::string>& plugins,
+                                                     Diagnostics& diagnostics, bool exercise) {
+    auto out = plan_experiment(std::move(wanted), std::move(directory), plugins, diagnostics, exercise);
+    if (!out) return out;
     const char* hint = "choose another directory for the results with -o";
     try {
-        make_directory(out.directory + "/runs");
-        for (const auto& table : {out.results_file(), out.summary_file()}) check_regular_file(table);
+        make_directory(out->directory + "/runs");
+        for (const auto& table : {out->results_file(), out->summary_file()}) check_regular_file(table);
         hint = held_hint;
-        out.hold = DirectoryHold(out.directory);
-        report_leftovers(out, diagnostics);
+        out->hold = DirectoryHold(out->directory);
+        report_leftovers(*out, diagnostics);
     } catch (const std::exception& e) {
         diagnostics.error({}, e.what(), hint);
         return std::nullopt;
     }
     return out;
+}
+
+std::optional<PreparedExperiment> prepare_experiment(const std::string& file, std::string directory,
+                                                     const std::vector<std::string>& plugins,
+                                                     Diagnostics& diagnostics, const std::string& system) {
+    auto wanted = xml::read_experiment(file, diagnostics);
+    if (!wanted) return std::nullopt;
+    if (!system.empty()) wanted = with_system(std::move(*wanted), system);
+    if (directory.empty()) directory = "forage-out/" + std::filesystem::path(file).stem().string();
+    return prepare_experiment(std::move(*wanted), std::move(directory), plugins, diagnostics,
+                              !system.empty());
 }
 
 std::optional<std::vector<RunResult>> run_experiment(const PreparedExperiment& e, int jobs, bool fresh,

@@ -28,6 +28,17 @@ struct PreparedExperiment {
     std::string summary_file() const { return directory + "/summary.csv"; }
 };
 
+/// Plans the runs of an experiment, reads their files and checks everything that the experiment says about
+/// them, without writing anything. With `exercise`, it is with_system()'s. Empty when `diagnostics` got an
+/// error.
+std::optional<PreparedExperiment> plan_experiment(model::Experiment experiment, std::string directory,
+                                                  const std::vector<std::string>& plugins,
+                                                  Diagnostics& diagnostics, bool exercise = false);
+/// Does the same, and makes and locks the directory.
+std::optional<PreparedExperiment> prepare_experiment(model::Experiment experiment, std::string directory,
+                                                     const std::vector<std::string>& plugins,
+                                                     Diagnostics& diagnostics, bool exercise = false);
+
 /// Reads an experiment file and checks all its runs. An empty `directory` stands for forage-out/ and the
 /// file's name. Reports all mistakes before anything is run or overwritten; empty when `diagnostics` got an
 /// error. With a path in `system`, the file's exercise is prepared with this system instead of the file's.

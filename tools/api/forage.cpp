@@ -2,6 +2,7 @@
 
 #include "core/base/named_file.h"
 #include "core/plugin/search.h"
+#include "core/run/experiment/tables.h"
 #include "core/run/path_recorder.h"
 #include "core/run/run_json.h"
 #include "tools/api/experiment.h"
@@ -37,6 +38,25 @@ Run make_run(model::System system, Registry types, std::unique_ptr<Environment> 
     return std::move(*run);
 }
 
+/// Executes the runs of an experiment.
+ExperimentOutcome carried_out(std::optional<PreparedExperiment> prepared, const ExperimentSettings& settings,
+                              Diagnostics& diagnostics) {
+    throw_errors(diagnostics);
+    auto results = run_experiment(*prepared, settings.jobs, settings.fresh, settings.callbacks);
+    ExperimentOutcome out{.experiment = std::move(prepared->experiment),
+                          .runs = std::move(prepared->runs),
+                          .results = std::move(results).value_or(std::vector<RunResult>()),
+                          .results_file = prepared->results_file(),
+                          .summary_file = prepared->summary_file(),
+                          .warnings = std::move(diagnostics)};
+    if (out.results.empty()) return out;
+    if (const auto diverged = divergence_summary(out.runs, out.results); !diverged.empty())
+        out.warnings.warning({}, diverged);
+    const auto of_runs = warnings_of(out.runs, out.results);
+    for (const auto& d : of_runs.all()) out.warnings.add(d);
+    return out;
+}
+
 }  // namespace
 
 Registry types(const std::vector<std::string>& plugins) {
@@ -47,10 +67,11 @@ Registry types(const std::vector<std::string>& plugins) {
     return out;
 }
 
-Run open(const std::string& system, const OpenOptions& options, Diagnostics* warnings) {
+Run open(const std::string& system, const std::string& text, const OpenOptions& options,
+         Diagnostics* warnings) {
     RunSpec spec;
     RunInput& input = spec.input;
-    input.system = system, input.world = options.world, input.seed = options.seed,
+    input.system = system, input.text = text, input.world = options.world, input.seed = options.seed,
     input.plugins = options.plugins;
     input.lenient = options.lenient, input.noise = options.noise,
     input.real_time_factor = options.real_time_factor;
@@ -62,9 +83,13 @@ Run open(const std::string& system, const OpenOptions& options, Diagnostics* war
     Run out = make_run(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world),
                        options, diagnostics);
     out.title = run_title(input);
-    out.opened_as = origin_of(system, options, input_files(spec, sources));
+    out.opened_as = origin_of(system, text, options, input_files(spec, sources));
     if (warnings) *warnings = std::move(diagnostics);
     return out;
+}
+
+Run open(const std::string& system, const OpenOptions& options, Diagnostics* warnings) {
+    return open(system, {}, options, warnings);
 }
 
 Run open(model::System system, Registry types, std::unique_ptr<Environment> environment,
@@ -100,13 +125,26 @@ std::vector<std::string> draw(const std::string& from, const std::vector<std::st
     return out;
 }
 
-ExperimentOutcome experiment(const std::string& file, const std::string& directory, int jobs) {
+ExperimentOutcome experiment(const std::string& file, const ExperimentSettings& settings) {
     Diagnostics diagnostics;
-    auto prepared = prepare_experiment(file, directory, {}, diagnostics);
+    return carried_out(prepare_experiment(file, settings.directory, settings.plugins, diagnostics), settings,
+                       diagnostics);
+}
+
+ExperimentOutcome experiment(model::Experiment wanted, const ExperimentSettings& settings) {
+    Diagnostics diagnostics;
+    return carried_out(
+        prepare_experiment(std::move(wanted), settings.directory, settings.plugins, diagnostics), settings,
+        diagnostics);
+}
+
+std::vector<PlannedRun> plan(model::Experiment wanted, const std::vector<std::string>& plugins,
+                             Diagnostics* warnings) {
+    Diagnostics diagnostics;
+    auto planned = plan_experiment(std::move(wanted), {}, plugins, diagnostics);
     throw_errors(diagnostics);
-    auto results = run_experiment(*prepared, jobs, false, {});
-    return {std::move(prepared->runs), std::move(*results), prepared->results_file(),
-            prepared->summary_file()};
+    if (warnings) *warnings = std::move(diagnostics);
+    return std::move(planned->runs);
 }
 
 }  // namespace forage

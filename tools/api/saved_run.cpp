@@ -89,10 +89,10 @@ void restore(Archive& archive, Run& run) {
 
 /// How a run was opened.
 struct Origin {
-    std::string version = FORAGE_VERSION, system;
+    std::string version = FORAGE_VERSION, system, text;
     OpenOptions options;
     InputFiles files;  ///< digests when it was opened
-    void checkpoint(Archive& archive) { archive(version, system, options, files); }
+    void checkpoint(Archive& archive) { archive(version, system, text, options, files); }
 };
 
 void check_files(const InputFiles& files) {
@@ -106,12 +106,14 @@ void check_files(const InputFiles& files) {
 
 }  // namespace
 
-std::string origin_of(const std::string& system, OpenOptions options, const InputFiles& files) {
+std::string origin_of(const std::string& system, const std::string& text, OpenOptions options,
+                      const InputFiles& files) {
     options.world = absolute(options.world);
     for (auto& p : options.plugins) p = absolute(p);
     InputFiles there;
     for (const auto& [path, digest] : files) there[absolute(path)] = digest;
-    Origin origin{.system = absolute(system), .options = std::move(options), .files = std::move(there)};
+    Origin origin{
+        .system = absolute(system), .text = text, .options = std::move(options), .files = std::move(there)};
     Archive archive;
     archive(origin);
     return archive.bytes();
@@ -143,7 +145,7 @@ Run resume(std::string_view state) {
         throw CheckpointError(fmt::format("the state of the run was written by forage {}, and this is {}",
                                           origin.version, FORAGE_VERSION));
     check_files(origin.files);
-    Run run = open(origin.system, origin.options);
+    Run run = open(origin.system, origin.text, origin.options, nullptr);
     Archive observers{std::string_view(list)};
     for (; count > 0; --count) restore(observers, run);
     run.start();

@@ -202,7 +202,9 @@ Registry known_types(const std::vector<plugin::Plugin>& plugins) {
 }
 
 Sources with_first_system(Sources sources, const RunInput& input, Diagnostics& diagnostics) {
-    auto& system = sources.system = read_any(input.system, diagnostics);
+    auto& system = sources.system = input.text.empty()
+                                        ? read_any(input.system, diagnostics)
+                                        : xml::parse_system(input.system, input.text, diagnostics);
     for (const auto& other : sources.more) {
         if (!system) continue;
         if (other.cycles_per_second != system->cycles_per_second)
@@ -263,8 +265,18 @@ std::optional<Loaded> load(const RunInput& input, Diagnostics& diagnostics) {
     return assemble(read_sources(input, diagnostics), input, diagnostics);
 }
 
+std::optional<engine::Simulation> compile(const std::optional<Loaded>& loaded, std::uint64_t seed,
+                                          Diagnostics& diagnostics) {
+    if (!loaded) return std::nullopt;
+    auto layout = engine::make_layout(loaded->system, loaded->registry, diagnostics, loaded->world.get());
+    if (!layout) return std::nullopt;
+    return engine::Simulation::build(loaded->system, std::move(*layout), engine::Demand::everything(),
+                                     {.seed = seed}, diagnostics);
+}
+
 InputFiles input_files(const RunSpec& spec, const Sources& sources) {
     InputFiles out = files_of_system(sources);
+    if (!spec.input.text.empty()) out.erase(spec.input.system);  // there is no such file
     const auto read = [&](const std::string& path) {
         if (!path.empty()) out[path] = file_digest(path);
     };

@@ -12,6 +12,7 @@
 #include "core/model/system.h"
 #include "core/plugin/plugin.h"
 #include "core/run/input_files.h"
+#include "core/run/run.h"
 #include "core/run/run_spec.h"
 #include "core/types/registry.h"
 
@@ -54,6 +55,10 @@ Sources with_first_system(Sources sources, const RunInput& input, Diagnostics& d
 std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Diagnostics& diagnostics);
 /// Does both: read_sources() and assemble().
 std::optional<Loaded> load(const RunInput& input, Diagnostics& diagnostics);
+/// Compiles all groups and connections of what was loaded, without starting a run, to check or describe it.
+/// Empty when `loaded` is, and when `diagnostics` got an error.
+std::optional<engine::Simulation> compile(const std::optional<Loaded>& loaded, std::uint64_t seed,
+                                          Diagnostics& diagnostics);
 
 /// The digests of all files that a run reads before it starts: system, world, tables, patterns.
 InputFiles input_files(const RunSpec& spec, const Sources& sources);

@@ -8,6 +8,7 @@
 
 #include "core/base/output_files.h"
 #include "core/model/build.h"
+#include "core/model/edit.h"
 #include "core/model/lookup.h"
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
@@ -41,27 +42,6 @@ std::string about_import(model::System& system, const std::string& id) {
         "imported '{}'; nothing connects it with the other processes yet\n"
         "  write each <Connection> that it needs; the ids of its groups are {}\n",
         model::trim(process.name), fmt::join(groups, ", "));
-}
-
-/// Links and file names are relative to the system file. Changes them so that they are valid from `to`
-/// instead of `from`.
-void move_files(model::System& system, const std::string& from, const std::string& to,
-                const Registry& registry) {
-    const fs::path old_place = fs::absolute(from).parent_path(), new_place = fs::absolute(to).parent_path();
-    if (fs::weakly_canonical(old_place) == fs::weakly_canonical(new_place)) return;
-    const auto move = [&](std::string& path) {
-        if (!path.empty() && fs::path(path).is_relative())
-            path = fs::relative(old_place / path, new_place).generic_string();
-    };
-    for (auto& p : system.processes) {
-        auto& written = p.linked() ? p.placeholder.front() : p;
-        move(written.path);
-        const ModuleType* type = written.module ? registry.module(written.module->type) : nullptr;
-        if (!type) continue;
-        for (auto& s : written.module->settings)
-            for (const auto& parameter : type->parameters)
-                if (parameter.is_path && parameter.name == s.name) move(s.value);
-    }
 }
 
 std::string process_id(const model::System& system, const std::string& wanted, Diagnostics& diagnostics) {
@@ -107,7 +87,7 @@ std::string converted(const ConvertOptions& o, std::string& notes, Diagnostics& 
         return {};
     }
     if (!to_process) {
-        move_files(*system, o.input, o.output, known_types(plugins));
+        model::move_files(*system, o.input, o.output, known_types(plugins));
         return xml::write_system(*system);
     }
     if (o.extract.empty()) {

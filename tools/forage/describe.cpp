@@ -62,13 +62,7 @@ void print_module(const model::ModuleUse& module, bool enabled, const model::Sys
 int describe(const RunInput& input) {
     Diagnostics diagnostics;
     const auto loaded = load(input, diagnostics);
-    std::optional<engine::Simulation> simulation;
-    if (loaded)
-        if (auto layout =
-                engine::make_layout(loaded->system, loaded->registry, diagnostics, loaded->world.get()))
-            simulation =
-                engine::Simulation::build(loaded->system, std::move(*layout), engine::Demand::everything(),
-                                          {.seed = input.seed}, diagnostics);
+    const auto simulation = compile(loaded, input.seed, diagnostics);
     fmt::print(stderr, "{}", format(diagnostics));
     if (!simulation) return bad_input;
 

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "core/connectivity/connect.h"
 #include "core/connectivity/grid.h"
 #include "core/model/lookup.h"
 #include "core/model/validate.h"
@@ -87,19 +86,34 @@ Picture picture_of(const model::Connection& c, bool wiring, const model::System&
         throw std::runtime_error(
             fmt::format("connection '{}' is not complete: 'forage check' says what is wrong", c.name));
     Diagnostics diagnostics;
-    auto synapses =
-        connectivity::connect(c, source.group->topology, target.group->topology, seed, diagnostics);
+    auto [synapses, strength] = synapses_of(c, system, registry, simulation, seed, diagnostics);
     if (diagnostics.failed()) throw std::runtime_error(format(diagnostics));
     p.subtitle =
         fmt::format("{} {} to {}, {} synapses of {}", name_of(c.kind),
                     model::path(system, *source.process, *source.group),
                     model::path(system, *target.process, *target.group), synapses.size(), type->label);
-    p.strength = strengths(c, synapses, *type, simulation);
+    p.strength = std::move(strength);
     p.pre = std::move(synapses.pre), p.post = std::move(synapses.post), p.delay = std::move(synapses.delay);
     return wiring ? wiring_plot({p}) : connection_plot(p);
 }
 
 }  // namespace
+
+ConnectionSynapses synapses_of(const model::Connection& c, const model::System& system,
+                               const Registry& registry, const engine::Simulation* simulation,
+                               std::uint64_t seed, Diagnostics& diagnostics) {
+    const model::GroupIndex groups(system);
+    const auto source = groups.find(c.source), target = groups.find(c.target);
+    const SynapseType* type = c.synapse ? registry.synapse(c.synapse->type) : nullptr;
+    if (!source.group || !target.group || !type) {
+        diagnostics.error({}, fmt::format("connection '{}' is not complete", c.name));
+        return {};
+    }
+    auto synapses =
+        connectivity::connect(c, source.group->topology, target.group->topology, seed, diagnostics);
+    auto strength = strengths(c, synapses, *type, simulation);
+    return {std::move(synapses), std::move(strength)};
+}
 
 const model::Connection* find_connection(const model::System& system, std::string_view name,
                                          std::string_view option, Diagnostics& diagnostics, Location at) {

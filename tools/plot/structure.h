@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/connectivity/connect.h"
 #include "core/engine/simulation.h"
 #include "core/model/system.h"
 #include "tools/plot/canvas.h"
@@ -20,6 +21,18 @@ void check_structure(const PlotSpec& spec, const model::System& system, std::str
 /// this name.
 const model::Connection* find_connection(const model::System& system, std::string_view name,
                                          std::string_view option, Diagnostics& diagnostics, Location at = {});
+
+/// The synapses of a connection, in the order of their sums.
+struct ConnectionSynapses {
+    connectivity::Synapses list;
+    std::vector<double> strength;  ///< the input that each of them delivers for an activity of 1
+};
+/// Builds the synapses of a connection. Weights that are learned are those in `simulation`, which is compiled
+/// from the same system with the same seed; without one they are 0. Reports what is wrong with the
+/// connection.
+ConnectionSynapses synapses_of(const model::Connection& connection, const model::System& system,
+                               const Registry& registry, const engine::Simulation* simulation,
+                               std::uint64_t seed, Diagnostics& diagnostics);
 
 /// The groups of a connection that check_structure() has accepted, without synapses. Throws
 /// std::runtime_error.

@@ -13,4 +13,7 @@ PYBIND11_MODULE(_forage, module) {
     add_pictures(module);
     add_probes(module);
     add_runs(module);
+    add_wiring(module);
+    add_systems(module);
+    add_experiments(module);
 }

@@ -13,6 +13,7 @@
 #include "tools/python/picture.h"
 #include "tools/python/probe.h"
 #include "tools/python/run.h"
+#include "tools/python/system.h"
 #include "tools/python/tables.h"
 #include "tools/python/values.h"
 
@@ -21,11 +22,13 @@ namespace {
 
 using namespace py::literals;
 using Path = std::filesystem::path;
+using SystemPointer = std::shared_ptr<PythonSystem>;
 using Names = std::optional<std::vector<std::string>>;
 using Count = std::optional<std::uint64_t>;
 using Seconds = std::optional<double>;
 
-std::shared_ptr<PythonRun> open_run(const Path& system, const std::optional<Path>& world, std::uint64_t seed,
+std::shared_ptr<PythonRun> open_run(const std::variant<Path, SystemPointer>& system,
+                                    const std::optional<Path>& world, std::uint64_t seed,
                                     const py::object& settings, const std::vector<Path>& plugins, int threads,
                                     bool lenient, bool noise, Seconds real_time_factor, const Names& observe,
                                     const Names& overwrite) {
@@ -40,11 +43,16 @@ std::shared_ptr<PythonRun> open_run(const Path& system, const std::optional<Path
                         .overwrite = overwrite,
                         .paths = true};
     for (const auto& p : plugins) options.plugins.push_back(p.string());
+    const auto* const path = std::get_if<Path>(&system);
+    const auto* const built = std::get_if<SystemPointer>(&system);
+    if (built && !*built) throw py::type_error("the system is None");
+    const auto file = built ? std::optional((*built)->file()) : std::nullopt;  // as it is now
     Diagnostics warnings;
     std::shared_ptr<PythonRun> run;
     {
         const py::gil_scoped_release others;
-        run = std::make_shared<PythonRun>(open(system.string(), options, &warnings));
+        run = std::make_shared<PythonRun>(file ? open(*file, options, &warnings)
+                                               : open(path->string(), options, &warnings));
     }
     warn(warnings);
     return run;
@@ -300,9 +308,9 @@ Returns a Film, which is complete when it or the run is closed. Raises InputErro
     module.def("open", &open_run, "system"_a, py::kw_only(), "world"_a = none, "seed"_a = 1,
                "settings"_a = none, "plugins"_a = std::vector<Path>(), "threads"_a = 1, "lenient"_a = false,
                "noise"_a = true, "real_time_factor"_a = none, "observe"_a = none, "overwrite"_a = none,
-               R"(Opens a system file (.iqr), ready for its first cycle.
+               R"(Opens a system, ready for its first cycle.
 
-system: the path of the file.
+system: the path of the file, or a System.
 world: the path of a world file (.world) in which its robots live; none without it.
 seed: decides everything random.
 settings: parameters by name, {"Process/Group.threshold": 0.5}, or texts as for `forage run --set`.

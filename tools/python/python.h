@@ -14,11 +14,14 @@ namespace py = pybind11;
 
 /// The classes of the package are part of the module `_forage`; each function adds those of one file.
 void add_errors(py::module_& module);
+void add_experiments(py::module_& module);
 void add_groups(py::module_& module);
 void add_parameters(py::module_& module);
 void add_pictures(py::module_& module);
 void add_probes(py::module_& module);
 void add_runs(py::module_& module);
+void add_systems(py::module_& module);
+void add_wiring(py::module_& module);
 
 /// The method _repr_html_ of a class: the function of forage/_html.py with this name, called with the object.
 inline auto html(const char* function) {

@@ -70,9 +70,7 @@ py::array trials(PythonRun& run, std::size_t robot) {
     return structured(rows, fields);
 }
 
-void add_measure(PythonRun& run, const std::string& name, const py::kwargs& kind) {
-    Run& r = run.use();
-    Diagnostics diagnostics;
+model::Measure measure_of(const std::string& name, const py::dict& kind, Diagnostics& diagnostics) {
     model::Measure m;
     m.name = name;
     int kinds = 0;
@@ -92,14 +90,21 @@ void add_measure(PythonRun& run, const std::string& name, const py::kwargs& kind
     }
     if (kinds != 1 && !diagnostics.failed())
         diagnostics.error({}, fmt::format("measure '{}': name one kind of measure, not {}", name, kinds),
-                          "for example run.measure('first light', first='max(Bug/Light) > 0.5')");
+                          "for example first='max(Bug/Light) > 0.5'");
+    if (!diagnostics.failed()) model::read_trials(m, diagnostics);
+    return m;
+}
+
+void add_measure(PythonRun& run, const std::string& name, const py::kwargs& kind) {
+    Run& r = run.use();
+    Diagnostics diagnostics;
+    const model::Measure m = measure_of(name, kind, diagnostics);
     for (const auto& o : r.observers())
         if (const auto* others = dynamic_cast<const RunMeasures*>(o.get()))
             for (const auto& other : others->specs())
                 if (other.name == name)
                     diagnostics.error({}, fmt::format("there is a measure '{}' already", name));
     throw_errors(diagnostics);
-    model::read_trials(m, diagnostics);
     auto measures = std::make_unique<RunMeasures>(std::span(&m, 1), r.layout(), r.environment(), diagnostics);
     throw_errors(diagnostics);
     measures->check(r.simulation(), diagnostics);

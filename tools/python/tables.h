@@ -16,6 +16,8 @@ struct Parameters {
 /// The finished trials of a robot: a structured array with the columns of trials.csv.
 py::array trials(PythonRun& run, std::size_t robot);
 
+/// A measure: `kind` is one pair such as "success": "all", and possibly "of", the name of a robot.
+model::Measure measure_of(const std::string& name, const py::dict& kind, Diagnostics& diagnostics);
 /// Takes a measure from now on, as an experiment does: `kind` is one keyword such as success="all".
 void add_measure(PythonRun& run, const std::string& name, const py::kwargs& kind);
 /// The present values of all measures: a structured array of one row, NaN where there is nothing to measure.

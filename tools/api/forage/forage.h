@@ -101,15 +101,34 @@ Observer& film(Run& run, const std::string& file);
 /// std::runtime_error when the file cannot be written.
 std::size_t finish_film(Run& run, Observer& film);
 
+struct ExperimentSettings {
+    /// For the results. Empty for forage-out/ and the name of the experiment's file.
+    std::string directory = {};
+    std::vector<std::string> plugins = {};  ///< as in OpenOptions
+    int jobs = 0;                           ///< number of runs at a time; 0: one per core
+    bool fresh = false;                     ///< whether runs that were finished before are repeated
+    ExperimentCallbacks callbacks = {};
+};
 struct ExperimentOutcome {
+    model::Experiment experiment;
     std::vector<PlannedRun> runs;
-    std::vector<RunResult> results;  ///< one per run, in the same order
+    std::vector<RunResult> results;  ///< one per run, in the same order; empty when it was interrupted
     std::string results_file, summary_file;
+    Diagnostics warnings;  ///< about the files and the runs
 };
 /// Runs an experiment file with all its seeds and swept values, as `forage experiment` does, and writes its
-/// tables. An empty `directory` stands for forage-out/ and the file's name; `jobs` runs are executed at a
-/// time (0: one per core). Runs that were finished before are not repeated. Throws InputError.
-ExperimentOutcome experiment(const std::string& file, const std::string& directory = {}, int jobs = 0);
+/// tables. Throws InputError.
+ExperimentOutcome experiment(const std::string& file, const ExperimentSettings& settings);
+inline ExperimentOutcome experiment(const std::string& file, const std::string& directory = {},
+                                    int jobs = 0) {
+    return experiment(file, ExperimentSettings{.directory = directory, .jobs = jobs});
+}
+/// Runs an experiment that was described in code; settings.directory is not empty. Throws InputError.
+ExperimentOutcome experiment(model::Experiment experiment, const ExperimentSettings& settings);
+/// The runs of an experiment that was described in code. Nothing is run or written. Throws InputError for all
+/// mistakes in them. Warnings are added to `warnings`, if it is not null.
+std::vector<PlannedRun> plan(model::Experiment experiment, const std::vector<std::string>& plugins = {},
+                             Diagnostics* warnings = nullptr);
 
 /// The types that ship with Forage, and those of `plugins`: shared objects and folders of them. Throws
 /// InputError.

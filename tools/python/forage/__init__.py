@@ -9,9 +9,27 @@
 """
 
 from ._errors import Diagnostic, InputError, InputWarning, RunError
-from ._forage import Film, Group, Manipulation, Parameters, Probe, Run, __version__, open, resume
+from ._forage import (Arborization, DistanceFunction, Film, Group, Manipulation, Parameters, Pattern, Probe, Run, System, __version__, open,
+                      resume)
 from ._picture import Picture
 from ._recording import Recording
 
-__all__ = ["Diagnostic", "Film", "Group", "InputError", "InputWarning", "Manipulation", "Parameters", "Picture", "Probe", "Recording", "Run", "RunError",
-           "open", "resume"]
+__all__ = ["Arborization", "Diagnostic", "DistanceFunction", "Film", "Group", "InputError", "InputWarning", "Manipulation", "Parameters",
+           "Pattern", "Picture", "Probe", "Recording", "Run", "RunError", "System", "Table", "experiment", "open", "resume", "sweep"]
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from ._experiment import Table, experiment, sweep
+
+
+def __getattr__(name):
+    """Imports what needs NumPy when it is used, so that the import of the package takes little time."""
+    if name not in ("Table", "experiment", "sweep"):
+        raise AttributeError(f"module 'forage' has no attribute '{name}'")
+    from . import _experiment
+
+    return getattr(_experiment, name)
+
+
+def __dir__():
+    return sorted({*globals(), *__all__})

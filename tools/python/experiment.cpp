@@ -1,0 +1,216 @@
+// Experiments and sweeps. forage/_experiment.py makes tables of what is here.
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "core/base/cores.h"
+#include "tools/python/tables.h"
+#include "tools/python/values.h"
+
+namespace forage::python {
+namespace {
+
+using namespace py::literals;
+using ExperimentPath = std::filesystem::path;
+
+/// Shows the progress of an experiment, and ends it after what Python raises: a signal such as that of
+/// Ctrl-C, or an exception of the function that shows it. Used without the GIL.
+class Watch {
+  public:
+    explicit Watch(py::object progress) : progress_(std::move(progress)) {}
+
+    ExperimentCallbacks callbacks() {
+        return {.progress = [this](const auto& p) { look(p); },
+                .interrupted = [this] { return ended_.load(); }};
+    }
+    /// Throws what ended the experiment, if anything did.
+    void rethrow() const {
+        if (raised_) std::rethrow_exception(raised_);
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    void look(const ExperimentCallbacks::Progress& p) {
+        if (ended_) return;
+        const py::gil_scoped_acquire python;
+        try {
+            if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+            if (const auto now = Clock::now(); !progress_.is_none() && now >= next_) {
+                next_ = now + std::chrono::milliseconds(100);
+                progress_(p.done, fmt::format("{}/{} runs", p.finished, p.all));
+            }
+        } catch (...) {
+            raised_ = std::current_exception();
+            ended_ = true;
+        }
+    }
+
+    py::object progress_;
+    Clock::time_point next_ = Clock::now();
+    std::exception_ptr raised_;
+    std::atomic<bool> ended_ = false;
+};
+
+/// A column of the table of results.
+template <class Value>
+void add_column(py::list& columns, const std::string& name, const ExperimentOutcome& outcome, Value value) {
+    py::list values;
+    for (std::size_t i = 0; i < outcome.runs.size(); ++i)
+        values.append(value(outcome.runs[i], outcome.results[i]));
+    columns.append(py::make_tuple(name, values));
+}
+
+/// The columns of results.csv.
+py::list columns_of(const ExperimentOutcome& outcome) {
+    py::list out;
+    const auto add = [&](const std::string& name, auto value) { add_column(out, name, outcome, value); };
+    add("run", [](const PlannedRun& run, const RunResult&) { return run.name; });
+    const auto& experiment = outcome.experiment;
+    for (std::size_t i = 0; i < experiment.sweeps.size(); ++i)
+        add(experiment.sweeps[i].parameter.text,
+            [i](const PlannedRun& run, const RunResult&) { return run.values[i]; });
+    add("seed", [](const PlannedRun& run, const RunResult&) { return run.spec.input.seed; });
+    add("status", [](const PlannedRun&, const RunResult& r) {
+        return !r.failure.empty() ? "failed" : r.stopped.empty() ? "finished" : "stopped";
+    });
+    add("cycles", [](const PlannedRun&, const RunResult& r) { return r.cycles; });
+    add("seconds", [](const PlannedRun&, const RunResult& r) { return r.seconds; });
+    if (std::ranges::any_of(outcome.results, [](const auto& r) { return r.trials.has_value(); })) {
+        add("trials", [](const PlannedRun&, const RunResult& r) { return r.trials.value_or(0); });
+        add("reached", [](const PlannedRun&, const RunResult& r) { return r.reached.value_or(0); });
+    }
+    for (std::size_t i = 0; i < experiment.measures.size(); ++i)
+        add(experiment.measures[i].name, [i](const PlannedRun&, const RunResult& r) {
+            return r.failure.empty() ? r.measures[i] : std::nullopt;
+        });
+    add("remark", [](const PlannedRun&, const RunResult& r) {
+        return !r.failure.empty() ? r.failure : !r.stopped.empty() ? r.stopped : r.diverged;
+    });
+    return out;
+}
+
+/// Runs an experiment: the path of a file, or one that was described in code.
+template <class What>
+py::list run_all(const What& what, const std::string& directory, const std::vector<std::string>& plugins,
+                 int jobs, bool fresh, py::object progress) {
+    Watch watch(std::move(progress));
+    ExperimentOutcome outcome;
+    {
+        const py::gil_scoped_release others;
+        outcome = experiment(what, ExperimentSettings{.directory = directory,
+                                                      .plugins = plugins,
+                                                      .jobs = jobs,
+                                                      .fresh = fresh,
+                                                      .callbacks = watch.callbacks()});
+    }
+    watch.rethrow();
+    warn(outcome.warnings);
+    return columns_of(outcome);
+}
+
+/// A sweep, as Python describes it.
+struct PythonSweep {
+    model::Experiment experiment;
+    std::vector<std::string> plugins;
+};
+
+std::vector<std::string> values_of(const py::iterable& values) {
+    std::vector<std::string> out;
+    for (const auto& value : values) out.push_back(text_of(value));
+    return out;
+}
+
+/// The sweeps in a dictionary: each key is a parameter, or a tuple of parameters whose values are tuples,
+/// because they vary together.
+std::vector<model::Sweep> sweeps_of(const py::dict& values) {
+    std::vector<model::Sweep> out;
+    std::size_t axis = 0;
+    for (const auto& [key, list] : values) {
+        const bool together = py::isinstance<py::tuple>(key);
+        const py::tuple names = together ? key.cast<py::tuple>() : py::make_tuple(key);
+        const std::size_t first = out.size();
+        for (const auto& name : names) out.push_back({{name.cast<std::string>()}, {}, {}, axis});
+        for (const auto& value : list) {
+            const auto texts = values_of(together ? value.cast<py::tuple>() : py::make_tuple(value));
+            if (texts.size() != names.size())
+                throw InputError(
+                    fmt::format("sweep: {} values are given for {} parameters that vary together",
+                                texts.size(), names.size()));
+            for (std::size_t i = 0; i < texts.size(); ++i)
+                out[first + i].values.push_back({.text = texts[i]});
+        }
+        for (std::size_t i = first; i < out.size(); ++i)
+            if (out[i].values.empty())
+                throw InputError(fmt::format("sweep: '{}' has no values", out[i].parameter.text));
+        ++axis;
+    }
+    return out;
+}
+
+PythonSweep make_sweep(const ExperimentPath& system, const std::optional<ExperimentPath>& world,
+                       const py::dict& values, const std::vector<std::uint64_t>& seeds,
+                       const py::object& settings, const std::vector<ExperimentPath>& plugins, bool noise,
+                       std::optional<double> real_time_factor, std::optional<std::uint64_t> cycles,
+                       std::optional<double> seconds, std::optional<std::uint64_t> trials,
+                       double trial_timeout, const std::string& until, const py::dict& measures) {
+    PythonSweep out;
+    auto& e = out.experiment;
+    e.path = system.string(), e.systems = {{system.string()}};
+    e.world = world ? world->string() : std::string();
+    e.sweeps = sweeps_of(values), e.seeds = seeds;
+    for (const auto& text : assignments(settings)) e.settings.push_back({text});
+    e.noise = noise, e.real_time_factor = real_time_factor;
+    e.cycles = cycles, e.seconds = seconds, e.trials = trials;
+    e.trial_timeout = trial_timeout, e.until = {until};
+    Diagnostics diagnostics;
+    for (const auto& [name, kind] : measures)
+        e.measures.push_back(measure_of(name.cast<std::string>(), kind.cast<py::dict>(), diagnostics));
+    if (seeds.empty())
+        diagnostics.error({}, "sweep: there is no seed", "seeds=5 stands for the seeds 1 to 5");
+    throw_errors(diagnostics);
+    for (const auto& p : plugins) out.plugins.push_back(p.string());
+    return out;
+}
+
+/// The runs, after all mistakes in them were reported: (name, values, seed, settings) of each.
+py::list planned(const PythonSweep& self) {
+    Diagnostics warnings;
+    std::vector<PlannedRun> runs;
+    {
+        const py::gil_scoped_release others;
+        runs = forage::plan(self.experiment, self.plugins, &warnings);
+    }
+    warn(warnings);
+    py::list out;
+    for (const auto& run : runs) {
+        py::list settings;
+        for (const auto& s : run.spec.input.settings) settings.append(s.text);
+        out.append(py::make_tuple(run.name, run.values, run.spec.input.seed, settings));
+    }
+    return out;
+}
+
+}  // namespace
+
+void add_experiments(py::module_& module) {
+    const auto none = py::none();
+    module.def("_experiment", &run_all<std::string>);
+    py::class_<PythonSweep>(module, "_Sweep")
+        .def(py::init(&make_sweep), py::kw_only(), "system"_a, "world"_a, "values"_a, "seeds"_a, "settings"_a,
+             "plugins"_a, "noise"_a, "real_time_factor"_a, "cycles"_a, "seconds"_a, "trials"_a,
+             "trial_timeout"_a, "until"_a, "measures"_a)
+        .def("plan", &planned)
+        .def("run", [](const PythonSweep& self, const std::string& directory, int jobs, py::object progress) {
+            return run_all(self.experiment, directory, self.plugins, jobs, false, std::move(progress));
+        });
+    module.def("_cores", &cores);
+}
+
+}  // namespace forage::python

@@ -1,0 +1,254 @@
+"""Many runs, on all cores, and their table. It is imported when it is used, as NumPy takes time."""
+from __future__ import annotations
+
+import concurrent.futures
+import contextlib
+import math
+import operator
+import os
+import pathlib
+import tempfile
+import threading
+import typing
+import warnings
+
+import numpy
+
+from . import _forage
+from ._errors import RunError
+from ._progress import Bar
+
+Path = typing.Union[str, "os.PathLike[str]"]
+Progress = typing.Union[bool, typing.Callable[[float, str], object], None]
+Function = typing.Callable[[_forage.Run], typing.Any]
+Measure = typing.Union[typing.Mapping[str, str], Function]
+Values = typing.Mapping[typing.Any, typing.Iterable[typing.Any]]
+
+_COLUMNS = ("run", "seed", "status", "cycles", "seconds", "trials", "reached", "remark")
+
+
+class Table(numpy.ndarray[typing.Any, numpy.dtype[numpy.void]]):
+    """A structured array with a row per run: run (its name), the parameters that vary, seed, status ("finished", "stopped" before its length was
+    reached, or "failed"), cycles, seconds, trials and reached in a world with trials, the measures, and a remark.
+
+    NaN stands for what a run has no number for. A measure of an experiment file with the name of another column has a ' at the end.
+    """
+
+    _directory: str | None = None
+
+    def __array_finalize__(self, origin: typing.Any) -> None:
+        self._directory = getattr(origin, "_directory", None)
+
+    @property
+    def directory(self) -> str | None:
+        """The folder of the results; None when they are not kept."""
+        return self._directory
+
+    def to_pandas(self) -> typing.Any:
+        """A pandas.DataFrame."""
+        import pandas
+
+        return pandas.DataFrame({name: numpy.asarray(self[name]) for name in self.dtype.names or ()})
+
+
+def experiment(file: Path, *, directory: Path | None = None, plugins: typing.Iterable[Path] = (), jobs: int = 0, fresh: bool = False,
+               progress: Progress = None) -> Table:
+    """Runs an experiment file as `forage experiment` does, and returns the Table of its runs.
+
+    directory: for the results; forage-out/ and the name of the file without it. Runs that are finished there are not repeated, unless `fresh` is set.
+    plugins: shared objects with types, and folders of them, as for open().
+    jobs: the number of runs at a time; one per core without it.
+    progress: True for a bar on the standard error, or a function that is called ten times per second with the fraction that is done, 0 to 1, and a text.
+
+    Raises InputError with all mistakes in the file. Ctrl-C ends all runs; the same call continues with those that are not finished.
+    """
+    folder = os.fspath(directory) if directory is not None else f"forage-out/{pathlib.Path(file).stem}"
+    return _table(_forage._experiment(os.fspath(file), folder, [os.fspath(p) for p in plugins], jobs, fresh, _reporter(progress)), folder)
+
+
+def sweep(system: Path | _forage.System, world: Path | None = None, values: Values | None = None, *, seeds: int | typing.Iterable[int] = 1,
+          measure: Function | typing.Mapping[str, Measure] | None = None, cycles: int | None = None, seconds: float | None = None,
+          trials: int | None = None, until: str = "", trial_timeout: float = 300.0,
+          settings: typing.Mapping[str, typing.Any] | typing.Iterable[str] | None = None, plugins: typing.Iterable[Path] = (), noise: bool = True,
+          real_time_factor: float | None = None, directory: Path | None = None, jobs: int = 0, progress: Progress = None) -> Table:
+    """Runs a system with every combination of values and seeds, on all cores, and returns the Table of the runs.
+
+        forage.sweep("reactive.iqr", "basic.world", {"Reactive/US.threshold": [0.2, 0.4]}, seeds=5, trials=10, measure={"success": {"success": "all"}})
+
+    system: a path or a System. world: a path.
+    values: lists of values by parameter, "Process/Group.threshold". Parameters that vary together are a tuple, and so are their values.
+    seeds: the number of seeds, from 1, or a list of them.
+    cycles, seconds, trials: the length of each run, one of them. until: a condition that ends a run earlier, as for Run.run_until().
+    measure: by name, measures of experiment files ({"first": "max(Bug/Light) > 0.5"}, see Run.measure()) and functions. A function alone has the column of
+        its name. Functions are called with each Run at its end and return a number, or a dictionary of numbers by name. Without a length, the function
+        runs the run itself.
+    settings, plugins, noise, real_time_factor: as for open(). trial_timeout: seconds of the world after which a trial ends its run, which is then "stopped".
+    directory: keeps the results, which `forage view` shows and which are not computed again; only without functions.
+    jobs, progress: as for experiment().
+
+    The numbers are those of `forage experiment` and do not depend on the number of jobs. Raises InputError with all mistakes, before the first run, and
+    what a function raises.
+    """
+    functions, declared = _measures(measure)
+    if functions and directory is not None:
+        raise ValueError("directory: results of functions are not kept in files")
+    length = {"cycles": cycles, "seconds": seconds, "trials": trials, "trial_timeout": trial_timeout}
+    setup: dict[str, typing.Any] = {"plugins": [os.fspath(p) for p in plugins], "noise": noise, "real_time_factor": real_time_factor}
+    place: typing.Any = tempfile.TemporaryDirectory(prefix="forage-") if directory is None else contextlib.nullcontext(os.fspath(directory))
+    with place as folder:
+        if isinstance(system, _forage.System):
+            file: Path = pathlib.Path(folder) / ((system.name.replace("/", "_") or "system") + ".iqr")
+            pathlib.Path(folder).mkdir(parents=True, exist_ok=True)
+            setup["plugins"] += system.plugins
+            system.copy().save(file)
+        else:
+            file = system
+        planned = _forage._Sweep(system=file, world=world, values=dict(values or {}), seeds=_seeds(seeds), settings=settings, measures=declared,
+                                 until=until, **length, **setup)
+        if not functions:
+            return _table(planned.run(folder, jobs, _reporter(progress)), None if directory is None else folder)
+        names = [name for key in values or {} for name in (key if isinstance(key, tuple) else [key])]
+        runs = planned.plan()
+        alone = cycles is None and seconds is None and trials is None and not until
+
+        def open_run(seed: int, changes: list[str]) -> _forage.Run:
+            return _forage.open(file, world=world, seed=seed, settings=changes, **setup)
+
+        work = _Work(open_run, None if alone else (until, length), declared, functions)
+        return _table(_columns(names, runs, work.all(runs, jobs or _forage._cores(), _reporter(progress))), None)
+
+
+def _measures(measure: typing.Any) -> tuple[dict[str, Function], dict[str, dict[str, str]]]:
+    """The functions, and the measures of experiment files."""
+    if callable(measure):
+        return {getattr(measure, "__name__", "measure").replace("<lambda>", "measure"): measure}, {}
+    for name, m in (measure or {}).items():
+        if not callable(m) and not isinstance(m, typing.Mapping):
+            raise TypeError(f"measure {name!r} is neither a function nor a dictionary such as {{'success': 'all'}}")
+        if name in _COLUMNS:
+            raise ValueError(f"measure {name!r}: the table has another column of this name")
+    functions = {name: m for name, m in (measure or {}).items() if callable(m)}
+    return functions, {name: dict(m) for name, m in (measure or {}).items() if not callable(m)}
+
+
+def _seeds(seeds: typing.Any) -> list[int]:
+    return list(range(1, operator.index(seeds) + 1)) if hasattr(seeds, "__index__") else list(seeds)
+
+
+class _Stopped(Exception):
+    """Ends a run because another one failed, or because of Ctrl-C."""
+
+
+class _Work:
+    """Runs whose measures are functions, in threads: Python goes on while a run runs."""
+
+    def __init__(self, open_run: typing.Callable[[int, list[str]], _forage.Run], length: tuple[str, dict[str, typing.Any]] | None,
+                 declared: dict[str, dict[str, str]], functions: dict[str, Function]) -> None:
+        self._open, self._length, self._declared, self._functions = open_run, length, declared, functions
+        self._stop = threading.Event()
+        self._parts: dict[int, float] = {}
+
+    def all(self, runs: list[typing.Any], jobs: int, progress: typing.Callable[[float, str], object] | None) -> list[dict[str, typing.Any]]:
+        """The results in the order of the runs."""
+        with concurrent.futures.ThreadPoolExecutor(jobs) as threads:
+            waiting = [threads.submit(self._one, i, *run[2:]) for i, run in enumerate(runs)]
+            try:
+                done, left = concurrent.futures.wait(waiting, timeout=0)
+                while left and not any(f.exception() for f in done):
+                    done, left = concurrent.futures.wait(waiting, timeout=0.1, return_when=concurrent.futures.FIRST_EXCEPTION)
+                    if progress:
+                        progress(sum(self._parts.values()) / len(runs), f"{len(done)}/{len(runs)} runs")
+            finally:  # after a failure, and after Ctrl-C
+                self._stop.set()
+                for f in waiting:
+                    f.cancel()
+        for f in waiting:
+            failure = None if f.cancelled() else f.exception()
+            if failure and not isinstance(failure, _Stopped):
+                raise failure
+        return [f.result() for f in waiting]
+
+    def _one(self, index: int, seed: int, settings: list[str]) -> dict[str, typing.Any]:
+        if self._stop.is_set():
+            raise _Stopped
+        with self._open(seed, settings) as run:
+            for name, kind in self._declared.items():
+                run.measure(name, **kind)
+            stopped = self._run(run, index)
+            numbers = {name: float(run.measures[name]) for name in self._declared}
+            for name, function in self._functions.items():
+                value = function(run)
+                numbers.update(value if isinstance(value, dict) else {name: value})
+            trials = run.trials if run.trial else None
+            result = {"status": "stopped" if stopped else "finished", "cycles": run.cycle, "seconds": run.seconds,
+                      "trials": None if trials is None else len(trials),
+                      "reached": None if trials is None else int(trials["reached_target"].sum()), "measures": numbers,
+                      "remark": stopped or run.divergence}
+        self._parts[index] = 1
+        return result
+
+    def _run(self, run: _forage.Run, index: int) -> str:
+        """Runs the run to its end. Returns why it ended before its length; empty when it did not."""
+        if self._length is None:
+            return ""
+
+        def report(fraction: float, text: str) -> None:
+            self._parts[index] = fraction
+            if self._stop.is_set():
+                raise _Stopped
+
+        until, length = self._length
+        try:
+            if until:
+                run.run_until(until, progress=report, **length)
+            else:
+                run.run(progress=report, **length)
+        except RunError as error:
+            return str(error)
+        return ""
+
+
+def _columns(names: list[str], runs: list[typing.Any], results: list[dict[str, typing.Any]]) -> list[tuple[str, list[typing.Any]]]:
+    """What _Sweep.run() returns, of the results of functions."""
+    columns: list[tuple[str, list[typing.Any]]] = [("run", [run[0] for run in runs])]
+    columns += [(name, [run[1][i] for run in runs]) for i, name in enumerate(names)]
+    columns += [("seed", [run[2] for run in runs])]
+    columns += [(name, [r[name] for r in results]) for name in ("status", "cycles", "seconds")]
+    if any(r["trials"] is not None for r in results):
+        columns += [(name, [r[name] or 0 for r in results]) for name in ("trials", "reached")]
+    measures = dict.fromkeys(name for r in results for name in r["measures"])
+    columns += [(name, [r["measures"].get(name) for r in results]) for name in measures]
+    return columns + [("remark", [r["remark"] for r in results])]
+
+
+def _table(columns: list[tuple[str, list[typing.Any]]], directory: str | None) -> Table:
+    """The table of columns: (name, values)."""
+    arrays: dict[str, typing.Any] = {}
+    for name, values in columns:
+        while name in arrays:
+            name += "'"
+        arrays[name] = _array(values)
+    out = numpy.empty(len(columns[0][1]), dtype=[(name, a.dtype) for name, a in arrays.items()]).view(Table)
+    for name, a in arrays.items():
+        out[name] = a
+    out._directory = directory
+    failed = out[out["status"] == "failed"]
+    if len(failed):
+        warnings.warn(f"{len(failed)} of {len(out)} runs failed; the first, '{failed['run'][0]}': {failed['remark'][0]}", RuntimeWarning, stacklevel=3)
+    return out
+
+
+def _array(values: list[typing.Any]) -> typing.Any:
+    """Numbers when all of the values are numbers, or texts of numbers; otherwise texts."""
+    if all(isinstance(v, str) for v in values):
+        for number in (int, float):
+            with contextlib.suppress(ValueError):
+                return numpy.array([number(v) for v in values])
+        return numpy.array(values, dtype=str)
+    if all(isinstance(v, int) for v in values):
+        return numpy.array(values, dtype="i8")
+    return numpy.array([math.nan if v is None else float(v) for v in values])
+
+
+def _reporter(progress: Progress) -> typing.Callable[[float, str], object] | None:
+    return Bar() if progress is True else progress or None

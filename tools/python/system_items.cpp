@@ -1,0 +1,534 @@
+// The processes, groups and connections of a system, and their parameters.
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "tools/python/system.h"
+#include "tools/python/values.h"
+#include "tools/python/wiring.h"
+
+namespace forage::python {
+namespace {
+
+using namespace py::literals;
+using Owner = model::Assignment::Owner;
+using Note = std::optional<std::string>;
+
+[[noreturn]] void removed(const char* what, const std::string& id) {
+    throw InputError(fmt::format("the {} with the id '{}' is not part of its system any more", what, id));
+}
+
+std::string name_of(const model::Process& p) { return std::string(model::trim(p.name)); }
+
+/// "Process/Group".
+std::string path_of(const SystemGroup& self) {
+    self.use();
+    const auto entry = model::GroupIndex(self.system->model).find(self.id);
+    return model::path(self.system->model, *entry.process, *entry.group);
+}
+
+/// The item as assignments name it: by its path or name, or by its id where the name is not unique.
+std::string where(const SystemParameters& self) {
+    std::string name;
+    if (self.owner == Owner::group)
+        name = path_of({{self.system, self.id}});
+    else if (self.owner == Owner::process)
+        name = name_of(SystemProcess{{self.system, self.id}}.use());
+    else
+        name = model::trim(SystemConnection{{self.system, self.id}}.use().name);
+    Diagnostics ignored;
+    const auto item = model::find_item(self.system->model, name, "", ignored);
+    if (!item || item->id != self.id || item->owner != self.owner) name = self.id;
+    return name.find('=') == std::string::npos ? name : fmt::format("\"{}\"", name);
+}
+
+model::Assignment find(const SystemParameters& self, const std::string& name) {
+    Diagnostics diagnostics;
+    auto found = model::find_parameter(self.system->model, *self.system->types,
+                                       fmt::format("{}.{}", where(self), name), "parameter", diagnostics);
+    throw_errors(diagnostics);
+    return std::move(*found);
+}
+
+/// The type of the item; null when it has none.
+const std::vector<Parameter>* declared(const SystemParameters& self) {
+    const auto parameters = [](const auto* type) { return type ? &type->parameters : nullptr; };
+    const Registry& types = *self.system->types;
+    if (self.owner == Owner::group)
+        return parameters(types.neuron(SystemGroup{{self.system, self.id}}.use().neuron.type));
+    if (self.owner == Owner::process) {
+        const auto& module = SystemProcess{{self.system, self.id}}.use().module;
+        return module ? parameters(types.module(module->type)) : nullptr;
+    }
+    const auto& synapse = SystemConnection{{self.system, self.id}}.use().synapse;
+    return synapse ? parameters(types.synapse(synapse->type)) : nullptr;
+}
+
+py::object get(const SystemParameters& self, const std::string& name) {
+    return value_of(model::value_of(self.system->model, find(self, name)));
+}
+
+void unset(const SystemParameters& self, const std::string& name) {
+    model::unset(self.system->model, find(self, name));
+}
+
+void set_one(const SystemParameters& self, const std::string& name, const py::object& value) {
+    py::dict one;
+    one[py::str(name)] = value;
+    self.set(one);
+}
+
+std::string repr(const SystemParameters& self) {
+    std::string out;
+    for (const auto& name : self.names())
+        out += fmt::format("{}{}={}", out.empty() ? "" : ", ", name,
+                           py::repr(get(self, name)).cast<std::string>());
+    return fmt::format("<forage.System.Parameters: {}>", out);
+}
+
+SystemParameters parameters(const SystemGroup& self) { return {self.system, Owner::group, self.id}; }
+SystemParameters parameters(const SystemProcess& self) { return {self.system, Owner::process, self.id}; }
+SystemParameters parameters(const SystemConnection& self) {
+    return {self.system, Owner::connection, self.id};
+}
+
+std::vector<model::CrossReference> references(PythonSystem& system, const py::dict& groups) {
+    std::vector<model::CrossReference> out;
+    for (const auto& [port, group] : groups)
+        out.push_back(
+            {port.cast<std::string>(), group_of(system, py::reinterpret_borrow<py::object>(group)).id, {}});
+    return out;
+}
+
+/// The groups of references, by port; None for a port without one.
+py::dict groups_of(const SystemItem& self, const std::vector<model::CrossReference>& references) {
+    py::dict out;
+    for (const auto& r : references) {
+        const bool there = model::find_group(self.system->model, r.target) != nullptr;
+        out[py::str(r.name)] = there ? py::cast(SystemGroup{{self.system, r.target}}) : py::none();
+    }
+    return out;
+}
+
+SystemProcess set_module(const SystemProcess& self, const std::string& type, const py::dict& inputs,
+                         const py::dict& outputs, const py::kwargs& values) {
+    auto& process = self.use();
+    require_type(self.system->types->modules(), type, "module");
+    model::ModuleUse use;
+    use.type = type;
+    use.inputs = references(*self.system, inputs), use.outputs = references(*self.system, outputs);
+    auto before = std::exchange(process.module, std::move(use));
+    try {
+        parameters(self).set(values);
+    } catch (const InputError&) {
+        process.module = std::move(before);
+        throw;
+    }
+    return self;
+}
+
+model::RectTopology& rectangle(model::Group& group) {
+    if (auto* rect = std::get_if<model::RectTopology>(&group.topology)) return *rect;
+    throw InputError(fmt::format("group '{}' has single cells, so it cannot wrap", group.name));
+}
+
+void set_points(model::Group& group, const py::iterable& points) {
+    group.topology = model::SparseTopology{points_of(points)};
+}
+
+SystemGroup add_group(const SystemProcess& self, const std::string& name, int width, int height,
+                      const std::string& type, const py::object& points, bool wrap_x, bool wrap_y,
+                      const std::string& id, const py::kwargs& values) {
+    self.use();
+    auto& system = *self.system;
+    require_type(system.types->neurons(), type, "neuron");
+    std::optional<model::SparseTopology> sparse;
+    if (!points.is_none()) sparse = model::SparseTopology{points_of(points)};
+    SystemGroup out{{self.system, model::add_group(system.model, self.id, name, width, height, type, id)}};
+    if (sparse)
+        out.use().topology = std::move(*sparse);
+    else
+        out.use().topology = model::RectTopology{width, height, wrap_x, wrap_y};
+    try {
+        parameters(out).set(values);
+    } catch (const InputError&) {
+        model::remove(system.model, out.id);
+        throw;
+    }
+    return out;
+}
+
+py::tuple groups(const SystemProcess& self) {
+    py::list out;
+    for (const auto& g : self.use().groups) out.append(SystemGroup{{self.system, g.id}});
+    return py::tuple(out);
+}
+
+void save_as(const SystemProcess& self, const std::filesystem::path& path) {
+    self.use();
+    writing([&] { save_process(*self.system, self.id, path.string()); });
+}
+
+py::object type_of(const SystemProcess& self) {
+    const auto& module = self.use().module;
+    return module ? py::object(py::str(module->type)) : py::none();
+}
+
+py::tuple shape(const SystemGroup& self) {
+    return py::tuple(py::cast(shape_of(model::shape(self.use().topology))));
+}
+
+py::object points(const SystemGroup& self) {
+    const auto* sparse = std::get_if<model::SparseTopology>(&self.use().topology);
+    return sparse ? py::object(list_of(sparse->points)) : py::none();
+}
+
+/// The numbers as an array of one dimension, which copies them.
+template <class T>
+py::array numbers(const std::vector<T>& values) {
+    return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+py::array synapse_table(const SystemConnection& self, std::uint64_t seed) {
+    self.use();
+    const SynapseTable all = synapses(*self.system, self.id, seed);
+    py::list fields;
+    for (const auto& [name, type] : {std::pair("source", "i4"),
+                                     {"target", "i4"},
+                                     {"distance", "f8"},
+                                     {"delay", "i4"},
+                                     {"strength", "f8"}})
+        fields.append(py::make_tuple(name, type));
+    py::array out = py::module_::import("numpy").attr("empty")(all.source.size(), "dtype"_a = fields);
+    out["source"] = numbers(all.source), out["target"] = numbers(all.target);
+    out["distance"] = numbers(all.distance), out["delay"] = numbers(all.delay);
+    out["strength"] = numbers(all.strength);
+    return out;
+}
+
+py::object matrix(const SystemConnection& self, std::uint64_t seed) {
+    const auto& connection = self.use();
+    const SynapseTable all = synapses(*self.system, self.id, seed);
+    const auto cells = [&](const std::string& id) {
+        return model::shape(SystemGroup{{self.system, id}}.use().topology).cells;
+    };
+    return py::module_::import("scipy.sparse")
+        .attr("csr_matrix")(
+            py::make_tuple(numbers(all.strength), py::make_tuple(numbers(all.target), numbers(all.source))),
+            "shape"_a = py::make_tuple(cells(connection.target), cells(connection.source)));
+}
+
+py::dict feedback(const SystemConnection& self) {
+    py::dict out;
+    if (const auto& synapse = self.use().synapse)
+        for (const auto& f : synapse->feedback) out[py::str(f.name)] = f.target;
+    return out;
+}
+
+void set_feedback(const SystemConnection& self, const py::dict& states) {
+    std::vector<model::CrossReference> all;
+    for (const auto& [name, state] : states)
+        all.push_back({name.cast<std::string>(), state.cast<std::string>(), {}});
+    if (auto& synapse = self.use().synapse) synapse->feedback = std::move(all);
+}
+
+std::string repr(const SystemProcess& self) {
+    const auto& p = self.use();
+    return fmt::format("<forage.System.Process '{}', {} groups{}>", name_of(p), p.groups.size(),
+                       p.module ? ", " + p.module->type : "");
+}
+std::string repr(const SystemGroup& self) {
+    const auto s = model::shape(self.use().topology);
+    return fmt::format("<forage.System.Group '{}', {} x {}, {}>", path_of(self), s.width, s.height,
+                       self.use().neuron.type);
+}
+std::string repr(const SystemConnection& self) {
+    const auto& c = self.use();
+    return fmt::format("<forage.System.Connection '{}', {}, {}>", model::trim(c.name),
+                       connection_kinds[static_cast<int>(c.kind)],
+                       c.synapse ? c.synapse->type : "no synapse");
+}
+
+/// What all items have. == and hash are those of the item, not of its content.
+template <class Item>
+void add_common(py::class_<Item>& type) {
+    type.def_readonly("id", &Item::id, "The id, which is unique in the system.")
+        .def_property(
+            "name", [](const Item& self) { return self.use().name; },
+            [](const Item& self, const std::string& name) { self.use().name = name; }, "The name.")
+        .def_property(
+            "note", [](const Item& self) { return self.use().note; },
+            [](const Item& self, const Note& note) { self.use().note = note; }, "A remark; None without one.")
+        .def_property_readonly(
+            "system", [](const Item& self) { return self.system; }, "The system of which it is a part.")
+        .def_property_readonly(
+            "params", [](const Item& self) { return parameters(self); },
+            "The parameters of its type, by name, to read and to set.")
+        .def(
+            "__eq__", [](const Item& a, const Item& b) { return a.system == b.system && a.id == b.id; },
+            py::is_operator())
+        .def("__hash__", [](const Item& self) { return py::hash(py::str(self.id)); })
+        .def("__repr__", [](const Item& self) { return repr(self); });
+}
+
+template <class Item, class T, class Model>
+void add_member(py::class_<Item>& type, const char* name, T Model::*member, const char* doc) {
+    type.def_property(
+        name, [member](const Item& self) { return self.use().*member; },
+        [member](const Item& self, const T& value) { self.use().*member = value; }, doc);
+}
+
+void add_processes(py::handle scope) {
+    py::class_<SystemProcess> type(
+        scope, "Process",
+        "A process of a system: groups, and possibly a module. `with` indents what is added to it.");
+    add_common(type);
+    add_member(type, "color", &model::Process::color, "The colour in the diagram, such as \"#FFFFFF\".");
+    add_member(type, "module_enabled", &model::Process::module_enabled, "Whether the module is used.");
+    const auto ports = [&](const char* name, std::vector<model::CrossReference> model::ModuleUse::*side,
+                           const char* doc) {
+        type.def_property_readonly(
+            name,
+            [side](const SystemProcess& self) {
+                const auto& module = self.use().module;
+                return module ? groups_of(self, (*module).*side) : py::dict();
+            },
+            doc);
+    };
+    ports("inputs", &model::ModuleUse::inputs, "The groups that the module reads, by port.");
+    ports("outputs", &model::ModuleUse::outputs, "The groups that the module writes, by port.");
+    type.def_property_readonly("groups", &groups, "The groups, in the order of the file.")
+        .def_property_readonly("module", &type_of, "The name of the module's type; None without a module.")
+        .def_property_readonly(
+            "linked", [](const SystemProcess& self) { return self.use().linked(); },
+            "Whether its content is in a file of its own. System.embed_links() makes it part of the system.")
+        .def("add_group", &add_group, "name"_a, "width"_a = 1, "height"_a = 1,
+             "type"_a = "neuronLinearThreshold", py::kw_only(), "points"_a = py::none(), "wrap_x"_a = false,
+             "wrap_y"_a = false, "id"_a = "",
+             R"(Adds a group of width x height cells and returns it.
+
+type: the name of a neuron type; further keywords are its parameters, such as threshold=0.5.
+points: the cells that exist, a list of (x, y) from 1, instead of width and height.
+wrap_x, wrap_y: whether the left edge meets the right one, and the upper edge the lower one.
+
+Raises InputError and adds nothing when a name or a value is wrong.)")
+        .def("set_module", &set_module, "type"_a, py::kw_only(), "inputs"_a = py::dict(),
+             "outputs"_a = py::dict(),
+             R"(Gives the process a module, instead of the one that it has, and returns the process.
+
+type: the name of a module type; further keywords are its parameters.
+inputs, outputs: the groups, or names of groups, that it reads and writes, by port: {"_motor": motor}. `forage types TYPE` lists the ports.
+
+Raises InputError and changes nothing when a name or a value is wrong. The ports are checked by System.validate().)")
+        .def("save", &save_as, "path"_a,
+             "Writes the process and the connections among its groups as a file (.iqrProcess), as `forage "
+             "convert --extract` does. Raises OSError.")
+        .def("__enter__", [](const SystemProcess& self) { return self; })
+        .def("__exit__", [](const SystemProcess&, const py::args&) {});
+}
+
+void add_groups_of_systems(py::handle scope) {
+    py::class_<SystemGroup> type(scope, "Group", "A group of cells of a system.");
+    add_common(type);
+    add_member(type, "color", &model::Group::color, "The colour in the diagram, such as \"#FFFFFF\".");
+    type.def_property_readonly("path", &path_of, R"("Process/Group".)")
+        .def_property_readonly(
+            "process",
+            [](const SystemGroup& self) {
+                const auto entry = model::GroupIndex(self.system->model).find(self.id);
+                if (!entry.process) removed("group", self.id);
+                return SystemProcess{{self.system, entry.process->id}};
+            },
+            "The process of which it is a part.")
+        .def_property_readonly(
+            "type", [](const SystemGroup& self) { return self.use().neuron.type; },
+            "The name of its neuron type.")
+        .def_property(
+            "size",
+            [](const SystemGroup& self) {
+                const auto s = model::shape(self.use().topology);
+                return py::make_tuple(s.width, s.height);
+            },
+            [](const SystemGroup& self, std::pair<int, int> size) {
+                auto& rect = rectangle(self.use());
+                rect.width = size.first, rect.height = size.second;
+            },
+            "(width, height).")
+        .def_property_readonly("shape", &shape,
+                               "(rows, columns), or (cells,) of a sparse group, as of arrays of a run.")
+        .def_property(
+            "points", &points,
+            [](const SystemGroup& self, const py::iterable& all) { set_points(self.use(), all); },
+            "The cells that exist, a list of (x, y) from 1; None when all do.")
+        .def_property(
+            "wrap_x", [](const SystemGroup& self) { return rectangle(self.use()).wrap_x; },
+            [](const SystemGroup& self, bool wrap) { rectangle(self.use()).wrap_x = wrap; },
+            "Whether the left edge meets the right one.")
+        .def_property(
+            "wrap_y", [](const SystemGroup& self) { return rectangle(self.use()).wrap_y; },
+            [](const SystemGroup& self, bool wrap) { rectangle(self.use()).wrap_y = wrap; },
+            "Whether the upper edge meets the lower one.");
+}
+
+void add_connections(py::handle scope) {
+    py::class_<SystemConnection> type(scope, "Connection", "A connection of a system.");
+    add_common(type);
+    add_member(type, "arborization", &model::Connection::arborization, "How each pair spreads.");
+    const auto function = [&](const char* name, model::DistanceFunction model::Connection::*member,
+                              const char* doc) {
+        type.def_property(
+            name, [member](const SystemConnection& self) { return self.use().*member; },
+            [member](const SystemConnection& self, const py::object& f) {
+                self.use().*member = function_of(f);
+            },
+            doc);
+    };
+    function("attenuation", &model::Connection::attenuation, "What is lost over the distance.");
+    function("delay", &model::Connection::delay, "The delay over the distance, in cycles.");
+    const auto end = [&](const char* name, std::string model::Connection::*member, const char* doc) {
+        type.def_property(
+            name,
+            [member](const SystemConnection& self) {
+                return SystemGroup{{self.system, self.use().*member}};
+            },
+            [member](const SystemConnection& self, const py::object& group) {
+                self.use().*member = group_of(*self.system, group).id;
+            },
+            doc);
+    };
+    end("source", &model::Connection::source, "The group from which it comes.");
+    end("target", &model::Connection::target, "The group to which it leads.");
+    type.def_property(
+            "pattern", [](const SystemConnection& self) { return PythonPattern{self.use().pattern}; },
+            [](const SystemConnection& self, const PythonPattern& p) { self.use().pattern = p.value; },
+            "Which cells it pairs.")
+        .def_property(
+            "kind",
+            [](const SystemConnection& self) { return connection_kinds[static_cast<int>(self.use().kind)]; },
+            [](const SystemConnection& self, const std::string& kind) {
+                self.use().kind = static_cast<InputKind>(choice(kind, connection_kinds, "kind"));
+            },
+            R"("excitatory", "inhibitory" or "modulatory".)")
+        .def_property_readonly(
+            "synapse",
+            [](const SystemConnection& self) {
+                const auto& synapse = self.use().synapse;
+                return synapse ? py::object(py::str(synapse->type)) : py::none();
+            },
+            "The name of its synapse type.")
+        .def_property("feedback", &feedback, &set_feedback,
+                      "The states of the target that a learning synapse reads, by name: {\"input\": \"vm\"}.")
+        .def(
+            "synapses", &synapse_table, "seed"_a = 1,
+            R"(The synapses: a structured array with the fields source and target (numbers of cells, from 0, row by row), distance (cells), delay (cycles)
+and strength, the input that a synapse delivers for an activity of 1, before anything is learned.
+
+seed: the seed of the run, which decides everything random. Raises InputError when the connection has mistakes.)")
+        .def(
+            "matrix", &matrix, "seed"_a = 1,
+            R"(The strengths of the synapses as a scipy.sparse.csr_matrix of shape (cells of the target, cells of the source); see synapses().
+
+Several synapses of the same pair are added.)");
+}
+
+void add_system_parameters(py::handle scope) {
+    py::class_<SystemParameters>(
+        scope, "Parameters",
+        R"(The parameters of an item's type, by name: group.params["threshold"] = 0.3.
+
+Those that are not set have the defaults of the type. A value that the type does not accept raises InputError at once; values outside the usual range give an
+InputWarning. `del` gives a parameter its default.)")
+        .def("__getitem__", &get, "name"_a)
+        .def("__setitem__", &set_one, "name"_a, "value"_a)
+        .def("__delitem__", &unset, "name"_a)
+        .def(
+            "__contains__",
+            [](const SystemParameters& self, const std::string& name) {
+                return std::ranges::count(self.names(), name) > 0;
+            },
+            "name"_a)
+        .def("__iter__", [](const SystemParameters& self) { return py::iter(py::cast(self.names())); })
+        .def("__len__", [](const SystemParameters& self) { return self.names().size(); })
+        .def("keys", &SystemParameters::names, "The names.")
+        .def(
+            "update", [](const SystemParameters& self, const py::kwargs& values) { self.set(values); },
+            "Sets several at once, or none when one is wrong: update(threshold=0.3, vmPrs=0.5).")
+        .def("__repr__", [](const SystemParameters& self) { return repr(self); });
+}
+
+}  // namespace
+
+model::Process& SystemProcess::use() const {
+    if (auto* p = model::find_process(system->model, id)) return *p;
+    removed("process", id);
+}
+model::Group& SystemGroup::use() const {
+    if (auto* g = model::find_group(system->model, id)) return *g;
+    removed("group", id);
+}
+model::Connection& SystemConnection::use() const {
+    if (auto* c = model::find_connection(system->model, id)) return *c;
+    removed("connection", id);
+}
+
+std::vector<std::string> SystemParameters::names() const {
+    std::vector<std::string> out;
+    if (const auto* all = declared(*this))
+        for (const auto& p : *all) out.push_back(p.name);
+    return out;
+}
+
+void SystemParameters::set(const py::dict& values) const {
+    if (values.empty()) return;
+    Diagnostics diagnostics;
+    std::vector<model::Assignment> all;
+    const std::string item = where(*this);
+    for (const auto& [name, value] : values) {
+        const std::string given = text_of(value);
+        auto a = model::parse_assignment(system->model, *system->types,
+                                         fmt::format("{}.{}={}", item, name.cast<std::string>(), given),
+                                         "set", diagnostics);
+        if (!a) continue;
+        if (a->parameter && a->parameter->is_path) a->value = given;  // relative to the system's file
+        all.push_back(std::move(*a));
+    }
+    throw_errors(diagnostics);
+    for (const auto& a : all) model::set(system->model, a);
+    warn(diagnostics);
+}
+
+SystemGroup group_of(PythonSystem& system, const py::object& group) {
+    if (py::isinstance<SystemGroup>(group)) {
+        const auto& g = group.cast<const SystemGroup&>();
+        g.use();
+        if (g.system.get() != &system)
+            throw InputError(fmt::format("group '{}' is part of another system", path_of(g)));
+        return g;
+    }
+    const auto found = item_of(system, group.cast<std::string>());
+    if (!py::isinstance<SystemGroup>(found))
+        throw InputError(fmt::format("'{}' is not a group", group.cast<std::string>()),
+                         suggest(group.cast<std::string>(), model::group_paths(system.model)));
+    return found.cast<SystemGroup>();
+}
+
+py::object item_of(PythonSystem& system, const std::string& name) {
+    Diagnostics diagnostics;
+    const auto found = model::find_item(system.model, name, "system", diagnostics);
+    throw_errors(diagnostics);
+    const SystemItem item{system.shared_from_this(), found->id};
+    if (found->owner == Owner::group) return py::cast(SystemGroup{item});
+    if (found->owner == Owner::process) return py::cast(SystemProcess{item});
+    return py::cast(SystemConnection{item});
+}
+
+void add_system_items(py::handle system) {
+    add_system_parameters(system);
+    add_processes(system);
+    add_groups_of_systems(system);
+    add_connections(system);
+}
+
+}  // namespace forage::python
