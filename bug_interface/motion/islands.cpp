@@ -109,7 +109,12 @@ void Physics::measure_clearance(std::size_t body) {
     state.body_clearance = infinity;
     for (const std::size_t other : near_[body]) {
         double gap = circle_gap(body, other);
-        if (gap < shape_test_distance && lever_arm(body) + lever_arm(other) > 0) gap = shape_gap(body, other);
+        if (gap < shape_test_distance && lever_arm(body) + lever_arm(other) > 0) {
+            if (state.clearance() >= near_distance)
+                gap = shape_gap(body, other);
+            else if (states_[other].clearance() >= near_distance)  // the body touches something in any case
+                states_[other].measured = false;
+        }
         state.body_clearance = std::min(state.body_clearance, gap / 2);
         states_[other].body_clearance = std::min(states_[other].body_clearance, gap / 2);
     }

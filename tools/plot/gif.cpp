@@ -97,23 +97,26 @@ void GifFile::add(const Pixels& frame) {
     for (int y = 0; y < height_; ++y) {
         const std::uint32_t* row = frame.rgb + static_cast<std::size_t>(y) * frame.stride;
         const std::size_t begin = static_cast<std::size_t>(y) * width;
-        std::uint32_t* before = &rgb_[begin];
-        if (frames_ > 0 && std::memcmp(row, before, width * sizeof *row) == 0) continue;
-        constexpr int chunk = 16;  // most chunks of a row are as before, too
-        for (int x = 0; x < width_; ++x) {
-            if (frames_ > 0 && x % chunk == 0)
-                while (x + chunk <= width_ && std::memcmp(row + x, before + x, chunk * sizeof *row) == 0)
-                    x += chunk;
-            if (x == width_) break;
-            if (frames_ > 0 && row[x] == before[x]) continue;
-            if (row[x] != last) number = nearest_colour(last = row[x]);
-            const std::size_t i = begin + static_cast<std::size_t>(x);
-            if (frames_ > 0 && number == numbers_[i]) continue;
-            numbers_[i] = changes_[i] = number;
-            left = std::min(left, x), right = std::max(right, x);
-            top = std::min(top, y), bottom = y;
+        for (int x = 0; x < width_;) {
+            constexpr int chunk = 32;  // most of them are as before
+            const int end = std::min(x + chunk, width_);
+            std::uint32_t* before = &rgb_[begin + static_cast<std::size_t>(x)];
+            const auto bytes = static_cast<std::size_t>(end - x) * sizeof *row;
+            if (frames_ > 0 && std::memcmp(row + x, before, bytes) == 0) {
+                x = end;
+                continue;
+            }
+            for (; x < end; ++x, ++before) {
+                if (frames_ > 0 && row[x] == *before) continue;
+                *before = row[x];
+                if (row[x] != last) number = nearest_colour(last = row[x]);
+                const std::size_t i = begin + static_cast<std::size_t>(x);
+                if (frames_ > 0 && number == numbers_[i]) continue;
+                numbers_[i] = changes_[i] = number;
+                left = std::min(left, x), right = std::max(right, x);
+                top = std::min(top, y), bottom = y;
+            }
         }
-        std::memcpy(before, row, width * sizeof *row);
     }
     if (left > right) left = right = top = bottom = 0;  // a frame has at least one pixel
     GraphicsControlBlock control{};
