@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 #include <stdexcept>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
@@ -17,8 +18,9 @@ auto find_in(Items& items, std::string_view id) -> decltype(&items.front()) {
     return it == items.end() ? nullptr : &*it;
 }
 
-std::set<std::string, std::less<>> all_ids(const System& system) {
-    std::set<std::string, std::less<>> ids{system.id};
+/// The ids of all items. They are views of the system's.
+std::unordered_set<std::string_view> all_ids(const System& system) {
+    std::unordered_set<std::string_view> ids{system.id};
     for (const auto& p : system.processes) {
         ids.insert(p.id);
         for (const auto& g : p.groups) ids.insert(g.id);

@@ -85,6 +85,7 @@ def test_parameters():
     assert group.params["threshold"] == 0.25
     group.params.update(threshold=0.5, excGain=2)
     assert (group.params["threshold"], group.params["excGain"]) == (0.5, 2.0)
+    assert "<td" in group.params._repr_html_()
     del group.params["threshold"]
     assert group.params["threshold"] == default and '"threshold"' not in group.system.to_xml()
 

@@ -53,11 +53,19 @@ void save_system(PythonSystem& self, const std::optional<Path>& path, bool origi
     writing([&] { save(self, path ? path->string() : self.path, original); });
 }
 
+/// What `forage check` finds. Other threads of Python go on.
+Diagnostics check(const PythonSystem& self, const std::string& world) {
+    const SystemFile file = self.file();
+    const py::gil_scoped_release others;
+    Diagnostics out;
+    compile(file, world, 1, out);
+    return out;
+}
+
 void validate(const PythonSystem& self, const std::optional<Path>& world) {
-    Diagnostics diagnostics;
-    compile(self, world ? world->string() : std::string(), 1, diagnostics);
-    throw_errors(diagnostics);
-    warn(diagnostics);
+    const Diagnostics found = check(self, world ? world->string() : std::string());
+    throw_errors(found);
+    warn(found);
 }
 
 SystemProcess add_process(PythonSystem& self, const std::string& name, const std::string& id) {
@@ -141,10 +149,9 @@ void leave(PythonSystem& self, const py::object& failure, const py::object&, con
     if (self.before.empty()) return;
     model::System before = std::move(self.before.back());
     self.before.pop_back();
-    Diagnostics diagnostics;
-    if (failure.is_none()) compile(self, {}, 1, diagnostics);
-    if (!failure.is_none() || diagnostics.failed()) self.model = std::move(before);
-    throw_errors(diagnostics);
+    const Diagnostics found = failure.is_none() ? check(self, {}) : Diagnostics();
+    if (!failure.is_none() || found.failed()) self.model = std::move(before);
+    throw_errors(found);
 }
 
 template <class T>

@@ -15,7 +15,8 @@ namespace forage::python {
 /// A system.
 struct PythonSystem : SystemFile, std::enable_shared_from_this<PythonSystem> {
     explicit PythonSystem(SystemFile file) : SystemFile(std::move(file)) {}
-    const SystemFile& file() const { return *this; }
+    /// A copy, which other threads cannot change.
+    SystemFile file() const { return static_cast<const SystemFile&>(*this); }
     std::vector<model::System> before;  ///< the system at the beginning of each with-block that is open
 };
 

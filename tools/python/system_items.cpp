@@ -185,6 +185,13 @@ py::object points(const SystemGroup& self) {
     return sparse ? py::object(list_of(sparse->points)) : py::none();
 }
 
+SynapseTable synapses_of(const SystemConnection& self, std::uint64_t seed) {
+    self.use();
+    const SystemFile file = self.system->file();
+    const py::gil_scoped_release others;
+    return synapses(file, self.id, seed);
+}
+
 /// The numbers as an array of one dimension, which copies them.
 template <class T>
 py::array numbers(const std::vector<T>& values) {
@@ -192,8 +199,7 @@ py::array numbers(const std::vector<T>& values) {
 }
 
 py::array synapse_table(const SystemConnection& self, std::uint64_t seed) {
-    self.use();
-    const SynapseTable all = synapses(*self.system, self.id, seed);
+    const SynapseTable all = synapses_of(self, seed);
     py::list fields;
     for (const auto& [name, type] : {std::pair("source", "i4"),
                                      {"target", "i4"},
@@ -210,7 +216,7 @@ py::array synapse_table(const SystemConnection& self, std::uint64_t seed) {
 
 py::object matrix(const SystemConnection& self, std::uint64_t seed) {
     const auto& connection = self.use();
-    const SynapseTable all = synapses(*self.system, self.id, seed);
+    const SynapseTable all = synapses_of(self, seed);
     const auto cells = [&](const std::string& id) {
         return model::shape(SystemGroup{{self.system, id}}.use().topology).cells;
     };
@@ -452,6 +458,7 @@ InputWarning. `del` gives a parameter its default.)")
         .def("__iter__", [](const SystemParameters& self) { return py::iter(py::cast(self.names())); })
         .def("__len__", [](const SystemParameters& self) { return self.names().size(); })
         .def("keys", &SystemParameters::names, "The names.")
+        .def("_repr_html_", html("parameters"))
         .def(
             "update", [](const SystemParameters& self, const py::kwargs& values) { self.set(values); },
             "Sets several at once, or none when one is wrong: update(threshold=0.3, vmPrs=0.5).")

@@ -95,3 +95,39 @@ TEST_CASE("Names with dots and values with equals signs are split at the right p
     CHECK(Edit("P/A.threshold=a=b").said() ==
           "--set 'P/A.threshold=a=b', column 15: 'a=b' is not a number | Potential below which act is 0.");
 }
+
+TEST_CASE("A parameter has the value of its file, or the default of its type") {
+    model::System s = system_of(small_system);
+    const Registry types = test::few_types();
+    Diagnostics diagnostics;
+    const auto found = [&](const char* name) {
+        const auto parameter = model::find_parameter(s, types, name, "parameter", diagnostics);
+        REQUIRE(parameter);
+        return *parameter;
+    };
+    const auto threshold = found("P/A.threshold");
+    const auto before = model::value_of(s, threshold);
+    model::set(s, types, "P/A.threshold=0.75", diagnostics);
+    CHECK(std::get<double>(model::value_of(s, threshold)) == 0.75);
+    model::unset(s, threshold);
+    CHECK(model::value_of(s, threshold) == threshold.parameter->default_value);
+    CHECK(value(s.processes[0].groups[0].neuron, "threshold") == "(unset)");
+    CHECK(std::holds_alternative<double>(before));
+    const auto enabled = found("P.enableModule");
+    CHECK_FALSE(std::get<bool>(model::value_of(s, enabled)));
+    model::unset(s, enabled);
+    CHECK(std::get<bool>(model::value_of(s, enabled)));
+    CHECK_FALSE(diagnostics.failed());
+}
+
+TEST_CASE("An item is found by the name that it has in an assignment") {
+    const model::System s = system_of(small_system);
+    Diagnostics diagnostics;
+    using Owner = model::Assignment::Owner;
+    CHECK(model::find_item(s, "P/A", "system", diagnostics)->owner == Owner::group);
+    CHECK(model::find_item(s, "P", "system", diagnostics)->owner == Owner::process);
+    CHECK(model::find_item(s, "A to B", "system", diagnostics)->id == s.connections[0].id);
+    CHECK_FALSE(diagnostics.failed());
+    CHECK_FALSE(model::find_item(s, "P/C", "system", diagnostics));
+    CHECK(diagnostics.all()[0].message == "system 'P/C': there is no 'P/C'");
+}

@@ -50,6 +50,16 @@ class Table(numpy.ndarray[typing.Any, numpy.dtype[numpy.void]]):
 
         return pandas.DataFrame({name: numpy.asarray(self[name]) for name in self.dtype.names or ()})
 
+    def _repr_html_(self) -> str | None:
+        """The first rows, for notebooks."""
+        if self.dtype.names is None or self.ndim != 1:
+            return None
+        from . import _html
+
+        table: typing.Callable[[typing.Any, typing.Any], str] = _html.table
+        more = f"<p>{len(self)} runs</p>" if len(self) > 30 else ""
+        return table(self.dtype.names, self[:30].tolist()) + more
+
 
 def experiment(file: Path, *, directory: Path | None = None, plugins: typing.Iterable[Path] = (), jobs: int = 0, fresh: bool = False,
                progress: Progress = None) -> Table:

@@ -1,0 +1,69 @@
+// Systems with their files and types, as other programs use them.
+#include <filesystem>
+
+#include <forage/system.h>
+
+#include "core/base/output_files.h"
+#include "tests/support/catch.h"
+
+using namespace forage;
+
+namespace {
+
+SystemFile echo() {
+    SystemFile file = new_system("echo");
+    const auto p = model::add_process(file.model, "Brain");
+    const auto a = model::add_group(file.model, p, "Ear", 3, 1, "neuronRandomSpike");
+    const auto b = model::add_group(file.model, p, "Mouth", 3, 1, "neuronLinearThreshold");
+    const auto c = model::add_connection(file.model, a, b, InputKind::excitatory, "synapseFixedWeight");
+    model::set_parameter(*model::find_connection(file.model, c)->synapse, "weight", "0.5");
+    model::find_connection(file.model, c)->delay = {model::UniformFunction{2}, {}};
+    return file;
+}
+
+}  // namespace
+
+TEST_CASE("A system that was built runs like its file, and a saved run of it goes on without a file") {
+    SystemFile file = echo();
+    CHECK(file.path == "echo.iqr");
+    Run built = open(file, {.seed = 3});
+    built.until({.cycles = 20});
+    const auto place = std::filesystem::temp_directory_path() / "forage_system_file_test";
+    make_directory(place.string());
+    save(file, (place / "echo.iqr").string());
+    Run read = open((place / "echo.iqr").string(), {.seed = 3});
+    read.until({.cycles = 20});
+    CHECK(built.digest() == read.digest());
+    Run resumed = resume(save_state(built));
+    resumed.until({.cycles = 5}), read.until({.cycles = 5});
+    CHECK(resumed.digest() == read.digest());
+    CHECK(read_system(file.path).model == file.model);
+    std::filesystem::remove_all(place);
+}
+
+TEST_CASE("The mistakes of a system that was built have places in its text") {
+    SystemFile file = echo();
+    file.model.connections[0].synapse->type = "synapseFixed";
+    Diagnostics diagnostics;
+    CHECK_FALSE(compile(file, {}, 1, diagnostics));
+    REQUIRE(diagnostics.errors() == 1);
+    CHECK(diagnostics.all()[0].where.file->path == "echo.iqr");
+    CHECK(diagnostics.all()[0].where.line > 1);
+    CHECK_THROWS_AS(open(file), InputError);
+}
+
+TEST_CASE("A synapse's strength is what it delivers") {
+    const SystemFile file = echo();
+    const auto table = synapses(file, file.model.connections[0].id, 1);
+    CHECK(table.source == std::vector{0, 1, 2});
+    CHECK(table.target == std::vector{0, 1, 2});
+    CHECK(table.delay == std::vector{2, 2, 2});
+    CHECK(table.strength == std::vector{0.5, 0.5, 0.5});
+    CHECK_THROWS_AS(synapses(file, "nothing", 1), InputError);
+}
+
+TEST_CASE("A diagram has the formats of pictures") {
+    CHECK(diagram(echo(), "Brain", "svg").find("<svg") != std::string::npos);
+    CHECK_THROWS_AS(diagram(echo(), {}, "bmp"), InputError);
+    CHECK_THROWS_AS(diagram(echo(), "Brian"), InputError);
+}
