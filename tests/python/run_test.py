@@ -135,12 +135,15 @@ def test_a_callback_that_refers_to_its_run_does_not_keep_it():
 
 
 def test_ctrl_c_ends_a_run_that_can_go_on(dac):
-    timer = threading.Timer(0.2, lambda: (sent.append(time.perf_counter()), signal.raise_signal(signal.SIGINT)))
-    sent = []
-    timer.start()
-    with pytest.raises(KeyboardInterrupt):
-        dac.run(cycles=10**9)
-    assert time.perf_counter() - sent[0] < 0.5  # 50 ms on a machine without other work
+    delays = []
+    for _ in range(5):
+        sent = []
+        timer = threading.Timer(0.1, lambda: (sent.append(time.perf_counter()), signal.raise_signal(signal.SIGINT)))
+        timer.start()
+        with pytest.raises(KeyboardInterrupt):
+            dac.run(cycles=10**9)
+        delays.append(time.perf_counter() - sent[0])
+    assert sorted(delays)[2] < 0.05  # the median, as the machine may have other work
     cycle = dac.cycle
     with open_dac() as other:
         dac.run(cycles=10)
