@@ -86,6 +86,10 @@ def test_notebooks_show_every_object(dac, tmp_path):
         assert html.startswith("<") and escape(repr(thing).split("'")[0]) in html
     assert "Bug/Light" in dac._repr_html_() and "neuronLinearThreshold" in dac._repr_html_()
     assert "<script" not in dac.params._repr_html_()
+    probe = dac.probe("Bug/Light")
+    dac.run(cycles=50)
+    rows = probe.take()._repr_html_()
+    assert rows.count("<tr>") == 21 and "<td style=\"text-align: right\">52</td>" in rows
     dac.close()
     for thing in shown:
         assert thing._repr_html_() and repr(thing)

@@ -10,6 +10,7 @@ import forage
 from conftest import PROJECT
 
 PACKAGE = os.environ["PYTHONPATH"]
+CONFIGURATION = "[mypy]\nignore_missing_imports = True\n"  # packages that are imported when they are needed
 
 
 def check(module, *arguments, folder):
@@ -21,7 +22,7 @@ def check(module, *arguments, folder):
 
 
 def test_stubs_agree_with_the_package(tmp_path):
-    (tmp_path / "mypy.ini").write_text("[mypy]\nignore_missing_imports = True\n")  # packages that are imported when they are needed
+    (tmp_path / "mypy.ini").write_text(CONFIGURATION)
     # The metaclass and the constructor are pybind11's; annotations use names that are imported for mypy only.
     (tmp_path / "allowed").write_text(r"""forage(\._forage)?\._?[A-Z]\w*(\.[A-Z]\w*)?
 forage(\._forage)?\._?[A-Z]\w*(\.[A-Z]\w*)?\.__init__
@@ -62,15 +63,11 @@ print(table["act"], table.to_pandas(), where)
 """
 
 
-def test_the_package_itself_is_checked_strictly(tmp_path):
-    (tmp_path / "mypy.ini").write_text("[mypy]\nignore_missing_imports = True\n")
-    modules = [str(PROJECT / f"tools/python/forage/{name}.py") for name in ("_errors", "_experiment", "_picture", "_recording")]
-    check("mypy", "--strict", "--config-file", "mypy.ini", "--cache-dir", str(tmp_path / "cache"), *modules, folder=tmp_path)
-
-
-def test_programs_are_checked_strictly(tmp_path):
+def test_programs_and_the_package_itself_are_checked_strictly(tmp_path):
     (tmp_path / "program.py").write_text(PROGRAM)
-    check("mypy", "--strict", "--cache-dir", str(tmp_path / "cache"), "program.py", folder=tmp_path)
+    (tmp_path / "mypy.ini").write_text(CONFIGURATION)
+    modules = [str(PROJECT / f"tools/python/forage/{name}.py") for name in ("_errors", "_experiment", "_picture", "_recording")]
+    check("mypy", "--strict", "--config-file", "mypy.ini", "--cache-dir", str(tmp_path / "cache"), "program.py", *modules, folder=tmp_path)
 
 
 def test_everything_has_a_docstring():

@@ -54,6 +54,17 @@ group = with_table(("state", "smallest", "mean", "largest"), _states)
 parameters = with_table(("parameter", "value"), _values)
 
 
+def recording(self):
+    cells = self.data.reshape(len(self), -1)
+    rows = [(int(c), float(r.min()), float(r.mean()), float(r.max())) for c, r in _ends(list(zip(self.cycles, cells)))]
+    return plain(self) + table(("cycle", "smallest", "mean", "largest"), rows)
+
+
+def _ends(rows, most=20):
+    """The first and the last rows when there are more than `most`."""
+    return rows if len(rows) <= most else [*rows[:most // 2], *rows[-most // 2:]]
+
+
 def film(self):
     if not self.closed or not self.file.endswith(".gif") or not os.path.isfile(self.file):  # there is none without a frame
         return plain(self)

@@ -54,6 +54,11 @@ class Recording:
     def __repr__(self) -> str:
         return f"<forage.Recording of '{self.source}', {' x '.join(map(str, self.shape))}>"
 
+    def _repr_html_(self) -> str:
+        from . import _html
+
+        return str(_html.recording(self))  # type: ignore[no-untyped-call]
+
     def _table(self) -> NDArray[numpy.float64]:
         return self.data.reshape(len(self.cycles), -1)
 
