@@ -112,6 +112,13 @@ def test_mistakes_are_found_before_the_first_run():
     assert not ran
     with pytest.raises(TypeError, match="success"):
         forage.sweep(forager(), WORLD, measure={"success": "all"}, cycles=1)
+    for values in (0.5, "0.5"):
+        with pytest.raises(TypeError, match="not a list"):
+            forage.sweep(forager(), WORLD, {"Bug/Light.threshold": values}, cycles=1)
+    with pytest.raises(ValueError, match="one length"):
+        forage.sweep(forager(), WORLD, cycles=1, trials=1)
+    with pytest.raises(forage.InputError, match="^error: trials need a world"):
+        forage.sweep(forager(), trials=1)
     with pytest.raises(ValueError, match="seconds"):
         forage.sweep(forager(), WORLD, measure={"seconds": {"duration": "all"}}, cycles=1)
     with pytest.raises(forage.InputError, match="there is no such file"):

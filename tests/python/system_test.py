@@ -158,6 +158,10 @@ def test_mistakes_are_found_at_once():
         with pytest.raises(forage.InputError) as caught:
             mistake()
         assert hint in caught.value.hint, caught.value
+    for wrong in (lambda: system.connect(light, 3), lambda: system.connect(light, light, pattern="all"), lambda: system.connect(light, light, delay="x"),
+                  lambda: Pattern.foreach(5), lambda: Pattern.tuples([((1, 1), (2, 2))]), lambda: forage.open(None)):
+        with pytest.raises(TypeError, match=" is "):
+            wrong()
     with pytest.raises(ValueError, match="taken"):
         bug.add_group("A", id=light.id)
     assert system.to_xml() == before

@@ -51,6 +51,8 @@ void add_errors(py::module_&) {
             raise(InputError(e.what()));
         } catch (const engine::RunError& e) {
             raise("RunError", e);
+        } catch (const py::cast_error& e) {
+            PyErr_SetString(PyExc_TypeError, e.what());
         }
     });
 }

@@ -137,6 +137,9 @@ std::vector<model::Sweep> sweeps_of(const py::dict& values) {
         const py::tuple names = together ? key.cast<py::tuple>() : py::make_tuple(key);
         const std::size_t first = out.size();
         for (const auto& name : names) out.push_back({{name.cast<std::string>()}, {}, {}, axis});
+        if (py::isinstance<py::str>(list) || !py::isinstance<py::iterable>(list))
+            throw py::type_error(
+                fmt::format("sweep: the values of '{}' are not a list", out[first].parameter.text));
         for (const auto& value : list) {
             const auto texts = values_of(together ? value.cast<py::tuple>() : py::make_tuple(value));
             if (texts.size() != names.size())

@@ -81,8 +81,9 @@ SystemConnection connect(PythonSystem& self, const py::object& source, const py:
     require_type(self.types->synapses(), synapse, "synapse");
     const auto input = static_cast<InputKind>(choice(kind, connection_kinds, "kind"));
     model::Connection wanted;
-    if (!pattern.is_none()) wanted.pattern = pattern.cast<PythonPattern>().value;
-    if (!arborization.is_none()) wanted.arborization = arborization.cast<model::Arborization>();
+    if (!pattern.is_none()) wanted.pattern = argument<PythonPattern>(pattern, "pattern", "a Pattern").value;
+    if (!arborization.is_none())
+        wanted.arborization = argument<model::Arborization>(arborization, "arborization", "an Arborization");
     wanted.attenuation = function_of(attenuation), wanted.delay = function_of(delay);
     const std::string made = model::add_connection(self.model, from, to, input, synapse, id);
     auto& c = *model::find_connection(self.model, made);

@@ -514,10 +514,11 @@ SystemGroup group_of(PythonSystem& system, const py::object& group) {
             throw InputError(fmt::format("group '{}' is part of another system", path_of(g)));
         return g;
     }
-    const auto found = item_of(system, group.cast<std::string>());
+    const auto name = argument<std::string>(group, "a group", "a System.Group or its name");
+    const auto found = item_of(system, name);
     if (!py::isinstance<SystemGroup>(found))
-        throw InputError(fmt::format("'{}' is not a group", group.cast<std::string>()),
-                         suggest(group.cast<std::string>(), model::group_paths(system.model)));
+        throw InputError(fmt::format("'{}' is not a group", name),
+                         suggest(name, model::group_paths(system.model)));
     return found.cast<SystemGroup>();
 }
 

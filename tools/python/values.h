@@ -8,6 +8,17 @@
 
 namespace forage::python {
 
+/// `value` as a T. Raises TypeError, which says that `what` is `expected`, for another type.
+template <class T>
+T argument(const py::handle& value, const char* what, const char* expected) {
+    try {
+        return value.cast<T>();
+    } catch (const py::cast_error&) {
+        const auto type = py::type::handle_of(value).attr("__name__").cast<std::string>();
+        throw py::type_error(std::string(what) + " is " + expected + ", not a value of type " + type);
+    }
+}
+
 /// A value as assignments spell it: true, 0.3, text.
 std::string text_of(const py::handle& value);
 /// A parameter's value as a bool, float, int or str.

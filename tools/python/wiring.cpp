@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 #include <pybind11/stl.h>
 
+#include "tools/python/values.h"
+
 namespace forage::python {
 namespace {
 
@@ -16,12 +18,14 @@ std::string repr_of(const py::handle& value) { return py::repr(value).cast<std::
 
 /// Some cells of a group: None for all, (x, y, width, height) for a rectangle, or a list of (x, y).
 model::Population population(const py::object& cells) {
+    constexpr const char* expected = "None, (x, y, width, height) or a list of (x, y)";
     if (cells.is_none()) return model::All();
     if (py::isinstance<py::tuple>(cells) && py::len(cells) == 4) {
-        const auto [x, y, width, height] = cells.cast<std::tuple<int, int, int, int>>();
+        const auto [x, y, width, height] =
+            argument<std::tuple<int, int, int, int>>(cells, "a part of a group", expected);
         return model::Region{x, y, width, height, {}};
     }
-    return model::List{points_of(cells), {}};
+    return model::List{points_of(argument<py::iterable>(cells, "a part of a group", expected)), {}};
 }
 
 py::object value(const model::Population& population) {
@@ -277,7 +281,7 @@ int choice(const std::string& name, const char* const* values, const char* what)
 std::vector<model::Point> points_of(const py::iterable& points) {
     std::vector<model::Point> out;
     for (const auto& p : points) {
-        const auto [x, y] = p.cast<std::pair<int, int>>();
+        const auto [x, y] = argument<std::pair<int, int>>(p, "a cell", "(x, y)");
         out.push_back({x, y, {}});
     }
     return out;
@@ -291,7 +295,9 @@ py::list list_of(const std::vector<model::Point>& points) {
 
 model::DistanceFunction function_of(const py::object& value) {
     if (py::isinstance<model::DistanceFunction>(value)) return value.cast<model::DistanceFunction>();
-    return {model::UniformFunction{value.cast<double>()}, {}};
+    return {model::UniformFunction{
+                argument<double>(value, "a function of the distance", "a number or a DistanceFunction")},
+            {}};
 }
 
 void add_wiring(py::module_& module) {

@@ -19,6 +19,7 @@ RunSpec common(const model::Experiment& e) {
     for (const auto& system : e.systems) o.input.more.push_back(system.text);
     o.input.real_time_factor = e.real_time_factor, o.input.noise = e.noise;
     o.length = {e.cycles, e.seconds, e.trials, e.trial_timeout, e.until, e.length_at};
+    o.length.in_code = !e.length_at.file;
     o.recordings = e.recordings, o.changes = e.changes, o.measures = e.measures;
     o.manipulations = e.manipulations, o.plots = e.plots;
     o.paths = std::any_of(e.plots.begin(), e.plots.end(),

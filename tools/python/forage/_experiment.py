@@ -102,6 +102,8 @@ def sweep(system: Path | _forage.System, world: Path | None = None, values: Valu
     functions, declared = _measures(measure)
     if functions and directory is not None:
         raise ValueError("directory: results of functions are not kept in files")
+    if sum(n is not None for n in (cycles, seconds, trials)) > 1:
+        raise ValueError("cycles, seconds, trials: a run has only one length")
     length = {"cycles": cycles, "seconds": seconds, "trials": trials, "trial_timeout": trial_timeout}
     setup: dict[str, typing.Any] = {"plugins": [os.fspath(p) for p in plugins], "noise": noise, "real_time_factor": real_time_factor}
     place: typing.Any = tempfile.TemporaryDirectory(prefix="forage-") if directory is None else contextlib.nullcontext(os.fspath(directory))
