@@ -48,8 +48,9 @@ class Recording:
     def __getitem__(self, index: Any) -> Any:
         return self.data[index]
 
-    def __array__(self, dtype: DTypeLike = None) -> NDArray[Any]:
-        return self.data if dtype is None else self.data.astype(dtype)
+    def __array__(self, dtype: DTypeLike = None, copy: bool | None = None) -> NDArray[Any]:
+        data: NDArray[Any] = self.data if dtype is None else self.data.astype(dtype, copy=False)
+        return data.copy() if copy else data
 
     def __repr__(self) -> str:
         return f"<forage.Recording of '{self.source}', {' x '.join(map(str, self.shape))}>"
