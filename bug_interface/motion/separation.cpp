@@ -1,8 +1,10 @@
 // After a step no two shapes penetrate each other by more than 0.8 mm, or by more than before the step.
 //
-// Bullet solves velocities only. It detects contacts of two boxes only once they overlap, and its solution is
-// approximate where a body is squeezed from several sides. The functions in this file separate shapes that
-// penetrate each other after a step. Bodies that cannot be separated return to their poses before the step.
+// The solver changes velocities only. Contacts of two boxes are found only once they overlap, and a solution
+// is approximate where a body is squeezed from several sides. The functions in this file separate shapes that
+// penetrate each other after a step. They push them further apart than they must, as several bodies that
+// press on each other would otherwise take many rounds. Bodies that cannot be separated return to their poses
+// before the step.
 #include <algorithm>
 #include <cmath>
 
@@ -12,6 +14,7 @@
 namespace forage::bug {
 namespace {
 
+constexpr double least_depth = 7.5e-4;   ///< m; shapes that penetrate each other deeper are separated
 constexpr double target_depth = 5e-4;    ///< m; separation reduces the depth to this
 constexpr double max_depth = 8e-4;       ///< m; accepted when separation does not converge
 constexpr double depth_epsilon = 1e-12;  ///< m; smaller excesses are ignored
@@ -20,15 +23,15 @@ constexpr int max_rounds = 20;           ///< largest number of passes over all 
 }  // namespace
 
 /// Calls visit(a, shape of a, b, shape of b, overlap) for each pair of shapes of an island that penetrate
-/// each other by more than target_depth, when body a or b is active. For an obstacle, b is the number of
+/// each other by more than least_depth, when body a or b is active. For an obstacle, b is the number of
 /// bodies and its shape is the number of the obstacle. visit() may move both bodies.
 template <class F>
 void Physics::for_each_penetration(std::span<const std::size_t> bodies, F&& visit) {
     const auto test = [&](std::size_t a, std::size_t p, const PlacedShape& shape_a, const Outline& outline_b,
                           double radius_b, std::size_t b, std::size_t q) {
         if (!closer_than(outline_b, shape_a.outline, radius_b + shape_a.bounding_radius)) return;
-        const Overlap in = overlap(outline_b, shape_a.outline, target_depth);
-        if (in.depth <= target_depth + depth_epsilon) return;
+        const Overlap in = overlap(outline_b, shape_a.outline, least_depth);
+        if (in.depth <= least_depth + depth_epsilon) return;
         visit(a, p, b, q, in);
         shapes(a);  // updates the shapes that the loops below refer to
         if (b < bodies_.size()) shapes(b);
