@@ -45,6 +45,8 @@ class Reset {
     /// Called once per substep with the pose at its beginning.
     Phase substep(const Pose2& pose);
     bool running() const { return left_ > 0; }
+    /// Ends a running reset without a start pose.
+    void stop() { left_ = 0; }
     /// Draws the pose at which the robot is observed during a reset.
     Pose2 reset_pose() { return draw(reset_poses_++); }
     /// Draws the start pose of the next trial. The n-th start of a seed does not depend on earlier trials.

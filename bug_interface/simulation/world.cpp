@@ -177,6 +177,21 @@ bool World::update_reset(std::size_t bug) {
     return true;
 }
 
+void World::begin_trial(std::size_t bug, const std::optional<Pose2>& start) {
+    Robot& robot = robots_[bug];
+    const Trial running = current_trial(bug);
+    const Pose2 first =
+        robot.trials->finished().empty() ? running.start : robot.trials->finished().front().start;
+    if (running.first_cycle < cycle_) robot.trials->finish(physics_->pose(bug), cycle_);
+    if (robot.reset) robot.reset->stop();
+    const Pose2 pose = start ? *start : robot.reset ? robot.reset->start_pose() : first;
+    physics_->remove(bug);
+    physics_->place(bug, pose);
+    robot.trials->begin(physics_->pose(bug), cycle_);
+    robot.command = {};
+    update_body_poses();
+}
+
 /// A robot that is being reset is observed at a random start pose.
 void World::update_body_poses() {
     for (std::size_t i = 0; i < robots_.size(); ++i) {

@@ -79,6 +79,10 @@ class World final : public Environment {
     void command(std::size_t bug, const MotorCommand& command) { robots_[bug].command = command; }
     /// Closes or opens the gripper, until the next call. It closes only after it has been opened once.
     void grip(std::size_t bug, bool close) { robots_[bug].hinges.command(close); }
+    /// Ends the trial of a robot at once and begins the next, between two cycles: at `start`, or at the next
+    /// start pose. A robot that is never reset begins where its first trial began. The robot stands until the
+    /// next command, and its sensors see where it is at the end of the next cycle.
+    void begin_trial(std::size_t bug, const std::optional<Pose2>& start = {});
     bool has_gripper(std::size_t bug) const { return !robots_[bug].hinges.empty(); }
     /// The angle of a hinge of the gripper, rad.
     double gripper_angle(std::size_t bug, std::size_t hinge) const {

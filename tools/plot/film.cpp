@@ -111,6 +111,12 @@ std::string Film::frame_name(const std::string& name, std::size_t frame) {
     return fmt::format("{}_{:05}.png", name.substr(0, name.size() - 4), frame);
 }
 
+Pixels Film::draw() {
+    if (!screen_) screen_ = std::make_unique<Screen>(world_, title_);
+    screen_->draw();
+    return screen_->pixels();
+}
+
 void Film::add() {
     // The ground is drawn now, because it has the names of the sensors that the first cycle has asked for.
     if (!screen_) screen_ = std::make_unique<Screen>(world_, title_);

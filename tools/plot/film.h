@@ -10,14 +10,16 @@
 
 namespace forage::plot {
 
-/// Films a world: as an animated GIF when the name ends with .gif, and as numbered pictures (NAME_00001.png)
-/// when it ends with .png.
+/// Films a world: as an animated GIF when the name ends with .gif, as numbered pictures (NAME_00001.png)
+/// when it ends with .png, and only by draw() when it is empty.
 class Film {
   public:
     /// `seconds_per_frame` is the simulated time between two frames; the film is played at this rate. `world`
     /// must outlive the film.
     Film(bug::World& world, std::string name, double seconds_per_frame, std::string title);
     ~Film();
+    /// Draws the current state of the world, without adding a frame. Valid until the next call.
+    Pixels draw();
     /// Adds a frame with the current state of the world. Throws std::runtime_error when it cannot be written.
     void add();
     /// Completes the file. Returns the number of frames.

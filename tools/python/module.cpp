@@ -7,6 +7,7 @@ PYBIND11_MODULE(_forage, module) {
     pybind11::options options;
     options.disable_function_signatures();
     module.attr("__version__") = FORAGE_VERSION;
+    add_agents(module);
     add_errors(module);
     add_groups(module);
     add_parameters(module);

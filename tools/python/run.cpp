@@ -40,7 +40,7 @@ class PythonRun::Running {
     PythonRun& run_;
 };
 
-PythonRun::PythonRun(Run run) : run_(std::make_shared<Run>(std::move(run))) { run_->start(); }
+PythonRun::PythonRun(std::shared_ptr<Run> run) : run_(std::move(run)) { run_->start(); }
 
 std::shared_ptr<Run> PythonRun::owner() const {
     if (const auto why = obstacle(); !why.empty()) throw engine::RunError("this run is " + std::string(why));

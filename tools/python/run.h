@@ -19,7 +19,8 @@ namespace forage::python {
 /// Python go on. All functions are called with the GIL.
 class PythonRun : public std::enable_shared_from_this<PythonRun> {
   public:
-    explicit PythonRun(Run run);
+    explicit PythonRun(std::shared_ptr<Run> run);
+    explicit PythonRun(Run run) : PythonRun(std::make_shared<Run>(std::move(run))) {}
 
     /// The run, to read and to change. Throws RunError when it is closed, or running in another thread.
     Run& use() const { return *owner(); }

@@ -145,6 +145,46 @@ TEST_CASE("Trials end at the bounds and the next one starts 1001 substeps later,
     CHECK(now.number == static_cast<int>(trials.size()) + 1);
 }
 
+TEST_CASE("A trial can be begun at any time, at a start pose or another one, also during a reset") {
+    const auto world = make_world(description("basic_arena"), options(25, 1, false));
+    const auto near_start = [&] {
+        return std::ranges::any_of(world->start_poses(), [&](const Pose2& start) {
+            return std::abs(start.x - world->pose(0).x) < 0.02 && std::abs(start.y - world->pose(0).y) < 0.02;
+        });
+    };
+    world->begin_trial(0);  // nothing has happened: this is the first trial
+    CHECK(world->trials(0).empty());
+    CHECK(near_start());
+    world->command(0, {1, 0});
+    for (int i = 0; i < 5; ++i) world->step();
+    world->begin_trial(0, Pose2{1, 1, 0.5});
+    CHECK(same(world->pose(0), {1, 1, 0.5}));
+    REQUIRE(world->trials(0).size() == 1);
+    CHECK(world->trials(0)[0].cycles == 5);
+    world->step();  // without a command
+    CHECK(same(world->pose(0), {1, 1, 0.5}));
+    CHECK(world->snapshot(0).pose.x == 1);
+    world->command(0, {1, 0});
+    while (!world->resetting(0)) world->step();
+    REQUIRE(world->trials(0).size() == 2);
+    world->begin_trial(0);
+    CHECK(!world->resetting(0));
+    CHECK(near_start());
+    CHECK(world->trials(0).size() == 2);
+    CHECK(world->current_trial(0).number == 3);
+    CHECK(world->current_trial(0).first_cycle == world->cycle());
+    for (int i = 0; i < 100; ++i) world->step();
+    CHECK(near_start());
+
+    const auto open = make_world(one_robot(), options(25, 1, false));  // without start poses
+    const Pose2 first = open->pose(0);
+    open->command(0, {1, 0});
+    open->step();
+    CHECK(!same(open->pose(0), first));
+    open->begin_trial(0);
+    CHECK(same(open->pose(0), first));
+}
+
 TEST_CASE("The same seed gives the same bits, another seed gives others, and images have no effect") {
     const auto a = make_world(description("basic_arena"), options(25, 7)),
                b = make_world(description("basic_arena"), options(25, 7)),

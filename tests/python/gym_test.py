@@ -1,0 +1,367 @@
+"""Environments for learning agents: the contracts of Gymnasium and PettingZoo, and that they act and sense as brains do."""
+import os
+import subprocess
+import sys
+import threading
+
+import numpy
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import forage
+from conftest import SYSTEMS, WORLD
+from forage.gym import BugEnv, BugParallelEnv, BugVectorEnv
+
+DAC = SYSTEMS / "dac_foraging.iqr"
+TWO = SYSTEMS / "worlds/two_bugs.world"
+GROUPS = {"sensors": ["Bug/Light", "Bug/Sensor"], "motors": ["Bug/Motor"]}
+AHEAD = 1  # of the usual 3 x 3 motor cells
+
+
+def episode(env, seed, steps=60):
+    """What an environment returns for actions drawn with the seed."""
+    env.action_space.seed(seed)
+    out = [env.reset(seed=seed)]
+    for _ in range(steps):
+        out.append(env.step(env.action_space.sample()))
+        if out[-1][2] or out[-1][3]:
+            out.append(env.reset())
+    return out
+
+
+def same(a, b):
+    return all(numpy.array_equal(x, y) for one, other in zip(a, b) for x, y in zip(one, other))
+
+
+ENVIRONMENTS = [dict(), dict(action="velocity", motors={"motor": (9, 9)}), dict(action="activity", cycles_per_step=1),
+                dict(sensors={"target": None, "placeCell": (5, 7), "gps": None}, max_steps=20), dict(system=DAC, **GROUPS)]
+
+
+@pytest.mark.parametrize("options", ENVIRONMENTS, ids=lambda o: "-".join(o) or "usual")
+def test_the_contract_of_an_environment(options):
+    env = BugEnv(WORLD, **options)
+    for step in (first := episode(env, 7)):
+        observation, info = step[0], step[-1]
+        assert env.observation_space.contains(observation) and observation.dtype == env.observation_space.dtype
+        assert isinstance(info, dict)
+        if len(step) == 5:
+            assert type(step[1]) is float and type(step[2]) is bool and type(step[3]) is bool
+    assert same(first, episode(env, 7)) and not same(first, episode(env, 8))
+    assert same(first, episode(BugEnv(WORLD, **options), 7))
+    assert env.unwrapped is env and env.reset(options={})[1] == {"reached_target": False}
+    kept = env.reset(seed=1)[0]
+    copy = kept.copy()
+    env.step(env.action_space.sample())
+    assert (kept == copy).all()
+    env.close()
+    env.close()
+    with pytest.raises(forage.RunError, match="closed"):
+        env.step(env.action_space.sample())
+    with pytest.raises(forage.RunError, match="closed"):
+        env.reset()
+
+
+def drive(env, action, most=200):
+    """Repeats an action until the episode ends. Returns the rewards and the last step."""
+    rewards = []
+    for _ in range(most):
+        step = env.step(action)
+        rewards.append(step[1])
+        if step[2] or step[3]:
+            return rewards, step
+    raise AssertionError("the episode does not end")
+
+
+def test_an_episode_ends_at_the_target_or_at_the_bounds_or_after_too_many_steps():
+    env = BugEnv(WORLD, max_steps=300)
+    env.reset(seed=1, options={"start": (0, -1, numpy.pi / 2)})
+    rewards, last = drive(env, AHEAD)
+    assert last[2] and last[4]["reached_target"] and rewards[-1] == 1 and sum(rewards) == 1
+    with pytest.raises(forage.RunError, match="reset"):
+        env.step(AHEAD)
+    env.reset(options={"start": (0, -1, -numpy.pi / 2)})
+    rewards, last = drive(env, AHEAD)
+    assert last[2] and not last[4]["reached_target"] and sum(rewards) == 0
+    env.reset()
+    rewards, last = drive(env, 4, 300)
+    assert last[3] and not last[2] and len(rewards) == 300
+    on = BugEnv(WORLD, end_at_target=False)
+    on.reset(options={"start": (0, -1, numpy.pi / 2)})
+    rewards, last = drive(on, AHEAD)
+    assert last[2] and last[4]["reached_target"] and sum(rewards) == 1 and rewards[-1] == 0
+
+
+def test_episodes_are_the_trials_of_the_run_and_start_where_they_should():
+    env = BugEnv(WORLD, noise=False, sensors=["gps"])
+    starts = []
+    for _ in range(20):
+        x, y, yaw = env.reset()[0]
+        starts.append((round(2 * (float(x) - 10)) / 2, round(float(y)) - 10))
+        drive(env, AHEAD)
+    assert set(starts) == {(-1.5, -2), (0, -2), (1.5, -2)}  # those of the world
+    assert len(env.run.trials) == 20
+    gps = env.reset(options={"start": (1, -2, 0.5)})[0]
+    assert gps == pytest.approx([11, 8, 0.5 + numpy.pi], abs=1e-5)
+
+
+def test_actions_move_the_robot_as_cells_velocities_and_activities():
+    def moved(step, **options):
+        env = BugEnv(WORLD, noise=False, sensors=["gps"], cycles_per_step=10, **options)
+        x, y, yaw = env.reset(options={"start": (0, 0, 0)})[0].astype(float)
+        after = env.step(step)[0]
+        return numpy.sign(numpy.round([after[0] - x, after[2] - yaw], 3)).tolist()
+
+    assert moved(1) == [1, 0] and moved(7) == [-1, 0] and moved(0) == [1, 1] and moved(2) == [1, -1]
+    velocity = dict(action="velocity", motors={"motor": (9, 9)})
+    assert moved([1, 0], **velocity)[0] == 1 and moved([-1, 0], **velocity)[0] == -1
+    assert moved([0, 1], **velocity)[1] == 1 and moved([0, -1], **velocity)[1] == -1
+    cells = numpy.zeros(9)
+    cells[1] = 0.5
+    assert moved(cells, action="activity")[0] == 1
+
+
+def test_observations_are_what_groups_of_the_run_hold():
+    env = BugEnv(WORLD, DAC, reward="mean(Bug/Light)", **GROUPS)
+    env.reset(seed=2)
+    for _ in range(30):
+        observation, reward, ended, *_ = env.step(4)  # straight ahead
+        if ended:
+            break
+        parts = env.split(observation)
+        assert set(parts) == set(GROUPS["sensors"])
+        for name, part in parts.items():
+            assert (part == env.run.read(name).astype(numpy.float32)).all()
+        assert reward == env.run.read("mean(Bug/Light)")
+        assert env.run.read("Bug/Motor").sum() == 1
+    with pytest.raises(forage.InputError, match="not computed"):
+        env.run["Adaptive/Discrepancy" if "Adaptive/Discrepancy" in env.run else env.run.groups[0]].clamp(1)
+
+
+def test_an_environment_has_the_bits_of_a_run_whose_motors_are_clamped():
+    one, other = (BugEnv(WORLD, DAC, cycles_per_step=4, **GROUPS) for _ in range(2))
+    one.reset(seed=5)
+    other.reset(seed=5)
+    for action in (4, 4, 13, 22, 4, 5, 3) * 5:
+        one.step(action)
+        pattern = numpy.zeros(81)
+        pattern[action] = 1
+        with other.run["Bug/Motor"].clamp(pattern.reshape(9, 9)):
+            other.run.run(cycles=4)
+    assert one.run.cycle == 3 + 4 * 35 and one.run.digest() == other.run.digest()
+
+
+def test_the_brain_keeps_what_it_has_learned_until_a_seed_is_given():
+    env = BugEnv(WORLD, DAC, **GROUPS)
+    env.reset(seed=1)
+    drive(env, 4)
+    cycle = env.run.cycle
+    env.reset()
+    assert env.run.cycle == cycle + 3
+    env.reset(seed=1)
+    assert env.run.cycle == 3
+
+
+def test_a_function_of_the_environment_is_a_reward():
+    env = BugEnv(WORLD, reward=lambda e: float(e.observation.max()))
+    env.reset(seed=1)
+    observation, reward, *_ = env.step(AHEAD)
+    assert reward == observation.max()
+
+    def broken(e):
+        raise KeyError("light")
+
+    env = BugEnv(WORLD, reward=broken)
+    with pytest.raises(KeyError, match="light"):
+        env.step(AHEAD)
+    env.reset()
+
+
+@pytest.mark.parametrize("action", [-1, 9, 1.5e9, numpy.nan, [0, 1], "left", None])
+def test_what_is_no_action_is_refused_and_the_environment_goes_on(action):
+    env = BugEnv(WORLD)
+    env.reset(seed=1)
+    with pytest.raises((forage.InputError, TypeError, ValueError)):
+        env.step(action)
+    env.step(AHEAD)
+
+
+@pytest.mark.parametrize("options, message", [
+    (dict(sensors=["tarket"]), "did you mean 'target'"),
+    (dict(sensors=[]), "senses nothing"),
+    (dict(motors=[]), "moves nothing"),
+    (dict(motors={"motor": (4, 4)}), "4 x 4"),
+    (dict(robot="Bgu"), "Bgu"),
+    (dict(cycles_per_step=0), "at least 1 cycle"),
+    (dict(action="joystick"), "velocity"),
+    (dict(reward="Bug/target"), "is 32 numbers"),
+    (dict(render_mode="smell"), "rgb_array"),
+    (dict(system=DAC), "name its sensor and motor groups"),
+    (dict(system=DAC, sensors=["Bug/Lihgt"], motors=["Bug/Motor"]), "did you mean 'Bug/Light'"),
+    (dict(system=DAC, sensors=["Bug/Light"], motors=["Bug/Lihgt"]), "Bug/Lihgt"),
+    (dict(system=DAC, sensors=["Bug/Light"], motors=["Bug/Light"], action="velocity"), "cannot take a velocity"),
+])
+def test_mistakes_are_told_when_the_environment_is_made(options, message):
+    with pytest.raises(forage.InputError, match=message):
+        BugEnv(WORLD, **options)
+
+
+def test_an_unknown_option_and_a_missing_world_are_told():
+    with pytest.raises(TypeError, match="steps_per_cycle"):
+        BugEnv(WORLD, steps_per_cycle=3)
+    with pytest.raises(forage.InputError, match="nowhere.world"):
+        BugEnv("nowhere.world")
+
+
+def test_pictures_show_the_world_and_change_with_it():
+    env = BugEnv(WORLD, render_mode="rgb_array")
+    env.reset(seed=1)
+    before = env.render()
+    assert before.dtype == numpy.uint8 and before.ndim == 3 and before.shape[2] == 3
+    for _ in range(10):
+        env.step(AHEAD)
+    assert (env.render() != before).any()
+    env.reset(seed=1)
+    assert (env.render() == before).all()
+    assert BugEnv(WORLD).render() is None
+
+
+def test_the_parallel_contract():
+    env = BugParallelEnv(TWO, sensors=["proximity", "target"], max_steps=30)
+    assert env.possible_agents == ["Scout", "Follower"] and env.max_num_agents == 2
+
+    def play(seed):
+        out = [env.reset(seed=seed)]
+        spaces = [env.action_space(a).seed(seed) for a in env.possible_agents]
+        while env.agents:
+            before = list(env.agents)
+            out.append(env.step({a: env.action_space(a).sample() for a in env.agents}))
+            assert all(set(part) == set(before) for part in out[-1])
+            assert all(env.observation_space(a).contains(out[-1][0][a]) for a in before)
+            gone = {a for a in before if out[-1][2][a] or out[-1][3][a]}
+            assert set(env.agents) == set(before) - gone and env.num_agents == len(env.agents)
+        return out
+
+    first, again, other = play(3), play(3), play(4)
+
+    def numbers(all_steps):
+        return [[x for part in step for a in sorted(part) for x in numpy.ravel(list(part[a].values()) if isinstance(part[a], dict) else part[a])]
+                for step in all_steps]
+
+    assert numbers(first) == numbers(again) != numbers(other)
+    env.reset()
+    with pytest.raises(forage.InputError, match="no action for Follower"):
+        env.step({"Scout": 1})
+    env.close()
+    env.close()
+
+
+def test_agents_of_one_run_are_rewarded_and_end_on_their_own():
+    env = BugParallelEnv(TWO, sensors=["gps"], reward=lambda e, robot: len(robot), max_steps=0)
+    env.reset(seed=1)
+    rewards = env.step({a: 4 for a in env.agents})[1]
+    assert rewards == {"Scout": 5.0, "Follower": 8.0}
+
+
+def test_worlds_side_by_side_have_the_numbers_of_single_ones_on_any_number_of_threads():
+    def play(threads):
+        env = BugVectorEnv(5, WORLD, sensors=["target", "gps"], max_steps=25, threads=threads)
+        assert env.threads == min(threads, 5)
+        out = [env.reset(seed=11)]
+        assert env.observation_space.contains(out[0][0])
+        for step in range(60):
+            out.append(env.step((numpy.arange(5) + step // 10) % 9))
+        env.close()
+        env.close()
+        assert env.closed
+        return out
+
+    one, three = play(1), play(3)
+    for a, b in zip(one, three):
+        assert same([a[:-1]], [b[:-1]]) and (a[-1]["reached_target"] == b[-1]["reached_target"]).all()
+    for i in range(5):
+        env = BugEnv(WORLD, sensors=["target", "gps"], max_steps=25)
+        assert (env.reset(seed=11 + i)[0] == one[0][0][i]).all()
+        ended = False
+        for step in range(60):
+            if ended:
+                expected, ended = (env.reset()[0], 0.0, False, False), False
+            else:
+                expected = env.step((i + step // 10) % 9)
+                ended = expected[2] or expected[3]
+            for mine, theirs in zip(expected[:4], one[step + 1][:4]):
+                assert numpy.array_equal(mine, theirs[i])
+
+
+def test_mistakes_with_worlds_side_by_side():
+    env = BugVectorEnv(3, WORLD)
+    with pytest.raises(forage.InputError, match="2 seeds for 3"):
+        env.reset(seed=[1, 2])
+    env.reset(seed=[1, 2, 3])
+    with pytest.raises(forage.InputError, match="3 numbers, not 2"):
+        env.step([1, 2])
+    with pytest.raises(forage.InputError, match="no action"):
+        env.step([1, 2, 9])
+    with pytest.raises(forage.InputError, match="not a function"):
+        BugVectorEnv(2, WORLD, reward=len)
+    with pytest.raises(forage.InputError, match="1 run"):
+        BugVectorEnv(0, WORLD)
+
+
+def test_an_environment_is_not_used_by_two_threads_at_once():
+    env = BugVectorEnv(8, WORLD, cycles_per_step=2000, max_steps=0)
+    refused = []
+
+    def step():
+        try:
+            env.step(numpy.full(8, 4))
+        except forage.RunError as e:
+            refused.append(str(e))
+
+    threads = [threading.Thread(target=step) for _ in range(4)]
+    for t in threads:
+        t.start()
+    for t in threads:
+        t.join()
+    assert 0 < len(refused) < 4 and "another thread" in refused[0]
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.lists(st.integers(0, 8), min_size=1, max_size=40), st.integers(0, 2**31))
+def test_any_actions_give_observations_in_the_space_and_the_same_ones_again(actions, seed):
+    def play():
+        env = BugEnv(WORLD, sensors=["target", "proximity"])
+        out = [env.reset(seed=seed)[0]]
+        for a in actions:
+            observation, _, terminated, truncated, _ = env.step(a)
+            out.append(observation)
+            if terminated or truncated:
+                out.append(env.reset()[0])
+        assert all(env.observation_space.contains(o) for o in out)
+        return numpy.array(out)
+
+    assert (play() == play()).all()
+
+
+def test_the_environments_are_subclasses_where_gymnasium_is_installed(tmp_path):
+    (tmp_path / "gymnasium/vector/utils").mkdir(parents=True)
+    (tmp_path / "gymnasium/__init__.py").write_text("class Env: pass\nfrom forage import _spaces as spaces\n")
+    (tmp_path / "gymnasium/vector/__init__.py").write_text("class VectorEnv: pass\nclass AutoresetMode: NEXT_STEP = 'mode'\n")
+    (tmp_path / "gymnasium/vector/utils/__init__.py").write_text("batch_space = None\n")
+    (tmp_path / "pettingzoo.py").write_text("class ParallelEnv: pass\n")
+    code = ("import gymnasium, pettingzoo, forage, sys; assert 'forage.gym' not in sys.modules\nfrom forage.gym import *\n"
+            "assert issubclass(BugEnv, gymnasium.Env) and issubclass(BugParallelEnv, pettingzoo.ParallelEnv)\n"
+            "assert issubclass(BugVectorEnv, gymnasium.vector.VectorEnv) and BugVectorEnv.metadata['autoreset_mode'] == 'mode'\n")
+    path = os.pathsep.join([str(tmp_path), os.environ["PYTHONPATH"]])
+    subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": path}, check=True)
+
+
+@pytest.mark.parametrize("options", ENVIRONMENTS, ids=lambda o: "-".join(o) or "usual")
+def test_the_checker_of_gymnasium_finds_nothing(options):
+    checker = pytest.importorskip("gymnasium.utils.env_checker")
+    checker.check_env(BugEnv(WORLD, **options), skip_render_check=True)
+
+
+def test_the_test_of_pettingzoo_finds_nothing():
+    tests = pytest.importorskip("pettingzoo.test")
+    tests.parallel_api_test(BugParallelEnv(TWO, max_steps=50), num_cycles=200)

@@ -1,0 +1,251 @@
+// Runs for learning agents. forage/gym.py gives them the interfaces of Gymnasium and PettingZoo.
+#include "tools/api/agents.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <filesystem>
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "tools/api/agent_pool.h"
+#include "tools/python/run.h"
+#include "tools/python/values.h"
+
+namespace forage::python {
+namespace {
+
+using namespace py::literals;
+using std::filesystem::path;
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Task = std::shared_ptr<const AgentTask>;
+/// A sensor or motor: its name, and its rows and columns without a system; 0 for the usual size.
+using Port = std::tuple<std::string, int, int>;
+
+/// Lets one thread at a time use an object while others run Python.
+class InUse {
+  public:
+    explicit InUse(std::atomic_flag& flag) : flag_(flag) {
+        if (flag.test_and_set()) throw engine::RunError("this environment is running in another thread");
+    }
+    ~InUse() { flag_.clear(); }
+    InUse(const InUse&) = delete;
+    InUse& operator=(const InUse&) = delete;
+
+  private:
+    std::atomic_flag& flag_;
+};
+
+struct PythonTask {
+    Task task;
+};
+
+struct PythonAgents {
+    explicit PythonAgents(Task task) : run(std::move(task)) {}
+    AgentRun run;
+    mutable std::atomic_flag in_use;
+};
+
+struct PythonPool {
+    PythonPool(const Task& task, std::size_t runs, int threads) : pool(task, runs, threads) {}
+    AgentPool pool;
+    std::atomic_flag in_use;
+};
+
+ActionKind action_kind(const std::string& name) {
+    static const std::vector<std::string> names{"cell", "velocity", "activity"};
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end())
+        throw InputError("'" + name + "' is not a kind of action", "cell, velocity or activity");
+    return static_cast<ActionKind>(found - names.begin());
+}
+
+std::vector<AgentGroup> groups_of(const std::vector<Port>& ports) {
+    std::vector<AgentGroup> out;
+    for (const auto& [name, rows, columns] : ports) out.push_back({name, columns, rows});
+    return out;
+}
+
+std::vector<std::string> port_names(const std::vector<Port>& ports) {
+    std::vector<std::string> out;
+    for (const auto& port : ports) out.push_back(std::get<0>(port));
+    return out;
+}
+
+PythonTask read_task(
+    const path& world, const std::optional<path>& system,
+    const std::vector<std::tuple<std::string, std::vector<Port>, std::vector<Port>, std::string>>& agents,
+    bool every_robot, const std::string& action, int cycles_per_step, std::uint64_t max_steps,
+    bool end_at_target, std::pair<double, double> speed, std::uint64_t seed, const py::object& settings,
+    const std::vector<path>& plugins, bool noise, std::optional<double> real_time_factor) {
+    AgentOptions options;
+    options.input.world = world.string();
+    if (system) options.input.system = system->string();
+    options.input.seed = seed, options.input.noise = noise;
+    options.input.real_time_factor = real_time_factor;
+    for (const auto& setting : assignments(settings)) options.input.settings.push_back({setting});
+    for (const auto& p : plugins) options.input.plugins.push_back(p.string());
+    for (const auto& [robot, sensors, motors, reward] : agents) {
+        Agent agent{.robot = robot, .reward = reward};
+        if (system)
+            agent.sensors = port_names(sensors), agent.motors = port_names(motors);
+        else
+            agent.body = {{}, groups_of(sensors), groups_of(motors), speed.first, speed.second};
+        options.agents.push_back(std::move(agent));
+    }
+    options.every_robot = every_robot, options.action = action_kind(action);
+    options.cycles_per_step = cycles_per_step, options.max_steps = max_steps;
+    options.end_at_target = end_at_target;
+    return {AgentTask::read(std::move(options))};
+}
+
+py::array_t<float> observation(const PythonAgents& self, std::size_t agent) {
+    const InUse use(self.in_use);
+    const auto numbers = self.run.observation(agent);
+    return py::array_t<float>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
+}
+
+void act(PythonAgents& self, std::size_t agent, const py::handle& action) {
+    const InUse use(self.in_use);
+    if (PyLong_Check(action.ptr()) || PyFloat_Check(action.ptr())) {
+        const double number = PyFloat_AsDouble(action.ptr());
+        if (number == -1 && PyErr_Occurred()) throw py::error_already_set();
+        return self.run.act(agent, {&number, 1});
+    }
+    const auto numbers = Numbers::ensure(action);
+    if (!numbers) throw InputError("an action is a number, or an array of numbers");
+    self.run.act(agent, {numbers.data(), static_cast<std::size_t>(numbers.size())});
+}
+
+py::tuple outcome(const PythonAgents& self, std::size_t agent) {
+    const auto o = self.run.outcome(agent);
+    return py::make_tuple(observation(self, agent), o.reward, o.terminated, o.truncated, o.reached_target);
+}
+
+void step(PythonAgents& self) {
+    const InUse use(self.in_use);
+    const py::gil_scoped_release others;
+    self.run.step();
+}
+
+py::tuple step_with(PythonAgents& self, const py::object& action) {
+    act(self, 0, action);
+    step(self);
+    return outcome(self, 0);
+}
+
+void reset(PythonAgents& self, std::optional<std::uint64_t> seed,
+           const std::vector<std::array<double, 3>>& starts) {
+    const InUse use(self.in_use);
+    std::vector<Pose2> poses;
+    for (const auto& [x, y, yaw] : starts) poses.push_back({x, y, yaw});
+    const py::gil_scoped_release others;
+    self.run.reset(seed, poses);
+}
+
+py::list ports(const std::vector<AgentPort>& all) {
+    py::list out;
+    for (const auto& p : all) out.append(py::make_tuple(p.name, py::tuple(py::cast(p.shape)), p.unit_range));
+    return out;
+}
+
+py::array_t<std::uint8_t> picture(PythonAgents& self) {
+    const InUse use(self.in_use);
+    const plot::Pixels pixels = self.run.picture();
+    py::array_t<std::uint8_t> out({pixels.height, pixels.width, 3});
+    auto* to = out.mutable_data();
+    for (int y = 0; y < pixels.height; ++y)
+        for (int x = 0; x < pixels.width; ++x)
+            for (const int shift : {16, 8, 0})
+                *to++ = static_cast<std::uint8_t>(
+                    pixels.rgb[static_cast<std::size_t>(y) * pixels.stride + static_cast<std::size_t>(x)] >>
+                    shift);
+    return out;
+}
+
+template <class T>
+std::span<T> span_of(py::array_t<T>& array) {
+    return {array.mutable_data(), static_cast<std::size_t>(array.size())};
+}
+
+py::array_t<float> table_of(AgentPool& pool) {
+    return py::array_t<float>({pool.size(), pool[0].observation(0).size()});
+}
+
+py::array_t<float> reset_pool(PythonPool& self, const std::vector<std::uint64_t>& seeds) {
+    const InUse use(self.in_use);
+    auto out = table_of(self.pool);
+    const auto rows = span_of(out);
+    const py::gil_scoped_release others;
+    self.pool.reset(seeds, rows);
+    return out;
+}
+
+py::tuple step_pool(PythonPool& self, const Numbers& actions) {
+    const InUse use(self.in_use);
+    AgentPool& pool = self.pool;
+    const auto runs = static_cast<py::ssize_t>(pool.size());
+    if (static_cast<std::size_t>(actions.size()) != pool.size() * pool[0].action_size(0))
+        throw InputError("the actions of " + std::to_string(runs) + " environments have " +
+                         std::to_string(runs * static_cast<py::ssize_t>(pool[0].action_size(0))) +
+                         " numbers, not " + std::to_string(actions.size()));
+    auto observations = table_of(pool);
+    py::array_t<double> rewards(runs);
+    py::array_t<bool> terminated(runs), truncated(runs), reached(runs);
+    const AgentPool::Rows rows{span_of(observations), span_of(rewards), span_of(terminated),
+                               span_of(truncated), span_of(reached)};
+    const std::span<const double> numbers(actions.data(), static_cast<std::size_t>(actions.size()));
+    {
+        const py::gil_scoped_release others;
+        pool.step(numbers, rows);
+    }
+    return py::make_tuple(observations, rewards, terminated, truncated, reached);
+}
+
+}  // namespace
+
+void add_agents(py::module_& module) {
+    py::class_<PythonTask>(module, "AgentTask",
+                           "What agents do in a world, with the content of its files. forage.gym uses it.")
+        .def(py::init(&read_task), py::kw_only(), "world"_a, "system"_a, "agents"_a, "every_robot"_a,
+             "action"_a, "cycles_per_step"_a, "max_steps"_a, "end_at_target"_a, "speed"_a, "seed"_a,
+             "settings"_a, "plugins"_a, "noise"_a, "real_time_factor"_a);
+    py::class_<PythonAgents>(module, "AgentRun", "A run that agents drive. forage.gym uses it.")
+        .def(py::init([](const PythonTask& task) { return std::make_unique<PythonAgents>(task.task); }),
+             "task"_a)
+        .def("reset", &reset, "seed"_a, "starts"_a)
+        .def(
+            "act", [](PythonAgents& self, std::size_t i, const py::object& a) { act(self, i, a); }, "agent"_a,
+            "action"_a)
+        .def("step", &step)
+        .def("step_with", &step_with, "action"_a)
+        .def("observation", &observation, "agent"_a)
+        .def("outcome", &outcome, "agent"_a)
+        .def(
+            "sensors", [](const PythonAgents& self, std::size_t i) { return ports(self.run.sensors(i)); },
+            "agent"_a)
+        .def(
+            "motors", [](const PythonAgents& self, std::size_t i) { return ports(self.run.motors(i)); },
+            "agent"_a)
+        .def("picture", &picture)
+        .def_property_readonly("run",
+                               [](PythonAgents& self) { return std::make_shared<PythonRun>(self.run.run()); })
+        .def_property_readonly("robots", [](const PythonAgents& self) {
+            std::vector<std::string> out;
+            for (std::size_t i = 0; i < self.run.agents(); ++i) out.push_back(self.run.robot(i));
+            return out;
+        });
+    py::class_<PythonPool>(module, "AgentPool", "Runs that are stepped together. forage.gym uses it.")
+        .def(py::init([](const PythonTask& task, std::size_t runs, int threads) {
+                 return std::make_unique<PythonPool>(task.task, runs, threads);
+             }),
+             "task"_a, "runs"_a, "threads"_a)
+        .def("reset", &reset_pool, "seeds"_a)
+        .def("step", &step_pool, "actions"_a)
+        .def("sensors", [](PythonPool& self) { return ports(self.pool[0].sensors(0)); })
+        .def("motors", [](PythonPool& self) { return ports(self.pool[0].motors(0)); })
+        .def_property_readonly("threads", [](const PythonPool& self) { return self.pool.threads(); });
+}
+
+}  // namespace forage::python

@@ -1,0 +1,342 @@
+"""Robots for learning agents: environments with the interfaces of Gymnasium and PettingZoo.
+
+    from forage.gym import BugEnv
+
+    env = BugEnv("systems/worlds/basic_arena.world", sensors=["target"])
+    observation, info = env.reset(seed=1)
+    observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
+
+The environments are subclasses of gymnasium.Env, gymnasium.vector.VectorEnv and pettingzoo.ParallelEnv where these are
+installed, and have the same methods elsewhere.
+"""
+import numpy
+
+from . import _forage
+from ._errors import InputError, RunError
+
+try:
+    from gymnasium import Env, spaces
+    from gymnasium import vector as _vector
+    from gymnasium.vector import VectorEnv
+    from gymnasium.vector.utils import batch_space
+
+    _next_step = _vector.AutoresetMode.NEXT_STEP if hasattr(_vector, "AutoresetMode") else "NextStep"
+except ImportError:
+    from . import _spaces as spaces
+    from ._spaces import Env, VectorEnv, batch_space
+
+    _next_step = "NextStep"
+try:
+    from pettingzoo import ParallelEnv
+except ImportError:
+    from ._spaces import ParallelEnv
+
+__all__ = ["BugEnv", "BugParallelEnv", "BugVectorEnv"]
+
+_render_modes = ["rgb_array", "human"]
+
+
+def _ports(ports):
+    """Sensors or motors as names with rows and columns: 0 for the usual size."""
+    if isinstance(ports, str):
+        ports = [ports]
+    sizes = ports if isinstance(ports, dict) else dict.fromkeys(ports)
+    return [(name, *(size or (0, 0))) for name, size in sizes.items()]
+
+
+def _agent(robot, system, sensors, motors, reward):
+    if system is not None and (sensors is None or motors is None):
+        raise InputError("with a system, name its sensor and motor groups: sensors=['Bug/Light'], motors=['Bug/Motor']")
+    expression = reward if isinstance(reward, str) else ""
+    return (robot, _ports("target" if sensors is None else sensors), _ports("motor" if motors is None else motors), expression)
+
+
+def _task(world, system, agents, options, every_robot=False):
+    usual = {"action": "cell", "cycles_per_step": 5, "max_steps": 1000, "end_at_target": True, "speed": (1.0, 1.5), "seed": 1,
+             "settings": None, "plugins": (), "noise": True, "real_time_factor": None}
+    unknown = set(options) - set(usual)
+    if unknown:
+        raise TypeError(f"unknown options: {', '.join(sorted(unknown))}; there are {', '.join(usual)}")
+    return _forage.AgentTask(world=world, system=system, agents=agents, every_robot=every_robot, **{**usual, **options})
+
+
+def _observation_space(sensors):
+    low, high = [], []
+    for _, shape, unit_range in sensors:
+        n = int(numpy.prod(shape))
+        low += [0.0 if unit_range else -numpy.inf] * n
+        high += [1.0 if unit_range else numpy.inf] * n
+    return spaces.Box(numpy.array(low, numpy.float32), numpy.array(high, numpy.float32), dtype=numpy.float32)
+
+
+def _action_space(motors, action):
+    cells = [int(numpy.prod(shape)) for _, shape, _ in motors]
+    if action == "cell":
+        choices = [max(n, 2) for n in cells]
+        return spaces.Discrete(choices[0]) if len(choices) == 1 else spaces.MultiDiscrete(choices)
+    low = []
+    for n in cells:
+        low += [-1.0] * 2 if action == "velocity" and n > 1 else [0.0] * (1 if action == "velocity" else n)
+    return spaces.Box(numpy.array(low, numpy.float32), numpy.ones(len(low), numpy.float32), dtype=numpy.float32)
+
+
+def _starts(options, robots):
+    """The start poses in the options of reset(): "start" is one of them, or a dictionary by robot."""
+    start = (options or {}).get("start")
+    if start is None:
+        return []
+    return [tuple(start[r]) for r in robots] if isinstance(start, dict) else [tuple(start)]
+
+
+class _Rendered:
+    """What the environments of one run share: the run, its pictures, and its end."""
+
+    _agents = None
+    _figure = None
+
+    def _open(self, task, render_mode):
+        if render_mode not in (None, *_render_modes):
+            raise InputError(f"'{render_mode}' is not a way to render; there are {', '.join(_render_modes)}, and None")
+        self.render_mode = render_mode
+        self._agents = _forage.AgentRun(task)
+
+    @property
+    def _use(self):
+        if self._agents is None:
+            raise RunError("this environment is closed")
+        return self._agents
+
+    @property
+    def run(self):
+        """The forage.Run in which the agents act, to read, record and change; reset(seed=...) makes a new one.
+
+        Only what the agents sense, the reward and the modules depend on is computed in it.
+        """
+        return self._use.run
+
+    def render(self):
+        """The world from above, and what cameras see: an array of shape (height, width, 3) of bytes, or a window ("human").
+
+        The window needs matplotlib.
+        """
+        if self.render_mode is None:
+            return None
+        picture = self._use.picture()
+        if self.render_mode == "rgb_array":
+            return picture
+        self._show(picture)
+
+    def _show(self, picture):
+        from matplotlib import pyplot
+
+        if self._figure is None:
+            self._figure = pyplot.figure(figsize=(picture.shape[1] / 100, picture.shape[0] / 100))
+            axes = self._figure.add_axes((0, 0, 1, 1))
+            axes.axis("off")
+            self._image = axes.imshow(picture)
+            pyplot.ion()
+            self._figure.show()
+        self._image.set_data(picture)
+        self._figure.canvas.draw_idle()
+        self._figure.canvas.flush_events()
+
+    def close(self):
+        """Frees the run. Closing again does nothing; other uses then raise RunError."""
+        if self._figure is not None:
+            from matplotlib import pyplot
+
+            pyplot.close(self._figure)
+            self._figure = None
+        self._agents = None
+
+
+class BugEnv(_Rendered, Env):
+    """A robot in a world, as an environment of Gymnasium.
+
+    An episode is a trial: the robot starts at the next start pose of the world, and the episode ends when it reaches a
+    target or leaves the bounds. It is truncated after max_steps. A step is cycles_per_step cycles.
+
+    world: a .world file.
+    system: an .iqr file, the brain in the loop; without one, sensors and motors are all there is.
+    sensors: without a system, names such as "target", "proximity", "image_RH", "gps", "placeCell" (`forage types
+        moduleGazeboBug` lists them, with a leading '_'), or a dictionary with their (rows, columns); with a system, sources
+        such as "Bug/Light". An observation is one vector of 32-bit numbers, all sensors one after the other.
+    motors: without a system "motor" and "gripper", or a dictionary with (rows, columns); with a system, groups such as
+        "Bug/Motor". Their activity is overwritten in every cycle.
+    action: "cell": the number of the active cell of each motor group, counted row by row, 0 or 1 for a single cell. Without a
+        system the usual motor group is 3 x 3: rows forward, stand, backward; columns left, straight, right. "velocity":
+        forward and turn, -1 to 1, as the nearest cell. "activity": the activities of all cells.
+    reward: None: 1 in the step in which the robot reaches a target. A source of one number, such as "mean(Bug/Light)", after
+        the last cycle of the step. Or a function of this environment.
+    robot: its name in the world; the first one when empty.
+    render_mode: "rgb_array", "human" or None.
+
+    Other options: cycles_per_step=5, max_steps=1000 (0: endless), end_at_target=True, speed=(1.0, 1.5) (m/s and rad/s at full
+    speed, without a system), seed=1 (until reset() is called with one), settings, plugins, noise, real_time_factor as in
+    forage.open(). Raises InputError.
+    """
+
+    metadata = {"render_modes": _render_modes, "render_fps": 5}
+
+    def __init__(self, world, system=None, *, sensors=None, motors=None, reward=None, robot="", render_mode=None, **options):
+        task = _task(world, system, [_agent(robot, system, sensors, motors, reward)], options)
+        self._open(task, render_mode)
+        self._reward = reward if callable(reward) else None
+        self.sensors = self._agents.sensors(0)
+        self.observation_space = _observation_space(self.sensors)
+        self.action_space = _action_space(self._agents.motors(0), options.get("action", "cell"))
+        self.observation = self._agents.observation(0)
+        """What the robot has sensed by the end of the last step, for functions of the reward."""
+
+    def reset(self, *, seed=None, options=None):
+        """Begins an episode, and returns (observation, info).
+
+        With a seed, the run begins anew, and the same actions give the same bits. Without one, the brain keeps what it has
+        learned, and the robot starts at the next start pose. options={"start": (x, y, yaw)}, in m and rad, places it there.
+        """
+        super().reset(seed=seed)
+        self._use.reset(seed, _starts(options, self._agents.robots))
+        self.observation = self._agents.observation(0)
+        if self.render_mode == "human":
+            self.render()
+        return self.observation, {"reached_target": False}
+
+    def step(self, action):
+        """Runs a step, and returns (observation, reward, terminated, truncated, info).
+
+        Raises InputError for an action that is not in the action space, and RunError when the episode has ended.
+        """
+        self.observation, reward, terminated, truncated, reached = self._use.step_with(action)
+        if self._reward is not None:
+            reward = float(self._reward(self))
+        if self.render_mode == "human":
+            self.render()
+        return self.observation, reward, terminated, truncated, {"reached_target": reached}
+
+    def split(self, observation):
+        """The sensors in an observation: a dictionary of arrays with the shapes of their groups."""
+        out, first = {}, 0
+        for name, shape, _ in self.sensors:
+            n = int(numpy.prod(shape))
+            out[name] = observation[first:first + n].reshape(shape)
+            first += n
+        return out
+
+
+class BugParallelEnv(_Rendered, ParallelEnv):
+    """The robots of a world, each with an agent, as a parallel environment of PettingZoo.
+
+    The agents have the names of the robots. The options are those of BugEnv; with a system, sensors, motors and rewards are
+    dictionaries by robot, and only the robots in `sensors` have agents. A function for the reward gets this environment and
+    the robot's name. An agent whose episode has ended is no longer in `agents`; its robot stands until reset().
+    """
+
+    metadata = {"render_modes": _render_modes, "render_fps": 5, "name": "forage_bug_v0", "is_parallelizable": True}
+
+    def __init__(self, world, system=None, *, sensors=None, motors=None, reward=None, render_mode=None, **options):
+        def of(what, robot):
+            return what[robot] if isinstance(what, dict) else what
+
+        if system is None:
+            agents = [_agent("", system, sensors, motors, reward)]
+        elif isinstance(sensors, dict) and isinstance(motors, dict):
+            agents = [_agent(robot, system, sensors[robot], of(motors, robot), of(reward, robot)) for robot in sensors]
+        else:
+            raise InputError("with a system, sensors and motors are dictionaries of the groups of each robot")
+        self._open(_task(world, system, agents, options, every_robot=system is None), render_mode)
+        self._reward = reward if callable(reward) else None
+        self.possible_agents = self._agents.robots
+        self._numbers = {name: i for i, name in enumerate(self.possible_agents)}
+        self.agents = []
+        self.observation_spaces = {n: _observation_space(self._agents.sensors(i)) for n, i in self._numbers.items()}
+        action = options.get("action", "cell")
+        self.action_spaces = {n: _action_space(self._agents.motors(i), action) for n, i in self._numbers.items()}
+
+    def observation_space(self, agent):
+        return self.observation_spaces[agent]
+
+    def action_space(self, agent):
+        return self.action_spaces[agent]
+
+    def reset(self, seed=None, options=None):
+        """Begins an episode of all agents, and returns (observations, infos), as BugEnv does.
+
+        options={"start": {robot: (x, y, yaw), ...}} places the robots.
+        """
+        self._use.reset(seed, _starts(options, self.possible_agents))
+        self.agents = list(self.possible_agents)
+        if self.render_mode == "human":
+            self.render()
+        return ({n: self._agents.observation(i) for n, i in self._numbers.items()},
+                {n: {"reached_target": False} for n in self.agents})
+
+    def step(self, actions):
+        """Runs a step with the actions of all agents, and returns (observations, rewards, terminations, truncations, infos)."""
+        run = self._use
+        missing = set(self.agents) - set(actions)
+        if missing:
+            raise InputError(f"no action for {', '.join(sorted(missing))}")
+        for name in self.agents:
+            run.act(self._numbers[name], actions[name])
+        run.step()
+        parts = {name: run.outcome(self._numbers[name]) for name in self.agents}
+        observations, rewards, terminations, truncations = ({n: p[k] for n, p in parts.items()} for k in range(4))
+        infos = {n: {"reached_target": p[4]} for n, p in parts.items()}
+        if self._reward is not None:
+            rewards = {n: float(self._reward(self, n)) for n in parts}
+        self.agents = [n for n, p in parts.items() if not (p[2] or p[3])]
+        if self.render_mode == "human":
+            self.render()
+        return observations, rewards, terminations, truncations, infos
+
+
+class BugVectorEnv(VectorEnv):
+    """Worlds side by side, one robot each, as a vector environment of Gymnasium.
+
+    All of a step runs on `threads` threads (0: one per core), without Python. The options are those of BugEnv; the reward is
+    None or a source. Environment i has the seed of environment 0 plus i. An environment whose episode has ended begins the
+    next one in the step that follows (Gymnasium calls this NEXT_STEP); its action is then ignored, and its reward is 0.
+    """
+
+    metadata = {"render_modes": [], "autoreset_mode": _next_step}
+    _pool = None
+
+    def __init__(self, num_envs, world, system=None, *, sensors=None, motors=None, reward=None, robot="", threads=0, **options):
+        if callable(reward):
+            raise InputError("the reward of worlds side by side is a source, such as 'mean(Bug/Light)', not a function")
+        task = _task(world, system, [_agent(robot, system, sensors, motors, reward)], options)
+        self.num_envs = num_envs
+        self.render_mode = None
+        self._pool = _forage.AgentPool(task, num_envs, threads)
+        self.sensors = self._pool.sensors()
+        self.single_observation_space = _observation_space(self.sensors)
+        self.single_action_space = _action_space(self._pool.motors(), options.get("action", "cell"))
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self.action_space = batch_space(self.single_action_space, num_envs)
+
+    @property
+    def threads(self):
+        """The number of threads that share a step."""
+        return self._use.threads
+
+    @property
+    def _use(self):
+        if self._pool is None:
+            raise RunError("this environment is closed")
+        return self._pool
+
+    def reset(self, *, seed=None, options=None):
+        """Begins an episode everywhere. `seed` is a number for environment 0, or one number per environment."""
+        seeds = [] if seed is None else [int(seed) + i for i in range(self.num_envs)] if numpy.ndim(seed) == 0 else list(seed)
+        super().reset(seed=int(seeds[0]) if seeds else None)
+        if seeds and len(seeds) != self.num_envs:
+            raise InputError(f"{len(seeds)} seeds for {self.num_envs} environments")
+        return self._use.reset(seeds), {"reached_target": numpy.zeros(self.num_envs, bool)}
+
+    def step(self, actions):
+        """Runs a step everywhere. All parts of what it returns have one row per environment."""
+        observations, rewards, terminated, truncated, reached = self._use.step(actions)
+        return observations, rewards, terminated, truncated, {"reached_target": reached}
+
+    def close_extras(self, **options):
+        self._pool = None
