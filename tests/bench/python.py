@@ -1,4 +1,4 @@
-"""What Python costs: run.run() beside the command line, and step() with a read beside run.run().
+"""What Python costs: run.run() beside the command line, step() with a read beside run.run(), an import, and Ctrl-C.
 
     python.py FORAGE
 
@@ -7,6 +7,7 @@ with the package in PYTHONPATH. Times are those of one run each, taken in turns;
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import threading
@@ -73,6 +74,21 @@ def in_threads(count):
     return time.perf_counter() - begin
 
 
+def import_time():
+    code = "import time; start = time.perf_counter(); import forage; print(time.perf_counter() - start)"
+    return float(subprocess.run([sys.executable, "-B", "-c", code], check=True, capture_output=True, text=True).stdout)
+
+
+def interrupt_time(run):
+    """How long a run goes on after Ctrl-C."""
+    sent = []
+    threading.Timer(0.1, lambda: (sent.append(time.perf_counter()), signal.raise_signal(signal.SIGINT))).start()
+    try:
+        run.run(cycles=10**9)
+    except KeyboardInterrupt:
+        return time.perf_counter() - sent[0]
+
+
 def main():
     program = sys.argv[1]
     if shutil.which("valgrind"):
@@ -84,7 +100,9 @@ def main():
     if os.cpu_count() > 1:
         one, two = smallest(lambda: in_threads(1), lambda: in_threads(2))
         result("python/two runs in two threads", "rate / of one", 2 * one / two, "")
+    result("python/import forage", "time", 1000 * smallest(import_time)[0], "ms")
     with forage.open(SYSTEM, world=WORLD) as run:
+        result("python/Ctrl-C", "time to the end of the run", 1000 * sorted(interrupt_time(run) for _ in range(TURNS))[TURNS // 2], "ms")
         act = run["Bug/Light"].act
         run.run(cycles=100)
         result("python/read of a state", "copies", float(act is not run["Bug/Light"].act or act.flags.owndata), "")

@@ -154,7 +154,7 @@ FORAGE_PLUGIN(Wrong);
         self.assertIn("1.1 ", run("forage tutorial", self.folder, self.environment))
 
     def test_the_packages_depend_on_what_they_need_and_hold_no_path_of_the_build(self):
-        self.assertEqual(sorted(self.packages), ["forage", "forage-dev", "forage-doc"])
+        self.assertEqual(sorted(set(self.packages) - {"python3-forage"}), ["forage", "forage-dev", "forage-doc"])
         depends = {name: run(["dpkg-deb", "-f", file, "Depends"], self.folder) for name, file in self.packages.items()}
         for library in ("libtinyxml2", "libopencv-core", "libbullet"):
             self.assertIn(library, depends["forage"])
