@@ -94,13 +94,14 @@ void BulletContacts::set(std::size_t number, const PointContact& c) {
     };
     contact.setBodies(object(c.body), object(c.other));
     contact.setNumContacts(1);
-    btManifoldPoint& point = contact.getContactPoint(0) = btManifoldPoint();
     const Eigen::Vector2d& normal = c.overlap.normal;
+    const btVector3 zero(0, 0, 0);
+    // The constructor without arguments leaves the restitution unset.
+    btManifoldPoint& point = contact.getContactPoint(0) =
+        btManifoldPoint(zero, zero, vector(normal), scalar(-c.overlap.depth));
     point.m_positionWorldOnA = point.m_positionWorldOnB = vector(c.point);
-    point.m_normalWorldOnB = vector(normal);
     point.m_lateralFrictionDir1 = vector(-normal.y(), normal.x());
     point.m_contactPointFlags = BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;
-    point.m_distance1 = scalar(-c.overlap.depth);
     point.m_combinedFriction = scalar(c.friction);
     point.m_appliedImpulse = scalar(c.push), point.m_appliedImpulseLateral1 = scalar(c.rub);
     used_contacts_.push_back(&contact);

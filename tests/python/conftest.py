@@ -12,6 +12,11 @@ SMALL = SYSTEMS / "cookbook/oscillator.iqr"  # without a world
 WORLD = SYSTEMS / "worlds/basic_arena.world"
 
 
+def outside():
+    """The environment of the command line, which has a sanitizer of its own, if any."""
+    return {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
+
+
 def open_dac(**options):
     """The DAC system in its arena."""
     return forage.open(SYSTEMS / "dac_foraging.iqr", world=WORLD, **options)
@@ -28,8 +33,7 @@ def command(tmp_path):
     """Runs the command line, and returns what it prints."""
 
     def call(*arguments):
-        environment = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}  # of a sanitizer
-        done = subprocess.run([os.environ["FORAGE"], *map(str, arguments)], cwd=tmp_path, env=environment, capture_output=True, text=True)
+        done = subprocess.run([os.environ["FORAGE"], *map(str, arguments)], cwd=tmp_path, env=outside(), capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
         return done.stdout
 

@@ -11,7 +11,7 @@ import pandas
 import pytest
 
 import forage
-from conftest import PROJECT, SYSTEMS, WORLD
+from conftest import PROJECT, SYSTEMS, WORLD, outside
 from system_test import forager
 
 REACTIVE = SYSTEMS / "reactive_foraging.iqr"
@@ -26,7 +26,7 @@ SHORT = {"seeds": 2, "cycles": 100}
 def table(tmp_path_factory):
     """That of the command line."""
     directory = tmp_path_factory.mktemp("experiment")
-    subprocess.run([os.environ["FORAGE"], "experiment", EXPERIMENT, "-o", directory / "line"], check=True, capture_output=True)
+    subprocess.run([os.environ["FORAGE"], "experiment", EXPERIMENT, "-o", directory / "line"], check=True, capture_output=True, env=outside())
     return pandas.read_csv(directory / "line/results.csv", keep_default_na=False, float_precision="round_trip")
 
 

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as some
 
 import forage
-from conftest import SYSTEMS, WORLD
+from conftest import SYSTEMS, WORLD, outside
 from forage import Arborization, DistanceFunction, Pattern
 
 FILES = sorted(SYSTEMS.glob("*.iqr")) + sorted((SYSTEMS / "cookbook").glob("*.iqr"))
@@ -177,7 +177,8 @@ def test_all_other_mistakes_are_those_of_check(command, tmp_path):
         forage.open(system, world=WORLD)
     assert str(opened.value) == str(caught.value)
     system.save(tmp_path / "forager.iqr")
-    done = subprocess.run([os.environ["FORAGE"], "check", tmp_path / "forager.iqr", "--world", WORLD], capture_output=True, text=True)
+    done = subprocess.run([os.environ["FORAGE"], "check", tmp_path / "forager.iqr", "--world", WORLD], capture_output=True, text=True,
+                          env=outside())
     assert done.returncode == 2
     with pytest.raises(forage.InputError) as saved:
         system.validate(WORLD)
