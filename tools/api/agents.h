@@ -36,7 +36,8 @@ struct Agent {
     AgentBody body = {};  ///< used without a system
     std::vector<std::string> sensors = {};  ///< with a system: sources such as "Bug/Light"
     std::vector<std::string> motors = {};   ///< with a system: groups such as "Bug/Motor"
-    std::string reward = {};                ///< a source of one number; 1 for reaching the target when empty
+    /// A source of one number, read at the end of a step. When empty, reaching the target is worth 1.
+    std::string reward = {};
 };
 
 struct AgentOptions {
