@@ -541,6 +541,51 @@ class Others(Cli):
         bad.write_text(SMALL_SYSTEM.replace('name="excGain"', 'name="exGain"'))
         self.assertIn("did you mean 'excGain'", self.forage("describe", bad, status=2).stderr)
 
+    def test_a_system_is_described_for_programs(self):
+        system = json.loads(self.forage("describe", SYSTEM, "--json").stdout)
+        self.assertEqual([p["name"] for p in system["processes"]], ["Bug", "Reactive Layer", "Selection"])
+        light = system["connections"][0]
+        self.assertEqual((light["source"], light["target"], light["synapses"]), ("Bug/Light", "Reactive Layer/US", 64))
+        self.assertEqual(light["attenuation"], "Gaussian, 0 to 1, sigma 5")
+        self.assertEqual(system["processes"][0]["module"]["writes"]["_target"], "Bug/Light")
+        self.assertEqual(system["processes"][1]["groups"][0]["neuron"]["parameters"]["excGain"], "5")
+
+    def awkward_system(self):
+        """A system whose names have every character that is special in one of the formats."""
+        awkward = self.here / "awkward.iqr"
+        awkward.write_text(SMALL_SYSTEM.replace('"A"', r'"A|B*_&lt;$%#&amp;{}~^\/&quot;"'))
+        return awkward
+
+    def test_a_system_is_described_in_markdown(self):
+        for system in (SYSTEM, self.awkward_system()):
+            text = self.forage("describe", system, "--format", "markdown").stdout
+            rows = [line for line in text.splitlines() if line.startswith("|")]
+            self.assertIn("| Group | Size | Neuron | Parameters |", rows)
+            for row in rows:
+                self.assertIn(len(re.findall(r"(?<!\\)\|", row)), (3, 5, 8), row)
+
+    @unittest.skipUnless(shutil.which("pdflatex"), "pdflatex is not installed")
+    def test_tables_for_papers_are_typeset(self):
+        for system in (SYSTEM, self.awkward_system()):
+            (self.here / "tables.tex").write_text(self.forage("describe", system, "--latex").stdout)
+            (self.here / "paper.tex").write_text(
+                r"\documentclass{article}\usepackage[T1]{fontenc}\usepackage{longtable,booktabs,array}"
+                r"\begin{document}\input{tables}\end{document}")
+            done = subprocess.run(["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "paper.tex"], cwd=self.here,
+                                  capture_output=True, text=True, errors="replace")
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertTrue((self.here / "paper.pdf").exists())
+
+    @unittest.skipUnless(shutil.which("dot"), "Graphviz is not installed")
+    def test_the_graph_is_drawn(self):
+        for system, groups, connections in ((SYSTEM, 17, 10), (self.awkward_system(), None, None)):
+            graph = self.forage("describe", system, "--dot").stdout
+            drawn = subprocess.run(["dot", "-Tsvg"], input=graph, capture_output=True, text=True)
+            self.assertEqual((drawn.returncode, drawn.stderr), (0, ""))
+            if groups:
+                self.assertEqual(drawn.stdout.count('class="node"'), groups)
+                self.assertEqual(drawn.stdout.count('class="edge"'), connections)
+
     def test_every_command_has_help_with_an_example_that_names_it(self):
         for command in re.findall(r"^  (\w+) ", self.forage("--help").stdout.split("Subcommands:")[1], re.MULTILINE):
             text = self.forage(command, "--help").stdout

@@ -8,6 +8,7 @@
 #include "core/xml/writer.h"
 #include "tools/api/saved_run.h"
 #include "tools/api/sources.h"
+#include "tools/api/system_description.h"
 #include "tools/plot/structure.h"
 
 namespace forage {
@@ -90,6 +91,13 @@ std::string diagram(const SystemFile& file, const std::string& process, const st
     throw_errors(diagnostics);
     const std::string name = std::filesystem::path(file.path).filename().string();
     return plot::render(plot::structure_plot(*spec, file.model, *file.types, nullptr, 1, name), *wanted);
+}
+
+std::string describe(const SystemFile& file, const std::string& format, std::uint64_t seed) {
+    Diagnostics diagnostics;
+    const auto compiled = compile(file, {}, seed, diagnostics);
+    throw_errors(diagnostics);
+    return in_format(describe(file.model, *compiled), format);
 }
 
 SynapseTable synapses(const SystemFile& file, const std::string& id, std::uint64_t seed) {

@@ -47,6 +47,11 @@ struct PlotOptions {
     std::string plot_format = "png";
 };
 
+struct DescribeOptions {
+    RunInput input;
+    std::string format = "text";  ///< text, markdown, latex, dot or json
+};
+
 struct ExperimentOptions {
     std::string file;
     std::string directory;  ///< empty: forage-out/ and the file's name
@@ -103,8 +108,8 @@ int convert(const ConvertOptions& options);
 int check(const RunInput& input);
 /// Checks a world, lists its contents and draws it from above.
 int world(const WorldCommand& options);
-/// Prints the tree of processes, groups and connections, with sizes and the kernel form of each connection.
-int describe(const RunInput& input);
+/// Prints the processes, groups and connections of a system, with sizes.
+int describe(const DescribeOptions& options);
 /// Writes a page with the pictures and tables of a directory of results: plain HTML that loads nothing from
 /// the network.
 int view(const std::string& directory);

@@ -60,7 +60,8 @@ int program(int argc, char** argv) {
     ExperimentOptions experiment_options;
     ConvertOptions convert_options;
     PlotOptions plot_options;
-    forage::RunInput check_input, describe_input;
+    forage::RunInput check_input;
+    DescribeOptions describe_options;
     std::string type;
     add_run(app, run_options);
     RunOptions explain_options;
@@ -81,8 +82,21 @@ int program(int argc, char** argv) {
     add_input(check_command, check_input);
     auto& describe_command =
         *app.add_subcommand("describe", "Show the processes, groups and connections of a system, with sizes");
-    describe_command.footer("Example:\n  forage describe systems/reactive_foraging.iqr");
-    add_input(describe_command, describe_input);
+    describe_command.footer(
+        "Example:\n"
+        "  forage describe systems/reactive_foraging.iqr\n"
+        "  forage describe systems/reactive_foraging.iqr --format latex > reactive_foraging.tex");
+    add_input(describe_command, describe_options.input);
+    describe_command
+        .add_option("--format", describe_options.format,
+                    "text; for papers: markdown or latex (tables), dot (a graph for Graphviz); for programs: "
+                    "json [text]")
+        ->check(one_of({"text", "markdown", "latex", "dot", "json"}))
+        ->option_text("FORMAT");
+    for (const char* format : {"markdown", "latex", "dot", "json"})
+        describe_command.add_flag_callback(
+            std::string("--") + format, [&, format] { describe_options.format = format; },
+            std::string("The same as --format ") + format);
     check_command.footer(
         "Example:\n  forage check systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world");
     WorldCommand world_options;
@@ -165,7 +179,7 @@ int program(int argc, char** argv) {
         if (app.got_subcommand("plot")) return plot(plot_options);
         if (app.got_subcommand("check")) return check(check_input);
         if (app.got_subcommand("world")) return world(world_options);
-        if (app.got_subcommand("describe")) return describe(describe_input);
+        if (app.got_subcommand("describe")) return describe(describe_options);
         if (app.got_subcommand("convert")) return convert(convert_options);
         if (app.got_subcommand("view")) return view(directory);
         if (app.got_subcommand("man")) return fmt::print("{}", man_page(app)), fine;

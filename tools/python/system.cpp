@@ -220,6 +220,14 @@ Raises InputError with all mistakes. Their lines are those of to_xml(). Warnings
              "Draws the processes, groups and connections of the system, or of one process, as `forage plot` "
              "does. Returns a "
              "Picture. Raises InputError.")
+        .def(
+            "describe",
+            [](const PythonSystem& self, const std::string& format) { return describe(self, format); },
+            "format"_a = "text",
+            R"(Describes processes, groups, modules and connections, as `forage describe` does.
+
+format: "text"; for papers "markdown" or "latex" (tables), or "dot" (a graph for Graphviz); for programs "json".
+Raises InputError for mistakes in the system, and ValueError for another format.)")
         .def("_repr_svg_", [](const PythonSystem& self) { return diagram(self, {}, "svg"); })
         .def("copy", &copy_of, "An independent copy.")
         .def("__copy__", &copy_of)

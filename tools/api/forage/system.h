@@ -64,6 +64,11 @@ Run open(const SystemFile& file, const OpenOptions& options = {}, Diagnostics* w
 std::string diagram(const SystemFile& file, const std::string& process = {},
                     const std::string& format = "png");
 
+/// The description that `forage describe` prints: "text"; for papers "markdown" or "latex" (tables) and "dot"
+/// (a graph for Graphviz); for programs "json". Throws InputError for mistakes in the system, and
+/// std::invalid_argument for another format.
+std::string describe(const SystemFile& file, const std::string& format = "text", std::uint64_t seed = 1);
+
 /// The synapses of a connection, in the order in which the inputs of a target are summed.
 struct SynapseTable {
     std::vector<int> source, target;  ///< numbers of cells, from 0, row by row

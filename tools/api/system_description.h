@@ -1,0 +1,84 @@
+// The description of a system in words: its groups, modules and connections, for terminals, papers and
+// programs.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/engine/simulation.h"
+#include "core/model/system.h"
+
+namespace forage {
+
+/// A type in use, with the parameters that the system sets, as they are written there.
+struct TypeDescription {
+    std::string type;
+    std::vector<std::pair<std::string, std::string>> parameters;
+};
+
+struct GroupDescription {
+    std::string id, name;
+    std::string path;                      ///< "Process/Group"
+    int width = 0, height = 0, cells = 0;  ///< a sparse group has fewer cells than width times height
+    TypeDescription neuron;
+    std::string notes;
+};
+
+/// A group that a module reads or writes.
+struct PortDescription {
+    std::string name, group;  ///< the cross reference, and the path of the group
+    bool writes = false;
+};
+
+struct ProcessDescription {
+    std::string id, name;
+    std::string file;        ///< the process file that it is linked to; empty for other processes
+    TypeDescription module;  ///< without a type when the process has no module
+    bool module_enabled = true;
+    std::vector<PortDescription> ports;
+    std::vector<GroupDescription> groups;
+    std::string notes;
+};
+
+struct ConnectionDescription {
+    std::string id, name;
+    std::string source, target;  ///< paths of groups
+    std::string kind;            ///< excitatory, inhibitory or modulatory
+    std::size_t synapses = 0;
+    std::string form;  ///< how it is computed: "window", "list", ...
+    /// Which cells are paired, how a pair spreads into synapses, and how attenuation and delay follow from
+    /// the distance; "none" for attenuations and delays that are 0.
+    std::string pattern, arborization, attenuation, delay;
+    TypeDescription synapse;
+    std::string notes;
+};
+
+struct SystemDescription {
+    std::string name, author, date;
+    double cycles_per_second = 0;  ///< Hz; 0: as fast as possible
+    std::vector<ProcessDescription> processes;
+    std::vector<ConnectionDescription> connections;
+    std::string notes;
+    std::size_t groups() const, cells() const, synapses() const;
+};
+
+/// Describes a system that was compiled from `system`.
+SystemDescription describe(const model::System& system, const engine::Simulation& compiled);
+
+/// The description for a terminal: each connection below its source.
+std::string as_text(const SystemDescription& description);
+/// Three tables in Markdown: processes and modules, groups, connections.
+std::string as_markdown(const SystemDescription& description);
+/// The tables of Nordlie, Gewaltig and Plesser (2009, PLoS Comput. Biol. 5:e1000456) as a LaTeX fragment for
+/// \input: a summary, populations, connections. It needs the packages longtable and booktabs.
+std::string as_latex(const SystemDescription& description);
+/// A graph for Graphviz: groups in a cluster per process, connections in the colours of the diagram.
+std::string as_dot(const SystemDescription& description);
+/// An object with the members of SystemDescription, in JSON (RFC 8259).
+std::string as_json(const SystemDescription& description);
+/// The description in a format that is text, markdown, latex, dot or json. Throws std::invalid_argument.
+std::string in_format(const SystemDescription& description, const std::string& format);
+
+}  // namespace forage
