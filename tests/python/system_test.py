@@ -204,6 +204,7 @@ def test_a_block_is_carried_out_as_a_whole():
 
 
 def test_matrix():
+    pytest.importorskip("scipy")
     system = forager()
     connection = system["Light to Motor"]
     connection.delay = 2
@@ -222,9 +223,18 @@ def test_matrix():
 
 
 def test_matrix_of_learning_synapses():
+    pytest.importorskip("scipy")
     system = forage.System.read(SYSTEMS / "cookbook/hebbian_association.iqr")
     for connection in system.connections:
         assert connection.matrix().nnz > 0
+
+
+def test_descriptions_are_those_of_the_command_line(command):
+    file = SYSTEMS / "reactive_foraging.iqr"
+    for format in ("text", "markdown", "latex", "dot", "json"):
+        assert forage.System.read(file).describe(format) == command("describe", file, "--format", format)
+    with pytest.raises(ValueError, match="expected text, markdown, latex, dot or json"):
+        forager().describe("html")
 
 
 def test_diagram(command, tmp_path):
