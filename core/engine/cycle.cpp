@@ -128,9 +128,10 @@ Cycle::Found Cycle::update_part(int batch, Part part, int thread) {
             state_.groups[p.groups[i]].neuron->update(columns);
         } catch (...) {
             const auto& about = plan_.layout.groups[p.groups[i]];
-            throw RunError(fmt::format("{} of group '{}'{} failed in cycle {}: {}", about.type.name,
-                                       about.path, together > 1 ? " or of one that is updated with it" : "",
-                                       cycle, current_exception_message()));
+            std::throw_with_nested(
+                RunError(fmt::format("{} of group '{}'{} failed in cycle {}: {}", about.type.name, about.path,
+                                     together > 1 ? " or of one that is updated with it" : "", cycle,
+                                     current_exception_message())));
         }
         time_invariant &= columns.time_invariant();
     }
@@ -210,8 +211,9 @@ void Cycle::start_modules() {
             m.module->start(plan_.modules[i].ports, frame);
         } catch (...) {
             const auto& about = plan_.layout.modules[i];
-            throw RunError(fmt::format("{} of process '{}' could not start: {}", about.type.name,
-                                       about.process, current_exception_message()));
+            std::throw_with_nested(
+                RunError(fmt::format("{} of process '{}' could not start: {}", about.type.name, about.process,
+                                     current_exception_message())));
         }
         note_changes(i);
     }
@@ -230,8 +232,9 @@ void Cycle::update_modules() {
             m.module->update(frame);
         } catch (...) {
             const auto& about = plan_.layout.modules[i];
-            throw RunError(fmt::format("{} of process '{}' failed in cycle {}: {}", about.type.name,
-                                       about.process, state_.cycle, current_exception_message()));
+            std::throw_with_nested(
+                RunError(fmt::format("{} of process '{}' failed in cycle {}: {}", about.type.name,
+                                     about.process, state_.cycle, current_exception_message())));
         }
         note_changes(i);
     }
@@ -328,8 +331,9 @@ void Cycle::deliver_through(const DeliveryPlan& d, int connection, const Kernel&
         }
     } catch (...) {
         const auto& about = plan_.layout.connections[connection];
-        throw RunError(fmt::format("{} of connection '{}' failed in cycle {}: {}", about.type.name,
-                                   about.name, state_.cycle, current_exception_message()));
+        std::throw_with_nested(
+            RunError(fmt::format("{} of connection '{}' failed in cycle {}: {}", about.type.name, about.name,
+                                 state_.cycle, current_exception_message())));
     }
 }
 

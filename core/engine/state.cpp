@@ -57,8 +57,9 @@ void keep(Archive& archive, const ModulePlan& plan, const Layout::Module& about,
     } catch (const ArchiveError&) {
         throw;
     } catch (...) {
-        throw RunError(fmt::format("{} of process '{}' failed to take part in a checkpoint: {}",
-                                   about.type.name, about.process, current_exception_message()));
+        std::throw_with_nested(
+            RunError(fmt::format("{} of process '{}' failed to take part in a checkpoint: {}",
+                                 about.type.name, about.process, current_exception_message())));
     }
 }
 

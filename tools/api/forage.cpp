@@ -7,6 +7,7 @@
 #include "core/run/run_json.h"
 #include "tools/api/experiment.h"
 #include "tools/api/prepare.h"
+#include "tools/api/program_types.h"
 #include "tools/api/results.h"
 #include "tools/api/saved_run.h"
 
@@ -80,10 +81,11 @@ Run open(const std::string& system, const std::string& text, const OpenOptions& 
     const Sources sources = read_sources(input, diagnostics);
     auto loaded = assemble(sources, input, diagnostics);
     throw_errors(diagnostics);
+    auto types = program_types_of(loaded->system);
     Run out = make_run(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world),
                        options, diagnostics);
     out.title = run_title(input);
-    out.opened_as = origin_of(system, text, options, input_files(spec, sources));
+    out.opened_as = origin_of(system, text, options, input_files(spec, sources), std::move(types));
     if (warnings) *warnings = std::move(diagnostics);
     return out;
 }

@@ -9,6 +9,7 @@
 #include "core/run/checkpoint_file.h"
 #include "core/run/module_files.h"
 #include "core/run/path_recorder.h"
+#include "tools/api/program_types.h"
 #include "tools/plot/plots.h"
 
 namespace forage {
@@ -91,8 +92,9 @@ void restore(Archive& archive, Run& run) {
 struct Origin {
     std::string version = FORAGE_VERSION, system, text;
     OpenOptions options;
-    InputFiles files;  ///< digests when it was opened
-    void checkpoint(Archive& archive) { archive(version, system, text, options, files); }
+    InputFiles files;                          ///< digests when it was opened
+    std::map<std::string, std::string> types;  ///< of the program, with their versions
+    void checkpoint(Archive& archive) { archive(version, system, text, options, files, types); }
 };
 
 void check_files(const InputFiles& files) {
@@ -104,16 +106,37 @@ void check_files(const InputFiles& files) {
     throw_errors(diagnostics);
 }
 
+void check_types(const std::map<std::string, std::string>& used) {
+    Diagnostics diagnostics;
+    const auto there = program_types();
+    for (const auto& [name, version] : used) {
+        const auto it = there.find(name);
+        if (it == there.end())
+            diagnostics.error(
+                {},
+                fmt::format("the state of the run needs the type '{}', which this program does not define",
+                            name),
+                "define it before the run is resumed, as it was when the run was opened");
+        else if (it->second != version)
+            diagnostics.error({}, fmt::format("the type '{}' has changed since the run was opened", name),
+                              "a run can only be resumed with the same types: restore it");
+    }
+    throw_errors(diagnostics);
+}
+
 }  // namespace
 
 std::string origin_of(const std::string& system, const std::string& text, OpenOptions options,
-                      const InputFiles& files) {
+                      const InputFiles& files, std::map<std::string, std::string> types) {
     options.world = absolute(options.world);
     for (auto& p : options.plugins) p = absolute(p);
     InputFiles there;
     for (const auto& [path, digest] : files) there[absolute(path)] = digest;
-    Origin origin{
-        .system = absolute(system), .text = text, .options = std::move(options), .files = std::move(there)};
+    Origin origin{.system = absolute(system),
+                  .text = text,
+                  .options = std::move(options),
+                  .files = std::move(there),
+                  .types = std::move(types)};
     Archive archive;
     archive(origin);
     return archive.bytes();
@@ -145,6 +168,7 @@ Run resume(std::string_view state) {
         throw CheckpointError(fmt::format("the state of the run was written by forage {}, and this is {}",
                                           origin.version, FORAGE_VERSION));
     check_files(origin.files);
+    check_types(origin.types);
     Run run = open(origin.system, origin.text, origin.options, nullptr);
     Archive observers{std::string_view(list)};
     for (; count > 0; --count) restore(observers, run);

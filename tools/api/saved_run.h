@@ -1,6 +1,7 @@
 // What a saved run says about how it was opened.
 #pragma once
 
+#include <map>
 #include <string>
 
 #include <forage/forage.h>
@@ -10,9 +11,9 @@
 namespace forage {
 
 /// The origin of a run, for Run::opened_as: the file `system`, or the `text` of a system that was built in
-/// code. Relative paths become absolute ones.
+/// code. Relative paths become absolute ones. `types` are those of the program (program_types.h).
 std::string origin_of(const std::string& system, const std::string& text, OpenOptions options,
-                      const InputFiles& files);
+                      const InputFiles& files, std::map<std::string, std::string> types);
 
 /// Opens the file `system`, or `text` as if it were that file when it is not empty.
 Run open(const std::string& system, const std::string& text, const OpenOptions& options,

@@ -20,6 +20,7 @@
 #include "modules/replay/replay.h"
 #include "neurons/neurons.h"
 #include "synapses/synapses.h"
+#include "tools/api/program_types.h"
 
 namespace forage {
 namespace {
@@ -177,13 +178,19 @@ std::optional<model::System> read_any(const std::string& path, Diagnostics& diag
 
 }  // namespace
 
-Registry shipped_types() {
+Registry forage_types() {
     Registry registry;
     add_neurons(registry);
     add_synapses(registry);
     add_modules(registry);
     registry.add(module_type<replay::Replay>());
     registry.add(bug::gazebo_bug_type());
+    return registry;
+}
+
+Registry shipped_types() {
+    Registry registry = forage_types();
+    add_program_types(registry);
     return registry;
 }
 
@@ -288,6 +295,7 @@ InputFiles input_files(const RunSpec& spec, const Sources& sources) {
 
 std::string source_digests(const RunInput& input, const Sources& sources) {
     std::string system = without_paths(files_of_system(sources));
+    for (const auto& [name, version] : program_types_of(*sources.system)) system += name + version;
     for (const auto& other : sources.more)  // their order matters
         system += " " + without_paths(system_files(other));
     if (!sources.world) return system;

@@ -37,12 +37,15 @@ struct Loaded {
 };
 
 /// The types that ship with Forage.
+Registry forage_types();
+/// The types that every system may use without a plugin: forage_types() and those of the running program
+/// (program_types.h).
 Registry shipped_types();
 /// Loads the plugins in `named`, in FORAGE_PLUGIN_PATH and in the folder "plugins" beside the file `system`,
 /// which may be empty.
 std::vector<plugin::Plugin> load_plugins(const std::vector<std::string>& named, const std::string& system,
                                          Diagnostics& diagnostics);
-/// The types that ship with Forage and those of the plugins.
+/// shipped_types() and those of the plugins.
 Registry known_types(const std::vector<plugin::Plugin>& plugins);
 
 /// Reads the files. Reports those that cannot be read.

@@ -2,6 +2,7 @@
 #include "core/base/archive.h"
 #include "core/base/named_file.h"
 #include "core/run/checkpoint_file.h"
+#include "tools/python/held.h"
 #include "tools/python/python.h"
 
 namespace forage::python {
@@ -24,7 +25,24 @@ void raise(const InputError& e) {
     PyErr_SetObject(type.ptr(), type(e.what(), all).ptr());
 }
 
-void raise(const char* type, const std::exception& e) { PyErr_SetString(python_class(type).ptr(), e.what()); }
+/// The exception of Python that made a type fail; null when it was none.
+py::object cause_of(const std::exception& e) {
+    try {
+        std::rethrow_if_nested(e);
+    } catch (const PythonFailure& failure) {
+        return failure.raised();
+    } catch (const std::exception& inner) {
+        return cause_of(inner);
+    } catch (...) {
+    }
+    return {};
+}
+
+void raise(const engine::RunError& e) {
+    const py::object type = python_class("RunError"), error = type(e.what());
+    if (py::object cause = cause_of(e)) PyException_SetCause(error.ptr(), cause.release().ptr());
+    PyErr_SetObject(type.ptr(), error.ptr());
+}
 
 }  // namespace
 
@@ -50,7 +68,7 @@ void add_errors(py::module_&) {
         } catch (const ArchiveError& e) {
             raise(InputError(e.what()));
         } catch (const engine::RunError& e) {
-            raise("RunError", e);
+            raise(e);
         } catch (const py::cast_error& e) {
             PyErr_SetString(PyExc_TypeError, e.what());
         }

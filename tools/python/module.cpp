@@ -17,4 +17,5 @@ PYBIND11_MODULE(_forage, module) {
     add_wiring(module);
     add_systems(module);
     add_experiments(module);
+    add_types(module);
 }

@@ -22,6 +22,7 @@ void add_pictures(py::module_& module);
 void add_probes(py::module_& module);
 void add_runs(py::module_& module);
 void add_systems(py::module_& module);
+void add_types(py::module_& module);
 void add_wiring(py::module_& module);
 
 /// The method _repr_html_ of a class: the function of forage/_html.py with this name, called with the object.

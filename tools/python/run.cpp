@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "core/run/stop_condition.h"
+#include "tools/python/held.h"
 
 namespace forage::python {
 namespace {
@@ -19,6 +20,46 @@ bool in_main_thread() {
     const auto threading = py::module_::import("threading");
     return threading.attr("current_thread")().is(threading.attr("main_thread")());
 }
+
+/// While it lives, Ctrl-C waits until a cycle has ended, because an update of a Python type that is
+/// interrupted would leave a run that cannot go on. A second Ctrl-C does not wait, for an update that does
+/// not end. Does nothing without Python types, and outside the main thread, in which Python handles signals.
+class LateInterrupt {
+  public:
+    LateInterrupt() {
+        if (!has_python_types() || !in_main_thread()) return;
+        signal_ = py::module_::import("signal");
+        usual_ = signal_.attr("getsignal")(signal_.attr("SIGINT"));
+        if (!PyCallable_Check(usual_.ptr())) return;
+        const auto flag = waiting_;
+        signal_.attr("signal")(signal_.attr("SIGINT"),
+                               py::cpp_function([flag, usual = usual_](int number, const py::object& frame) {
+                                   if (std::exchange(*flag, true)) usual(number, frame);
+                               }));
+        replaced_ = true;
+    }
+    ~LateInterrupt() {
+        if (!replaced_) return;
+        try {
+            signal_.attr("signal")(signal_.attr("SIGINT"), usual_);
+        } catch (py::error_already_set& e) {
+            e.discard_as_unraisable("the end of a run");
+        }
+    }
+    LateInterrupt(const LateInterrupt&) = delete;
+    LateInterrupt& operator=(const LateInterrupt&) = delete;
+
+    bool waiting() const { return *waiting_; }
+    /// Carries out an interrupt that waits.
+    void deliver() {
+        if (std::exchange(*waiting_, false)) usual_(signal_.attr("SIGINT"), py::none());
+    }
+
+  private:
+    const std::shared_ptr<bool> waiting_ = std::make_shared<bool>(false);
+    py::object signal_, usual_;
+    bool replaced_ = false;
+};
 
 }  // namespace
 
@@ -91,15 +132,18 @@ void PythonRun::call_back() {
 
 void PythonRun::step() {
     const Running running(*this);
+    LateInterrupt interrupt;
     {
         const py::gil_scoped_release others;
         run_->step();
     }
     if (due()) call_back();
+    interrupt.deliver();
 }
 
 bool PythonRun::advance(const RunLength& length, const py::object& progress) {
     const Running running(*this);
+    LateInterrupt interrupt;
     const bool signals = in_main_thread(), shown = !progress.is_none();
     auto next_signals = Clock::now() + between_signals, next_report = Clock::now();
     const auto after_cycle = [&](const StopCondition& stop, const StopOrigin& origin) {
@@ -109,10 +153,11 @@ bool PythonRun::advance(const RunLength& length, const py::object& progress) {
         }
         if (!signals && !shown) return;
         const auto now = Clock::now();
-        if (signals && now >= next_signals) {
+        if (signals && (now >= next_signals || interrupt.waiting())) {
             next_signals = now + between_signals;
             const py::gil_scoped_acquire python;
             if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+            interrupt.deliver();
         }
         if (shown && now >= next_report) {
             next_report = now + between_reports;
@@ -125,6 +170,7 @@ bool PythonRun::advance(const RunLength& length, const py::object& progress) {
         const py::gil_scoped_release others;
         end = run_->advance(length, after_cycle);
     }
+    interrupt.deliver();
     if (shown) progress(1.0, "");
     if (!end.timeout.empty()) throw engine::RunError(end.timeout);
     return end.held;

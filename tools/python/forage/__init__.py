@@ -14,21 +14,30 @@ from ._forage import (Arborization, DistanceFunction, Film, Group, Manipulation,
 from ._picture import Picture
 from ._recording import Recording
 
+# Imported when they are used, as they need NumPy, so that the import of the package takes little time.
+_EXPERIMENT = ("Table", "experiment", "sweep")
+_TYPES = ("Cells", "Plugin", "Ports", "Synapses", "TypeInfo", "build_plugin", "feedback", "input", "module", "neuron", "output", "parameter", "state",
+          "synapse", "types")
+
 __all__ = ["Arborization", "Diagnostic", "DistanceFunction", "Film", "Group", "InputError", "InputWarning", "Manipulation", "Parameters",
-           "Pattern", "Picture", "Probe", "Recording", "Run", "RunError", "System", "Table", "experiment", "open", "resume", "sweep"]
+           "Pattern", "Picture", "Probe", "Recording", "Run", "RunError", "System", *_EXPERIMENT, "open", "resume", *_TYPES]
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from ._experiment import Table, experiment, sweep
+    from ._types import (Cells, Plugin, Ports, Synapses, TypeInfo, build_plugin, feedback, input, module, neuron, output, parameter, state, synapse,
+                         types)
 
 
 def __getattr__(name):
-    """Imports what needs NumPy when it is used, so that the import of the package takes little time."""
-    if name not in ("Table", "experiment", "sweep"):
+    """Imports what needs NumPy when it is used."""
+    if name in _EXPERIMENT:
+        from . import _experiment as place
+    elif name in _TYPES:
+        from . import _types as place
+    else:
         raise AttributeError(f"module 'forage' has no attribute '{name}'")
-    from . import _experiment
-
-    return getattr(_experiment, name)
+    return getattr(place, name)
 
 
 def __dir__():
