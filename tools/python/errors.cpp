@@ -18,11 +18,25 @@ py::object diagnostic(const Diagnostic& d) {
                                       number(d.where.line), number(d.where.column), format(d));
 }
 
+/// The mistakes with hints for programs in Python: a type that is missing may be a class.
+Diagnostics for_python(const Diagnostics& found) {
+    Diagnostics out;
+    for (Diagnostic d : found.all()) {
+        for (const std::string kind : {"neuron", "synapse", "module"})
+            if (d.message.starts_with("there is no " + kind + " type "))
+                d.hint +=
+                    (d.hint.empty() ? "" : "; ") + ("@forage." + kind + " declares a class of Python as one");
+        out.add(std::move(d));
+    }
+    return out;
+}
+
 void raise(const InputError& e) {
     py::list all;
-    for (const auto& d : e.diagnostics().all()) all.append(diagnostic(d));
+    const Diagnostics found = for_python(e.diagnostics());
+    for (const auto& d : found.all()) all.append(diagnostic(d));
     const py::object type = python_class("InputError");
-    PyErr_SetObject(type.ptr(), type(e.what(), all).ptr());
+    PyErr_SetObject(type.ptr(), type(format(found), all).ptr());
 }
 
 /// The exception of Python that made a type fail; null when it was none.

@@ -73,11 +73,12 @@ SystemProcess add_process(PythonSystem& self, const std::string& name, const std
 }
 
 SystemConnection connect(PythonSystem& self, const py::object& source, const py::object& target,
-                         const std::string& kind, const std::string& synapse, const std::string& name,
+                         const std::string& kind, const py::object& synapse_type, const std::string& name,
                          const std::string& id, const py::object& pattern, const py::object& arborization,
                          const py::object& attenuation, const py::object& delay,
                          const py::kwargs& parameters) {
     const std::string from = group_of(self, source).id, to = group_of(self, target).id;
+    const std::string synapse = type_name(synapse_type);
     require_type(self.types->synapses(), synapse, "synapse");
     const auto input = static_cast<InputKind>(choice(kind, connection_kinds, "kind"));
     model::Connection wanted;
@@ -265,7 +266,7 @@ Raises InputError for mistakes in the system, and ValueError for another format.
              R"(Adds a connection between two groups, or names of groups, and returns it.
 
 kind: "excitatory", "inhibitory" or "modulatory".
-synapse: the name of a synapse type; further keywords are its parameters, such as weight=0.5.
+synapse: the name of a synapse type, or a class that is one (forage.synapse); further keywords are its parameters, such as weight=0.5.
 pattern: which cells it pairs, a Pattern; cells at the same place without it.
 arborization: how each pair spreads, an Arborization; not at all without it.
 attenuation, delay: a number for all distances, or a DistanceFunction; delays are in cycles.

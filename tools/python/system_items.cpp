@@ -112,9 +112,10 @@ py::dict groups_of(const SystemItem& self, const std::vector<model::CrossReferen
     return out;
 }
 
-SystemProcess set_module(const SystemProcess& self, const std::string& type, const py::dict& inputs,
+SystemProcess set_module(const SystemProcess& self, const py::object& module, const py::dict& inputs,
                          const py::dict& outputs, const py::kwargs& values) {
     auto& process = self.use();
+    const std::string type = type_name(module);
     require_type(self.system->types->modules(), type, "module");
     model::ModuleUse use;
     use.type = type;
@@ -139,10 +140,11 @@ void set_points(model::Group& group, const py::iterable& points) {
 }
 
 SystemGroup add_group(const SystemProcess& self, const std::string& name, int width, int height,
-                      const std::string& type, const py::object& points, bool wrap_x, bool wrap_y,
+                      const py::object& neuron, const py::object& points, bool wrap_x, bool wrap_y,
                       const std::string& id, const py::kwargs& values) {
     self.use();
     auto& system = *self.system;
+    const std::string type = type_name(neuron);
     require_type(system.types->neurons(), type, "neuron");
     std::optional<model::SparseTopology> sparse;
     if (!points.is_none()) sparse = model::SparseTopology{points_of(points)};
@@ -315,7 +317,7 @@ void add_processes(py::handle scope) {
              "wrap_y"_a = false, "id"_a = "",
              R"(Adds a group of width x height cells and returns it.
 
-type: the name of a neuron type; further keywords are its parameters, such as threshold=0.5.
+type: the name of a neuron type, or a class that is one (forage.neuron); further keywords are its parameters, such as threshold=0.5.
 points: the cells that exist, a list of (x, y) from 1, instead of width and height.
 wrap_x, wrap_y: whether the left edge meets the right one, and the upper edge the lower one.
 
@@ -324,7 +326,7 @@ Raises InputError and adds nothing when a name or a value is wrong.)")
              "outputs"_a = py::dict(),
              R"(Gives the process a module, instead of the one that it has, and returns the process.
 
-type: the name of a module type; further keywords are its parameters.
+type: the name of a module type, or a class that is one (forage.module); further keywords are its parameters.
 inputs, outputs: the groups, or names of groups, that it reads and writes, by port: {"_motor": motor}. `forage types TYPE` lists the ports.
 
 Raises InputError and changes nothing when a name or a value is wrong. The ports are checked by System.validate().)")

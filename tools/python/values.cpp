@@ -19,6 +19,11 @@ std::string text_of(const py::handle& value) {
     return py::str(value);
 }
 
+std::string type_name(const py::object& type) {
+    return argument<std::string>(py::getattr(type, "type_name", type), "type",
+                                 "the name of a type, or a class that is one");
+}
+
 py::object value_of(const ParameterValue& value) {
     return std::visit([](const auto& v) -> py::object { return py::cast(v); }, value);
 }

@@ -21,6 +21,8 @@ T argument(const py::handle& value, const char* what, const char* expected) {
 
 /// A value as assignments spell it: true, 0.3, text.
 std::string text_of(const py::handle& value);
+/// The name of a type: a text, or a class that is a type (forage/_types.py).
+std::string type_name(const py::object& type);
 /// A parameter's value as a bool, float, int or str.
 py::object value_of(const ParameterValue& value);
 /// The assignments in a dictionary of names and values, or in a list of texts.

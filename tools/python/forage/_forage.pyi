@@ -21,6 +21,7 @@ _Callback = typing.TypeVar("_Callback", bound=typing.Callable[[Run], object])
 
 _Cells = typing.Union[None, tuple[int, int, int, int], typing.Sequence[tuple[int, int]]]
 _Function = typing.Union[float, DistanceFunction]
+_Type = typing.Union[str, type]
 _Of = typing.Union[str, System.Group]
 
 __version__: str
@@ -278,7 +279,7 @@ class System:
             name: str,
             width: int = 1,
             height: int = 1,
-            type: str = "neuronLinearThreshold",
+            type: _Type = "neuronLinearThreshold",
             *,
             points: typing.Optional[typing.Iterable[tuple[int, int]]] = None,
             wrap_x: bool = False,
@@ -288,7 +289,7 @@ class System:
         ) -> System.Group: ...
         def set_module(
             self,
-            type: str,
+            type: _Type,
             *,
             inputs: typing.Mapping[str, _Of] = ...,
             outputs: typing.Mapping[str, _Of] = ...,
@@ -390,7 +391,7 @@ class System:
         target: _Of,
         kind: str = "excitatory",
         *,
-        synapse: str = "synapseFixedWeight",
+        synapse: _Type = "synapseFixedWeight",
         name: str = "",
         id: str = "",
         pattern: typing.Optional[Pattern] = None,
@@ -474,3 +475,17 @@ class AgentPool:
     def motors(self) -> _AgentPorts: ...
     @property
     def threads(self) -> int: ...
+
+class _Draws:
+    def uniform(self, draw: int) -> _Numbers: ...
+    def normal(self, draw: int) -> _Numbers: ...
+    def events(self, probability: float, draw: int) -> _Numbers: ...
+    def uniform_numbers(self, size: int, draw: int) -> _Numbers: ...
+
+def _add_neuron(declared: object) -> None: ...
+def _add_synapse(declared: object) -> None: ...
+def _add_module(declared: object) -> None: ...
+def _types(
+    plugins: typing.Sequence[_Path],
+) -> list[tuple[str, str, str, str, dict[str, _Value], tuple[str, ...], tuple[str, ...], tuple[str, ...]]]: ...
+def _build_plugin(source: str, output: str, debug: bool, package: str) -> str: ...
