@@ -19,8 +19,10 @@ _EXPERIMENT = ("Table", "experiment", "sweep")
 _TYPES = ("Cells", "Plugin", "Ports", "Synapses", "TypeInfo", "build_plugin", "feedback", "input", "module", "neuron", "output", "parameter", "state",
           "synapse", "types")
 
-__all__ = ["Arborization", "Diagnostic", "DistanceFunction", "Film", "Group", "InputError", "InputWarning", "Manipulation", "Parameters",
-           "Pattern", "Picture", "Probe", "Recording", "Run", "RunError", "System", *_EXPERIMENT, "open", "resume", *_TYPES]
+__all__ = ["Arborization", "Cells", "Diagnostic", "DistanceFunction", "Film", "Group", "InputError", "InputWarning", "Manipulation", "Parameters",
+           "Pattern", "Picture", "Plugin", "Ports", "Probe", "Recording", "Run", "RunError", "Synapses", "System", "Table", "TypeInfo",
+           "build_plugin", "experiment", "feedback", "input", "module", "neuron", "open", "output", "parameter", "resume", "state", "sweep",
+           "synapse", "types"]
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

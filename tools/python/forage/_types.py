@@ -16,6 +16,7 @@ import numpy.typing
 from . import _forage
 from ._errors import InputError
 
+_format: typing.Any = numpy.lib.format
 _Column = numpy.typing.NDArray[numpy.float64]
 _Class = typing.TypeVar("_Class", bound=type)
 _T = typing.TypeVar("_T")
@@ -121,16 +122,15 @@ def output(*, size: tuple[int, int] | None = None, optional: bool = False, label
 class _Columns:
     """Columns as attributes: arrays that are changed in place, or by assignment."""
 
-    _role = "cells"
-
     def __init__(self, columns: dict[str, _Column], size: int) -> None:
         self.__dict__.update(columns)
         self.__dict__["size"] = size
 
-    if typing.TYPE_CHECKING:
-        size: int
+    size: int
 
-        def __getattr__(self, name: str) -> _Column: ...
+    def __getattr__(self, name: str) -> _Column:
+        there = ", ".join(n for n, c in self.__dict__.items() if isinstance(c, numpy.ndarray))
+        raise AttributeError(f"there is no column '{name}'; there is {there}")
 
     def __setattr__(self, name: str, value: numpy.typing.ArrayLike) -> None:
         column = self.__dict__.get(name)
@@ -159,11 +159,10 @@ class Cells(_Columns):
     not change later.
     """
 
-    if typing.TYPE_CHECKING:
-        exc: _Column
-        inh: _Column
-        mod: _Column
-        cycle: int
+    exc: _Column
+    inh: _Column
+    mod: _Column
+    cycle: int
 
     def __init__(self, columns: dict[str, _Column], size: int, draws: typing.Any, cycle: int) -> None:
         super().__init__(columns, size)
@@ -193,11 +192,8 @@ class Synapses(_Columns):
     an update treats each of them alone.
     """
 
-    _role = "synapses"
-
-    if typing.TYPE_CHECKING:
-        pre: _Column
-        synpot: _Column
+    pre: _Column
+    synpot: _Column
 
 
 class Ports:
@@ -210,8 +206,7 @@ class Ports:
     def __init__(self, inputs: dict[str, _Column], shapes: dict[str, tuple[int, ...]], draws: typing.Any, cycle: int) -> None:
         self.__dict__.update(inputs, _shapes=shapes, _draws=draws, _written={}, cycle=cycle)
 
-    if typing.TYPE_CHECKING:
-        cycle: int
+    cycle: int
 
     def __getattr__(self, name: str) -> _Column:
         shape = self.__dict__["_shapes"].get(name)
@@ -256,7 +251,8 @@ class _Declared:
         for item in self.items:
             if item.what not in allowed:
                 raise InputError(f"error: {kind} type '{self.name}' declares '{item.name}', which such a type cannot have")
-            if item.what != "parameter" and hasattr({"neuron": Cells, "synapse": Synapses, "module": Ports}[kind], item.name):
+            place = {"neuron": Cells, "synapse": Synapses, "module": Ports}[kind]
+            if item.what != "parameter" and (hasattr(place, item.name) or item.name in ("size", "cycle", "exc", "inh", "mod", "pre")):
                 raise InputError(f"error: {kind} type '{self.name}': the name '{item.name}' is taken")
         self.parameters = self._of("parameter")
         self.states = self._of("state")
@@ -341,14 +337,14 @@ class _Declared:
             if array.dtype.kind not in "biufcU":
                 raise TypeError(f"state '{item.name}' is saved as a number, a bool, a text or an array of them, not as a value of type {type(value).__name__}")
             out.write(b"a" if isinstance(value, numpy.ndarray) else b"s")
-            numpy.lib.format.write_array(out, array, allow_pickle=False)
+            _format.write_array(out, array, allow_pickle=False)
         return out.getvalue()
 
     def restore(self, made: typing.Any, content: bytes) -> None:
         source = io.BytesIO(content)
         for item in self.states:
             kind = source.read(1)
-            array = numpy.lib.format.read_array(source, allow_pickle=False)
+            array = _format.read_array(source, allow_pickle=False)
             made.__dict__[item.name] = array if kind == b"a" else array.item()
 
 
