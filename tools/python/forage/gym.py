@@ -9,6 +9,11 @@
 The environments are subclasses of gymnasium.Env, gymnasium.vector.VectorEnv and pettingzoo.ParallelEnv where these are
 installed, and have the same methods elsewhere.
 """
+from __future__ import annotations
+
+import os
+import typing
+
 import numpy
 
 from . import _forage
@@ -33,10 +38,13 @@ except ImportError:
 
 __all__ = ["BugEnv", "BugParallelEnv", "BugVectorEnv"]
 
+_Path = typing.Union[str, "os.PathLike[str]"]
+_Ports = typing.Any
+"""Names, one name, or names with (rows, columns); of several robots, a dictionary of these."""
 _render_modes = ["rgb_array", "human"]
 
 
-def _ports(ports):
+def _ports(ports: typing.Any) -> typing.Any:
     """Sensors or motors as names with rows and columns: 0 for the usual size."""
     if isinstance(ports, str):
         ports = [ports]
@@ -44,15 +52,15 @@ def _ports(ports):
     return [(name, *(size or (0, 0))) for name, size in sizes.items()]
 
 
-def _agent(robot, system, sensors, motors, reward):
+def _agent(robot: str, system: typing.Any, sensors: typing.Any, motors: typing.Any, reward: typing.Any) -> typing.Any:
     if system is not None and (sensors is None or motors is None):
         raise InputError("with a system, name its sensor and motor groups: sensors=['Bug/Light'], motors=['Bug/Motor']")
     expression = reward if isinstance(reward, str) else ""
     return (robot, _ports("target" if sensors is None else sensors), _ports("motor" if motors is None else motors), expression)
 
 
-def _task(world, system, agents, options, every_robot=False):
-    usual = {"action": "cell", "cycles_per_step": 5, "max_steps": 1000, "end_at_target": True, "speed": (1.0, 1.5), "seed": 1,
+def _task(world: typing.Any, system: typing.Any, agents: typing.Any, options: typing.Any, every_robot: bool = False) -> _forage.AgentTask:
+    usual: dict[str, typing.Any] = {"action": "cell", "cycles_per_step": 5, "max_steps": 1000, "end_at_target": True, "speed": (1.0, 1.5), "seed": 1,
              "settings": None, "plugins": (), "noise": True, "real_time_factor": None}
     unknown = set(options) - set(usual)
     if unknown:
@@ -60,7 +68,7 @@ def _task(world, system, agents, options, every_robot=False):
     return _forage.AgentTask(world=world, system=system, agents=agents, every_robot=every_robot, **{**usual, **options})
 
 
-def _observation_space(sensors):
+def _observation_space(sensors: typing.Any) -> typing.Any:
     low, high = [], []
     for _, shape, unit_range in sensors:
         n = int(numpy.prod(shape))
@@ -69,7 +77,7 @@ def _observation_space(sensors):
     return spaces.Box(numpy.array(low, numpy.float32), numpy.array(high, numpy.float32), dtype=numpy.float32)
 
 
-def _action_space(motors, action):
+def _action_space(motors: typing.Any, action: typing.Any) -> typing.Any:
     cells = [int(numpy.prod(shape)) for _, shape, _ in motors]
     if action == "cell":
         choices = [max(n, 2) for n in cells]
@@ -80,7 +88,7 @@ def _action_space(motors, action):
     return spaces.Box(numpy.array(low, numpy.float32), numpy.ones(len(low), numpy.float32), dtype=numpy.float32)
 
 
-def _starts(options, robots):
+def _starts(options: typing.Any, robots: typing.Any) -> typing.Any:
     """The start poses in the options of reset(): "start" is one of them, or a dictionary by robot."""
     start = (options or {}).get("start")
     if start is None:
@@ -91,30 +99,30 @@ def _starts(options, robots):
 class _Rendered:
     """What the environments of one run share: the run, its pictures, and its end."""
 
-    _agents = None
-    _figure = None
+    _agents: _forage.AgentRun | None = None
+    _figure: typing.Any = None
 
-    def _open(self, task, render_mode):
+    def _open(self, task: typing.Any, render_mode: str | None) -> None:
         if render_mode not in (None, *_render_modes):
             raise InputError(f"'{render_mode}' is not a way to render; there are {', '.join(_render_modes)}, and None")
         self.render_mode = render_mode
         self._agents = _forage.AgentRun(task)
 
     @property
-    def _use(self):
+    def _use(self) -> _forage.AgentRun:
         if self._agents is None:
             raise RunError("this environment is closed")
         return self._agents
 
     @property
-    def run(self):
+    def run(self) -> _forage.Run:
         """The forage.Run in which the agents act, to read, record and change; reset(seed=...) makes a new one.
 
         Only what the agents sense, the reward and the modules depend on is computed in it.
         """
         return self._use.run
 
-    def render(self):
+    def render(self) -> typing.Any:
         """The world from above, and what cameras see: an array of shape (height, width, 3) of bytes, or a window ("human").
 
         The window needs matplotlib.
@@ -126,7 +134,7 @@ class _Rendered:
             return picture
         self._show(picture)
 
-    def _show(self, picture):
+    def _show(self, picture: typing.Any) -> None:
         from matplotlib import pyplot
 
         if self._figure is None:
@@ -140,7 +148,7 @@ class _Rendered:
         self._figure.canvas.draw_idle()
         self._figure.canvas.flush_events()
 
-    def close(self):
+    def close(self) -> None:
         """Frees the run. Closing again does nothing; other uses then raise RunError."""
         if self._figure is not None:
             from matplotlib import pyplot
@@ -150,7 +158,7 @@ class _Rendered:
         self._agents = None
 
 
-class BugEnv(_Rendered, Env):
+class BugEnv(_Rendered, Env):  # type: ignore[misc]
     """A robot in a world, as an environment of Gymnasium.
 
     An episode is a trial: the robot starts at the next start pose of the world, and the episode ends when it reaches a
@@ -178,30 +186,31 @@ class BugEnv(_Rendered, Env):
 
     metadata = {"render_modes": _render_modes, "render_fps": 5}
 
-    def __init__(self, world, system=None, *, sensors=None, motors=None, reward=None, robot="", render_mode=None, **options):
+    def __init__(self, world: _Path, system: _Path | None = None, *, sensors: _Ports = None,
+                 motors: _Ports = None, reward: typing.Any = None, robot: str = "", render_mode: str | None = None, **options: typing.Any) -> None:
         task = _task(world, system, [_agent(robot, system, sensors, motors, reward)], options)
         self._open(task, render_mode)
         self._reward = reward if callable(reward) else None
-        self.sensors = self._agents.sensors(0)
+        self.sensors = self._use.sensors(0)
         self.observation_space = _observation_space(self.sensors)
-        self.action_space = _action_space(self._agents.motors(0), options.get("action", "cell"))
-        self.observation = self._agents.observation(0)
+        self.action_space = _action_space(self._use.motors(0), options.get("action", "cell"))
+        self.observation = self._use.observation(0)
         """What the robot has sensed by the end of the last step, for functions of the reward."""
 
-    def reset(self, *, seed=None, options=None):
+    def reset(self, *, seed: int | None = None, options: typing.Any = None) -> typing.Any:
         """Begins an episode, and returns (observation, info).
 
         With a seed, the run begins anew, and the same actions give the same bits. Without one, the brain keeps what it has
         learned, and the robot starts at the next start pose. options={"start": (x, y, yaw)}, in m and rad, places it there.
         """
         super().reset(seed=seed)
-        self._use.reset(seed, _starts(options, self._agents.robots))
-        self.observation = self._agents.observation(0)
+        self._use.reset(seed, _starts(options, self._use.robots))
+        self.observation = self._use.observation(0)
         if self.render_mode == "human":
             self.render()
         return self.observation, {"reached_target": False}
 
-    def step(self, action):
+    def step(self, action: typing.Any) -> typing.Any:
         """Runs a step, and returns (observation, reward, terminated, truncated, info).
 
         Raises InputError for an action that is not in the action space, and RunError when the episode has ended.
@@ -213,7 +222,7 @@ class BugEnv(_Rendered, Env):
             self.render()
         return self.observation, reward, terminated, truncated, {"reached_target": reached}
 
-    def split(self, observation):
+    def split(self, observation: typing.Any) -> dict[str, typing.Any]:
         """The sensors in an observation: a dictionary of arrays with the shapes of their groups."""
         out, first = {}, 0
         for name, shape, _ in self.sensors:
@@ -223,7 +232,7 @@ class BugEnv(_Rendered, Env):
         return out
 
 
-class BugParallelEnv(_Rendered, ParallelEnv):
+class BugParallelEnv(_Rendered, ParallelEnv):  # type: ignore[misc]
     """The robots of a world, each with an agent, as a parallel environment of PettingZoo.
 
     The agents have the names of the robots. The options are those of BugEnv; with a system, sensors, motors and rewards are
@@ -233,8 +242,9 @@ class BugParallelEnv(_Rendered, ParallelEnv):
 
     metadata = {"render_modes": _render_modes, "render_fps": 5, "name": "forage_bug_v0", "is_parallelizable": True}
 
-    def __init__(self, world, system=None, *, sensors=None, motors=None, reward=None, render_mode=None, **options):
-        def of(what, robot):
+    def __init__(self, world: _Path, system: _Path | None = None, *, sensors: _Ports = None,
+                 motors: _Ports = None, reward: typing.Any = None, render_mode: str | None = None, **options: typing.Any) -> None:
+        def of(what: typing.Any, robot: str) -> typing.Any:
             return what[robot] if isinstance(what, dict) else what
 
         if system is None:
@@ -245,20 +255,20 @@ class BugParallelEnv(_Rendered, ParallelEnv):
             raise InputError("with a system, sensors and motors are dictionaries of the groups of each robot")
         self._open(_task(world, system, agents, options, every_robot=system is None), render_mode)
         self._reward = reward if callable(reward) else None
-        self.possible_agents = self._agents.robots
+        self.possible_agents = self._use.robots
         self._numbers = {name: i for i, name in enumerate(self.possible_agents)}
-        self.agents = []
-        self.observation_spaces = {n: _observation_space(self._agents.sensors(i)) for n, i in self._numbers.items()}
+        self.agents: list[str] = []
+        self.observation_spaces = {n: _observation_space(self._use.sensors(i)) for n, i in self._numbers.items()}
         action = options.get("action", "cell")
-        self.action_spaces = {n: _action_space(self._agents.motors(i), action) for n, i in self._numbers.items()}
+        self.action_spaces = {n: _action_space(self._use.motors(i), action) for n, i in self._numbers.items()}
 
-    def observation_space(self, agent):
+    def observation_space(self, agent: str) -> typing.Any:
         return self.observation_spaces[agent]
 
-    def action_space(self, agent):
+    def action_space(self, agent: str) -> typing.Any:
         return self.action_spaces[agent]
 
-    def reset(self, seed=None, options=None):
+    def reset(self, seed: int | None = None, options: typing.Any = None) -> typing.Any:
         """Begins an episode of all agents, and returns (observations, infos), as BugEnv does.
 
         options={"start": {robot: (x, y, yaw), ...}} places the robots.
@@ -267,10 +277,10 @@ class BugParallelEnv(_Rendered, ParallelEnv):
         self.agents = list(self.possible_agents)
         if self.render_mode == "human":
             self.render()
-        return ({n: self._agents.observation(i) for n, i in self._numbers.items()},
+        return ({n: self._use.observation(i) for n, i in self._numbers.items()},
                 {n: {"reached_target": False} for n in self.agents})
 
-    def step(self, actions):
+    def step(self, actions: typing.Any) -> typing.Any:
         """Runs a step with the actions of all agents, and returns (observations, rewards, terminations, truncations, infos)."""
         run = self._use
         missing = set(self.agents) - set(actions)
@@ -290,7 +300,7 @@ class BugParallelEnv(_Rendered, ParallelEnv):
         return observations, rewards, terminations, truncations, infos
 
 
-class BugVectorEnv(VectorEnv):
+class BugVectorEnv(VectorEnv):  # type: ignore[misc]
     """Worlds side by side, one robot each, as a vector environment of Gymnasium.
 
     All of a step runs on `threads` threads (0: one per core), without Python. The options are those of BugEnv; the reward is
@@ -299,9 +309,10 @@ class BugVectorEnv(VectorEnv):
     """
 
     metadata = {"render_modes": [], "autoreset_mode": _next_step}
-    _pool = None
+    _pool: _forage.AgentPool | None = None
 
-    def __init__(self, num_envs, world, system=None, *, sensors=None, motors=None, reward=None, robot="", threads=0, **options):
+    def __init__(self, num_envs: int, world: _Path, system: _Path | None = None, *, sensors: _Ports = None,
+                 motors: _Ports = None, reward: typing.Any = None, robot: str = "", threads: int = 0, **options: typing.Any) -> None:
         if callable(reward):
             raise InputError("the reward of worlds side by side is a source, such as 'mean(Bug/Light)', not a function")
         task = _task(world, system, [_agent(robot, system, sensors, motors, reward)], options)
@@ -315,17 +326,17 @@ class BugVectorEnv(VectorEnv):
         self.action_space = batch_space(self.single_action_space, num_envs)
 
     @property
-    def threads(self):
+    def threads(self) -> int:
         """The number of threads that share a step."""
         return self._use.threads
 
     @property
-    def _use(self):
+    def _use(self) -> _forage.AgentPool:
         if self._pool is None:
             raise RunError("this environment is closed")
         return self._pool
 
-    def reset(self, *, seed=None, options=None):
+    def reset(self, *, seed: typing.Any = None, options: typing.Any = None) -> typing.Any:
         """Begins an episode everywhere. `seed` is a number for environment 0, or one number per environment."""
         seeds = [] if seed is None else [int(seed) + i for i in range(self.num_envs)] if numpy.ndim(seed) == 0 else list(seed)
         super().reset(seed=int(seeds[0]) if seeds else None)
@@ -333,10 +344,10 @@ class BugVectorEnv(VectorEnv):
             raise InputError(f"{len(seeds)} seeds for {self.num_envs} environments")
         return self._use.reset(seeds), {"reached_target": numpy.zeros(self.num_envs, bool)}
 
-    def step(self, actions):
+    def step(self, actions: typing.Any) -> typing.Any:
         """Runs a step everywhere. All parts of what it returns have one row per environment."""
         observations, rewards, terminated, truncated, reached = self._use.step(actions)
         return observations, rewards, terminated, truncated, {"reached_target": reached}
 
-    def close_extras(self, **options):
+    def close_extras(self, **options: typing.Any) -> None:
         self._pool = None
