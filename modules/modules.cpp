@@ -5,6 +5,7 @@
 #include "modules/contextual_layer/module.h"
 #include "modules/difference/difference.h"
 #include "modules/direction/direction.h"
+#include "modules/sequential_episodic_control/module.h"
 
 namespace forage {
 
@@ -14,6 +15,7 @@ void add_modules(Registry& registry) {
     registry.add(module_type<contextual::ContextualLayerModule>());
     registry.add(module_type<goal::DifferenceModule>());
     registry.add(module_type<goal::DirectionModule>());
+    registry.add(module_type<sec::SequentialControlModule>());
 }
 
 }  // namespace forage

@@ -5,7 +5,7 @@
 
 namespace forage {
 
-/// Adds moduleAL, moduleCL, moduleColor, differenceModule and directionModule to `registry`.
+/// Adds every module type of this folder except moduleReplay, which only tests use, to `registry`.
 void add_modules(Registry& registry);
 
 }  // namespace forage
