@@ -113,7 +113,7 @@ void SequentialControlModule::describe(ModuleSpec<SequentialControlModule>& s) {
         .doc("k: a decision is made in every k-th cycle of an episode.");
     s.param("Goal Reward", &T::goal)
         .range(0, 1000)
-        .doc("A reward of at least this value in one cycle is a goal, at which the sequence is stored.");
+        .doc("A reward that rises to at least this value is a goal, at which the sequence is stored.");
     s.param("Time Penalty", &T::penalty)
         .range(0, 1)
         .doc("Subtracted from the reward of the episode in every cycle.");
@@ -203,7 +203,7 @@ void SequentialControlModule::start(const ModulePorts& ports) {
     decision_ = Decision(ports.inputs[action_in].shape.cells);
     random_ = ports.random;
     state_ = Eigen::ArrayXd::Zero(cells);
-    pending_ = shown_ = false;
+    pending_ = shown_ = at_goal_ = at_end_ = false;
     reward_ = 0;
     cycles_ = 0;
 }
@@ -212,7 +212,10 @@ void SequentialControlModule::update(ModuleFrame& frame) {
     const auto now = settings();
     const auto& reward = frame.input(reward_in);
     reward_ += reward[0] - penalty;
-    const bool goal_reached = reward[0] >= goal;
+    // A reward or an end that lasts for several cycles counts once.
+    const bool goal_now = reward[0] >= goal, goal_reached = goal_now && !at_goal_;
+    const bool end_now = reward.size() > 1 ? reward[1] > 0 : goal_now, ends = end_now && !at_end_;
+    at_goal_ = goal_now, at_end_ = end_now;
     if (goal_reached) memory_.store(reward_, now, [&] { return random_.uniform(frame.cycle(), 1); });
     const bool silent = ignore_silence && !(frame.input(state_in) > 0).any();
     if (cycles_++ % std::max(interval, 1) == 0 && !silent) {
@@ -221,7 +224,7 @@ void SequentialControlModule::update(ModuleFrame& frame) {
     } else if (silent && shown_) {
         frame.output(action_out).setZero();
     }
-    if (reward.size() > 1 ? reward[1] > 0 : goal_reached) {
+    if (ends) {
         memory_.end_episode();
         if (clear) memory_.clear_recent(), pending_ = false;
         reward_ = 0;

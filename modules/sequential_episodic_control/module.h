@@ -25,7 +25,7 @@ class SequentialControlModule {
     void start(const ModulePorts& ports);
     void update(ModuleFrame& frame);
     void checkpoint(Archive& archive) {
-        archive(memory_, decision_, state_, pending_, shown_, reward_, cycles_);
+        archive(memory_, decision_, state_, pending_, shown_, at_goal_, at_end_, reward_, cycles_);
     }
 
     const EpisodicMemory& memory() const { return memory_; }
@@ -39,11 +39,12 @@ class SequentialControlModule {
     EpisodicMemory memory_;
     Decision decision_;
     RandomStream random_;
-    Eigen::ArrayXd state_;     ///< of the last decision
-    bool pending_ = false;     ///< whether state_ waits for the action that follows it
-    bool shown_ = false;       ///< whether the outputs have been written once
-    double reward_ = 0;        ///< E: accumulated in this episode
-    std::int64_t cycles_ = 0;  ///< of this episode
+    Eigen::ArrayXd state_;                   ///< of the last decision
+    bool pending_ = false;                   ///< whether state_ waits for the action that follows it
+    bool shown_ = false;                     ///< whether the outputs have been written once
+    bool at_goal_ = false, at_end_ = false;  ///< in the last cycle
+    double reward_ = 0;                      ///< E: accumulated in this episode
+    std::int64_t cycles_ = 0;                ///< of this episode
 };
 
 }  // namespace forage::sec
