@@ -1,6 +1,7 @@
 #include "modules/modules.h"
 
 #include "modules/adaptive_layer/module.h"
+#include "modules/allostasis/module.h"
 #include "modules/colour/module.h"
 #include "modules/contextual_layer/module.h"
 #include "modules/difference/difference.h"
@@ -11,6 +12,7 @@ namespace forage {
 
 void add_modules(Registry& registry) {
     registry.add(module_type<adaptive::AdaptiveLayerModule>());
+    registry.add(module_type<allostasis::AllostasisModule>());
     registry.add(module_type<colour::ColourModule>());
     registry.add(module_type<contextual::ContextualLayerModule>());
     registry.add(module_type<goal::DifferenceModule>());

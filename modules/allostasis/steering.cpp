@@ -6,7 +6,6 @@
 namespace forage::allostasis {
 namespace {
 
-constexpr double fastest = 6.2;    // rad/s
 constexpr double near = 0.29;      // m: an obstacle
 constexpr double hold_time = 0.5;  // s
 
@@ -25,7 +24,7 @@ std::optional<double> left_minus_right(double b, const Eigen::Array<double, 1, 4
     return q[1] - q[3];
 }
 
-double cut(double x) { return std::clamp(x, -fastest, fastest); }
+double cut(double x) { return std::clamp(x, -fastest_wheel, fastest_wheel); }
 
 }  // namespace
 
@@ -40,8 +39,8 @@ Wheels Steering::step(double bearing, const LocalViews& views, const FiveNeeds& 
         turn += sides_[i] * directions_[i] * forces[i];
     }
     turn /= needs;
-    return {std::min(fastest, (1 + turn) * (5 + u_right - 0.5)),
-            std::min(fastest, (1 - turn) * (5 + u_left - 0.5))};
+    return {std::min(fastest_wheel, (1 + turn) * (5 + u_right - 0.5)),
+            std::min(fastest_wheel, (1 - turn) * (5 + u_left - 0.5))};
 }
 
 Wheels WheelControl::step(double time, const FrontRanges& r, const Wheels& wanted, const Wheels& z) {

@@ -12,6 +12,8 @@ struct Wheels {
     void checkpoint(Archive& archive) { archive(right, left); }
 };
 
+inline constexpr double fastest_wheel = 6.2;  ///< of any command, rad/s
+
 /// Turns towards what is needed and away from the predator. A side is +1 when a field has more to the left of
 /// the robot.
 class Steering {

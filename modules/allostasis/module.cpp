@@ -1,0 +1,174 @@
+#include "modules/allostasis/module.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/types/cell_model.h"
+
+namespace forage::allostasis {
+namespace {
+
+enum In : std::size_t { gps_in, mate_in, predator_in, proximity_in };
+enum Out : std::size_t { needs_out, forces_out, views_out, motor_out, time_out };
+
+constexpr std::uint32_t draw_noise = 0, draw_steering = 16, draw_control = 32;
+
+/// The metres to the next surface as the original's sensors give them, from a cell of the proximity group:
+/// the Bug's sensor has a range of 2 m from its axis, and a radius of 0.2 m.
+double range(double activity, double scale) { return std::min(0.3, (2 * (1 - activity) - 0.2) / scale); }
+
+/// The cell of a row of `n` whose place -1..1 is nearest to `x`.
+Index cell_at(double x, int n) { return std::lround((std::clamp(x, -1.0, 1.0) + 1) / 2 * (n - 1)); }
+
+}  // namespace
+
+void AllostasisModule::describe(ModuleSpec<AllostasisModule>& s) {
+    using T = AllostasisModule;
+    s.name("moduleAllostasis", "Allostasis")
+        .doc(
+            "Keeps the needs for temperature, hydration, energy, security and mating in balance by a "
+            "competition of drives, which steer a robot in an arena with resources, a mate and a predator.");
+    s.param("Scale", &T::scale)
+        .range(0.1, 100)
+        .doc("Metres of the world per metre of the original arena, which measures 3.5 m x 3.5 m.");
+    s.param("Cycle", &T::cycle).unit("s").range(0.001, 1).doc("Time of the world per cycle.");
+    s.param("Step", &T::interval)
+        .unit("s")
+        .range(0.01, 1)
+        .doc("Time between steps of needs and network; their rates are per step.");
+    s.param("Extent X", &T::extent_x).unit("m").range(0, 100).doc("What the GPS groups add to x.");
+    s.param("Extent Y", &T::extent_y).unit("m").range(0, 100).doc("What the GPS groups add to y.");
+    s.param("Noise", &T::noise)
+        .range(0, 200)
+        .doc("sigma: noise of the network, without which the first drive that wins stays the winner.");
+    const auto priority = [&](const char* name, double T::*member) {
+        s.param(name, member).range(0, 10).doc("Factor of this need's error at the input of the network.");
+    };
+    priority("Temperature Priority", &T::temperature_priority);
+    priority("Hydration Priority", &T::hydration_priority);
+    priority("Energy Priority", &T::energy_priority);
+    priority("Security Priority", &T::security_priority);
+    priority("Mating Priority", &T::mating_priority);
+    s.param("Dead Sector", &T::dead_sector)
+        .doc(
+            "Whether the robot keeps the last side of each field while it looks east, as the original does.");
+    s.param("Control", &T::control).doc("Ignores needs and drives, and walks at random.");
+    const char* gps =
+        "Place x, y and heading as moduleGazeboBug writes them: x + extent, y + extent, heading + pi.";
+    s.input("gps", "GPS").cells(3).doc(gps);
+    s.input("mate", "Mate").cells(3).doc(std::string("The mate. ") + gps);
+    s.input("predator", "Predator").cells(3).doc(std::string("The predator. ") + gps);
+    s.input("proximity", "Proximity")
+        .optional()
+        .cells(32)
+        .doc("The proximity sensors of the Bug; without them the robot does not avoid obstacles.");
+    s.output("needs", "Needs")
+        .optional()
+        .cells(needs)
+        .doc("Internal states, 0 to 1: temperature, hydration, energy, security, mating.");
+    s.output("forces", "Forces")
+        .optional()
+        .cells(needs)
+        .doc("Force of each drive, 0 to 1, in the same order.");
+    s.output("views", "Views")
+        .optional()
+        .size(4, needs)
+        .doc("What is sensed of each field, 0 to 1. Row: need; column: NW, NE, SW, SE of the robot.");
+    s.output("motor", "Motor")
+        .size("a square with an odd number of rows, at least 3",
+              [](const auto&, PortSizes&, const GroupShape& given) {
+                  const bool fits = given.width == given.height && given.width % 2 == 1 && given.width >= 3;
+                  return fits ? given : rectangle(41, 41);
+              })
+        .doc(
+            "1 at the wanted speed: the top row is 0.124 m/s times 'Scale' forwards, the left column "
+            "a left turn with 4.77 rad/s.");
+    s.output("time", "Time")
+        .optional()
+        .cells(2)
+        .doc("Step of the day, 0 to 1, and mean temperature, 0 to 1.");
+}
+
+void AllostasisModule::check(const ModulePorts&, Diagnostics& diagnostics) const {
+    for (const auto& [name, value] :
+         {std::pair{"Scale", scale}, std::pair{"Cycle", cycle}, std::pair{"Step", interval}})
+        if (!(value > 0))
+            diagnostics.error(at_parameter(name), fmt::format("'{}' is {}", name, value), "use more than 0");
+}
+
+void AllostasisModule::start(const ModulePorts& ports) {
+    drives_ = {}, steering_ = {}, wheels_ = {}, day_ = {};
+    views_.setZero();
+    stepped_ = false;
+    last_step_ = 0;
+    random_ = ports.random;
+    motor_width_ = ports.outputs[motor_out].shape.width;
+    motor_height_ = ports.outputs[motor_out].shape.height;
+}
+
+Place AllostasisModule::place(const ConstColumn& gps) const {
+    // The fields end 5 cm outside the walls; 4 cells around the robot must lie on the grid.
+    const auto within = [](double x) { return std::clamp(x, -1.75, 1.75); };
+    return {within((gps[0] - extent_x) / scale), within((gps[1] - extent_y) / scale)};
+}
+
+void AllostasisModule::update(ModuleFrame& frame) {
+    const double time = static_cast<double>(frame.cycle()) * cycle;
+    if (!stepped_ || time >= last_step_ + interval - cycle / 2) {
+        const double c = day_.step(time);
+        const int step = static_cast<int>(std::clamp(c, 0.0, Day::length));
+        NeedSettings settings;
+        settings.priority << temperature_priority, hydration_priority, energy_priority, security_priority,
+            mating_priority;
+        NetworkSettings network;
+        network.noise = noise;
+        views_ = local_views(place(frame.input(gps_in)), place(frame.input(predator_in)),
+                             place(frame.input(mate_in)), step);
+        drives_.sense(views_, settings);
+        FiveNeeds z;
+        for (std::uint32_t i = 0; i < needs; ++i)
+            z[i] = normal(random_.uniform(frame.cycle(), draw_noise + 2 * i),
+                          random_.uniform(frame.cycle(), draw_noise + 2 * i + 1));
+        drives_.step(z, settings, network);
+        stepped_ = true;
+        last_step_ = time;
+        if (frame.is_read(needs_out)) frame.output(needs_out) = drives_.states();
+        if (frame.is_read(forces_out)) frame.output(forces_out) = drives_.forces();
+        if (frame.is_read(views_out))
+            for (int i = 0; i < needs; ++i)
+                for (int q = 0; q < 4; ++q) frame.output(views_out)[4 * i + q] = views_(i, q);
+        if (frame.is_read(time_out))
+            frame.output(time_out) << step / Day::length, TemperatureField(step).mean();
+    }
+    act(frame, time);
+}
+
+void AllostasisModule::act(ModuleFrame& frame, double time) {
+    const auto number = [&](std::uint32_t i) { return random_.uniform(frame.cycle(), i); };
+    const double turn = 180 / std::numbers::pi;
+    double bearing = std::fmod(-(frame.input(gps_in)[2] - std::numbers::pi) * turn, 360);
+    if (bearing < 0) bearing += 360;
+    const FiveNeeds forces = control ? FiveNeeds::Zero() : drives_.forces();
+    const Wheels wanted = steering_.step(bearing, views_, forces, 1, dead_sector, number(draw_steering),
+                                         number(draw_steering + 1));
+    FrontRanges ranges;
+    const auto& near = frame.input(proximity_in);
+    if (near.size() == 32)
+        ranges = {range(near[16], scale), range(near[19], scale), range(near[10], scale),
+                  range(near[13], scale)};
+    Wheels z;
+    if (control)
+        z = {normal(number(draw_control), number(draw_control + 1)),
+             normal(number(draw_control + 2), number(draw_control + 3))};
+    const Wheels w = wheels_.step(time, ranges, wanted, z);
+    // Speeds as shares of the largest ones, which the motor group stands for.
+    const double forward = (w.right + w.left) / (2 * fastest_wheel),
+                 left = (w.right - w.left) / (2 * fastest_wheel);
+    auto motor = frame.output(motor_out);
+    motor.setZero();
+    motor[cell_at(-forward, motor_height_) * motor_width_ + cell_at(-left, motor_width_)] = 1;
+}
+
+}  // namespace forage::allostasis
