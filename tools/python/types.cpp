@@ -404,7 +404,8 @@ void add_module(const py::object& given) {
 
 template <class Types>
 void list_kind(const Types& types, const char* kind, py::list& out) {
-    for (const auto& [name, t] : types) {
+    for (const auto& entry : types) {  // Clang 14 cannot use a structured binding in a requires expression
+        const auto& t = entry.second;
         py::dict parameters;
         for (const auto& p : t.parameters) parameters[py::str(p.name)] = value_of(p.default_value);
         py::list states, inputs, outputs;
@@ -412,7 +413,7 @@ void list_kind(const Types& types, const char* kind, py::list& out) {
             for (const auto& p : t.ports) (p.is_output ? outputs : inputs).append(p.name);
         else
             for (const auto& s : t.states) states.append(s.name);
-        out.append(py::make_tuple(name, kind, t.label, t.doc, parameters, py::tuple(states),
+        out.append(py::make_tuple(t.name, kind, t.label, t.doc, parameters, py::tuple(states),
                                   py::tuple(inputs), py::tuple(outputs)));
     }
 }
