@@ -32,6 +32,7 @@ ALLOWED = {
                   'core/run', 'neurons', 'synapses', 'modules', 'bug_interface', 'tools/plot'},
 }
 ALLOWED['tools'] = set(ALLOWED) - {'core/connectivity', 'core/plugin', 'core/types', 'modules', 'neurons', 'synapses'}
+ALLOWED['tools/cluster'] = {'core/base'}
 ALLOWED['tools/python'] = {'core/base', 'core/observe', 'core/run', 'tools/api'}
 ROOMS = set(ALLOWED)
 

@@ -1,5 +1,6 @@
 #include "tools/api/experiment.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <set>
@@ -30,19 +31,18 @@ bool files_are_there(const model::Experiment& e, Diagnostics& diagnostics) {
 }
 
 /// Reads the files of all runs, each file once.
-std::map<std::string, Sources> read_all(std::vector<PlannedRun>& runs, Diagnostics& diagnostics) {
+std::map<std::string, Sources> read_all(RunPlan& plan, Diagnostics& diagnostics) {
     std::map<std::string, Sources> out;
     std::map<std::string, std::string> digests;
-    for (auto& run : runs) {
-        const RunInput& input = run.spec.input;
-        if (!out.contains(input.system)) {
-            Sources sources = out.empty() ? read_sources(input, diagnostics)
-                                          : with_first_system(out.begin()->second, input, diagnostics);
-            if (sources.system) digests[input.system] = source_digests(input, sources);
-            out.emplace(input.system, std::move(sources));
-        }
-        run.files = digests[input.system];
+    for (std::size_t c = 0; c < plan.combinations(); ++c) {
+        if (out.contains(plan.system(c))) continue;
+        const RunInput input = plan[c * plan.seeds()].spec.input;
+        Sources sources = out.empty() ? read_sources(input, diagnostics)
+                                      : with_first_system(out.begin()->second, input, diagnostics);
+        if (sources.system) digests[input.system] = source_digests(input, sources);
+        out.emplace(input.system, std::move(sources));
     }
+    plan.set_files(std::move(digests));
     return out;
 }
 
@@ -52,13 +52,35 @@ void report_leftovers(const PreparedExperiment& e, Diagnostics& diagnostics) {
     std::set<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(e.directory + "/runs"))
         if (entry.is_directory()) names.insert(entry.path().filename().string());
-    for (const auto& run : e.runs) names.erase(run.name);
+    for (std::size_t i = 0; i < e.runs.size() && !names.empty(); ++i) names.erase(e.runs.name(i));
     if (names.empty()) return;
     diagnostics.warning(
         {},
         fmt::format("'{}/runs' holds {} folder{} of runs that are not part of this experiment, such as '{}'",
                     e.directory, names.size(), names.size() == 1 ? "" : "s", *names.begin()),
         "tables and pictures leave them out; remove them if you do not need them");
+}
+
+/// The directory of results, unless another one is given.
+std::string directory_of(const std::string& file, const std::string& directory) {
+    return directory.empty() ? "forage-out/" + std::filesystem::path(file).stem().string() : directory;
+}
+
+void write_tables(const PreparedExperiment& e, std::span<const RunResult> results) {
+    write_durably(e.results_file(), results_csv(e.experiment, e.runs, results));
+    write_durably(e.summary_file(), summary_csv(e.experiment, e.runs, results));
+}
+
+/// All results, or nothing when a run has none.
+std::optional<std::vector<RunResult>> all_of(std::vector<std::optional<RunResult>>& results) {
+    std::vector<RunResult> out;
+    out.reserve(results.size());
+    for (auto& r : results) {
+        if (!r) return std::nullopt;
+        out.push_back(std::move(*r));
+        r.reset();
+    }
+    return out;
 }
 
 }  // namespace
@@ -72,7 +94,7 @@ std::optional<PreparedExperiment> plan_experiment(model::Experiment wanted, std:
                                                   Diagnostics& diagnostics, bool exercise) {
     if (!files_are_there(wanted, diagnostics)) return std::nullopt;
     PreparedExperiment out{std::move(wanted), std::move(directory), {}, {}, {}};
-    out.runs = planned_runs(out.experiment, out.directory, plugins);
+    out.runs = RunPlan(out.experiment, out.directory, plugins);
     out.sources = read_all(out.runs, diagnostics);
     if (exercise && out.experiment.exercise) {
         RunInput start;
@@ -115,28 +137,126 @@ std::optional<PreparedExperiment> prepare_experiment(const std::string& file, st
     auto wanted = xml::read_experiment(file, diagnostics);
     if (!wanted) return std::nullopt;
     if (!system.empty()) wanted = with_system(std::move(*wanted), system);
-    if (directory.empty()) directory = "forage-out/" + std::filesystem::path(file).stem().string();
-    return prepare_experiment(std::move(*wanted), std::move(directory), plugins, diagnostics,
+    return prepare_experiment(std::move(*wanted), directory_of(file, directory), plugins, diagnostics,
                               !system.empty());
+}
+
+std::optional<PreparedExperiment> prepare_part(const std::string& file, std::string directory,
+                                               const std::vector<std::string>& plugins,
+                                               Diagnostics& diagnostics) {
+    auto wanted = xml::read_experiment(file, diagnostics);
+    if (!wanted) return std::nullopt;
+    auto out = plan_experiment(std::move(*wanted), directory_of(file, directory), plugins, diagnostics);
+    if (!out) return out;
+    try {
+        make_directory(out->directory);
+        for (const auto& table : {out->results_file(), out->summary_file()}) check_regular_file(table);
+    } catch (const std::exception& e) {
+        diagnostics.error({}, e.what(), "choose another directory for the results with -o");
+        return std::nullopt;
+    }
+    return out;
+}
+
+PartResults read_results(const PreparedExperiment& e, const std::optional<Shard>& only) {
+    PartResults out = read_parts(e.directory, e.runs, e.experiment, only);
+    std::error_code none;
+    const std::filesystem::directory_iterator runs(e.directory + "/runs", none);
+    if (none || runs == std::filesystem::directory_iterator()) return out;
+    for (std::size_t i = only ? only->number - 1 : 0; i < e.runs.size(); i += only ? only->of : 1) {
+        if (out.results[i] && out.results[i]->failure.empty()) continue;
+        const PlannedRun run = e.runs[i];
+        if (auto result = read_result(run, key_of(run, e.experiment))) out.results[i] = std::move(result);
+    }
+    return out;
+}
+
+std::vector<std::size_t> open_runs(const PartResults& found) {
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < found.results.size(); ++i)
+        if (!found.results[i] || !found.results[i]->failure.empty()) out.push_back(i);
+    return out;
 }
 
 std::optional<std::vector<RunResult>> run_experiment(const PreparedExperiment& e, int jobs, bool fresh,
                                                      const ExperimentCallbacks& callbacks) {
     for (const auto& table : {e.results_file(), e.summary_file()})  // an existing table is complete
         std::remove(table.c_str());
-    const auto results = run_experiment(
-        e.experiment, [&](const RunSpec& spec, Diagnostics& d) { return e.prepare(spec, d); }, e.runs,
-        jobs > 0 ? jobs : cores(), fresh, callbacks);
-    if (!results) return results;
-    write_durably(e.results_file(), results_csv(e.experiment, e.runs, *results));
-    write_durably(e.summary_file(), summary_csv(e.experiment, e.runs, *results));
+    if (fresh) forget_parts(e.directory);
+    PartResults found;
+    found.results.resize(e.runs.size());
+    if (!fresh) found = read_results(e);
+    const PrepareRun prepare = [&](const RunSpec& spec, Diagnostics& d) { return e.prepare(spec, d); };
+    RunBlock block{e.experiment, prepare, e.runs, open_runs(found)};
+    block.earlier = e.runs.size() - block.open.size();
+    if (!execute_runs(
+            block, jobs > 0 ? jobs : cores(),
+            [&](std::size_t run, RunResult&& result) { found.results[run] = std::move(result); }, callbacks))
+        return std::nullopt;
+    auto results = all_of(found.results);
+    write_tables(e, *results);
+    return results;
+}
+
+PartOutcome run_part(const PreparedExperiment& e, PartFile& file, std::vector<std::size_t> wanted, int jobs,
+                     const ExperimentCallbacks& callbacks) {
+    const PrepareRun prepare = [&](const RunSpec& spec, Diagnostics& d) { return e.prepare(spec, d); };
+    RunBlock block{e.experiment, prepare, e.runs, std::move(wanted), 0, e.parts_leave_files()};
+    PartOutcome out;
+    if (block.open.empty()) return out.finished = true, out;
+    const RunKeys keys(e.runs, e.experiment);
+    out.finished = execute_runs(
+        block, jobs > 0 ? jobs : cores(),
+        [&](std::size_t run, RunResult&& result) {
+            const std::string name = e.runs.name(run);
+            file.add(name, keys[run], result);
+            ++out.runs;
+            if (!result.failure.empty()) out.failures.emplace_back(name, result.failure);
+        },
+        callbacks);
+    return out;
+}
+
+PartOutcome run_part(const PreparedExperiment& e, const Shard& shard, int jobs, bool fresh,
+                     const ExperimentCallbacks& callbacks) {
+    if (fresh) forget_parts(e.directory, shard);
+    PartResults found;
+    found.results.resize(e.runs.size());
+    if (!fresh) found = read_results(e, shard);
+    std::vector<std::size_t> wanted;
+    for (const std::size_t run : open_runs(found))
+        if (run % shard.of == shard.number - 1) wanted.push_back(run);
+    PartFile file(e.directory, shard.name());
+    return run_part(e, file, std::move(wanted), jobs, callbacks);
+}
+
+std::optional<std::vector<RunResult>> merge(const PreparedExperiment& e, Diagnostics& diagnostics) {
+    PartResults found = read_results(e);
+    if (found.damaged > 0)
+        diagnostics.warning({},
+                            fmt::format("{} lines in '{}/parts' cannot be read", found.damaged, e.directory),
+                            "they count as runs that were not executed");
+    const auto missing =
+        std::count_if(found.results.begin(), found.results.end(), [](const auto& r) { return !r; });
+    if (missing > 0) {
+        const auto first =
+            std::find_if(found.results.begin(), found.results.end(), [](const auto& r) { return !r; });
+        diagnostics.error(
+            {},
+            fmt::format("{} of {} runs have no result yet, such as '{}'", missing, e.runs.size(),
+                        e.runs.name(static_cast<std::size_t>(first - found.results.begin()))),
+            "start the missing parts again; without --merge, the runs are executed here");
+        return std::nullopt;
+    }
+    auto results = all_of(found.results);
+    write_tables(e, *results);
     return results;
 }
 
 std::vector<Finding> findings(const PreparedExperiment& e, std::span<const RunResult> results,
                               Diagnostics& diagnostics) {
     RunSpec bare;  // names the groups and connections of the system
-    bare.input = e.runs.front().spec.input;
+    bare.input = e.runs[0].spec.input;
     const auto example = e.prepare(bare, diagnostics);
     if (!example) return {};
     return findings(e.experiment, results, example->run.system(), example->run.layout(), diagnostics);

@@ -9,6 +9,7 @@
 
 #include "core/base/output_files.h"
 #include "core/run/experiment/exercise.h"
+#include "core/run/experiment/parts.h"
 #include "core/run/experiment/runs.h"
 #include "tools/api/sources.h"
 
@@ -18,7 +19,7 @@ namespace forage {
 struct PreparedExperiment {
     model::Experiment experiment;
     std::string directory;
-    std::vector<PlannedRun> runs;
+    RunPlan runs;
     std::map<std::string, Sources> sources;  ///< by the path of the first system of the runs
     DirectoryHold hold;
 
@@ -26,6 +27,8 @@ struct PreparedExperiment {
 
     std::string results_file() const { return directory + "/results.csv"; }
     std::string summary_file() const { return directory + "/summary.csv"; }
+    /// Whether its runs leave files besides their numbers, when parts execute them.
+    bool parts_leave_files() const { return !experiment.recordings.empty() || !experiment.plots.empty(); }
 };
 
 /// Plans the runs of an experiment, reads their files and checks everything that the experiment says about
@@ -46,12 +49,41 @@ std::optional<PreparedExperiment> prepare_experiment(const std::string& file, st
                                                      const std::vector<std::string>& plugins,
                                                      Diagnostics& diagnostics,
                                                      const std::string& system = {});
+/// Does the same for a part of an experiment, or to read what parts have left. Locks nothing, because other
+/// parts work in the directory at the same time.
+std::optional<PreparedExperiment> prepare_part(const std::string& file, std::string directory,
+                                               const std::vector<std::string>& plugins,
+                                               Diagnostics& diagnostics);
 
 /// Executes the runs that are not finished yet (with `fresh`, all of them), `jobs` at a time (0: one per
 /// core), and writes the tables of results. Returns the results in the order of the runs; empty when it was
 /// interrupted.
 std::optional<std::vector<RunResult>> run_experiment(const PreparedExperiment& experiment, int jobs,
                                                      bool fresh, const ExperimentCallbacks& callbacks);
+
+/// The results that the runs have: those of parts, and those in the directories of runs.
+PartResults read_results(const PreparedExperiment& experiment, const std::optional<Shard>& only = {});
+
+/// How a part of an experiment ended.
+struct PartOutcome {
+    bool finished = false;  ///< whether all its runs were executed; otherwise it was interrupted
+    std::size_t runs = 0;   ///< how many were executed now
+    std::vector<std::pair<std::string, std::string>> failures = {};  ///< names of runs, and reasons
+};
+/// Executes the runs `wanted`, and adds their results to `file`. Throws std::runtime_error when it cannot be
+/// written.
+PartOutcome run_part(const PreparedExperiment& experiment, PartFile& file, std::vector<std::size_t> wanted,
+                     int jobs, const ExperimentCallbacks& callbacks);
+/// Executes the runs of one part that have no numbers yet; with `fresh`, all of them.
+PartOutcome run_part(const PreparedExperiment& experiment, const Shard& shard, int jobs, bool fresh,
+                     const ExperimentCallbacks& callbacks);
+/// The runs without numbers.
+std::vector<std::size_t> open_runs(const PartResults& results);
+
+/// Writes the tables of an experiment whose parts have results of all runs, byte for byte those of
+/// run_experiment(), and returns the results. When runs have no result, reports an error, writes nothing and
+/// returns nothing.
+std::optional<std::vector<RunResult>> merge(const PreparedExperiment& experiment, Diagnostics& diagnostics);
 
 /// What became of the requirements of the file's exercise, in order; `results` are those of all runs.
 std::vector<Finding> findings(const PreparedExperiment& experiment, std::span<const RunResult> results,

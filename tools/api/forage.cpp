@@ -140,7 +140,7 @@ ExperimentOutcome experiment(model::Experiment wanted, const ExperimentSettings&
         diagnostics);
 }
 
-std::vector<PlannedRun> plan(model::Experiment wanted, const std::vector<std::string>& plugins,
+RunPlan plan(model::Experiment wanted, const std::vector<std::string>& plugins,
                              Diagnostics* warnings) {
     Diagnostics diagnostics;
     auto planned = plan_experiment(std::move(wanted), {}, plugins, diagnostics);

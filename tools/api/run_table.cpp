@@ -48,7 +48,8 @@ std::vector<std::string> values_of(const RunTable& table, const std::vector<std:
 }  // namespace
 
 bool holds_experiment(const std::string& directory) {
-    return fs::exists(directory + "/results.csv") && fs::is_directory(directory + "/runs");
+    return fs::exists(directory + "/results.csv") &&
+           (fs::is_directory(directory + "/runs") || fs::is_directory(directory + "/parts"));
 }
 
 RunTable read_run_table(const std::string& directory) {

@@ -60,6 +60,11 @@ struct ExperimentOptions {
     int jobs = 0;        ///< number of simultaneous runs; 0: one per core
     bool fresh = false;  ///< whether finished runs are repeated
     bool quiet = false;
+    std::string shard = {};  ///< "3/10": executes this part only
+    bool merge = false, status = false;
+    bool slurm = false, dry_run = false;   ///< submits to Slurm, or only writes the scripts
+    int tasks = 0;                         ///< of Slurm's array; 0: at most 100
+    std::vector<std::string> sbatch = {};  ///< further options of sbatch, such as "--partition=short"
 };
 
 struct WorldCommand {

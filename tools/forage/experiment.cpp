@@ -9,6 +9,7 @@
 
 #include "core/base/number.h"
 #include "core/run/experiment/tables.h"
+#include "tools/cluster/slurm.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/progress.h"
 #include "tools/forage/stop.h"
@@ -38,52 +39,121 @@ int print_findings(const std::string& system, std::span<const Finding> all) {
     return met == std::ssize(all) ? fine : run_failed;
 }
 
-}  // namespace
+ExperimentCallbacks callbacks_of(Progress& progress) {
+    return {.progress =
+                [&](const ExperimentCallbacks::Progress& p) {
+                    if (progress.due()) progress.draw(p.done, progress_text(p));
+                },
+            .interrupted = [] { return noted_signal() != 0; }};
+}
 
-int experiment(const ExperimentOptions& o) {
-    Diagnostics diagnostics;
-    const auto wanted = prepare_experiment(o.file, o.directory, o.plugins, diagnostics, o.system);
-    if (diagnostics.failed() || !o.quiet) fmt::print(stderr, "{}", format(diagnostics));
-    if (!wanted) return bad_input;
+/// Prepares for signals and for crashes of plugins.
+void begin(const PreparedExperiment& e) {
     note_signals("the current cycle of each run");
     std::vector<std::string> plugins;
-    for (const auto& [path, sources] : wanted->sources)
+    for (const auto& [path, sources] : e.sources)
         for (const auto& p : sources.plugins) plugins.push_back(p.path);
     plugin::tell_crashes(plugins);
-    Progress progress(!o.quiet);
-    ExperimentCallbacks callbacks;
-    callbacks.interrupted = [] { return noted_signal() != 0; };
-    callbacks.progress = [&](const ExperimentCallbacks::Progress& p) {
-        if (progress.due()) progress.draw(p.done, progress_text(p));
-    };
-    const auto results = run_experiment(*wanted, o.jobs, o.fresh, callbacks);
-    progress.clear();
-    if (!results) {
-        fmt::print(stderr, "stopped {}; the same command continues with the unfinished runs\n",
-                   stopped_by(noted_signal()));
-        return 128 + noted_signal();
-    }
-    const auto& runs = wanted->runs;
-    if (const auto diverged = divergence_summary(runs, *results); !diverged.empty())
+}
+
+/// Tells that the runs were interrupted. Returns the exit status.
+int print_stopped() {
+    fmt::print(stderr, "stopped {}; the same command continues with the unfinished runs\n",
+               stopped_by(noted_signal()));
+    return 128 + noted_signal();
+}
+
+/// Prints what became of the runs, and returns the exit status.
+int print_results(const ExperimentOptions& o, const PreparedExperiment& e,
+                  const std::vector<RunResult>& results) {
+    const auto& runs = e.runs;
+    if (const auto diverged = divergence_summary(runs, results); !diverged.empty())
         fmt::print(stderr, "warning: {}\n", diverged);
-    if (!o.quiet) fmt::print(stderr, "{}", format(warnings_of(runs, *results)));
+    if (!o.quiet) fmt::print(stderr, "{}", format(warnings_of(runs, results)));
     if (!o.quiet)
-        for (const auto& note : event_notes(*results)) fmt::print(stderr, "note: {}\n", note);
+        for (const auto& note : event_notes(results)) fmt::print(stderr, "note: {}\n", note);
     std::size_t failures = 0;
     for (std::size_t i = 0; i < runs.size(); ++i)
-        if (!(*results)[i].failure.empty()) {
+        if (!results[i].failure.empty()) {
             ++failures;
-            fmt::print(stderr, "error: run '{}': {}\n", runs[i].name, (*results)[i].failure);
+            fmt::print(stderr, "error: run '{}': {}\n", runs.name(i), results[i].failure);
         }
     if (!o.quiet && o.system.empty())
         fmt::print("{}: {} runs{}\n{}  written: {}, {}\n", o.file, runs.size(),
                    failures ? fmt::format(", {} failed", failures) : "",
-                   summary_text(wanted->experiment, runs, *results), wanted->results_file(),
-                   wanted->summary_file());
-    if (failures || o.system.empty()) return failures ? run_failed : fine;
-    const int status = print_findings(o.system, findings(*wanted, *results, diagnostics));
+                   summary_text(e.experiment, runs, results), e.results_file(), e.summary_file());
+    return failures ? run_failed : fine;
+}
+
+/// Executes one part.
+int execute_shard(const ExperimentOptions& o, const PreparedExperiment& e) {
+    begin(e);
+    Progress progress(!o.quiet);
+    const auto out = run_part(e, *parse_shard(o.shard), o.jobs, o.fresh, callbacks_of(progress));
+    progress.clear();
+    for (const auto& [run, reason] : out.failures) fmt::print(stderr, "error: run '{}': {}\n", run, reason);
+    if (!out.finished) return print_stopped();
+    if (!o.quiet) fmt::print("{}: part {}: {} runs executed now\n", o.file, o.shard, out.runs);
+    return out.failures.empty() ? fine : run_failed;
+}
+
+int print_status(const PreparedExperiment& e) {
+    const PartResults found = read_results(e);
+    const std::size_t done = found.finished(), failed = found.failed(), left = e.runs.size() - done - failed;
+    fmt::print("{}/{} runs", done + failed, e.runs.size());
+    if (failed > 0) fmt::print(", {} failed", failed);
+    if (found.rate > 0) {
+        fmt::print(", {} runs/s", plain_number(found.rate, 3));
+        if (left > 0) fmt::print(", {} left", duration_text(static_cast<double>(left) / found.rate));
+    }
+    fmt::print("\n");
+    if (found.damaged > 0) fmt::print("{} lines of parts cannot be read\n", found.damaged);
+    for (const auto& job : cluster::submitted_jobs(e.directory)) fmt::print("{}\n", job);
+    return fine;
+}
+
+int submit(const ExperimentOptions& o, const PreparedExperiment& e) {
+    cluster::SlurmJob job{o.file, e.directory, o.plugins, o.sbatch, o.tasks};
+    Diagnostics diagnostics;
+    const auto text = cluster::submit(job, e.runs.size(), o.dry_run, diagnostics);
+    fmt::print(stderr, "{}", format(diagnostics));
+    fmt::print("{}", text);
+    return diagnostics.failed() ? run_failed : fine;
+}
+
+/// What parts need: everything but executing all runs here.
+int experiment_in_parts(const ExperimentOptions& o) {
+    Diagnostics diagnostics;
+    const auto e = prepare_part(o.file, o.directory, o.plugins, diagnostics);
+    if (diagnostics.failed() || !o.quiet) fmt::print(stderr, "{}", format(diagnostics));
+    if (!e) return bad_input;
+    if (!o.shard.empty()) return execute_shard(o, *e);
+    if (o.status) return print_status(*e);
+    if (o.slurm) return submit(o, *e);
+    Diagnostics merging;
+    const auto results = merge(*e, merging);
+    fmt::print(stderr, "{}", format(merging));
+    return results ? print_results(o, *e, *results) : run_failed;
+}
+
+}  // namespace
+
+int experiment(const ExperimentOptions& o) {
+    if (!o.shard.empty() || o.merge || o.status || o.slurm) return experiment_in_parts(o);
+    Diagnostics diagnostics;
+    const auto wanted = prepare_experiment(o.file, o.directory, o.plugins, diagnostics, o.system);
+    if (diagnostics.failed() || !o.quiet) fmt::print(stderr, "{}", format(diagnostics));
+    if (!wanted) return bad_input;
+    begin(*wanted);
+    Progress progress(!o.quiet);
+    const auto results = run_experiment(*wanted, o.jobs, o.fresh, callbacks_of(progress));
+    progress.clear();
+    if (!results) return print_stopped();
+    const int status = print_results(o, *wanted, *results);
+    if (status != fine || o.system.empty()) return status;
+    const int met = print_findings(o.system, findings(*wanted, *results, diagnostics));
     fmt::print("  results in {}\n", std::filesystem::path(wanted->results_file()).parent_path().string());
-    return status;
+    return met;
 }
 
 }  // namespace forage::tool

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/number.h"
+#include "core/run/experiment/parts.h"
 
 namespace forage::tool {
 namespace {
@@ -155,7 +156,10 @@ void add_experiment(CLI::App& app, ExperimentOptions& o) {
         "Runs that were finished before an interruption are not repeated. docs/reference/experiment.md\n"
         "describes FILE.\n"
         "Example:\n"
-        "  forage experiment systems/light_threshold.xml");
+        "  forage experiment systems/light_threshold.xml\n"
+        "On a cluster (docs/how-to/cluster.md):\n"
+        "  forage experiment systems/light_threshold.xml --slurm --partition short --time 1:00:00\n"
+        "  forage experiment systems/light_threshold.xml --status");
     experiment.add_option("FILE", o.file, "Experiment file (.xml)")->required()->option_text(" ");
     experiment.add_option("-o,--output", o.directory, "Directory for results [forage-out/ and FILE's name]")
         ->option_text("DIR");
@@ -165,6 +169,49 @@ void add_experiment(CLI::App& app, ExperimentOptions& o) {
     add_plugins(experiment, o.plugins);
     experiment.add_flag("--fresh", o.fresh, "Repeat finished runs");
     experiment.add_flag("-q,--quiet", o.quiet, "Print errors only");
+    const std::string cluster = "Many machines";
+    auto* shard = experiment.add_option("--shard", o.shard, "Execute part I of N parts only, such as 3/10");
+    shard->check(CLI::Validator(
+        [](const std::string& text) {
+            return parse_shard(text) ? std::string() : fmt::format("'{}' is not a part such as 3/10", text);
+        },
+        ""));
+    shard->option_text("I/N")->group(cluster);
+    auto* merge = experiment.add_flag("--merge", o.merge, "Write the tables of what the parts have left");
+    auto* status = experiment.add_flag("--status", o.status, "Show how many runs are finished, and the rate");
+    auto* slurm =
+        experiment.add_flag("--slurm", o.slurm, "Submit all parts to Slurm, and a merge behind them");
+    for (auto* flag : {merge, status, slurm}) flag->group(cluster)->excludes(shard);
+    merge->excludes(status)->excludes(slurm), status->excludes(slurm);
+    experiment.add_flag("--dry-run", o.dry_run, "With --slurm: only write the scripts")
+        ->needs(slurm)
+        ->group(cluster);
+    experiment
+        .add_option("--array-size", o.tasks, "With --slurm: number of parts [100, or that of the runs]")
+        ->needs(slurm)
+        ->transform(count())
+        ->option_text("N")
+        ->group(cluster);
+    const auto pass_on = [&](const char* name, const char* description, const char* value) {
+        experiment
+            .add_option_function<std::string>(
+                name,
+                [&o, option = std::string(name)](const std::string& v) {
+                    o.sbatch.push_back(option + "=" + v);
+                },
+                description)
+            ->needs(slurm)
+            ->option_text(value)
+            ->group(cluster);
+    };
+    pass_on("--partition", "With --slurm: the partition", "NAME");
+    pass_on("--time", "With --slurm: the time limit of a part", "TIME");
+    experiment
+        .add_option("--sbatch", o.sbatch, "With --slurm: another option of sbatch, such as --account=ME")
+        ->needs(slurm)
+        ->allow_extra_args(false)
+        ->option_text("OPTION")
+        ->group(cluster);
 }
 
 void add_plot(CLI::App& app, PlotOptions& o) {

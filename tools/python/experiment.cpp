@@ -62,8 +62,7 @@ class Watch {
 template <class Value>
 void add_column(py::list& columns, const std::string& name, const ExperimentOutcome& outcome, Value value) {
     py::list values;
-    for (std::size_t i = 0; i < outcome.runs.size(); ++i)
-        values.append(value(outcome.runs[i], outcome.results[i]));
+    for (std::size_t i = 0; i < outcome.runs.size(); ++i) values.append(value(i, outcome.results[i]));
     columns.append(py::make_tuple(name, values));
 }
 
@@ -71,26 +70,27 @@ void add_column(py::list& columns, const std::string& name, const ExperimentOutc
 py::list columns_of(const ExperimentOutcome& outcome) {
     py::list out;
     const auto add = [&](const std::string& name, auto value) { add_column(out, name, outcome, value); };
-    add("run", [](const PlannedRun& run, const RunResult&) { return run.name; });
+    add("run", [&](std::size_t run, const RunResult&) { return outcome.runs.name(run); });
     const auto& experiment = outcome.experiment;
     for (std::size_t i = 0; i < experiment.sweeps.size(); ++i)
-        add(experiment.sweeps[i].parameter.text,
-            [i](const PlannedRun& run, const RunResult&) { return run.values[i]; });
-    add("seed", [](const PlannedRun& run, const RunResult&) { return run.spec.input.seed; });
-    add("status", [](const PlannedRun&, const RunResult& r) {
+        add(experiment.sweeps[i].parameter.text, [&, i](std::size_t run, const RunResult&) {
+            return outcome.runs.values(run / outcome.runs.seeds())[i];
+        });
+    add("seed", [&](std::size_t run, const RunResult&) { return outcome.runs.seed(run); });
+    add("status", [](std::size_t, const RunResult& r) {
         return !r.failure.empty() ? "failed" : r.stopped.empty() ? "finished" : "stopped";
     });
-    add("cycles", [](const PlannedRun&, const RunResult& r) { return r.cycles; });
-    add("seconds", [](const PlannedRun&, const RunResult& r) { return r.seconds; });
+    add("cycles", [](std::size_t, const RunResult& r) { return r.cycles; });
+    add("seconds", [](std::size_t, const RunResult& r) { return r.seconds; });
     if (std::ranges::any_of(outcome.results, [](const auto& r) { return r.trials.has_value(); })) {
-        add("trials", [](const PlannedRun&, const RunResult& r) { return r.trials.value_or(0); });
-        add("reached", [](const PlannedRun&, const RunResult& r) { return r.reached.value_or(0); });
+        add("trials", [](std::size_t, const RunResult& r) { return r.trials.value_or(0); });
+        add("reached", [](std::size_t, const RunResult& r) { return r.reached.value_or(0); });
     }
     for (std::size_t i = 0; i < experiment.measures.size(); ++i)
-        add(experiment.measures[i].name, [i](const PlannedRun&, const RunResult& r) {
+        add(experiment.measures[i].name, [i](std::size_t, const RunResult& r) {
             return r.failure.empty() ? r.measures[i] : std::nullopt;
         });
-    add("remark", [](const PlannedRun&, const RunResult& r) {
+    add("remark", [](std::size_t, const RunResult& r) {
         return !r.failure.empty() ? r.failure : !r.stopped.empty() ? r.stopped : r.diverged;
     });
     return out;
@@ -185,14 +185,15 @@ PythonSweep make_sweep(const ExperimentPath& system, const std::optional<Experim
 /// The runs, after all mistakes in them were reported: (name, values, seed, settings) of each.
 py::list planned(const PythonSweep& self) {
     Diagnostics warnings;
-    std::vector<PlannedRun> runs;
+    RunPlan runs;
     {
         const py::gil_scoped_release others;
         runs = forage::plan(self.experiment, self.plugins, &warnings);
     }
     warn(warnings);
     py::list out;
-    for (const auto& run : runs) {
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const PlannedRun run = runs[i];
         py::list settings;
         for (const auto& s : run.spec.input.settings) settings.append(s.text);
         out.append(py::make_tuple(run.name, run.values, run.spec.input.seed, settings));

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
+#include <unordered_map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -34,52 +35,86 @@ std::string short_name(const std::string& parameter) {
 
 }  // namespace
 
-std::vector<PlannedRun> planned_runs(const model::Experiment& e, const std::string& directory,
-                                     const std::vector<std::string>& plugins) {
-    std::vector<PlannedRun> out;
-    std::set<std::string> names;
-    std::vector<std::size_t> sizes;  // of the axes
-    for (const auto& sweep : e.sweeps)
-        if (sweep.axis == sizes.size()) sizes.push_back(sweep.values.size());
-    std::vector<std::size_t> chosen(sizes.size(), 0);
-    for (bool more = true; more;) {
-        PlannedRun combination;
-        combination.spec = common(e);
-        combination.spec.input.plugins = plugins;
-        RunInput& input = combination.spec.input;
-        for (const auto& sweep : e.sweeps) {
-            const std::size_t n = chosen[sweep.axis];
-            const auto& value = sweep.values[n];
-            const auto& parameter = sweep.parameter.text;
-            combination.values.push_back(value.text);
-            if (sweep.files.empty())
-                input.settings.push_back({parameter + "=" + value.text, value.at});
-            else
-                input.system = sweep.files[n];
-            const std::string shown =
-                sweep.files.empty() ? value.text : std::filesystem::path(value.text).stem().string();
-            combination.name += file_name(fmt::format("{}-{}_", short_name(parameter), shown));
-        }
-        if (input.system.empty()) {
-            input.system = input.more.front();
-            input.more.erase(input.more.begin());
-        }
-        for (const auto seed : e.seeds) {
-            PlannedRun run = combination;
-            run.spec.input.seed = seed;
-            run.name = fmt::format("{}seed-{}", combination.name, seed);
-            const std::string wanted = run.name;
-            for (int i = 2; !names.insert(run.name).second; ++i) run.name = fmt::format("{}_{}", wanted, i);
-            run.spec.directory = directory + "/runs/" + run.name;
-            out.push_back(std::move(run));
-        }
-        more = false;
-        for (std::size_t i = chosen.size(); i-- > 0 && !more;)
-            if (++chosen[i] < sizes[i])
-                more = true;
-            else
-                chosen[i] = 0;
+RunPlan::RunPlan(const model::Experiment& e, std::string directory, const std::vector<std::string>& plugins)
+    : directory_(std::move(directory)), common_(common(e)), sweeps_(e.sweeps), seeds_(e.seeds) {
+    common_.input.plugins = plugins;
+    const bool swept =
+        std::any_of(sweeps_.begin(), sweeps_.end(), [](const auto& s) { return !s.files.empty(); });
+    if (!swept && !e.systems.empty()) {
+        common_.input.system = common_.input.more.front();
+        common_.input.more.erase(common_.input.more.begin());
     }
+    for (const auto& sweep : sweeps_)
+        if (sweep.axis == sizes_.size()) sizes_.push_back(sweep.values.size());
+    strides_.resize(sizes_.size());
+    combinations_ = 1;
+    for (std::size_t i = sizes_.size(); i-- > 0; combinations_ *= sizes_[i]) strides_[i] = combinations_;
+    std::unordered_map<std::string, std::size_t> names;
+    for (std::size_t c = 0; c < combinations_; ++c)
+        if (const std::size_t earlier = names[combination_name(c)]++; earlier > 0) repeated_[c] = earlier;
+}
+
+std::size_t RunPlan::chosen(const model::Sweep& sweep, std::size_t combination) const {
+    return combination / strides_[sweep.axis] % sizes_[sweep.axis];
+}
+
+std::vector<std::string> RunPlan::values(std::size_t combination) const {
+    std::vector<std::string> out;
+    for (const auto& sweep : sweeps_) out.push_back(sweep.values[chosen(sweep, combination)].text);
+    return out;
+}
+
+std::string RunPlan::combination_name(std::size_t combination) const {
+    std::string out;
+    for (const auto& sweep : sweeps_) {
+        const auto& value = sweep.values[chosen(sweep, combination)].text;
+        const std::string shown = sweep.files.empty() ? value : std::filesystem::path(value).stem().string();
+        out += file_name(fmt::format("{}-{}_", short_name(sweep.parameter.text), shown));
+    }
+    return out;
+}
+
+std::string RunPlan::name(std::size_t run) const {
+    const std::size_t combination = run / seeds_.size();
+    const auto own = seeds_.begin() + static_cast<std::ptrdiff_t>(run % seeds_.size());
+    std::string out = fmt::format("{}seed-{}", combination_name(combination), *own);
+    auto earlier = static_cast<std::size_t>(std::count(seeds_.begin(), own, *own));
+    if (const auto found = repeated_.find(combination); found != repeated_.end())
+        earlier += found->second * static_cast<std::size_t>(std::count(seeds_.begin(), seeds_.end(), *own));
+    return earlier > 0 ? fmt::format("{}_{}", out, earlier + 1) : out;
+}
+
+const std::string& RunPlan::system(std::size_t combination) const {
+    const std::string* out = &common_.input.system;
+    for (const auto& sweep : sweeps_)
+        if (!sweep.files.empty()) out = &sweep.files[chosen(sweep, combination)];
+    return *out;
+}
+
+std::vector<model::Expression> RunPlan::settings(std::size_t combination) const {
+    std::vector<model::Expression> out;
+    for (const auto& sweep : sweeps_)
+        if (sweep.files.empty()) {
+            const auto& value = sweep.values[chosen(sweep, combination)];
+            out.push_back({sweep.parameter.text + "=" + value.text, value.at});
+        }
+    return out;
+}
+
+const std::string& RunPlan::files(std::size_t combination) const {
+    static const std::string none;
+    const auto found = files_.find(system(combination));
+    return found == files_.end() ? none : found->second;
+}
+
+PlannedRun RunPlan::operator[](std::size_t run) const {
+    const std::size_t combination = run / seeds_.size();
+    PlannedRun out{name(run), values(combination), files(combination), common_};
+    RunInput& input = out.spec.input;
+    input.system = system(combination);
+    for (auto& setting : settings(combination)) input.settings.push_back(std::move(setting));
+    input.seed = seed(run);
+    out.spec.directory = directory_ + "/runs/" + out.name;
     return out;
 }
 

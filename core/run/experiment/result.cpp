@@ -5,9 +5,9 @@
 #include <iterator>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "core/base/output_files.h"
+#include "core/run/experiment/result_json.h"
 #include "core/run/input_files.h"
 
 namespace forage {
@@ -20,15 +20,6 @@ std::string path_of(const PlannedRun& run) { return run.spec.directory + "/resul
 std::string content_of(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
-}
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-    return value ? Json(*value) : Json();
-}
-template <class T>
-std::optional<T> or_empty(const Json& json) {
-    return json.is_null() ? std::nullopt : std::optional(json.get<T>());
 }
 
 }  // namespace
@@ -65,18 +56,7 @@ std::optional<RunResult> read_result(const PlannedRun& run, const std::string& k
     try {
         const auto json = Json::parse(content_of(path_of(run)));
         if (json.at("run").dump() != key) return std::nullopt;
-        const auto& result = json.at("result");
-        RunResult out;
-        out.stopped = result.at("stopped"), out.cycles = result.at("cycles"),
-        out.seconds = result.at("seconds");
-        out.diverged = result.value("diverged", "");
-        out.warnings = result.value("warnings", out.warnings);
-        out.until = result.value("until", "");
-        out.never = result.value("never", std::vector<std::string>());
-        out.trials = or_empty<std::uint64_t>(result.at("trials"));
-        out.reached = or_empty<std::uint64_t>(result.at("reached"));
-        for (const auto& m : result.at("measures")) out.measures.push_back(or_empty<double>(m));
-        return out;
+        return result_of(json.at("result"));
     } catch (const nlohmann::json::exception&) {
         return std::nullopt;  // absent, or of another run: the run is repeated
     }
@@ -97,15 +77,7 @@ void write_result(const PlannedRun& run, const std::string& key, const RunResult
     for (const auto& name : files) flush_to_disk(run.spec.directory + "/" + name);
     Json json;
     json["run"] = Json::parse(key);
-    auto& r = json["result"];
-    r["stopped"] = result.stopped, r["cycles"] = result.cycles, r["seconds"] = result.seconds;
-    if (!result.diverged.empty()) r["diverged"] = result.diverged;
-    if (!result.warnings.empty()) r["warnings"] = result.warnings;
-    if (!result.until.empty()) r["until"] = result.until;
-    if (!result.never.empty()) r["never"] = result.never;
-    r["trials"] = or_null(result.trials), r["reached"] = or_null(result.reached);
-    r["measures"] = Json::array();
-    for (const auto& m : result.measures) r["measures"].push_back(or_null(m));
+    json["result"] = json_of(result);
     json["files"] = files;
     write_durably(path_of(run), json.dump(2) + "\n");
 }

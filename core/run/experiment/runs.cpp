@@ -49,32 +49,24 @@ RunResult failed(std::string why) {
 /// The work that all threads share.
 class Work {
   public:
-    Work(const model::Experiment& experiment, const PrepareRun& prepare, std::span<const PlannedRun> runs,
-         bool fresh, const ExperimentCallbacks& callbacks)
-        : experiment_(experiment),
-          prepare_(prepare),
-          runs_(runs),
-          results_(runs.size()),
-          callbacks_(callbacks) {
-        for (std::size_t i = 0; i < runs.size(); ++i) {
-            if (!fresh) results_[i] = read_result(runs[i], key(i));
-            if (!results_[i]) open_.push_back(i);
-        }
-        earlier_ = runs.size() - open_.size();
-    }
-
-    std::size_t open() const { return open_.size(); }
+    Work(const RunBlock& block, const KeepResult& keep, const ExperimentCallbacks& callbacks)
+        : block_(block), keep_(keep), callbacks_(callbacks) {}
 
     /// Executes runs until none is left, or the experiment is interrupted. `part` is the completed fraction
     /// of the current run.
     void take_part(std::atomic<double>& part) {
-        for (std::size_t i; (i = next_++) < open_.size() && !interrupted();) {
-            auto result = make(open_[i], part);
+        for (std::size_t i; (i = next_++) < block_.open.size() && !interrupted() && !error_;) {
+            auto result = make(block_.open[i], part);
             if (!result) return;
             part = 0;
             const std::lock_guard lock(results_mutex_);
             (result->failure.empty() ? done_ : failed_) += 1;
-            results_[open_[i]] = std::move(result);
+            try {
+                keep_(block_.open[i], std::move(*result));
+            } catch (...) {
+                kept_badly_ = std::current_exception();
+                error_ = true;
+            }
         }
     }
 
@@ -83,48 +75,47 @@ class Work {
     ExperimentCallbacks::Progress progress(double parts, double elapsed) const {
         ExperimentCallbacks::Progress out;
         const double made = static_cast<double>(done_ + failed_) + parts;
-        out.finished = earlier_ + done_ + failed_, out.failed = failed_, out.all = runs_.size();
-        out.done = (static_cast<double>(earlier_) + made) / static_cast<double>(runs_.size());
+        out.finished = block_.earlier + done_ + failed_, out.failed = failed_;
+        out.all = block_.earlier + block_.open.size();
+        out.done = (static_cast<double>(block_.earlier) + made) / static_cast<double>(out.all);
         if (made > 0.02 && elapsed > 1)
-            out.seconds_left = elapsed * (static_cast<double>(open_.size()) - made) / made;
+            out.seconds_left = elapsed * (static_cast<double>(block_.open.size()) - made) / made;
         return out;
     }
 
-    std::optional<std::vector<RunResult>> results() {
-        std::vector<RunResult> out;
-        for (auto& r : results_) {
-            if (!r) return std::nullopt;
-            out.push_back(std::move(*r));
-        }
-        return out;
+    /// Whether all runs were executed. Throws what keeping a result threw.
+    bool finished() const {
+        if (kept_badly_) std::rethrow_exception(kept_badly_);
+        return done_ + failed_ == block_.open.size();
     }
 
   private:
-    std::string key(std::size_t run) const { return key_of(runs_[run], experiment_); }
     bool interrupted() const { return callbacks_.interrupted && callbacks_.interrupted(); }
 
     /// The results, or nothing when the experiment was interrupted.
     std::optional<RunResult> make(std::size_t index, std::atomic<double>& part) {
-        const PlannedRun& run = runs_[index];
+        PlannedRun run = block_.plan[index];
+        if (!block_.files) run.spec.directory.clear();
         try {
-            forget_result(run);
+            if (block_.files) forget_result(run);
             Diagnostics diagnostics;
             std::optional<PreparedRun> prepared;
             {
                 const std::lock_guard lock(libraries_);
-                prepared = prepare_(run.spec, diagnostics);
+                prepared = block_.prepare(run.spec, diagnostics);
                 ResultFiles files(run.spec.directory);
                 if (prepared)
                     for (const auto& o : prepared->run.observers()) o->begin_files(files);
             }
             if (!prepared) return failed(first_error(diagnostics));
-            return make(index, *prepared, part);
+            return make(run, *prepared, part);
         } catch (const std::exception& e) {
             return failed(e.what());
         }
     }
 
-    std::optional<RunResult> make(std::size_t index, PreparedRun& prepared, std::atomic<double>& part) {
+    std::optional<RunResult> make(const PlannedRun& planned, PreparedRun& prepared,
+                                  std::atomic<double>& part) {
         Run& run = prepared.run;
         RunResult result;
         bool stopped_by_user = false;
@@ -155,30 +146,30 @@ class Work {
         for (const auto& w : files.warnings().all()) result.warnings.emplace_back(w.message, w.hint);
         RunOutcome outcome;
         outcome.stopped = result.stopped, outcome.files = files;
-        files.write("run.json", [&] { return run_json(prepared, outcome); });  // for `forage plot` and `view`
+        if (block_.files)  // for `forage plot` and `view`
+            files.write("run.json", [&] { return run_json(prepared, outcome); });
         if (stopped_by_user) return std::nullopt;
         if (!files.problems().empty()) return failed(files.problems().front());
-        write_result(runs_[index], key(index), result, files.names());
+        if (block_.files) write_result(planned, key_of(planned, block_.experiment), result, files.names());
         return result;
     }
 
-    const model::Experiment& experiment_;
-    const PrepareRun& prepare_;
-    std::span<const PlannedRun> runs_;
-    std::vector<std::optional<RunResult>> results_;
+    const RunBlock& block_;
+    const KeepResult& keep_;
     const ExperimentCallbacks& callbacks_;
-    std::vector<std::size_t> open_;  ///< runs that have no result yet
-    std::size_t earlier_ = 0;        ///< runs that had one at the start
     std::atomic<std::size_t> next_ = 0, done_ = 0, failed_ = 0;
     /// Libraries that read files or draw must not be used by two threads at the same time.
     std::mutex libraries_;
     std::mutex results_mutex_;
+    std::atomic<bool> error_ = false;
+    std::exception_ptr kept_badly_;  ///< of the first result that could not be kept
 };
 
-/// Checks the first of the runs of one system, and the values of parameters that only the others have.
-void check_runs(const model::Experiment& e, const PrepareRun& prepare,
-                std::span<const PlannedRun* const> runs, Diagnostics& diagnostics) {
-    RunSpec spec = runs.front()->spec;
+/// Checks the first combination of one system, and the values of parameters that only other combinations
+/// have.
+void check_runs(const model::Experiment& e, const PrepareRun& prepare, const RunPlan& plan, std::size_t first,
+                Diagnostics& diagnostics) {
+    RunSpec spec = plan[first * plan.seeds()].spec;
     spec.directory.clear();  // nothing is written
     auto prepared = prepare(spec, diagnostics);
     if (!prepared) {  // the swept values are checked nevertheless
@@ -190,8 +181,8 @@ void check_runs(const model::Experiment& e, const PrepareRun& prepare,
     for (std::size_t i = 0; prepared && i < e.sweeps.size(); ++i) {
         if (!e.sweeps[i].files.empty()) continue;
         std::set<std::string> open;
-        for (const auto* run : runs) open.insert(run->values[i]);
-        open.erase(runs.front()->values[i]);
+        for (const auto& value : e.sweeps[i].values) open.insert(value.text);
+        open.erase(plan.values(first)[i]);
         for (const auto& value : e.sweeps[i].values)
             if (open.erase(value.text)) check_value(e.sweeps[i], value, prepared->run, diagnostics);
     }
@@ -207,14 +198,14 @@ bool contains(const Diagnostics& all, const Diagnostic& d) {
 
 }  // namespace
 
-void check_experiment(const model::Experiment& e, const PrepareRun& prepare, std::span<const PlannedRun> runs,
+void check_experiment(const model::Experiment& e, const PrepareRun& prepare, const RunPlan& plan,
                       Diagnostics& diagnostics) {
-    std::map<std::string, std::vector<const PlannedRun*>> by_system;
-    for (const auto& run : runs) by_system[run.spec.input.system].push_back(&run);
-    if (by_system.size() == 1) return check_runs(e, prepare, by_system.begin()->second, diagnostics);
+    std::map<std::string, std::size_t> by_system;  // the first combination of each
+    for (std::size_t c = 0; c < plan.combinations(); ++c) by_system.try_emplace(plan.system(c), c);
+    if (by_system.size() == 1) return check_runs(e, prepare, plan, 0, diagnostics);
     if (diagnostics.failed()) return;  // a system is missing
     std::vector<Diagnostics> found;
-    for (const auto& [system, its_runs] : by_system) check_runs(e, prepare, its_runs, found.emplace_back());
+    for (const auto& [system, first] : by_system) check_runs(e, prepare, plan, first, found.emplace_back());
     // What is wrong with all systems is reported once; otherwise the message names the system.
     for (auto system = by_system.begin(); const Diagnostics& of_system : found) {
         for (Diagnostic d : of_system.all()) {
@@ -229,12 +220,10 @@ void check_experiment(const model::Experiment& e, const PrepareRun& prepare, std
     }
 }
 
-std::optional<std::vector<RunResult>> run_experiment(const model::Experiment& experiment,
-                                                     const PrepareRun& prepare,
-                                                     std::span<const PlannedRun> runs, int jobs, bool fresh,
-                                                     const ExperimentCallbacks& callbacks) {
-    Work work(experiment, prepare, runs, fresh, callbacks);
-    std::vector<std::atomic<double>> parts(std::min(static_cast<std::size_t>(jobs), work.open()));
+bool execute_runs(const RunBlock& block, int jobs, const KeepResult& keep,
+                  const ExperimentCallbacks& callbacks) {
+    Work work(block, keep, callbacks);
+    std::vector<std::atomic<double>> parts(std::min(static_cast<std::size_t>(jobs), block.open.size()));
     std::atomic<std::size_t> busy = parts.size();
     std::vector<std::thread> threads;
     const auto begun = std::chrono::steady_clock::now();
@@ -252,7 +241,7 @@ std::optional<std::vector<RunResult>> run_experiment(const model::Experiment& ex
         callbacks.progress(work.progress(sum, elapsed.count()));
     }
     for (auto& thread : threads) thread.join();
-    return work.results();
+    return work.finished();
 }
 
 }  // namespace forage

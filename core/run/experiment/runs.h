@@ -19,8 +19,8 @@ using PrepareRun = std::function<std::optional<PreparedRun>(const RunSpec&, Diag
 
 /// Reports all mistakes in what the file says about its systems and world, for every swept value, before the
 /// first run.
-void check_experiment(const model::Experiment& experiment, const PrepareRun& prepare,
-                      std::span<const PlannedRun> runs, Diagnostics& diagnostics);
+void check_experiment(const model::Experiment& experiment, const PrepareRun& prepare, const RunPlan& plan,
+                      Diagnostics& diagnostics);
 
 /// Functions that run_experiment() calls while it works. Each of them may be empty.
 struct ExperimentCallbacks {
@@ -35,12 +35,21 @@ struct ExperimentCallbacks {
     std::function<bool()> interrupted = {};  ///< called by several threads at the same time
 };
 
-/// Executes the runs that have no result yet, `jobs` at a time, each on one thread. Each result is written
-/// into its run's directory at once. With `fresh`, finished runs are repeated. Returns all results in order;
-/// empty when it was interrupted.
-std::optional<std::vector<RunResult>> run_experiment(const model::Experiment& experiment,
-                                                     const PrepareRun& prepare,
-                                                     std::span<const PlannedRun> runs, int jobs, bool fresh,
-                                                     const ExperimentCallbacks& callbacks);
+/// Runs that are executed together.
+struct RunBlock {
+    const model::Experiment& experiment;
+    const PrepareRun& prepare;
+    const RunPlan& plan;
+    std::vector<std::size_t> open;  ///< the runs, in this order
+    std::size_t earlier = 0;        ///< how many others have results, for progress
+    bool files = true;              ///< whether each run leaves files in its directory, also its result
+};
+/// Takes a result as soon as there is one; called by one thread at a time.
+using KeepResult = std::function<void(std::size_t run, RunResult&&)>;
+
+/// Executes runs, `jobs` at a time, each on one thread. Returns whether all were executed; the others were
+/// interrupted. Throws what `keep` throws.
+bool execute_runs(const RunBlock& block, int jobs, const KeepResult& keep,
+                  const ExperimentCallbacks& callbacks);
 
 }  // namespace forage

@@ -49,7 +49,7 @@ Statistics statistics(const std::vector<double>& values) {
 
 /// The runs of one combination of swept values, in order of the seeds.
 struct Combination {
-    std::span<const PlannedRun> runs;
+    std::vector<std::string> values;
     std::span<const RunResult> results;
 
     std::size_t finished() const {
@@ -57,26 +57,24 @@ struct Combination {
             std::count_if(results.begin(), results.end(), [](const auto& r) { return r.failure.empty(); }));
     }
     Statistics of(std::size_t measure) const {
-        std::vector<double> values;
+        std::vector<double> numbers;
         for (const auto& r : results)
-            if (r.failure.empty() && r.measures[measure]) values.push_back(*r.measures[measure]);
-        return statistics(values);
+            if (r.failure.empty() && r.measures[measure]) numbers.push_back(*r.measures[measure]);
+        return statistics(numbers);
     }
 };
 
-std::vector<Combination> combinations(const model::Experiment& e, std::span<const PlannedRun> runs,
-                                      std::span<const RunResult> results) {
+std::vector<Combination> combinations(const RunPlan& plan, std::span<const RunResult> results) {
     std::vector<Combination> out;
-    const std::size_t n = e.seeds.size();
-    for (std::size_t first = 0; first < runs.size(); first += n)
-        out.push_back({runs.subspan(first, n), results.subspan(first, n)});
+    const std::size_t n = plan.seeds();
+    for (std::size_t c = 0; c < plan.combinations(); ++c)
+        out.push_back({plan.values(c), results.subspan(c * n, n)});
     return out;
 }
 
 }  // namespace
 
-std::string results_csv(const model::Experiment& e, std::span<const PlannedRun> runs,
-                        std::span<const RunResult> results) {
+std::string results_csv(const model::Experiment& e, const RunPlan& plan, std::span<const RunResult> results) {
     const bool trials =
         std::any_of(results.begin(), results.end(), [](const auto& r) { return r.trials.has_value(); });
     std::vector<std::string> header = {"run"};
@@ -86,12 +84,12 @@ std::string results_csv(const model::Experiment& e, std::span<const PlannedRun> 
     for (const auto& m : e.measures) header.push_back(field(m.name));
     header.emplace_back("remark");
     std::string out = row(header);
-    for (std::size_t i = 0; i < runs.size(); ++i) {
+    for (std::size_t i = 0; i < plan.size(); ++i) {
         const RunResult& r = results[i];
         const bool failed = !r.failure.empty();
-        std::vector<std::string> fields = {runs[i].name};
-        for (const auto& value : runs[i].values) fields.push_back(field(value));
-        fields.push_back(fmt::format("{}", runs[i].spec.input.seed));
+        std::vector<std::string> fields = {plan.name(i)};
+        for (const auto& value : plan.values(i / plan.seeds())) fields.push_back(field(value));
+        fields.push_back(fmt::format("{}", plan.seed(i)));
         fields.emplace_back(failed ? "failed" : r.stopped.empty() ? "finished" : "stopped");
         fields.push_back(failed ? "" : fmt::format("{}", r.cycles));
         fields.push_back(failed ? "" : fmt::format("{}", r.seconds));
@@ -104,8 +102,7 @@ std::string results_csv(const model::Experiment& e, std::span<const PlannedRun> 
     return out;
 }
 
-std::string summary_csv(const model::Experiment& e, std::span<const PlannedRun> runs,
-                        std::span<const RunResult> results) {
+std::string summary_csv(const model::Experiment& e, const RunPlan& plan, std::span<const RunResult> results) {
     std::vector<std::string> header;
     for (const auto& s : e.sweeps) header.push_back(field(s.parameter.text));
     header.emplace_back("runs");
@@ -113,9 +110,9 @@ std::string summary_csv(const model::Experiment& e, std::span<const PlannedRun> 
         for (const char* what : {"mean", "sd", "min", "max", "runs"})
             header.push_back(field(fmt::format("{} {}", m.name, what)));
     std::string out = row(header);
-    for (const auto& c : combinations(e, runs, results)) {
+    for (const auto& c : combinations(plan, results)) {
         std::vector<std::string> fields;
-        for (const auto& value : c.runs.front().values) fields.push_back(field(value));
+        for (const auto& value : c.values) fields.push_back(field(value));
         fields.push_back(fmt::format("{}", c.finished()));
         for (std::size_t m = 0; m < e.measures.size(); ++m) {
             const Statistics s = c.of(m);
@@ -130,18 +127,18 @@ std::string summary_csv(const model::Experiment& e, std::span<const PlannedRun> 
     return out;
 }
 
-std::string divergence_summary(std::span<const PlannedRun> runs, std::span<const RunResult> results) {
+std::string divergence_summary(const RunPlan& plan, std::span<const RunResult> results) {
     const auto diverged = [](const RunResult& r) { return !r.diverged.empty(); };
     const auto first = std::find_if(results.begin(), results.end(), diverged);
     if (first == results.end()) return {};
     const auto count = std::count_if(first, results.end(), diverged);
-    const std::string& name = runs[static_cast<std::size_t>(first - results.begin())].name;
+    const std::string name = plan.name(static_cast<std::size_t>(first - results.begin()));
     if (count == 1) return fmt::format("run '{}': {}", name, first->diverged);
     return fmt::format("{} of {} runs have numbers that are not finite; the first, '{}': {}", count,
-                       runs.size(), name, first->diverged);
+                       plan.size(), name, first->diverged);
 }
 
-Diagnostics warnings_of(std::span<const PlannedRun> runs, std::span<const RunResult> results) {
+Diagnostics warnings_of(const RunPlan& plan, std::span<const RunResult> results) {
     struct Shared {
         std::string text, hint, run;
         int count = 0;
@@ -151,7 +148,7 @@ Diagnostics warnings_of(std::span<const PlannedRun> runs, std::span<const RunRes
         for (const auto& [text, hint] : results[i].warnings) {
             auto at = std::find_if(all.begin(), all.end(),
                                    [&text = text](const Shared& s) { return s.text == text; });
-            if (at == all.end()) at = all.insert(at, {text, hint, runs[i].name});
+            if (at == all.end()) at = all.insert(at, {text, hint, plan.name(i)});
             ++at->count;
         }
     Diagnostics out;
@@ -159,7 +156,7 @@ Diagnostics warnings_of(std::span<const PlannedRun> runs, std::span<const RunRes
         out.warning({},
                     w.count == 1
                         ? fmt::format("run '{}': {}", w.run, w.text)
-                        : fmt::format("{} of {} runs, such as '{}': {}", w.count, runs.size(), w.run, w.text),
+                        : fmt::format("{} of {} runs, such as '{}': {}", w.count, plan.size(), w.run, w.text),
                     w.hint);
     return out;
 }
@@ -180,14 +177,14 @@ std::vector<std::string> event_notes(std::span<const RunResult> results) {
     return out;
 }
 
-std::string summary_text(const model::Experiment& e, std::span<const PlannedRun> runs,
+std::string summary_text(const model::Experiment& e, const RunPlan& plan,
                          std::span<const RunResult> results) {
     std::vector<std::vector<std::string>> table(1);
     for (const auto& s : e.sweeps) table[0].push_back(s.parameter.text);
     for (const auto& m : e.measures) table[0].push_back(m.name);
     table[0].emplace_back("runs");
-    for (const auto& c : combinations(e, runs, results)) {
-        auto& line = table.emplace_back(c.runs.front().values);
+    for (const auto& c : combinations(plan, results)) {
+        auto& line = table.emplace_back(c.values);
         for (std::size_t m = 0; m < e.measures.size(); ++m) {
             const Statistics s = c.of(m);
             line.push_back(s.n == 0  ? "none"

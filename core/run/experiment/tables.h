@@ -13,25 +13,25 @@ namespace forage {
 
 /// One row per run: run, the swept parameters, seed, status (finished, stopped, failed), cycles, seconds,
 /// trials and reached (in a world with trials), the measures, remark. A field without a number is empty.
-std::string results_csv(const model::Experiment& experiment, std::span<const PlannedRun> runs,
+std::string results_csv(const model::Experiment& experiment, const RunPlan& plan,
                         std::span<const RunResult> results);
 
 /// One row per combination of swept values: the number of runs with results, and for each measure the mean,
 /// standard deviation (n - 1), minimum and maximum over the seeds, with the number of runs that have it.
-std::string summary_csv(const model::Experiment& experiment, std::span<const PlannedRun> runs,
+std::string summary_csv(const model::Experiment& experiment, const RunPlan& plan,
                         std::span<const RunResult> results);
 
 /// How many runs had numbers that are not finite, and where the first of them had one; empty when none had.
-std::string divergence_summary(std::span<const PlannedRun> runs, std::span<const RunResult> results);
+std::string divergence_summary(const RunPlan& plan, std::span<const RunResult> results);
 
 /// The warnings of the runs; one that several runs share appears once and says how many they are.
-Diagnostics warnings_of(std::span<const PlannedRun> runs, std::span<const RunResult> results);
+Diagnostics warnings_of(const RunPlan& plan, std::span<const RunResult> results);
 
 /// What ended runs early or never happened in them, one sentence each, with the number of such runs.
 std::vector<std::string> event_notes(std::span<const RunResult> results);
 
 /// The summary as text, with mean +- standard deviation.
-std::string summary_text(const model::Experiment& experiment, std::span<const PlannedRun> runs,
+std::string summary_text(const model::Experiment& experiment, const RunPlan& plan,
                          std::span<const RunResult> results);
 
 }  // namespace forage

@@ -111,7 +111,7 @@ struct ExperimentSettings {
 };
 struct ExperimentOutcome {
     model::Experiment experiment;
-    std::vector<PlannedRun> runs;
+    RunPlan runs;
     std::vector<RunResult> results;  ///< one per run, in the same order; empty when it was interrupted
     std::string results_file, summary_file;
     Diagnostics warnings;  ///< about the files and the runs
@@ -127,7 +127,7 @@ inline ExperimentOutcome experiment(const std::string& file, const std::string& 
 ExperimentOutcome experiment(model::Experiment experiment, const ExperimentSettings& settings);
 /// The runs of an experiment that was described in code. Nothing is run or written. Throws InputError for all
 /// mistakes in them. Warnings are added to `warnings`, if it is not null.
-std::vector<PlannedRun> plan(model::Experiment experiment, const std::vector<std::string>& plugins = {},
+RunPlan plan(model::Experiment experiment, const std::vector<std::string>& plugins = {},
                              Diagnostics* warnings = nullptr);
 
 /// The types that ship with Forage, and those of `plugins`: shared objects and folders of them. Throws

@@ -1,0 +1,129 @@
+#include "tools/cluster/slurm.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "core/base/output_files.h"
+
+namespace forage::cluster {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The text as one word of a shell.
+std::string quoted(const std::string& text) {
+    std::string out = "'";
+    for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
+}
+
+constexpr const char* parts_script = R"(#!/bin/sh
+# Executes one part of an experiment per task. `forage experiment --slurm` has written and submitted this file.
+# You may change it and submit it yourself:
+#   parts=$(sbatch --parsable {parts}) && sbatch --dependency=afterany:$parts {merge}
+#SBATCH --job-name={name}
+#SBATCH --array=1-{tasks}
+#SBATCH --requeue
+#SBATCH --open-mode=append
+#SBATCH --output={logs}/part-%a.log
+{options}
+cd {here} || exit 1
+{command} --shard "$SLURM_ARRAY_TASK_ID/{tasks}" --jobs "${{SLURM_CPUS_PER_TASK:-1}}" --quiet
+status=$?
+# A part that was killed starts again with the runs that have no result yet, at most five times. When a node
+# fails, Slurm itself starts the part again.
+if [ $status -ge 128 ] && [ "${{SLURM_RESTART_COUNT:-0}}" -lt 5 ]; then
+    scontrol requeue "$SLURM_JOB_ID"
+fi
+exit $status
+)";
+
+constexpr const char* merge_script = R"(#!/bin/sh
+# Writes the tables of an experiment when all parts have ended.
+#SBATCH --job-name={name}-merge
+#SBATCH --requeue
+#SBATCH --output={logs}/merge.log
+{options}
+cd {here} || exit 1
+{command} --merge
+)";
+
+struct Said {
+    std::string text;  ///< what the command printed
+    int status = 0;
+};
+
+Said run(const std::string& command) {
+    Said out;
+    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+    if (!pipe) return {"it cannot be started", 127};
+    std::array<char, 256> buffer;
+    while (fgets(buffer.data(), buffer.size(), pipe)) out.text += buffer.data();
+    out.status = pclose(pipe);
+    while (!out.text.empty() && out.text.back() == '\n') out.text.pop_back();
+    return out;
+}
+
+/// The number of a job that sbatch has submitted; empty after an error, which it reports.
+std::string sbatch(const std::string& arguments, Diagnostics& diagnostics) {
+    const Said said = run("sbatch --parsable " + arguments);
+    if (said.status == 0) return said.text.substr(0, said.text.find(';'));  // "ID;CLUSTER"
+    diagnostics.error({}, fmt::format("sbatch failed: {}", said.text),
+                      "submit from a machine with Slurm; --dry-run only writes the scripts");
+    return {};
+}
+
+}  // namespace
+
+std::string submit(const SlurmJob& job, std::size_t runs, bool dry_run, Diagnostics& diagnostics) {
+    const std::size_t tasks = std::min<std::size_t>(job.tasks > 0 ? job.tasks : 100, runs);
+    const std::string logs = fs::absolute(job.directory + "/slurm").lexically_normal().string();
+    const std::string parts = logs + "/parts.sh", merge = logs + "/merge.sh";
+    std::string command = fmt::format("{} experiment {} -o {}", quoted(fs::read_symlink("/proc/self/exe")),
+                                      quoted(job.file), quoted(job.directory));
+    for (const auto& p : job.plugins) command += " --plugin " + quoted(p);
+    std::string options;
+    for (const auto& option : job.sbatch) options += "#SBATCH " + option + "\n";
+    const auto written = [&](const std::string& path, const char* text) {
+        write_file(path,
+                   fmt::format(
+                       fmt::runtime(text), fmt::arg("parts", quoted(parts)), fmt::arg("merge", quoted(merge)),
+                       fmt::arg("name", file_name("forage-" + fs::path(job.file).stem().string())),
+                       fmt::arg("tasks", tasks), fmt::arg("logs", logs), fmt::arg("options", options),
+                       fmt::arg("command", command), fmt::arg("here", quoted(fs::current_path().string()))));
+    };
+    try {
+        make_directory(logs);
+        written(parts, parts_script);
+        written(merge, merge_script);
+    } catch (const std::exception& e) {
+        diagnostics.error({}, e.what(), "choose another directory for the results with -o");
+        return {};
+    }
+    if (dry_run)
+        return fmt::format(
+            "written: {0}, {1}\nparts=$(sbatch --parsable {2}) && sbatch --dependency=afterany:$parts {3}\n",
+            parts, merge, quoted(parts), quoted(merge));
+    const std::string array = sbatch(quoted(parts), diagnostics);
+    if (array.empty()) return {};
+    const std::string last =
+        sbatch(fmt::format("--dependency=afterany:{} {}", array, quoted(merge)), diagnostics);
+    const std::string line = fmt::format("Slurm jobs {} ({} parts) and {} (merge)", array, tasks, last);
+    std::ofstream(logs + "/jobs", std::ios::app) << line << '\n';
+    return line + "\n";
+}
+
+std::vector<std::string> submitted_jobs(const std::string& directory) {
+    std::vector<std::string> out;
+    std::ifstream in(directory + "/slurm/jobs");
+    for (std::string line; std::getline(in, line);) out.push_back(line);
+    return out;
+}
+
+}  // namespace forage::cluster
