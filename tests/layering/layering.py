@@ -30,9 +30,9 @@ ALLOWED = {
                    'bug_interface'},
     'tools/api': {'core/base', 'core/types', 'core/model', 'core/engine', 'core/xml', 'core/plugin', 'core/observe',
                   'core/run', 'neurons', 'synapses', 'modules', 'bug_interface', 'tools/plot'},
+    'tools/cluster': {'core/base', 'core/run', 'tools/api'},
 }
 ALLOWED['tools'] = set(ALLOWED) - {'core/connectivity', 'core/plugin', 'core/types', 'modules', 'neurons', 'synapses'}
-ALLOWED['tools/cluster'] = {'core/base'}
 ALLOWED['tools/python'] = {'core/base', 'core/observe', 'core/run', 'tools/api'}
 ROOMS = set(ALLOWED)
 

@@ -31,7 +31,7 @@ constexpr const char* parts_script = R"(#!/bin/sh
 #SBATCH --array=1-{tasks}
 #SBATCH --requeue
 #SBATCH --open-mode=append
-#SBATCH --output={logs}/part-%a.log
+#SBATCH --output="{logs}/part-%a.log"
 {options}
 cd {here} || exit 1
 {command} --shard "$SLURM_ARRAY_TASK_ID/{tasks}" --jobs "${{SLURM_CPUS_PER_TASK:-1}}" --quiet
@@ -48,7 +48,7 @@ constexpr const char* merge_script = R"(#!/bin/sh
 # Writes the tables of an experiment when all parts have ended.
 #SBATCH --job-name={name}-merge
 #SBATCH --requeue
-#SBATCH --output={logs}/merge.log
+#SBATCH --output="{logs}/merge.log"
 {options}
 cd {here} || exit 1
 {command} --merge

@@ -1,0 +1,147 @@
+// forage-mpi: executes an experiment with MPI. Rank 0 hands out blocks of runs, the other ranks execute them,
+// and rank 0 writes the tables at the end.
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include "core/run/experiment/tables.h"
+#include "tools/api/experiment.h"
+
+namespace forage::cluster {
+namespace {
+
+enum Tag { ask, give };
+
+struct Options {
+    std::string file, directory;
+    std::vector<std::string> plugins;
+    bool quiet = false;
+};
+
+void print_failures(const PartOutcome& out) {
+    for (const auto& [run, reason] : out.failures) fmt::print(stderr, "error: run '{}': {}\n", run, reason);
+}
+
+/// Hands out blocks, which become smaller towards the end, until all ranks have got an empty one. Between the
+/// questions it sleeps, so it takes no core.
+void hand_out(const std::vector<std::size_t>& open, int workers, bool quiet) {
+    std::size_t next = 0, shown = 0;
+    for (int left = workers; left > 0;) {
+        int asked = 0;
+        MPI_Status from;
+        MPI_Iprobe(MPI_ANY_SOURCE, ask, MPI_COMM_WORLD, &asked, &from);
+        if (!asked) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            continue;
+        }
+        MPI_Recv(nullptr, 0, MPI_BYTE, from.MPI_SOURCE, ask, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+        const std::size_t rest = open.size() - next;
+        const std::size_t count =
+            std::min(rest, std::clamp<std::size_t>(rest / (4 * static_cast<std::size_t>(workers)), 1, 1000));
+        const std::vector<std::uint64_t> block(open.begin() + static_cast<std::ptrdiff_t>(next),
+                                               open.begin() + static_cast<std::ptrdiff_t>(next + count));
+        MPI_Send(block.data(), static_cast<int>(block.size()), MPI_UINT64_T, from.MPI_SOURCE, give,
+                 MPI_COMM_WORLD);
+        next += count;
+        if (count == 0) --left;
+        if (!quiet && next * 10 / std::max<std::size_t>(open.size(), 1) > shown) {
+            shown = next * 10 / open.size();
+            fmt::print(stderr, "{}/{} runs handed out\n", next, open.size());
+        }
+    }
+}
+
+/// Executes blocks of rank 0 until it gives an empty one.
+void work(const PreparedExperiment& e, int rank) {
+    PartFile file(e.directory, fmt::format("mpi-{}", rank));
+    for (;;) {
+        MPI_Send(nullptr, 0, MPI_BYTE, 0, ask, MPI_COMM_WORLD);
+        MPI_Status from;
+        MPI_Probe(0, give, MPI_COMM_WORLD, &from);
+        int count = 0;
+        MPI_Get_count(&from, MPI_UINT64_T, &count);
+        std::vector<std::uint64_t> block(static_cast<std::size_t>(count));
+        MPI_Recv(block.data(), count, MPI_UINT64_T, 0, give, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+        if (block.empty()) return;
+        print_failures(run_part(e, file, {block.begin(), block.end()}, 1, {}));
+    }
+}
+
+int execute(const Options& o, int rank, int ranks) {
+    Diagnostics diagnostics;
+    const auto e = prepare_part(o.file, o.directory, o.plugins, diagnostics);
+    if (rank == 0 && (diagnostics.failed() || !o.quiet)) fmt::print(stderr, "{}", format(diagnostics));
+    // All ranks stop when one of them cannot read the files.
+    int fine = e.has_value(), all_fine = 0;
+    MPI_Allreduce(&fine, &all_fine, 1, MPI_INT, MPI_LAND, MPI_COMM_WORLD);
+    if (!all_fine) {
+        if (rank != 0 && !fine) fmt::print(stderr, "rank {} cannot read the experiment\n", rank);
+        return 2;
+    }
+    if (rank != 0) {
+        work(*e, rank);
+        return 0;
+    }
+    const auto open = open_runs(read_results(*e));
+    if (ranks > 1)
+        hand_out(open, ranks - 1, o.quiet);
+    else {
+        PartFile file(e->directory, "mpi-0");
+        print_failures(run_part(*e, file, open, 1, {}));
+    }
+    const auto results = merge(*e, diagnostics);
+    if (!results) {
+        fmt::print(stderr, "{}", format(diagnostics));
+        return 1;
+    }
+    const bool failed =
+        std::any_of(results->begin(), results->end(), [](const auto& r) { return !r.failure.empty(); });
+    if (!o.quiet)
+        fmt::print("{}: {} runs\n{}  written: {}, {}\n", o.file, e->runs.size(),
+                   summary_text(e->experiment, e->runs, *results), e->results_file(), e->summary_file());
+    return failed;
+}
+
+int parse_and_execute(int argc, char** argv, int rank, int ranks) {
+    Options o;
+    CLI::App app(
+        "Executes an experiment with MPI, one run per rank at a time. Rank 0 hands out the runs and "
+        "needs no core.\nExample:\n  mpirun -n 65 forage-mpi systems/light_threshold.xml");
+    app.add_option("FILE", o.file, "Experiment file (.xml)")->required();
+    app.add_option("-o,--output", o.directory, "Directory for results [forage-out/ and FILE's name]");
+    app.add_option("--plugin", o.plugins, "Plugin with more types (.so), or a folder of plugins");
+    app.add_flag("-q,--quiet", o.quiet, "Print errors only");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (rank == 0) app.exit(error);
+        return error.get_exit_code() == 0 ? 0 : 2;
+    }
+    return execute(o, rank, ranks);
+}
+
+}  // namespace
+}  // namespace forage::cluster
+
+int main(int argc, char** argv) {
+    MPI_Init(&argc, &argv);
+    int rank = 0, ranks = 1;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    int status = 1;
+    try {
+        status = forage::cluster::parse_and_execute(argc, argv, rank, ranks);
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "error: rank {}: {}\n", rank, e.what());
+        MPI_Abort(MPI_COMM_WORLD, 1);
+    }
+    MPI_Finalize();
+    return status;
+}
