@@ -26,7 +26,7 @@ SlurmUser=root
 SlurmdUser=root
 AuthType=auth/munge
 CryptoType=crypto/munge
-AuthInfo=socket={folder}/munge.socket,cred_expire=1
+AuthInfo=socket={folder}/munge.socket,cred_expire=5
 CommunicationParameters=NoInAddrAny
 SlurmctldPort={port}
 StateSaveLocation={folder}/state
@@ -105,9 +105,9 @@ class Cluster:
         daemon = self.processes.pop(node)
         daemon.kill()
         daemon.wait()
-        steps = [int(e.name) for e in pathlib.Path("/proc").iterdir()
-                 if e.name.isdigit() and f"slurmstepd: [" in command_of(e) and str(self.folder) in environment_of(e) and f"n{node[1:]}" in environment_of(e)]
-        for pid in steps + self.tasks_of(node):
+        tasks = self.tasks_of(node)
+        parents = {parent_of(pid) for pid in tasks}
+        for pid in [p for p in parents if "slurmstepd" in command_of(p)] + tasks:
             kill(pid)
 
     def stop(self):
@@ -123,18 +123,18 @@ class Cluster:
                 process.wait()
 
 
-def command_of(entry):
+def command_of(pid):
     try:
-        return (entry / "cmdline").read_text(errors="replace").replace("\0", " ")
+        return pathlib.Path(f"/proc/{pid}/cmdline").read_text(errors="replace").replace("\0", " ")
     except OSError:
         return ""
 
 
-def environment_of(entry):
+def parent_of(pid):
     try:
-        return (entry / "environ").read_text(errors="replace")
+        return int(pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[1])
     except OSError:
-        return ""
+        return 0
 
 
 def kill(pid):
@@ -192,7 +192,7 @@ class Slurm(unittest.TestCase):
         wait_for(lambda: parts.exists() and len(list(parts.iterdir())) >= 3)
         for node in ("n1", "n2"):  # kills the program, not the script of the task
             for pid in self.cluster.tasks_of(node):
-                if command_of(pathlib.Path(f"/proc/{pid}")).startswith(FORAGE):
+                if command_of(pid).startswith(FORAGE):
                     kill(pid)
         self.cluster.kill_node("n3")
         self.assertRegex(self.forage("--status").stdout, r"\d+/120 runs(.|\n)*Slurm jobs")
