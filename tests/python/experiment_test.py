@@ -1,4 +1,6 @@
 """Experiments and sweeps: the table is that of the command line, with any number of threads, and with functions as measures."""
+import concurrent.futures
+import multiprocessing
 import os
 import signal
 import subprocess
@@ -175,3 +177,27 @@ def test_the_table_is_an_array():
     assert made._repr_html_().count("<tr>") == 3 and made["seed"]._repr_html_() is None
     frame = made.to_pandas()
     assert len(frame.groupby("Bug/Light.threshold")["cycles"].mean()) == 2
+
+
+def test_executors_give_the_same_table(tmp_path):
+    with concurrent.futures.ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn")) as executor:
+        ours = forage.experiment(EXPERIMENT, directory=tmp_path / "parts", executor=executor, parts=4)
+    whole = forage.experiment(EXPERIMENT, directory=tmp_path / "whole")
+    assert (tmp_path / "parts/results.csv").read_bytes() == (tmp_path / "whole/results.csv").read_bytes()
+    assert len(list((tmp_path / "parts/parts").iterdir())) == 4 and not list((tmp_path / "parts/runs").iterdir())
+    assert ours.dtype == whole.dtype and len(ours) == len(whole)
+
+
+def test_an_executor_tells_mistakes(tmp_path):
+    (tmp_path / "x.xml").write_text("<experiment/>")
+    with concurrent.futures.ThreadPoolExecutor(1) as executor, pytest.raises(forage.InputError, match="length"):
+        forage.experiment(tmp_path / "x.xml", directory=tmp_path / "out", executor=executor)
+
+
+def test_dask_gives_the_same_table(tmp_path):
+    distributed = pytest.importorskip("distributed", reason="apt-get install python3-distributed")
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, local_directory=tmp_path / "dask") as cluster:
+        with distributed.Client(cluster) as client:
+            forage.experiment(EXPERIMENT, directory=tmp_path / "parts", executor=client, parts=4)
+    forage.experiment(EXPERIMENT, directory=tmp_path / "whole")
+    assert (tmp_path / "parts/results.csv").read_bytes() == (tmp_path / "whole/results.csv").read_bytes()

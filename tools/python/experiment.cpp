@@ -1,5 +1,7 @@
 // Experiments and sweeps. forage/_experiment.py makes tables of what is here.
 
+#include "tools/api/experiment.h"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -115,6 +117,18 @@ py::list run_all(const What& what, const std::string& directory, const std::vect
     return columns_of(outcome);
 }
 
+/// Executes one part of an experiment file, as `forage experiment --shard` does, in a worker of an executor.
+void run_shard(const std::string& file, const std::string& directory, const std::vector<std::string>& plugins,
+               std::size_t number, std::size_t of, bool fresh) {
+    Watch watch{py::none()};
+    const py::gil_scoped_release others;
+    Diagnostics diagnostics;
+    const auto prepared = prepare_part(file, directory, plugins, diagnostics);
+    throw_errors(diagnostics);
+    run_part(*prepared, Shard{number, of}, 1, fresh, watch.callbacks());
+    watch.rethrow();
+}
+
 /// A sweep, as Python describes it.
 struct PythonSweep {
     model::Experiment experiment;
@@ -206,6 +220,7 @@ py::list planned(const PythonSweep& self) {
 void add_experiments(py::module_& module) {
     const auto none = py::none();
     module.def("_experiment", &run_all<std::string>);
+    module.def("_experiment_part", &run_shard);
     py::class_<PythonSweep>(module, "_Sweep")
         .def(py::init(&make_sweep), py::kw_only(), "system"_a, "world"_a, "values"_a, "seeds"_a, "settings"_a,
              "plugins"_a, "noise"_a, "real_time_factor"_a, "cycles"_a, "seconds"_a, "trials"_a,

@@ -62,7 +62,7 @@ class Table(numpy.ndarray[typing.Any, numpy.dtype[numpy.void]]):
 
 
 def experiment(file: Path, *, directory: Path | None = None, plugins: typing.Iterable[Path] = (), jobs: int = 0, fresh: bool = False,
-               progress: Progress = None) -> Table:
+               progress: Progress = None, executor: typing.Any = None, parts: int = 64) -> Table:
     """Runs an experiment file as `forage experiment` does, and returns the Table of its runs.
 
     directory: for the results; forage-out/ and the name of the file without it. Runs that are finished there are not repeated, unless `fresh` is set.
@@ -70,10 +70,40 @@ def experiment(file: Path, *, directory: Path | None = None, plugins: typing.Ite
     jobs: the number of runs at a time; one per core without it.
     progress: True for a bar on the standard error, or a function that is called ten times per second with the fraction that is done, 0 to 1, and a text.
 
-    Raises InputError with all mistakes in the file. Ctrl-C ends all runs; the same call continues with those that are not finished.
+    executor: a concurrent.futures.Executor or a dask.distributed.Client whose workers execute the runs, one at a time each. They need the same files and the
+        same folder at the same paths. Runs that fail there are tried again here.
+    parts: with an executor, the number of tasks that it gets.
+
+    Raises InputError with all mistakes in the file, and what a task of the executor raises. Ctrl-C ends all runs; the same call continues with those that
+    are not finished.
     """
     folder = os.fspath(directory) if directory is not None else f"forage-out/{pathlib.Path(file).stem}"
+    if executor is not None:
+        _execute(executor, operator.index(parts), _reporter(progress), os.path.abspath(file), os.path.abspath(folder), [os.path.abspath(p) for p in plugins],
+                 fresh)
+        file, fresh = os.path.abspath(file), False
     return _table(_forage._experiment(os.fspath(file), folder, [os.fspath(p) for p in plugins], jobs, fresh, _reporter(progress)), folder)
+
+
+def _part(file: str, folder: str, plugins: list[str], number: int, of: int, fresh: bool) -> None:
+    """Executes one part of an experiment in a worker; functions of C++ cannot be sent to one."""
+    _forage._experiment_part(file, folder, plugins, number, of, fresh)
+
+
+def _execute(executor: typing.Any, parts: int, report: typing.Callable[[float, str], object] | None, file: str, folder: str, plugins: list[str],
+             fresh: bool) -> None:
+    """Executes all parts of an experiment with an executor."""
+    if hasattr(executor, "get_executor"):  # a client of Dask; its results must not be those of an earlier call
+        executor = executor.get_executor(pure=False)
+    waiting = [executor.submit(_part, file, folder, plugins, i, parts, fresh) for i in range(1, parts + 1)]
+    try:
+        for done, future in enumerate(waiting, 1):
+            future.result()
+            if report:
+                report(done / parts, f"{done}/{parts} parts")
+    finally:  # after a failure, and after Ctrl-C
+        for future in waiting:
+            future.cancel()
 
 
 def sweep(system: Path | _forage.System, world: Path | None = None, values: Values | None = None, *, seeds: int | typing.Iterable[int] = 1,
