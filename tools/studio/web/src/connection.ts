@@ -1,0 +1,112 @@
+// The socket to the server: requests with replies, frames drawn once per animation frame, and reconnection.
+import { decodeFrame, FrameError, type Frame } from './protocol/frame';
+import { problemText, type Problem, type ServerMessage } from './protocol/messages';
+
+export type Link = 'connecting' | 'open' | 'lost';
+
+/** What the connection tells its owner. */
+export interface ConnectionEvents {
+  link(state: Link): void;
+  message(message: ServerMessage): void;
+  /** Frames that arrived since the last animation frame, oldest first. */
+  frames(frames: Frame[]): void;
+  fault(text: string): void;
+}
+
+/** A command that the server refused. */
+export class CommandError extends Error {
+  constructor(readonly problems: Problem[]) {
+    super(problems.map(problemText).join('\n') || 'the server refused this');
+  }
+}
+
+interface Waiting { resolve(result: unknown): void; reject(error: Error): void }
+
+export class Connection {
+  private socket: WebSocket | null = null;
+  private nextId = 1;
+  private waiting = new Map<number, Waiting>();
+  private arrived: Frame[] = [];
+  private scheduled = false;
+  private attempts = 0;
+  private closed = false;
+
+  constructor(
+    private readonly url: string,
+    private readonly events: ConnectionEvents,
+    private readonly schedule: (draw: () => void) => void = (draw) => requestAnimationFrame(draw),
+  ) {}
+
+  open(): void {
+    this.events.link('connecting');
+    const socket = new WebSocket(this.url);
+    socket.binaryType = 'arraybuffer';
+    this.socket = socket;
+    socket.onopen = () => {
+      this.attempts = 0;
+      this.events.link('open');
+    };
+    socket.onmessage = (event) => this.receive(event.data as string | ArrayBuffer);
+    socket.onclose = () => this.lost();
+  }
+
+  close(): void {
+    this.closed = true;
+    this.socket?.close();
+  }
+
+  /** Sends a command. Resolves with its result, rejects with a CommandError. */
+  request<T = unknown>(command: string, details: object = {}): Promise<T> {
+    const id = this.nextId++;
+    if (this.socket?.readyState !== WebSocket.OPEN) return Promise.reject(new CommandError([{ message: 'there is no connection to the server' }]));
+    this.socket.send(JSON.stringify({ id, command, ...details }));
+    return new Promise<T>((resolve, reject) => this.waiting.set(id, { resolve: resolve as Waiting['resolve'], reject }));
+  }
+
+  private lost(): void {
+    for (const w of this.waiting.values()) w.reject(new CommandError([{ message: 'the connection was lost' }]));
+    this.waiting.clear();
+    this.arrived = [];
+    if (this.closed) return;
+    this.events.link('lost');
+    const delay = Math.min(5000, 250 * 2 ** this.attempts++);
+    setTimeout(() => this.closed || this.open(), delay);
+  }
+
+  private receive(data: string | ArrayBuffer): void {
+    if (typeof data !== 'string') return this.keep(data);
+    const message = JSON.parse(data) as ServerMessage;
+    if (message.type !== 'reply') return this.events.message(message);
+    const waiting = this.waiting.get(message.id);
+    this.waiting.delete(message.id);
+    if (message.ok) waiting?.resolve(message.result);
+    else waiting?.reject(new CommandError(message.problems ?? []));
+  }
+
+  private keep(buffer: ArrayBuffer): void {
+    try {
+      this.arrived.push(decodeFrame(buffer));
+    } catch (error) {
+      if (!(error instanceof FrameError)) throw error;
+      this.events.fault(error.message);
+      return;
+    }
+    if (this.scheduled) return;
+    this.scheduled = true;
+    this.schedule(() => this.draw());
+  }
+
+  // The acknowledgement is sent after drawing, so a slow or hidden page is sent fewer frames, or none.
+  private draw(): void {
+    this.scheduled = false;
+    const frames = this.arrived;
+    this.arrived = [];
+    if (frames.length === 0) return;
+    try {
+      this.events.frames(frames);
+    } finally {
+      const seq = frames[frames.length - 1]!.sequence;
+      if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify({ command: 'ack', seq }));
+    }
+  }
+}

@@ -1,0 +1,30 @@
+// The colour scale of a plot: follows the values, only grows, or is fixed.
+export type ScaleMode = 'auto' | 'expand' | 'manual';
+export interface Scale { mode: ScaleMode; low: number; high: number }
+
+/** Adapts a scale to new values. Returns the scale itself when nothing changes. */
+export function adapt(scale: Scale, low: number, high: number): Scale {
+  if (scale.mode === 'manual' || !(low <= high)) return scale;
+  const to = scale.mode === 'auto' ? { low: Math.min(0, low), high: high > 0 ? high : 1 } : { low: Math.min(scale.low, low), high: Math.max(scale.high, high) };
+  return to.low === scale.low && to.high === scale.high ? scale : { mode: scale.mode, ...to };
+}
+
+/** Smallest and largest finite value; low > high when there is none. */
+export function extent(values: ArrayLike<number>): [number, number] {
+  let low = Infinity;
+  let high = -Infinity;
+  for (let i = 0; i < values.length; i++) {
+    const v = values[i]!;
+    if (v < low) low = v;
+    if (v > high) high = v;
+  }
+  return [low, high];
+}
+
+/** A number with at most four digits. */
+export function short(v: number): string {
+  if (!Number.isFinite(v)) return Number.isNaN(v) ? '–' : String(v);
+  const a = Math.abs(v);
+  if (a !== 0 && (a < 0.001 || a >= 100000)) return v.toExponential(1);
+  return String(Number(v.toPrecision(4)));
+}

@@ -1,0 +1,9 @@
+import { mount } from 'svelte';
+import './app.css';
+import App from './App.svelte';
+import { start } from './studio';
+import { theme } from './stores/theme.svelte';
+
+theme.start();
+mount(App, { target: document.getElementById('app')! });
+start();

@@ -1,0 +1,40 @@
+// The kinds of panels. A new kind is one component and one line here; components are loaded when they are first shown.
+import type { Component } from 'svelte';
+import { model } from '../stores/model.svelte';
+
+/** What a layout file keeps of a panel. */
+export interface PanelState {
+  kind: string;
+  /** Path of a group, name of a connection or robot. */
+  item?: string;
+  sources?: string[];
+  [setting: string]: unknown;
+}
+
+export interface PanelProps {
+  panel: PanelState;
+  /** Keeps settings in the layout. */
+  keep(settings: Partial<PanelState>): void;
+  setTitle(title: string): void;
+}
+
+export interface PanelKind {
+  title(panel: PanelState): string;
+  load(): Promise<{ default: Component<PanelProps> }>;
+}
+
+const group = (panel: PanelState) => model.group(panel.item ?? '')?.path ?? panel.item ?? '';
+
+export const kinds: Record<string, PanelKind> = {
+  arena: { title: () => 'Arena', load: () => import('./Arena.svelte') },
+  diagram: { title: () => 'Diagram', load: () => import('./Diagram.svelte') },
+  space: { title: (p) => group(p), load: () => import('./Space.svelte') },
+  time: { title: (p) => (p.sources?.length === 1 ? `${p.sources[0]} over time` : 'Over time'), load: () => import('./Time.svelte') },
+  raster: { title: (p) => `${group(p)} raster`, load: () => import('./Raster.svelte') },
+  weights: { title: (p) => `${p.item} weights`, load: () => import('./Weights.svelte') },
+  wiring: { title: (p) => `${p.item} wiring`, load: () => import('./Wiring.svelte') },
+  camera: { title: (p) => `Camera of ${p.item}`, load: () => import('./Camera.svelte') },
+  manipulate: { title: (p) => `Drive ${group(p)}`, load: () => import('./Manipulate.svelte') },
+  sampler: { title: () => 'Record to a file', load: () => import('./Sampler.svelte') },
+  log: { title: () => 'Log', load: () => import('./Log.svelte') },
+};

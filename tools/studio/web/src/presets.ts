@@ -1,0 +1,52 @@
+// Layouts that the studio brings: each is a list of panels with places, filled in where the system has the groups.
+import { dock } from './stores/dock.svelte';
+import { model } from './stores/model.svelte';
+import type { PanelState } from './panels/registry';
+
+export interface Preset { name: string; hint: string; spaces: string[]; times: string[]; raster?: string[]; weights?: boolean }
+
+export const presets: Preset[] = [
+  { name: 'Overview', hint: 'arena, diagram, sensors and motor', spaces: ['/Light', '/Motor'], times: [] },
+  { name: 'Part 1: getting started', hint: 'what the robot senses and does', spaces: ['/Red', '/Light', '/Sensor', '/Motor'], times: [] },
+  { name: 'Part 2: reactive layer', hint: 'reflexes and selection', spaces: ['/US (light)', '/Approach', '/Motor'], times: ['/Approach'] },
+  { name: 'Part 3: learning', hint: 'display, CS, prototype, discrepancy', spaces: ['/Weights Display', '/CS', 'Adaptive/prototype'], times: ['Adaptive/discrepancy'] },
+  { name: 'Part 4: memory', hint: 'collector, distance, selected, trigger', spaces: ['/Collector', '/Distance', '/Selected', '/Trigger'], times: ['Contextual/Distance'] },
+];
+
+const find = (name: string) => model.groups.find((g) => (name.startsWith('/') ? `/${g.name}`.startsWith(name) : g.path === name));
+const narrow = () => matchMedia('(max-width: 720px)').matches;
+
+/** Closes everything and opens the panels of a preset. */
+export function applyPreset(preset: Preset): void {
+  const api = dock.api;
+  if (!api) return;
+  api.clear();
+  const spaces = preset.spaces.map(find).filter((g) => g !== undefined);
+  if (spaces.length === 0) spaces.push(...model.groups.slice(0, 2));
+  const times = preset.times.map(find).filter((g) => g !== undefined);
+  const plots: PanelState[] = [...spaces.map((g) => ({ kind: 'space', item: g.path })), ...times.map((g) => ({ kind: 'time', sources: [`mean(${g.path})`] }))];
+  const first: PanelState = model.world ? { kind: 'arena' } : { kind: 'diagram' };
+  const arena = dock.open(first)!;
+  if (narrow()) {
+    if (model.world) dock.open({ kind: 'diagram' }, { beside: arena, inactive: true });
+    for (const p of plots) dock.open(p, { beside: arena, inactive: true });
+    return;
+  }
+  const width = Math.max(220, Math.round(api.width * 0.3));
+  let above: string | undefined;
+  for (const p of plots) {
+    const id = dock.open(p, above ? { beside: above, direction: 'below' } : { beside: arena, direction: 'right', width });
+    above = id ?? above;
+  }
+  if (model.world) dock.open({ kind: 'diagram' }, { beside: arena, direction: 'below', height: Math.round(api.height * 0.42) });
+}
+
+/** Opens the plots of a layout file of the original. */
+export function showPlots(plots: { kind?: string; type?: string; source?: string; group?: string; sources?: string[] }[]): void {
+  for (const p of plots) {
+    const item = p.group ?? p.source ?? p.sources?.[0];
+    if (!item) continue;
+    const kind = (p.kind ?? p.type ?? 'space').replace(/plot$/i, '').toLowerCase();
+    dock.plot(kind === 'time' ? { kind: 'time', sources: p.sources ?? [`mean(${item})`] } : { kind: 'space', item });
+  }
+}

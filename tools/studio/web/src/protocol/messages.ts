@@ -1,0 +1,166 @@
+// Control messages: JSON in both directions, as docs/design/studio-protocol.md describes them.
+
+export const protocolVersion = 1;
+
+export interface Icon { x: number; y: number; width: number; height: number }
+export interface State { name: string; label: string; output?: boolean }
+
+export interface Group {
+  id: string;
+  name: string;
+  /** "Process/Group", as sources and assignments name it. */
+  path: string;
+  color: string;
+  note: string;
+  icon: Icon | null;
+  type: string;
+  width: number;
+  height: number;
+  cells: number;
+  /** Columns and rows, from 0, of the cells of a sparse group. */
+  places: [number, number][] | null;
+  states: State[];
+}
+
+export interface ModulePort { name: string; group: string }
+
+export interface Process {
+  id: string;
+  name: string;
+  color: string;
+  note: string;
+  icon: Icon | null;
+  linked: boolean;
+  enabled: boolean;
+  module: { type: string; inputs: ModulePort[]; outputs: ModulePort[] } | null;
+  groups: Group[];
+}
+
+export type ConnectionKind = 'excitatory' | 'inhibitory' | 'modulatory';
+
+export interface Connection {
+  id: string;
+  name: string;
+  source: string;
+  target: string;
+  kind: ConnectionKind;
+  type: string;
+  note: string;
+  synapses: number;
+  form: string;
+  states: State[];
+  line: { source_anchor: number; target_anchor: number; vertices: [number, number][] } | null;
+}
+
+export interface SystemMessage {
+  type: 'system';
+  name: string;
+  file: string;
+  note: string;
+  cycles_per_second: number;
+  seconds_per_cycle: number;
+  processes: Process[];
+  connections: Connection[];
+}
+
+export interface Solid { kind: string; x: number; y: number; z: number; yaw: number; size: [number, number, number]; color: string }
+export interface RobotInfo {
+  name: string;
+  radius: number;
+  gripper: boolean;
+  trials: boolean;
+  camera: { width: number; height: number } | null;
+  scans: string[];
+}
+
+export interface WorldMessage {
+  type: 'world';
+  file: string | null;
+  /** Left, bottom, right, top, in m. */
+  view: [number, number, number, number];
+  picture: string;
+  robots: RobotInfo[];
+  objects: { name: string; resource: boolean; solids: Solid[] }[];
+  solids: Solid[];
+  targets: [number, number][];
+  starts: { x: number; y: number; yaw: number }[];
+  bounds: [number, number, number, number] | null;
+  trials: boolean;
+}
+
+export type SpeedMode = 'real' | 'times' | 'cycles' | 'free';
+
+export interface StatusMessage {
+  type: 'status';
+  running: boolean;
+  cycle: number;
+  seconds: number;
+  seed: number;
+  epoch: number;
+  speed: { mode: SpeedMode; value: number };
+  cycles_per_second: number;
+  times_real_time: number;
+  generation: number;
+  undo: string | null;
+  redo: string | null;
+  divergence: string;
+  failed: string;
+  sampler: { file: string; rows: number } | null;
+  manipulations: string[];
+  history: { first: number; last: number } | null;
+  trials: {
+    finished: number;
+    reached: number;
+    current: { number: number; seconds: number; smallest_distance: number } | null;
+    last: { number: number; seconds: number; reached_target: boolean } | null;
+  } | null;
+}
+
+export interface HelloMessage { type: 'hello'; protocol: number; version: string; capabilities: string[] }
+
+export interface ActionMessage {
+  type: 'action';
+  generation: number;
+  cycle: number;
+  command: string;
+  title: string;
+  item?: string;
+  values?: Record<string, ParameterValue>;
+  shell?: string;
+  python?: string;
+  undoable?: boolean;
+}
+
+export interface Problem { severity?: string; file?: string; line?: number; column?: number; message: string; hint?: string }
+
+export interface ReplyMessage { type: 'reply'; id: number; ok: boolean; result?: unknown; problems?: Problem[] }
+
+export type ServerMessage = HelloMessage | SystemMessage | WorldMessage | StatusMessage | ActionMessage | ReplyMessage;
+
+export type ParameterValue = boolean | number | string;
+
+export interface ParameterInfo {
+  name: string;
+  label: string;
+  doc: string;
+  unit: string;
+  kind: 'boolean' | 'real' | 'integer' | 'text';
+  value: ParameterValue;
+  default: ParameterValue;
+  /** The value that the file gives. */
+  loaded: ParameterValue;
+  low: number | null;
+  high: number | null;
+  at_start: boolean;
+  path: boolean;
+  /** The left side of an assignment: "Bug/Light.threshold". */
+  assignment: string;
+}
+
+export interface ItemParameters { item: string; id: string; kind: string; type: string; parameters: ParameterInfo[] }
+
+/** One problem as a line of text, as the command line prints it. */
+export function problemText(p: Problem): string {
+  const place = p.file ? `${p.file}${p.line ? `:${p.line}${p.column ? `:${p.column}` : ''}` : ''}: ` : '';
+  return `${place}${p.message}${p.hint ? `\nhint: ${p.hint}` : ''}`;
+}

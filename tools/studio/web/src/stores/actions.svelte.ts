@@ -1,0 +1,26 @@
+// What was done, with the shell command and the Python that do the same; and messages for the user.
+import type { ActionMessage } from '../protocol/messages';
+
+export interface Notice { key: number; kind: 'error' | 'info'; text: string }
+
+class Actions {
+  log = $state.raw<(ActionMessage & { at: Date })[]>([]);
+  notices = $state.raw<Notice[]>([]);
+  private nextKey = 1;
+
+  add(action: ActionMessage): void {
+    this.log = [...this.log.slice(-499), { ...action, at: new Date() }];
+  }
+  /** Shows a message; an error stays until it is closed. */
+  tell(kind: Notice['kind'], text: string): void {
+    if (this.notices.some((n) => n.text === text)) return;
+    const notice = { key: this.nextKey++, kind, text };
+    this.notices = [...this.notices.slice(-2), notice];
+    if (kind === 'info') setTimeout(() => this.dismiss(notice.key), 4000);
+  }
+  dismiss(key: number): void {
+    this.notices = this.notices.filter((n) => n.key !== key);
+  }
+}
+
+export const actions = new Actions();

@@ -1,0 +1,50 @@
+// The panels in the middle. Dockview arranges them; this store opens, focuses and keeps them.
+import type { DockviewApi } from 'dockview-core';
+import { kinds, type PanelState } from '../panels/registry';
+
+type Direction = 'left' | 'right' | 'above' | 'below' | 'within';
+export interface Where { beside?: string; direction?: Direction; width?: number; height?: number; floating?: boolean; inactive?: boolean }
+
+class Dock {
+  api: DockviewApi | null = null;
+  active = $state<string | null>(null);
+  private made = 0;
+
+  /** A panel's identity: the same source opens once. */
+  private static key(panel: PanelState): string {
+    return [panel.kind, panel.item ?? '', ...(panel.sources ?? [])].join('|');
+  }
+
+  open(panel: PanelState, where: Where = {}): string | null {
+    if (!this.api || !kinds[panel.kind]) return null;
+    const existing = this.api.panels.find((p) => Dock.key(p.params as PanelState) === Dock.key(panel));
+    if (existing) {
+      existing.api.setActive();
+      return existing.id;
+    }
+    const id = `${panel.kind}-${++this.made}-${Date.now().toString(36)}`;
+    const beside = where.beside ? this.api.getPanel(where.beside) : undefined;
+    this.api.addPanel({
+      id,
+      component: panel.kind,
+      title: kinds[panel.kind]!.title(panel),
+      params: panel,
+      inactive: where.inactive,
+      ...(where.width ? { initialWidth: where.width } : {}),
+      ...(where.height ? { initialHeight: where.height } : {}),
+      ...(where.floating ? { floating: { width: 380, height: 300 } } : beside ? { position: { referencePanel: beside, direction: where.direction ?? 'within' } } : {}),
+    });
+    return id;
+  }
+
+  /** Opens a plot where the other plots are, or at the right side. */
+  plot(panel: PanelState): string | null {
+    const others = this.api?.panels.filter((p) => !['arena', 'diagram', 'log'].includes((p.params as PanelState).kind)) ?? [];
+    const last = others[others.length - 1];
+    if (!last) return this.open(panel, {});
+    const roomy = last.api.height > 420;
+    return this.open(panel, { beside: last.id, direction: roomy ? 'below' : 'within' });
+  }
+}
+
+export const dock = new Dock();

@@ -1,0 +1,50 @@
+// The system and the world as the server describes them. Only messages of the server change them.
+import type { Connection, Group, Process, SystemMessage, WorldMessage } from '../protocol/messages';
+
+export type Item =
+  | { kind: 'process'; process: Process }
+  | { kind: 'group'; group: Group; process: Process }
+  | { kind: 'connection'; connection: Connection };
+
+class Model {
+  system = $state.raw<SystemMessage | null>(null);
+  /** Null without a world. */
+  world = $state.raw<WorldMessage | null>(null);
+
+  processes = $derived(this.system?.processes ?? []);
+  groups = $derived(this.processes.flatMap((p) => p.groups));
+  connections = $derived(this.system?.connections ?? []);
+  private items = $derived.by(() => {
+    const all = new Map<string, Item>();
+    for (const process of this.processes) {
+      all.set(process.id, { kind: 'process', process });
+      for (const group of process.groups) all.set(group.id, { kind: 'group', group, process });
+    }
+    for (const connection of this.connections) all.set(connection.id, { kind: 'connection', connection });
+    return all;
+  });
+  private byPath = $derived(new Map(this.groups.map((g) => [g.path, g])));
+
+  find(id: string | null | undefined): Item | undefined {
+    return id ? this.items.get(id) : undefined;
+  }
+  group(idOrPath: string): Group | undefined {
+    const item = this.items.get(idOrPath);
+    return item?.kind === 'group' ? item.group : this.byPath.get(idOrPath);
+  }
+  connection(idOrName: string): Connection | undefined {
+    const item = this.items.get(idOrName);
+    return item?.kind === 'connection' ? item.connection : this.connections.find((c) => c.name === idOrName);
+  }
+  processOf(group: string): Process | undefined {
+    const item = this.items.get(group);
+    return item?.kind === 'group' ? item.process : undefined;
+  }
+}
+
+export const model = new Model();
+
+/** The state of a group that plots show unless another one is chosen. */
+export const outputState = (group: Group): string => (group.states.find((s) => s.output) ?? group.states[0])?.name ?? 'act';
+
+export const itemName = (item: Item): string => (item.kind === 'group' ? item.group.path : item.kind === 'process' ? item.process.name : item.connection.name);

@@ -1,0 +1,86 @@
+// Subscriptions: panels name a source, and receive its blocks. Equal subscriptions share a stream.
+import type { Block, Frame } from './protocol/frame';
+
+export type Delivery = 'latest' | 'append';
+export type Listener = (block: Block, frame: Frame) => void;
+/** What the server says of a subscription. */
+export interface StreamInfo { stream: number; rows: number; columns: number; label: string; every: number }
+
+interface Stream {
+  id: number | null; // the server's number, once it has replied
+  source: string;
+  delivery: Delivery;
+  every: number;
+  listeners: Set<Listener>;
+  last?: { block: Block; frame: Frame };
+}
+
+type Request = (command: string, details: object) => Promise<unknown>;
+
+export class Streams {
+  private byKey = new Map<string, Stream>();
+  private byId = new Map<number, Stream>();
+
+  constructor(private readonly request: Request, private readonly failed: (source: string, error: Error) => void) {}
+
+  /** Calls `listener` for each new block. Returns the function that ends the subscription. */
+  subscribe(source: string, delivery: Delivery, listener: Listener, every = 1): () => void {
+    // Every listener of rows over time gets a stream of its own: it begins with what is kept since then.
+    const key = delivery === 'latest' ? source : `${source} ${Math.random()}`;
+    let stream = this.byKey.get(key);
+    if (!stream) {
+      stream = { id: null, source, delivery, every, listeners: new Set() };
+      this.byKey.set(key, stream);
+      this.send(stream);
+    } else if (stream.last) {
+      listener(stream.last.block, stream.last.frame);
+    }
+    stream.listeners.add(listener);
+    const subscribed = stream;
+    return () => {
+      subscribed.listeners.delete(listener);
+      if (subscribed.listeners.size > 0 || this.byKey.get(key) !== subscribed) return;
+      this.byKey.delete(key);
+      this.end(subscribed);
+    };
+  }
+
+  /** Subscribes anew to everything, after the connection was lost or another system was opened. */
+  resume(): void {
+    this.byId.clear();
+    for (const stream of this.byKey.values()) this.send(stream);
+  }
+
+  /** Hands out the blocks of several frames: of newest-value streams only the last ones. */
+  deliver(frames: Frame[]): void {
+    const newest = new Map<number, number>();
+    frames.forEach((f, i) => f.blocks.forEach((b) => newest.set(b.stream, i)));
+    frames.forEach((frame, i) => {
+      for (const block of frame.blocks) {
+        const stream = this.byId.get(block.stream);
+        if (!stream || (stream.delivery === 'latest' && newest.get(block.stream) !== i)) continue;
+        if (stream.delivery === 'latest') stream.last = { block, frame };
+        for (const listener of stream.listeners) listener(block, frame);
+      }
+    });
+  }
+
+  private send(stream: Stream): void {
+    const { source, delivery, every } = stream;
+    stream.id = null;
+    this.request('subscribe', { source, class: delivery, every }).then(
+      (info) => {
+        stream.id = (info as StreamInfo).stream;
+        this.byId.set(stream.id, stream);
+        if (stream.listeners.size === 0) this.end(stream);
+      },
+      (error: Error) => this.failed(source, error),
+    );
+  }
+
+  private end(stream: Stream): void {
+    if (stream.id === null || this.byId.get(stream.id) !== stream) return;
+    this.byId.delete(stream.id);
+    this.request('unsubscribe', { stream: stream.id }).catch(() => {});
+  }
+}

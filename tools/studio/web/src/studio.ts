@@ -1,0 +1,83 @@
+// Connects the server with the stores. Everything that changes a run goes through `command`.
+import { Connection } from './connection';
+import { protocolVersion, type ServerMessage } from './protocol/messages';
+import type { Frame } from './protocol/frame';
+import { actions } from './stores/actions.svelte';
+import { model } from './stores/model.svelte';
+import { run } from './stores/run.svelte';
+import { Streams } from './streams';
+
+const socketUrl = `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/ws`;
+
+const connection = new Connection(socketUrl, {
+  link(state) {
+    run.link = state;
+  },
+  message: receive,
+  frames: draw,
+  fault: (text) => actions.tell('error', `A frame of the server could not be read: ${text}`),
+});
+
+export const streams = new Streams(
+  (command, details) => connection.request(command, details),
+  (source, error) => run.link === 'open' && actions.tell('error', `${source}: ${error.message}`),
+);
+
+/** Sends a command and shows the server's message when it is refused. Undefined then. */
+export async function command<T = unknown>(name: string, details: object = {}): Promise<T | undefined> {
+  try {
+    return await connection.request<T>(name, details);
+  } catch (error) {
+    actions.tell('error', (error as Error).message);
+    return undefined;
+  }
+}
+
+/** Sends a command; the caller shows what goes wrong. */
+export const request = <T = unknown>(name: string, details: object = {}): Promise<T> => connection.request<T>(name, details);
+
+export const toggleRun = () => command(run.status?.running ? 'pause' : 'run');
+
+function receive(message: ServerMessage): void {
+  switch (message.type) {
+    case 'hello':
+      run.hello = message;
+      if (message.protocol !== protocolVersion) {
+        run.refused = `This page speaks version ${protocolVersion} of the protocol, the server version ${message.protocol}. Reload the page; if that does not help, restart forage studio.`;
+        connection.close();
+      }
+      break;
+    case 'system':
+      model.system = message;
+      streams.resume();
+      document.title = `${message.name} · Forage studio`;
+      break;
+    case 'world':
+      model.world = message.file === null ? null : message;
+      break;
+    case 'status':
+      run.status = message;
+      break;
+    case 'action':
+      actions.add(message);
+      break;
+  }
+}
+
+let counted = 0;
+let since = performance.now();
+
+function draw(frames: Frame[]): void {
+  streams.deliver(frames);
+  const newest = frames[frames.length - 1]!;
+  counted += 1;
+  run.superseded += frames.length - 1;
+  const now = performance.now();
+  if (now - since < 1000) return;
+  run.framesPerSecond = (counted * 1000) / (now - since);
+  run.lag = Math.max(0, (run.status?.cycle ?? newest.cycle) - newest.cycle);
+  counted = 0;
+  since = now;
+}
+
+export const start = () => connection.open();
