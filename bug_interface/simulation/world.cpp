@@ -192,6 +192,22 @@ void World::begin_trial(std::size_t bug, const std::optional<Pose2>& start) {
     update_body_poses();
 }
 
+bool World::move_robot(std::size_t bug, const Pose2& pose) { return !resetting(bug) && move_body(bug, pose); }
+
+bool World::move_object(std::size_t object, const Pose2& pose) {
+    return move_body(robots_.size() + object, pose);
+}
+
+bool World::move_body(std::size_t body, const Pose2& pose) {
+    if (!physics_->present(body)) return false;
+    const Pose2 before = physics_->pose(body);
+    physics_->remove(body);
+    const bool free = physics_->is_collision_free(body, pose);
+    physics_->place(body, free ? pose : before);
+    if (free) update_body_poses();
+    return free;
+}
+
 /// A robot that is being reset is observed at a random start pose.
 void World::update_body_poses() {
     for (std::size_t i = 0; i < robots_.size(); ++i) {

@@ -92,6 +92,13 @@ struct SchemaOptions {
     std::vector<std::string> plugins = {};
 };
 
+struct StudioCommand {
+    RunInput input;
+    std::string plot_config;  ///< a layout to open; may be empty
+    int port = 0;             ///< 0: a free one
+    bool open = false;        ///< whether a browser is opened
+};
+
 struct BuildPluginOptions {
     std::string source;
     std::string output;  ///< empty: the folder plugins beside the source
@@ -118,6 +125,8 @@ int describe(const DescribeOptions& options);
 /// Writes a page with the pictures and tables of a directory of results: plain HTML that loads nothing from
 /// the network.
 int view(const std::string& directory);
+/// Runs a system that browsers on this machine watch and touch, until Ctrl-C.
+int studio(const StudioCommand& options);
 /// Lists the types, or describes one with its parameters.
 int types(const std::string& name, const std::vector<std::string>& plugins);
 /// Prints a RELAX NG schema, or the tables of the reference.

@@ -291,6 +291,24 @@ void add_new(CLI::App& app, NewOptions& o) {
     command.add_flag("--robot", o.robot, "A system with a robot, and a world for it");
 }
 
+void add_studio(CLI::App& app, StudioCommand& o) {
+    auto& command =
+        *app.add_subcommand("studio", "Watch and touch a system while it runs, in the browser of this machine");
+    command.footer(
+        "Example:\n  forage studio systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world --open");
+    add_input(command, o.input);
+    command.add_option("--seed", o.input.seed, "Decides everything random [1]")
+        ->transform(seed())
+        ->option_text("N");
+    command.add_option("--plot-config", o.plot_config, "Plots to open (.conf of the original, .layout.json)")
+        ->check(CLI::ExistingFile)
+        ->option_text("FILE");
+    command.add_option("--port", o.port, "Port on 127.0.0.1 [a free one]")
+        ->check(CLI::Range(0, 65535))
+        ->option_text("N");
+    command.add_flag("--open", o.open, "Open the browser");
+}
+
 void add_build_plugin(CLI::App& app, BuildPluginOptions& o) {
     auto& command = *app.add_subcommand("build-plugin", "Compile a source file with types of your own");
     command.footer(

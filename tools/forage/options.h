@@ -36,6 +36,7 @@ void add_experiment(CLI::App& app, ExperimentOptions& o);
 void add_plot(CLI::App& app, PlotOptions& o);
 void add_convert(CLI::App& app, ConvertOptions& o);
 void add_new(CLI::App& app, NewOptions& options);
+void add_studio(CLI::App& app, StudioCommand& options);
 void add_build_plugin(CLI::App& app, BuildPluginOptions& o);
 
 }  // namespace forage::tool

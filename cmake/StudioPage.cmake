@@ -1,0 +1,70 @@
+# Builds the page of the studio with Node, and makes the source file that holds it: run by the build as
+#   cmake -DWEB=tools/studio/web -DBASIC=tools/studio/server/basic -DWORK=folder -DNPM=npm -DSTRICT=ON -DOUTPUT=assets.cpp -P StudioPage.cmake
+# Without NPM, or when npm fails and STRICT is off, only the hand-written page is in it.
+set(page "")
+if(NPM)
+  file(COPY ${WEB}/ DESTINATION ${WORK}/web PATTERN node_modules EXCLUDE PATTERN dist EXCLUDE)
+  file(SHA256 ${WEB}/package-lock.json lock)
+  set(stamp ${WORK}/web/node_modules/.forage-${lock})
+  set(status 0)
+  if(NOT EXISTS ${stamp})
+    execute_process(COMMAND ${NPM} ci --no-audit --no-fund --loglevel=error WORKING_DIRECTORY ${WORK}/web RESULT_VARIABLE status)
+    if(status EQUAL 0)
+      file(TOUCH ${stamp})
+    endif()
+  endif()
+  if(status EQUAL 0)
+    file(REMOVE_RECURSE ${WORK}/web/dist)
+    execute_process(COMMAND ${NPM} run build --silent WORKING_DIRECTORY ${WORK}/web RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE out)
+  endif()
+  if(status EQUAL 0)
+    set(page ${WORK}/web/dist)
+  elseif(STRICT)
+    message(FATAL_ERROR "the page of the studio cannot be built:\n${out}")
+  else()
+    message("The page of the studio cannot be built (npm failed): only the hand-written page /basic is in the program.\n${out}")
+  endif()
+endif()
+
+find_program(GZIP gzip REQUIRED)
+file(REMOVE_RECURSE ${WORK}/packed)
+file(MAKE_DIRECTORY ${WORK}/packed)
+set(count 0)
+set(data "")
+set(names "")
+set(table "")
+foreach(folder ${BASIC} ${page})
+  file(GLOB_RECURSE files RELATIVE ${folder} ${folder}/*)
+  list(SORT files)
+  foreach(file ${files})
+    set(from ${folder}/${file})
+    set(gzip false)
+    if(file MATCHES "\\.(html|js|css|svg|json|md|txt)$")
+      set(gzip true)
+      execute_process(COMMAND ${GZIP} -9 -n -c ${from} OUTPUT_FILE ${WORK}/packed/${count} COMMAND_ERROR_IS_FATAL ANY)
+      set(from ${WORK}/packed/${count})
+    endif()
+    string(APPEND data "    \".global forage_asset_${count}, forage_asset_end_${count}\\n\"\n    \"forage_asset_${count}: .incbin \\\"${from}\\\"\\n\"\n    \"forage_asset_end_${count}: .byte 0\\n\"\n")
+    string(APPEND names "extern const unsigned char forage_asset_${count}[], forage_asset_end_${count}[];\n")
+    string(APPEND table "    {\"/${file}\", forage_asset_${count}, forage_asset_end_${count}, ${gzip}},\n")
+    math(EXPR count "${count} + 1")
+  endforeach()
+endforeach()
+file(WRITE ${OUTPUT} "// Made by cmake/StudioPage.cmake.
+asm(\".section .rodata\\n\"
+${data}    \".text\\n\");
+extern \"C\" {
+${names}}
+namespace forage::studio {
+struct Asset {
+    const char* path;
+    const unsigned char *begin, *end;
+    bool gzip;
+};
+extern const Asset assets[];
+extern const int asset_count;
+const Asset assets[] = {
+${table}};
+const int asset_count = ${count};
+}  // namespace forage::studio
+")

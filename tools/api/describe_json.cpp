@@ -1,0 +1,271 @@
+#include "tools/api/describe_json.h"
+
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/model/edit.h"
+#include "core/model/lookup.h"
+#include "tools/plot/world_map.h"
+
+namespace forage {
+namespace {
+
+using nlohmann::json;
+
+json icon_of(const std::optional<model::Icon>& icon) {
+    if (!icon) return nullptr;
+    return {{"x", icon->x}, {"y", icon->y}, {"width", icon->width}, {"height", icon->height}};
+}
+
+json places_of(const model::Topology& topology) {
+    const auto* sparse = std::get_if<model::SparseTopology>(&topology);
+    if (!sparse) return nullptr;
+    json out = json::array();
+    for (const auto& p : sparse->points) out.push_back({p.x, p.y});
+    return out;
+}
+
+json states_of(const NeuronType& type) {
+    json out = json::array();
+    for (const auto& s : type.states)
+        out.push_back({{"name", s.name}, {"label", s.label}, {"output", s.output}});
+    constexpr std::pair<const char*, const char*> inputs[] = {{"excIn", "Excitatory input"},
+                                                              {"inhIn", "Inhibitory input"},
+                                                              {"modIn", "Modulatory input"}};
+    for (const auto& [name, label] : inputs)
+        out.push_back({{"name", name}, {"label", label}, {"output", false}});
+    return out;
+}
+
+json module_of(const model::Process& p) {
+    if (!p.module) return nullptr;
+    json out = {{"type", p.module->type}, {"inputs", json::array()}, {"outputs", json::array()}};
+    for (const auto& r : p.module->inputs) out["inputs"].push_back({{"name", r.name}, {"group", r.target}});
+    for (const auto& r : p.module->outputs) out["outputs"].push_back({{"name", r.name}, {"group", r.target}});
+    return out;
+}
+
+json line_of(const std::optional<model::Line>& line) {
+    if (!line) return nullptr;
+    json vertices = json::array();
+    for (const auto& v : line->vertices) vertices.push_back({v.x, v.y});
+    return {{"source_anchor", line->source_anchor},
+            {"target_anchor", line->target_anchor},
+            {"vertices", std::move(vertices)}};
+}
+
+std::string trimmed(const std::string& text) { return std::string(model::trim(text)); }
+
+std::string colour_of(const bug::Colour& c) {
+    const auto part = [&](int i) { return std::lround(std::clamp(c[i], 0.f, 1.f) * 255); };
+    return fmt::format("#{:02x}{:02x}{:02x}", part(0), part(1), part(2));
+}
+
+json solid_of(const bug::Solid& s, const bug::Colour& colour) {
+    constexpr const char* kinds[] = {"plane", "box", "cylinder", "sphere"};
+    const auto at = s.pose.translation();
+    return {{"kind", kinds[static_cast<int>(s.kind)]},
+            {"x", at.x()},
+            {"y", at.y()},
+            {"z", at.z()},
+            {"yaw", bug::yaw_of(s.pose)},
+            {"size", {s.size.x(), s.size.y(), s.size.z()}},
+            {"color", colour_of(colour)}};
+}
+
+json pose_of(const Pose2& p) { return {{"x", p.x}, {"y", p.y}, {"yaw", p.yaw}}; }
+
+json json_of(const ParameterValue& value) {
+    return std::visit([](const auto& v) { return json(v); }, value);
+}
+
+const std::vector<Parameter>* parameters_of(const Run& run, const model::Assignment& item, std::string& path,
+                                            std::string& type) {
+    const auto& system = run.system();
+    for (const auto& p : system.processes) {
+        if (item.owner == model::Assignment::Owner::process && p.id == item.id) {
+            path = trimmed(p.name);
+            if (!p.module) return nullptr;
+            const auto* t = run.registry().module(type = p.module->type);
+            return t ? &t->parameters : nullptr;
+        }
+        for (const auto& g : p.groups)
+            if (item.owner == model::Assignment::Owner::group && g.id == item.id) {
+                path = model::path(system, p, g);
+                const auto* t = run.registry().neuron(type = g.neuron.type);
+                return t ? &t->parameters : nullptr;
+            }
+    }
+    for (const auto& c : system.connections)
+        if (item.owner == model::Assignment::Owner::connection && c.id == item.id) {
+            path = trimmed(c.name);
+            if (!c.synapse) return nullptr;
+            const auto* t = run.registry().synapse(type = c.synapse->type);
+            return t ? &t->parameters : nullptr;
+        }
+    return nullptr;
+}
+
+json parameter_of(Run& run, const model::Assignment& item, const Parameter& p, const std::string& owner) {
+    constexpr const char* kinds[] = {"boolean", "real", "integer", "text"};
+    model::Assignment which = item;
+    which.parameter = &p;
+    const ParameterValue loaded = model::value_of(run.system(), which);
+    ParameterValue now = loaded;
+    try {
+        now = run.simulation().parameter(which);
+    } catch (const engine::RunError&) {  // a module that is disabled has the values of its file
+    }
+    json out = {{"name", p.name},
+                {"label", p.label},
+                {"doc", p.doc},
+                {"unit", p.unit},
+                {"kind", kinds[static_cast<int>(p.kind)]},
+                {"value", json_of(now)},
+                {"default", json_of(p.default_value)},
+                {"loaded", json_of(loaded)},
+                {"low", nullptr},
+                {"high", nullptr},
+                {"at_start", p.at_start},
+                {"path", p.is_path},
+                {"assignment", owner + "." + p.name}};
+    if (p.range) out["low"] = p.range->low, out["high"] = p.range->high;
+    return out;
+}
+
+}  // namespace
+
+json describe_system(const Run& run) {
+    const auto& system = run.system();
+    const auto& layout = run.layout();
+    std::map<std::string_view, int> groups, connections;
+    for (int i = 0; i < std::ssize(layout.groups); ++i) groups[layout.groups[i].id] = i;
+    for (int i = 0; i < std::ssize(layout.connections); ++i) connections[layout.connections[i].id] = i;
+    json processes = json::array(), links = json::array();
+    for (const auto& p : system.processes) {
+        json inside = json::array();
+        for (const auto& g : p.groups) {
+            const auto& laid = layout.groups[static_cast<std::size_t>(groups.at(g.id))];
+            inside.push_back({{"id", g.id},
+                              {"name", trimmed(g.name)},
+                              {"path", laid.path},
+                              {"color", g.color},
+                              {"note", g.note.value_or("")},
+                              {"icon", icon_of(g.icon)},
+                              {"type", g.neuron.type},
+                              {"width", laid.shape.width},
+                              {"height", laid.shape.height},
+                              {"cells", laid.shape.cells},
+                              {"places", places_of(g.topology)},
+                              {"states", states_of(laid.type)}});
+        }
+        processes.push_back({{"id", p.id},
+                             {"name", trimmed(p.name)},
+                             {"color", p.color},
+                             {"note", p.note.value_or("")},
+                             {"icon", icon_of(p.icon)},
+                             {"linked", p.linked()},
+                             {"enabled", p.module_enabled},
+                             {"module", module_of(p)},
+                             {"groups", std::move(inside)}});
+    }
+    constexpr const char* kinds[] = {"excitatory", "inhibitory", "modulatory"};
+    for (const auto& c : system.connections) {
+        const int i = connections.at(c.id);
+        json states = json::array();
+        for (const auto& s : layout.connections[static_cast<std::size_t>(i)].type.states)
+            states.push_back({{"name", s.name}, {"label", s.label}});
+        links.push_back({{"id", c.id},
+                         {"name", trimmed(c.name)},
+                         {"source", c.source},
+                         {"target", c.target},
+                         {"kind", kinds[static_cast<int>(c.kind)]},
+                         {"type", c.synapse ? c.synapse->type : ""},
+                         {"note", c.note.value_or("")},
+                         {"synapses", run.simulation().synapses(i)},
+                         {"form", run.simulation().connection_form(i)},
+                         {"states", std::move(states)},
+                         {"line", line_of(c.line)}});
+    }
+    return {{"type", "system"},
+            {"name", trimmed(system.name)},
+            {"note", system.note.value_or("")},
+            {"cycles_per_second", system.cycles_per_second},
+            {"seconds_per_cycle", run.seconds_per_cycle()},
+            {"processes", std::move(processes)},
+            {"connections", std::move(links)}};
+}
+
+json describe_world(const bug::World& world) {
+    json robots = json::array(), objects = json::array(), solids = json::array(), targets = json::array(),
+         starts = json::array();
+    for (std::size_t i = 0; i < world.bugs(); ++i) {
+        const auto& robot = world.robot(i);
+        json camera = nullptr, scans = json::array();
+        if (const auto& c = robot.sensors.camera_sensor())
+            camera = {{"width", c->width}, {"height", c->height}};
+        for (const auto& s : robot.sensors.range_sensors())
+            if (s.name == "laser" || s.name == "laser_target")
+                scans.push_back(s.name == "laser" ? "proximity" : "light");
+        robots.push_back({{"name", robot.name},
+                          {"radius", robot.body.radius},
+                          {"gripper", world.has_gripper(i)},
+                          {"trials", world.has_trials(i)},
+                          {"camera", std::move(camera)},
+                          {"scans", std::move(scans)}});
+    }
+    for (std::size_t i = 0; i < world.movable_objects(); ++i) {
+        const auto& object = world.movable_object(i);
+        json parts = json::array();
+        for (const auto& v : object.visuals)
+            parts.push_back(solid_of(v.visual.solid, v.visual.material.diffuse));
+        objects.push_back(
+            {{"name", object.name}, {"resource", object.resource}, {"solids", std::move(parts)}});
+    }
+    for (const auto& d : bug::drawing_of(world.description()))
+        solids.push_back(solid_of(d.solid, d.colour));
+    for (const auto& t : world.targets()) targets.push_back({t.x(), t.y()});
+    for (const auto& s : world.start_poses()) starts.push_back(pose_of(s));
+    const auto view = plot::WorldMap(world, {}, 1000, 0, 0).view();
+    json bounds = nullptr;
+    if (const auto plan = world.reset_plan())
+        bounds = {plan->bounds.min().x(), plan->bounds.min().y(), plan->bounds.max().x(),
+                  plan->bounds.max().y()};
+    return {{"type", "world"},
+            {"file", world.description().path},
+            {"view", {view.min().x(), view.min().y(), view.max().x(), view.max().y()}},
+            {"robots", std::move(robots)},
+            {"objects", std::move(objects)},
+            {"solids", std::move(solids)},
+            {"targets", std::move(targets)},
+            {"starts", std::move(starts)},
+            {"bounds", std::move(bounds)},
+            {"trials", world.has_trials(0)}};
+}
+
+json describe_parameters(Run& run, std::string_view item) {
+    Diagnostics diagnostics;
+    auto found = model::find_item(run.system(), item, "parameters", diagnostics);
+    throw_errors(diagnostics);
+    std::string path, type;
+    const auto* parameters = parameters_of(run, *found, path, type);
+    constexpr const char* owners[] = {"group", "process", "connection"};
+    json list = json::array();
+    if (parameters)
+        for (const Parameter& p : *parameters) {
+            // A connection whose name is not unique is named by its id.
+            Diagnostics ignored;
+            const bool unique = model::find_item(run.system(), path, "", ignored).has_value();
+            list.push_back(parameter_of(run, *found, p, unique ? path : found->id));
+        }
+    return {{"item", path},
+            {"id", found->id},
+            {"kind", owners[static_cast<int>(found->owner)]},
+            {"type", type},
+            {"parameters", std::move(list)}};
+}
+
+}  // namespace forage

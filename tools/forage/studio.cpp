@@ -1,0 +1,39 @@
+#include "tools/studio/server/studio.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "core/run/input_error.h"
+#include "tools/forage/commands.h"
+#include "tools/forage/stop.h"
+
+namespace forage::tool {
+
+int studio(const StudioCommand& command) {
+    studio::StudioOptions options;
+    options.input = command.input;
+    options.plot_config = command.plot_config;
+    options.port = static_cast<std::uint16_t>(command.port);
+    note_signals("the studio");
+    try {
+        studio::serve(
+            options,
+            [&](const std::string& address) {
+                fmt::print("The studio is at\n\n  {}\n\nOpen it with a browser on this machine; Ctrl-C ends it.\n",
+                           address);
+                std::fflush(stdout);
+                // The address holds no character that a shell reads.
+                if (command.open && std::system(("xdg-open '" + address + "' >/dev/null 2>&1 &").c_str()) != 0)
+                    fmt::print(stderr, "warning: no browser could be opened\n");
+            },
+            [] { return noted_signal() != 0; });
+    } catch (const InputError& e) {
+        fmt::print(stderr, "{}", e.what());
+        return bad_input;
+    }
+    return fine;
+}
+
+}  // namespace forage::tool

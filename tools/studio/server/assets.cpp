@@ -1,0 +1,39 @@
+#include "tools/studio/server/assets.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace forage::studio {
+
+/// A file of the page, from the table that the build makes (cmake/ForageStudioAssets.cmake).
+struct Asset {
+    const char* path;
+    const unsigned char *begin, *end;
+    bool gzip;
+};
+extern const Asset assets[];
+extern const int asset_count;
+
+std::optional<Content> find_asset(const std::string& path) {
+    const auto find = [](std::string_view wanted) -> const Asset* {
+        for (int i = 0; i < asset_count; ++i)
+            if (assets[i].path == wanted) return &assets[i];
+        return nullptr;
+    };
+    const std::string name = path == "/basic" ? "/basic.html" : path == "/" ? "/index.html" : path;
+    const Asset* found = find(name);
+    if (!found && path == "/") found = find("/basic.html");
+    if (!found) return std::nullopt;
+    constexpr std::pair<std::string_view, const char*> types[] = {
+        {".html", "text/html; charset=utf-8"}, {".js", "text/javascript; charset=utf-8"},
+        {".css", "text/css; charset=utf-8"},   {".svg", "image/svg+xml"},
+        {".png", "image/png"},                 {".json", "application/json"},
+        {".woff2", "font/woff2"},              {".md", "text/markdown; charset=utf-8"}};
+    const char* type = "application/octet-stream";
+    for (const auto& [ending, media] : types)
+        if (std::string_view(found->path).ends_with(ending)) type = media;
+    return Content{type, std::string(reinterpret_cast<const char*>(found->begin), reinterpret_cast<const char*>(found->end)),
+                   found->gzip};
+}
+
+}  // namespace forage::studio

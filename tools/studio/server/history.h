@@ -1,0 +1,115 @@
+// The past of a run: checkpoints in memory, and the actions between them.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/run/run.h"
+
+namespace forage::studio {
+
+/// Checkpoints of a run at intervals, in bounded memory: when it is full, every second one is dropped and the
+/// interval doubles. Checkpoints take at most a hundredth of the time.
+class History {
+  public:
+    explicit History(std::size_t most_bytes = 256u << 20) : most_(most_bytes) {}
+
+    /// An action that changed the run before the cycle with this number.
+    struct Action {
+        std::uint64_t cycle;
+        nlohmann::json command;
+        std::string title;
+    };
+
+    /// Forgets everything and notes the state of a run that begins.
+    void begin(Run& run) {
+        checkpoints_.clear(), actions_.clear();
+        bytes_ = 0, next_action_ = 0, interval_ = first_interval, last_ = run.cycle();
+        keep(run);
+    }
+    /// Called after each cycle.
+    void after_cycle(Run& run) {
+        const std::uint64_t cycle = run.cycle();
+        if (cycle > last_) last_ = cycle;
+        if (cycle % interval_ == 0 && !checkpoints_.contains(cycle)) keep(run);
+    }
+    /// Notes an action; what the run did later before it went back is forgotten.
+    void act(std::uint64_t cycle, nlohmann::json command, std::string title) {
+        cut(cycle);
+        actions_.push_back({cycle, std::move(command), std::move(title)});
+        next_action_ = actions_.size();
+    }
+    /// The next action that the run made before `cycle`, when it repeats its past; null when there is none.
+    const Action* due(std::uint64_t cycle) {
+        if (next_action_ >= actions_.size() || actions_[next_action_].cycle > cycle) return nullptr;
+        return &actions_[next_action_++];
+    }
+    /// Restores the last checkpoint at or before `cycle`.
+    void restore(Run& run, std::uint64_t cycle) {
+        const auto& [at, bytes] = *std::prev(checkpoints_.upper_bound(cycle));
+        Archive archive(bytes);
+        run.checkpoint(archive);
+        next_action_ = 0;
+        while (next_action_ < actions_.size() && actions_[next_action_].cycle < at) ++next_action_;
+    }
+    /// Whether going on from `now` to `cycle` is shorter than from a checkpoint.
+    bool ahead(std::uint64_t now, std::uint64_t cycle) const {
+        return now <= cycle && std::prev(checkpoints_.upper_bound(cycle))->first <= now;
+    }
+
+    std::uint64_t first() const { return checkpoints_.begin()->first; }
+    std::uint64_t last() const { return last_; }
+    std::size_t bytes() const { return bytes_; }
+    std::size_t limit() const { return most_; }
+    std::uint64_t interval() const { return interval_; }
+    const std::vector<Action>& actions() const { return actions_; }
+    std::vector<std::uint64_t> cycles() const {
+        std::vector<std::uint64_t> out;
+        for (const auto& [cycle, bytes] : checkpoints_) out.push_back(cycle);
+        return out;
+    }
+
+  private:
+    static constexpr std::uint64_t first_interval = 250;  ///< cycles: 10 s of the usual systems
+
+    void keep(Run& run) {
+        using Clock = std::chrono::steady_clock;
+        const auto begun = Clock::now();
+        if (begun < rested_ && run.cycle() > 0) return;
+        Archive archive;
+        run.checkpoint(archive);
+        bytes_ += archive.bytes().size();
+        checkpoints_[run.cycle()] = archive.bytes();
+        while (bytes_ > most_ && checkpoints_.size() > 2) thin();
+        const auto end = Clock::now();
+        rested_ = end + 100 * (end - begun);
+    }
+    void thin() {
+        interval_ *= 2;
+        bool drop = false;
+        for (auto it = checkpoints_.begin(); it != checkpoints_.end(); drop = !drop)
+            if (drop && std::next(it) != checkpoints_.end())
+                bytes_ -= it->second.size(), it = checkpoints_.erase(it);
+            else
+                ++it;
+    }
+    void cut(std::uint64_t cycle) {
+        actions_.resize(std::min(next_action_, actions_.size()));
+        for (auto it = checkpoints_.upper_bound(cycle); it != checkpoints_.end();)
+            bytes_ -= it->second.size(), it = checkpoints_.erase(it);
+        last_ = std::min(last_, cycle);
+    }
+
+    std::map<std::uint64_t, std::string> checkpoints_;
+    std::vector<Action> actions_;
+    std::size_t next_action_ = 0, most_, bytes_ = 0;
+    std::uint64_t interval_ = first_interval, last_ = 0;
+    std::chrono::steady_clock::time_point rested_{};  ///< when the next checkpoint may be made
+};
+
+}  // namespace forage::studio

@@ -1,0 +1,60 @@
+// The server of the studio: HTTP and WebSocket on a loopback address. Only its .cpp includes Beast.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace forage::studio {
+
+/// A file that the server answers with.
+struct Content {
+    std::string type, body;  ///< media type, and bytes
+    bool gzip = false;       ///< whether the bytes are compressed
+    int status = 200;
+};
+
+/// Checks every request as docs/design/studio-protocol.md says: the host, the origin, the token, the sizes.
+class HttpServer {
+  public:
+    struct Options {
+        std::uint16_t port = 0;  ///< 0: a free one
+        std::string token;
+        /// The file for a path such as "/assets/app.js"; empty when there is none.
+        std::function<std::optional<Content>(const std::string& path)> file;
+        /// Makes a picture, and calls `done` with it, from any thread.
+        std::function<void(std::string what, std::string format, std::function<void(Content)> done)> picture;
+        std::function<void(int client)> opened, closed;  ///< a page has connected, or is gone
+        std::function<void(int client, std::string text)> received;
+    };
+    /// Listens. Throws std::runtime_error when the port is taken.
+    explicit HttpServer(Options options);
+    ~HttpServer();
+
+    std::uint16_t port() const;
+    /// Serves until stop() is called.
+    void run();
+    void stop();  ///< may be called by any thread
+    /// Sends a message to a page; may be called by any thread. A page that does not read is disconnected when
+    /// too much waits for it.
+    void send(int client, bool binary, std::string data);
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+/// A random token of 32 hexadecimal digits.
+std::string make_token();
+/// Whether a request with this Host and Origin (empty: none) may come from a page of this server, or from a
+/// program that is no browser.
+bool is_from_here(std::string_view host, std::string_view origin, std::uint16_t port);
+/// The value of `name` in the query of a target such as "/?token=T&x=y", decoded; empty without one.
+std::string query_value(std::string_view target, std::string_view name);
+/// The value of a cookie in a header; empty without one.
+std::string cookie_value(std::string_view header, std::string_view name);
+
+}  // namespace forage::studio

@@ -1,0 +1,307 @@
+#include "tools/studio/server/session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "bug_interface/simulation/world.h"
+#include "core/base/output_files.h"
+#include "tools/api/describe_json.h"
+#include "tools/api/sources.h"
+#include "tools/plot/world_map.h"
+#include "tools/studio/server/commands.h"
+#include "tools/studio/server/problems.h"
+
+#include <forage/forage.h>
+
+namespace forage::studio {
+namespace {
+
+double clock_now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+constexpr double slice = 0.004;           ///< seconds of cycles between two looks for commands
+constexpr double status_interval = 0.1;   ///< s
+constexpr double most_behind = 0.25;      ///< seconds that a paced run may try to catch up
+
+/// The floor and what never moves, exactly on the view of a map.
+plot::Picture floor_picture(const bug::World& world) {
+    const plot::WorldMap map(world, {}, 1600, 0, 0);
+    return {std::floor(map.width()), std::floor(map.height()),
+            [map](plot::Canvas& canvas) { map.draw_ground(canvas); }};
+}
+
+}  // namespace
+
+Session::Session(RunInput input, Send send, std::string plot_config)
+    : send_(std::move(send)), plot_config_(std::move(plot_config)) {
+    open(std::move(input));
+}
+
+void Session::open(RunInput input) {
+    Diagnostics diagnostics;
+    auto loaded = load(input, diagnostics);
+    throw_errors(diagnostics);
+    auto run = Run::make(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world),
+                         {.seed = input.seed}, diagnostics);
+    throw_errors(diagnostics);
+    auto& touches = run->add(std::make_unique<Touches>());
+    run->start();
+    run->title = run_title(input);
+    close_sampler();
+    input_ = std::move(input);
+    run_ = std::move(*run);
+    touches_ = &touches;
+    failed_.clear(), running_ = false;
+    history_.begin(*run_);
+    rewound();
+}
+
+void Session::reset() {
+    const auto touched = touches_->groups();
+    RunInput input = input_;
+    for (const auto& [name, change] : changed_) input.settings.push_back({change.assignment});
+    const RunInput as_opened = input_;
+    const std::uint64_t seed = input.seed;
+    open(std::move(input));
+    input_ = as_opened, input_.seed = seed;
+    for (const auto& [group, manipulation] : touched) touches_->put(manipulation.settings());
+    history_.begin(*run_);
+    for (auto& [id, client] : clients_) client.rebind(*run_);
+}
+
+void Session::rewound() {
+    ++epoch_, ++version_;
+    pace_from_ = rate_from_ = -1, status_due_ = true;
+    for (auto& [id, client] : clients_) client.clear();
+}
+
+void Session::connect(int client) {
+    clients_[client];
+    const auto send = [&](const json& message) { send_(client, false, message.dump()); };
+    send({{"type", "hello"},
+          {"protocol", 1},
+          {"version", FORAGE_VERSION},
+          {"capabilities",
+           {"run", "streams", "parameters", "manipulations", "sampler", "move", "history", "layouts", "panels",
+            "pictures"}}});
+    send(system_message());
+    send(world_message());
+    send(status());
+}
+
+void Session::tell(const json& message) {
+    const std::string text = message.dump(-1, ' ', false, json::error_handler_t::replace);
+    for (const auto& [id, client] : clients_) send_(id, false, text);
+}
+
+json Session::system_message() {
+    json out = describe_system(*run_);
+    out["file"] = input_.system;
+    return out;
+}
+
+json Session::world_message() {
+    const auto* world = dynamic_cast<const bug::World*>(run_->environment());
+    if (!world) return {{"type", "world"}, {"file", nullptr}};
+    json out = describe_world(*world);
+    out["picture"] = fmt::format("/picture?what=world&format=png&epoch={}", epoch_);
+    return out;
+}
+
+json Session::trials_status() const {
+    if (!run_->has_trials()) return nullptr;
+    const auto& world = *run_->environment();
+    const auto& finished = world.trials(0);
+    const auto trial = [&](const Trial& t) {
+        json out = {{"number", t.number},
+                    {"seconds", static_cast<double>(t.cycles) * run_->seconds_per_cycle()},
+                    {"reached_target", t.reached_target},
+                    {"smallest_distance", nullptr}};
+        if (std::isfinite(t.smallest_distance)) out["smallest_distance"] = t.smallest_distance;
+        return out;
+    };
+    return {{"finished", finished.size()},
+            {"reached", std::ranges::count(finished, true, &Trial::reached_target)},
+            {"current", trial(world.current_trial(0))},
+            {"last", finished.empty() ? json(nullptr) : trial(finished.back())}};
+}
+
+json Session::status() const {
+    json manipulations = json::array(), sampler = nullptr;
+    for (const auto& [group, m] : touches_->groups())
+        manipulations.push_back(run_->layout().groups[static_cast<std::size_t>(group)].path);
+    if (sampler_) sampler = {{"file", sampler_->file}, {"rows", sampler_->rows}};
+    const double rate = running_ ? measured_rate_ : 0;
+    return {{"type", "status"},
+            {"running", running_},
+            {"cycle", run_->cycle()},
+            {"seconds", run_->seconds()},
+            {"seed", run_->seed()},
+            {"epoch", epoch_},
+            {"speed", {{"mode", mode_}, {"value", value_}}},
+            {"cycles_per_second", rate},
+            {"times_real_time", rate * run_->seconds_per_cycle()},
+            {"generation", generation_},
+            {"undo", undo_.empty() ? json(nullptr) : json(undo_.back().title)},
+            {"redo", redo_.empty() ? json(nullptr) : json(redo_.back().title)},
+            {"divergence", run_->divergence()},
+            {"failed", failed_},
+            {"sampler", std::move(sampler)},
+            {"manipulations", std::move(manipulations)},
+            {"history", {{"first", history_.first()}, {"last", history_.last()}}},
+            {"trials", trials_status()}};
+}
+
+void Session::message(int client, std::string_view text) {
+    json reply;
+    json id = nullptr;
+    try {
+        const json command = json::parse(text, nullptr, false);
+        if (!command.is_object()) {
+            reply = {{"ok", false}, {"problems", problem("a message is one JSON object")}};
+        } else {
+            id = command.value("id", json());
+            if (command.value("command", json()) == "ack") {
+                const auto seq = command.value("seq", json());
+                if (const auto it = clients_.find(client); it != clients_.end() && seq.is_number_unsigned())
+                    it->second.acknowledge(seq.get<std::uint32_t>());
+                return;
+            }
+            reply = execute(client, command);
+        }
+    } catch (const json::exception& e) {
+        reply = {{"ok", false}, {"problems", problem(e.what())}};
+    }
+    reply["type"] = "reply", reply["id"] = std::move(id);
+    send_(client, false, reply.dump(-1, ' ', false, json::error_handler_t::replace));
+    if (status_due_ && !running_) tell(status()), status_due_ = false;
+}
+
+json Session::execute(int client, const json& command) {
+    try {
+        return {{"ok", true}, {"result", execute_command(*this, client, command)}};
+    } catch (const Conflict& e) {
+        return {{"ok", false}, {"conflict", true}, {"problems", problem(e.what())}};
+    } catch (const InputError& e) {
+        return {{"ok", false}, {"problems", problems_of(e.diagnostics())}};
+    } catch (const json::exception& e) {
+        return {{"ok", false}, {"problems", problem(e.what(), "docs/design/studio-protocol.md")}};
+    } catch (const std::exception& e) {
+        return {{"ok", false}, {"problems", problem(e.what())}};
+    }
+}
+
+void Session::repeat_actions() {
+    while (const auto* action = history_.due(run_->cycle())) apply(action->command);
+}
+
+void Session::cycle() {
+    repeat_actions();
+    run_->step();
+    ++version_;
+    history_.after_cycle(*run_);
+    const std::uint64_t done = run_->cycle() - 1;
+    for (auto& [id, client] : clients_) client.after_cycle(*run_, done);
+    if (!sampler_) return;
+    sampler_->recorder->record(run_->simulation());
+    if (done % sampler_->every == 0) ++sampler_->rows;
+    if (sampler_->left && --*sampler_->left == 0) close_sampler();
+}
+
+void Session::close_sampler() {
+    if (!sampler_) return;
+    sampler_->recorder->close();
+    finish(sampler_->file);
+    sampler_.reset();
+    status_due_ = true;
+}
+
+void Session::go_to(std::uint64_t cycle) {
+    running_ = false;
+    if (!failed_.empty() || !history_.ahead(run_->cycle(), cycle)) {
+        if (sampler_) throw InputError("a sampler cannot go back", "stop the sampler first");
+        if (!failed_.empty()) {  // a run that failed cannot go on, so its past is restored into a new one
+            auto past = history_;
+            const RunInput input = input_;
+            open(input);
+            history_ = std::move(past);
+            for (auto& [id, client] : clients_) client.rebind(*run_);
+        }
+        history_.restore(*run_, cycle);
+        rewound();
+        while (run_->cycle() < cycle) {
+            repeat_actions();
+            run_->step();
+        }
+        return;
+    }
+    while (run_->cycle() < cycle) this->cycle();
+}
+
+void Session::set_speed(const std::string& mode, double value) {
+    mode_ = mode, value_ = value;
+    pace_from_ = -1, status_due_ = true;
+}
+
+double Session::rate() const {
+    if (mode_ == "free") return 0;
+    if (mode_ == "cycles") return value_;
+    return (mode_ == "times" ? value_ : 1) / run_->seconds_per_cycle();
+}
+
+double Session::work(double now) {
+    if (running_) {
+        const double wanted = rate();
+        if (rate_from_ < 0) rate_from_ = now, rate_cycle_ = run_->cycle();
+        if (pace_from_ < 0) pace_from_ = now, pace_cycle_ = run_->cycle();
+        try {
+            const double end = clock_now() + slice;
+            while (running_) {
+                if (wanted > 0) {
+                    const double due = pace_from_ + static_cast<double>(run_->cycle() - pace_cycle_) / wanted;
+                    if (due > now) break;
+                    if (now - due > most_behind) pace_from_ = now, pace_cycle_ = run_->cycle();
+                }
+                cycle();
+                if (clock_now() > end) break;
+            }
+        } catch (const std::exception& e) {
+            running_ = false, failed_ = e.what(), status_due_ = true;
+        }
+        if (const double passed = now - rate_from_; passed > 0.5) {
+            measured_rate_ = static_cast<double>(run_->cycle() - rate_cycle_) / passed;
+            rate_from_ = now, rate_cycle_ = run_->cycle();
+        }
+    }
+    if (!clients_.empty() && (status_due_ || running_) && now - status_at_ >= status_interval) {
+        tell(status());
+        status_at_ = now, status_due_ = false;
+    }
+    bool waits = false;
+    if (failed_.empty())
+        for (auto& [id, client] : clients_) {
+            if (auto frame = client.frame(*run_, now, version_, epoch_))
+                send_(id, true, std::move(*frame));
+            waits = waits || (client.watches() && client.in_flight() < Client::window);
+        }
+    if (!running_) return waits || status_due_ ? Client::interval : std::numeric_limits<double>::infinity();
+    const double wanted = rate();
+    if (wanted <= 0) return 0;
+    const double due = pace_from_ + static_cast<double>(run_->cycle() - pace_cycle_) / wanted;
+    return std::clamp(due - clock_now(), 0.0, Client::interval);
+}
+
+std::string Session::picture(const std::string& what, const std::string& format) {
+    if (what != "world") return draw(*run_, what, format);
+    const auto* world = dynamic_cast<const bug::World*>(run_->environment());
+    const auto wanted = plot::format_of("x." + format);
+    if (!world || !wanted) throw InputError("there is no such picture", "a picture of a world needs a world");
+    return plot::render(floor_picture(*world), *wanted);
+}
+
+}  // namespace forage::studio

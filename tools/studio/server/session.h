@@ -1,0 +1,112 @@
+// A session of the studio: a run, and the pages that watch and touch it. It knows no sockets and no threads.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/observe/recorder.h"
+#include "core/run/run.h"
+#include "core/run/run_spec.h"
+#include "tools/studio/server/client.h"
+#include "tools/studio/server/history.h"
+#include "tools/studio/server/touches.h"
+
+namespace forage::studio {
+
+using nlohmann::json;
+
+/// Executes the commands of pages between cycles, and runs the system. docs/design/studio-protocol.md describes
+/// the messages. All functions are called by one thread.
+class Session {
+  public:
+    /// Sends a message to a page: JSON, or a frame when `binary`.
+    using Send = std::function<void(int client, bool binary, std::string data)>;
+
+    /// Opens the system. Throws InputError.
+    Session(RunInput input, Send send, std::string plot_config = {});
+
+    void connect(int client);
+    void disconnect(int client) { clients_.erase(client); }
+    /// Executes the command in a message of a page, and replies.
+    void message(int client, std::string_view text);
+    /// Executes a command of a page (of none: -1), and returns the reply without its number.
+    json execute(int client, const json& command);
+
+    /// Runs the cycles that are due, for a few milliseconds, and sends frames and status. Returns the seconds
+    /// until it should be called again, without commands; `now` is the time of a steady clock, s.
+    double work(double now);
+
+    /// A picture of the run as the content of a file. Throws InputError.
+    std::string picture(const std::string& what, const std::string& format);
+
+    Run& run() { return *run_; }
+    const RunInput& input() const { return input_; }
+    bool running() const { return running_; }
+    std::uint64_t generation() const { return generation_; }  ///< grows with each accepted action
+
+  private:
+    friend struct Commands;
+    struct Undo {
+        json undo, redo;  ///< commands
+        std::string title;
+    };
+    struct Sampler {
+        std::string file;
+        std::uint64_t every = 1, rows = 0;
+        std::optional<std::uint64_t> left;  ///< cycles
+        std::optional<observe::Recorder> recorder;
+    };
+
+    void open(RunInput input);  ///< throws InputError, and leaves the run as it is then
+    void reset();               ///< opens the same system with the parameters as they are now
+    void cycle();               ///< one cycle, with what follows it
+    void repeat_actions();
+    void go_to(std::uint64_t cycle);
+    void rewound();
+    /// Changes the run as a command says, without undo. Throws InputError.
+    void apply(const json& command);
+    /// Applies and notes a command, and tells the pages.
+    void act(const json& command, const std::optional<json>& undo, json told);
+    void tell(const json& message);
+    json status() const;
+    json trials_status() const;
+    json system_message();
+    json world_message();
+    void close_sampler();
+    void set_speed(const std::string& mode, double value);
+    double rate() const;  ///< cycles per second that are wanted; 0: as many as possible
+
+    RunInput input_;
+    Send send_;
+    std::string plot_config_;
+    std::optional<Run> run_;
+    Touches* touches_ = nullptr;
+    History history_;
+    std::map<int, Client> clients_;
+    std::vector<Undo> undo_, redo_;
+    struct Change {
+        std::string assignment;
+        json loaded;  ///< the value of the file
+    };
+    std::map<std::string, Change> changed_;  ///< by the name of the parameter
+    std::optional<Sampler> sampler_;
+
+    bool running_ = false, status_due_ = true;
+    std::string mode_ = "real", failed_;
+    double value_ = 1;
+    std::uint32_t epoch_ = 1;
+    std::uint64_t generation_ = 0, version_ = 0;
+    double pace_from_ = -1, status_at_ = -1;
+    std::uint64_t pace_cycle_ = 0;
+    double rate_from_ = -1, measured_rate_ = 0;
+    std::uint64_t rate_cycle_ = 0;
+};
+
+}  // namespace forage::studio

@@ -1,0 +1,79 @@
+// A stream: numbers of a run that a page watches.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/observe/observer.h"
+#include "core/run/run.h"
+
+namespace forage::studio {
+
+/// The types of numbers in a frame, as docs/design/studio-protocol.md numbers them.
+enum class Type : std::uint8_t { float32, float64, uint8 };
+
+/// Whether a page gets the newest numbers only, or every cycle.
+enum class Delivery { latest, append };
+
+/// What a stream puts into a frame.
+struct Chunk {
+    std::uint32_t rows = 0, columns = 0;
+    Type type = Type::float32;
+    bool gap = false;    ///< whether rows before the first one were dropped
+    bool pairs = false;  ///< whether rows hold the smallest and largest number of several cycles
+    float lowest = 0, highest = 0;
+    std::string bytes;
+};
+
+/// Where the numbers of a stream come from.
+class StreamSource {
+  public:
+    virtual ~StreamSource() = default;
+    virtual std::uint32_t rows() const = 0;
+    virtual std::uint32_t columns() const = 0;
+    virtual std::string label() const = 0;
+    virtual Type type() const { return Type::float32; }
+    /// Reads rows() * columns() numbers as they are now.
+    virtual void read(Run& run, std::span<double> out) const = 0;
+    /// Adds to `demand` what is read.
+    virtual void declare(engine::Demand&) const {}
+};
+
+/// The source that a page names: an expression of sources, or "world:poses", "world:rays:ROBOT",
+/// "world:camera:ROBOT", "world:trail:ROBOT". Throws InputError.
+std::unique_ptr<StreamSource> find_stream_source(Run& run, std::string_view text, Delivery delivery);
+
+/// A source with a delivery. A stream of every cycle keeps the rows that were not taken, up to a bound.
+class Stream {
+  public:
+    Stream(std::unique_ptr<StreamSource> source, std::string text, Delivery delivery, std::uint64_t every);
+
+    const std::string& text() const { return text_; }
+    Delivery delivery() const { return delivery_; }
+    std::uint64_t every() const { return every_; }
+    const StreamSource& source() const { return *source_; }
+
+    /// Notes the numbers of the last cycle, if the stream is one of every cycle.
+    void after_cycle(Run& run, std::uint64_t cycle);
+    /// The newest numbers, or the rows since the last call.
+    Chunk take(Run& run);
+    /// Forgets the rows: the run begins anew or goes back.
+    void clear();
+
+  private:
+    void push(std::uint64_t cycle, std::span<const double> numbers);
+
+    std::unique_ptr<StreamSource> source_;
+    std::string text_;
+    Delivery delivery_;
+    std::uint64_t every_, first_ = 0, joined_ = 0;  ///< of the row that grows
+    std::size_t row_size_, most_rows_;
+    std::vector<double> now_, low_, high_, rows_;
+    bool gap_ = false;
+};
+
+}  // namespace forage::studio

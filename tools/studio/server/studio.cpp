@@ -1,0 +1,54 @@
+#include "tools/studio/server/studio.h"
+
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "tools/studio/server/assets.h"
+#include "tools/studio/server/engine_thread.h"
+#include "tools/studio/server/http_server.h"
+
+namespace forage::studio {
+
+void serve(const StudioOptions& options, const std::function<void(const std::string&)>& ready,
+           const std::function<bool()>& interrupted) {
+    std::unique_ptr<HttpServer> server;
+    Session session(options.input, [&server](int client, bool binary, std::string data) {
+        server->send(client, binary, std::move(data));
+    }, options.plot_config);
+    std::unique_ptr<EngineThread> engine;
+    HttpServer::Options wanted;
+    wanted.port = options.port;
+    wanted.token = options.token.empty() ? make_token() : options.token;
+    wanted.file = find_asset;
+    wanted.opened = [&](int client) { engine->post([client](Session& s) { s.connect(client); }); };
+    wanted.closed = [&](int client) { engine->post([client](Session& s) { s.disconnect(client); }); };
+    wanted.received = [&](int client, std::string text) {
+        engine->post([client, text = std::move(text)](Session& s) { s.message(client, text); });
+    };
+    wanted.picture = [&](std::string what, std::string format, std::function<void(Content)> done) {
+        engine->post([what, format, done](Session& s) {
+            try {
+                const std::string type = format == "png"   ? "image/png"
+                                         : format == "svg" ? "image/svg+xml"
+                                                           : "application/pdf";
+                done({type, s.picture(what, format)});
+            } catch (const std::exception& e) {
+                done({"text/plain; charset=utf-8", e.what(), false, 404});
+            }
+        });
+    };
+    const std::string token = wanted.token;
+    server = std::make_unique<HttpServer>(std::move(wanted));
+    engine = std::make_unique<EngineThread>(session);
+    std::thread network([&] { server->run(); });
+    ready(fmt::format("http://127.0.0.1:{}/?token={}", server->port(), token));
+    while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    server->stop();
+    network.join();
+    engine.reset();
+}
+
+}  // namespace forage::studio

@@ -1,0 +1,24 @@
+// The studio: a session and the server that shows it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "core/run/run_spec.h"
+
+namespace forage::studio {
+
+struct StudioOptions {
+    RunInput input;
+    std::uint16_t port = 0;   ///< 0: a free one
+    std::string plot_config;  ///< a layout to open, .conf or .layout.json; may be empty
+    std::string token;        ///< empty: a random one
+};
+
+/// Opens the system and serves it until `interrupted` returns true, which is called ten times a second. Calls
+/// `ready` with the address, when pages can be opened. Throws InputError and std::runtime_error.
+void serve(const StudioOptions& options, const std::function<void(const std::string& address)>& ready,
+           const std::function<bool()>& interrupted);
+
+}  // namespace forage::studio

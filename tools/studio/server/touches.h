@@ -1,0 +1,59 @@
+// The manipulations that pages have sent, one per group.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "core/observe/manipulation.h"
+
+namespace forage::studio {
+
+/// An observer that applies them, and that calls back after each cycle. Manipulations come and go while the run
+/// lasts, so a checkpoint holds their settings, too.
+class Touches final : public Observer {
+  public:
+    using Settings = observe::Manipulation::Settings;
+
+    /// Replaces the manipulation of the group.
+    void put(Settings settings) {
+        const int group = settings.group;
+        groups_.insert_or_assign(group, observe::Manipulation(std::move(settings)));
+    }
+    void remove(int group) { groups_.erase(group); }
+    const std::map<int, observe::Manipulation>& groups() const { return groups_; }
+
+    void after_groups(RunView& run) override {
+        for (auto& [group, manipulation] : groups_) manipulation.after_groups(run);
+    }
+    void before_cycle(RunView& run) override {
+        for (auto& [group, manipulation] : groups_) manipulation.before_cycle(run);
+    }
+    void declare(engine::Demand& demand) const override {
+        for (const auto& [group, manipulation] : groups_) manipulation.declare(demand);
+    }
+    void checkpoint(Archive& archive) override {
+        std::uint64_t count = groups_.size();
+        archive(count);
+        if (!archive.loading()) {
+            for (auto& [group, manipulation] : groups_) {
+                Settings s = manipulation.settings();
+                archive(s.group, s.mode, s.patterns, s.every, s.step, s.times, s.backwards);
+                manipulation.checkpoint(archive);
+            }
+            return;
+        }
+        groups_.clear();
+        for (std::uint64_t i = 0; i < count; ++i) {
+            Settings s;
+            archive(s.group, s.mode, s.patterns, s.every, s.step, s.times, s.backwards);
+            observe::Manipulation loaded(s);
+            loaded.checkpoint(archive);
+            groups_.insert_or_assign(s.group, std::move(loaded));
+        }
+    }
+
+  private:
+    std::map<int, observe::Manipulation> groups_;
+};
+
+}  // namespace forage::studio
