@@ -1,10 +1,21 @@
 import { svelte } from '@sveltejs/vite-plugin-svelte';
 import { defineConfig } from 'vite';
 
+// `FORAGE_STUDIO_URL='http://127.0.0.1:PORT/?token=T' npm run dev` shows the page of these sources on a running `forage studio`.
+const server = process.env.FORAGE_STUDIO_URL ? new URL(process.env.FORAGE_STUDIO_URL) : null;
+const forward = server && {
+  target: server.origin,
+  ws: true,
+  changeOrigin: true,
+  headers: { origin: server.origin },
+  rewrite: (path: string) => `${path}${path.includes('?') ? '&' : '?'}${server.searchParams}`,
+};
+
 // File names carry no hash: the program embeds the files, and a build gives the same bytes each time.
 export default defineConfig({
   plugins: [svelte()],
   base: './',
+  server: forward ? { proxy: { '/ws': forward, '/picture': forward } } : {},
   build: {
     outDir: process.env.FORAGE_STUDIO_OUT ?? 'dist',
     emptyOutDir: true,

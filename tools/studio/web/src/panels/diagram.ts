@@ -1,0 +1,85 @@
+// Nodes and edges of the diagram. Ids are those of the model; positions are those of the file.
+import { MarkerType, Position, type Edge, type Node } from '@xyflow/svelte';
+import type { Connection, Process, SystemMessage } from '../protocol/messages';
+
+const stretch = 2.1; // icons of the file are 50 units wide; names and heat maps need more room
+const width = 104;
+
+function endpoints(system: SystemMessage, process: Process | null) {
+  const home = new Map<string, Process>();
+  for (const p of system.processes) for (const g of p.groups) home.set(g.id, p);
+  // On the system's page, and for groups of other processes, a connection ends at the process.
+  return (group: string) => (process && home.get(group) === process ? group : (home.get(group)?.id ?? group));
+}
+
+function links(system: SystemMessage, process: Process | null): { connection: Connection; source: string; target: string }[] {
+  const end = endpoints(system, process);
+  return system.connections
+    .map((connection) => ({ connection, source: end(connection.source), target: end(connection.target) }))
+    .filter((l) => (process ? process.groups.some((g) => g.id === l.source || g.id === l.target) : l.source !== l.target));
+}
+
+/** The boxes of a page of the diagram. Boxes without a place in the file are laid out by Dagre. */
+export async function nodesOf(system: SystemMessage, process: Process | null): Promise<Node[]> {
+  const items = process ? process.groups : system.processes;
+  const nodes: Node[] = items.map((item) => ({
+    id: item.id,
+    type: 'item',
+    position: item.icon ? { x: item.icon.x * stretch, y: item.icon.y * stretch } : { x: NaN, y: NaN },
+    data: { item },
+  }));
+  if (nodes.some((n) => Number.isNaN(n.position.x))) await layOut(nodes, links(system, process));
+  if (!process) return nodes;
+  // Processes at the other end of a connection stand in a row above.
+  const far = [...new Set(links(system, process).flatMap((l) => [l.source, l.target]))].filter((id) => !items.some((i) => i.id === id));
+  const top = Math.min(...nodes.map((n) => n.position.y)) - 110;
+  const left = Math.min(...nodes.map((n) => n.position.x));
+  far.forEach((id, i) => {
+    const p = system.processes.find((q) => q.id === id);
+    if (p) nodes.push({ id, type: 'item', position: { x: left + i * 130, y: top }, data: { item: p, phantom: true } });
+  });
+  return nodes;
+}
+
+async function layOut(nodes: Node[], connected: { source: string; target: string }[]): Promise<void> {
+  const { Graph, layout } = await import('@dagrejs/dagre').then((m) => ({ Graph: m.graphlib.Graph, layout: m.layout }));
+  const graph = new Graph();
+  graph.setGraph({ rankdir: 'LR', nodesep: 30, ranksep: 70 });
+  graph.setDefaultEdgeLabel(() => ({}));
+  for (const n of nodes) graph.setNode(n.id, { width, height: 80 });
+  for (const l of connected) if (graph.hasNode(l.source) && graph.hasNode(l.target)) graph.setEdge(l.source, l.target);
+  layout(graph);
+  for (const n of nodes) {
+    const p = graph.node(n.id);
+    n.position = { x: p.x - width / 2, y: p.y - 40 };
+  }
+}
+
+const colours = { excitatory: 'var(--excite)', inhibitory: 'var(--inhibit)', modulatory: 'var(--modulate)' };
+
+/** The lines. On the system's page, connections of one kind between two processes are one line with their number. */
+export function edgesOf(system: SystemMessage, process: Process | null, selected: string | null): Edge[] {
+  const merged = new Map<string, { first: Connection; source: string; target: string; count: number; chosen: boolean }>();
+  for (const { connection, source, target } of links(system, process)) {
+    const inside = process && process.groups.some((g) => g.id === source) && process.groups.some((g) => g.id === target);
+    const key = inside ? connection.id : `${source} ${target} ${connection.kind}`;
+    const known = merged.get(key);
+    const chosen = connection.id === selected || connection.source === selected || connection.target === selected;
+    if (known) known.count++, (known.chosen ||= chosen);
+    else merged.set(key, { first: connection, source, target, count: 1, chosen });
+  }
+  return [...merged].map(([id, l]) => ({
+    id,
+    source: l.source,
+    target: l.target,
+    type: 'default',
+    sourcePosition: Position.Right,
+    targetPosition: Position.Left,
+    data: { connection: l.first.id },
+    ariaLabel: `${l.first.name}, ${l.first.kind}`,
+    class: l.chosen ? 'chosen' : '',
+    label: l.count > 1 ? String(l.count) : undefined,
+    style: `stroke: ${colours[l.first.kind]}; stroke-width: 1.5;${selected && !l.chosen ? ' opacity: 0.45;' : ''}`,
+    markerEnd: { type: MarkerType.ArrowClosed, color: colours[l.first.kind], width: 14, height: 14 },
+  }));
+}

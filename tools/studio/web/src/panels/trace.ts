@@ -1,0 +1,57 @@
+// The values of one source over time, of the present epoch, as many as a plot can show.
+import type { Block } from '../protocol/frame';
+
+const capacity = 20000;
+
+export class Trace {
+  private x: number[] = [];
+  private y: number[] = [];
+  private epoch = -1;
+
+  get length(): number {
+    return this.x.length;
+  }
+
+  /** Adds rows of a block: the cycle, then a number per cell, of which the mean is shown. */
+  add(block: Block, epoch: number, secondsPerCycle: number): void {
+    if (epoch !== this.epoch) {
+      // The run began anew, or went back: what follows belongs to another course of it.
+      const first = block.rows > 0 ? block.values[0]! * secondsPerCycle : 0;
+      const keep = this.x.findIndex((t) => t >= first);
+      if (this.epoch !== -1 && keep !== -1) this.x.length = this.y.length = keep;
+      this.epoch = epoch;
+    }
+    if (block.gap && this.x.length > 0) {
+      this.x.push(block.values[0]! * secondsPerCycle);
+      this.y.push(NaN);
+    }
+    for (let r = 0; r < block.rows; r++) {
+      const at = r * block.columns;
+      let sum = 0;
+      for (let c = 1; c < block.columns; c++) sum += block.values[at + c]!;
+      this.x.push(block.values[at]! * secondsPerCycle);
+      this.y.push(block.columns > 1 ? sum / (block.columns - 1) : NaN);
+    }
+    if (this.x.length > capacity * 1.25) {
+      this.x.splice(0, this.x.length - capacity);
+      this.y.splice(0, this.y.length - capacity);
+    }
+  }
+
+  /** The times within the last `seconds`. */
+  times(seconds: number): number[] {
+    const from = (this.x[this.x.length - 1] ?? 0) - seconds;
+    let i = this.x.length;
+    while (i > 0 && this.x[i - 1]! >= from) i--;
+    return this.x.slice(i);
+  }
+
+  /** The values at `times`; NaN where there is none. */
+  at(times: number[]): number[] {
+    let i = 0;
+    return times.map((t) => {
+      while (i < this.x.length && this.x[i]! < t) i++;
+      return this.x[i] === t ? this.y[i]! : NaN;
+    });
+  }
+}
