@@ -15,6 +15,8 @@ const forward = server && {
 export default defineConfig({
   plugins: [svelte()],
   base: './',
+  // The only file of dockview-core that brings its style sheet.
+  resolve: { alias: [{ find: /^dockview-core$/, replacement: 'dockview-core/dist/dockview-core.min.js' }] },
   server: forward ? { proxy: { '/ws': forward, '/picture': forward } } : {},
   build: {
     outDir: process.env.FORAGE_STUDIO_OUT ?? 'dist',

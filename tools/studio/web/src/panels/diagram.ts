@@ -2,7 +2,6 @@
 import { MarkerType, Position, type Edge, type Node } from '@xyflow/svelte';
 import type { Connection, Process, SystemMessage } from '../protocol/messages';
 
-const stretch = 2.1; // icons of the file are 50 units wide; names and heat maps need more room
 const width = 104;
 
 function endpoints(system: SystemMessage, process: Process | null) {
@@ -19,13 +18,26 @@ function links(system: SystemMessage, process: Process | null): { connection: Co
     .filter((l) => (process ? process.groups.some((g) => g.id === l.source || g.id === l.target) : l.source !== l.target));
 }
 
+/** How much the places of the file are stretched so that boxes with names and heat maps do not overlap. */
+function stretch(icons: { x: number; y: number }[]): number {
+  let needed = 0.5;
+  icons.forEach((a, i) =>
+    icons.slice(i + 1).forEach((b) => {
+      const fits = Math.min(150 / Math.max(1, Math.abs(a.x - b.x)), 100 / Math.max(1, Math.abs(a.y - b.y)));
+      needed = Math.max(needed, fits);
+    }),
+  );
+  return Math.min(needed, 4);
+}
+
 /** The boxes of a page of the diagram. Boxes without a place in the file are laid out by Dagre. */
 export async function nodesOf(system: SystemMessage, process: Process | null): Promise<Node[]> {
   const items = process ? process.groups : system.processes;
+  const factor = stretch(items.flatMap((i) => (i.icon ? [i.icon] : [])));
   const nodes: Node[] = items.map((item) => ({
     id: item.id,
     type: 'item',
-    position: item.icon ? { x: item.icon.x * stretch, y: item.icon.y * stretch } : { x: NaN, y: NaN },
+    position: item.icon ? { x: item.icon.x * factor, y: item.icon.y * factor } : { x: NaN, y: NaN },
     data: { item },
   }));
   if (nodes.some((n) => Number.isNaN(n.position.x))) await layOut(nodes, links(system, process));

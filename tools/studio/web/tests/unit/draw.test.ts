@@ -1,0 +1,39 @@
+import { describe, expect, it } from 'vitest';
+import { csv, linesSvg } from '../../src/draw/save';
+import { adapt, extent, short } from '../../src/draw/scale';
+import { Trace } from '../../src/panels/trace';
+
+describe('scales', () => {
+  it('auto follows, expand only grows, manual stays', () => {
+    expect(adapt({ mode: 'auto', low: 0, high: 5 }, 0.2, 2)).toEqual({ mode: 'auto', low: 0, high: 2 });
+    expect(adapt({ mode: 'expand', low: 0, high: 5 }, -1, 2)).toEqual({ mode: 'expand', low: -1, high: 5 });
+    const manual = { mode: 'manual' as const, low: 0, high: 1 };
+    expect(adapt(manual, -9, 9)).toBe(manual);
+    expect(adapt(manual, ...extent([NaN]))).toBe(manual);
+  });
+  it('writes numbers shortly', () => expect([0, 0.123456, 1e-7, NaN].map(short)).toEqual(['0', '0.1235', '1.0e-7', '–']));
+});
+
+describe('Trace', () => {
+  const block = (rows: number[][], gap = false) => ({ stream: 1, rows: rows.length, columns: rows[0]!.length, gap, minMax: false, low: 0, high: 1, values: Float64Array.from(rows.flat()) });
+  it('keeps means over time, and marks a gap', () => {
+    const t = new Trace();
+    t.add(block([[0, 1, 3], [1, 2, 4]]), 1, 0.1);
+    t.add(block([[9, 0, 0]], true), 1, 0.1);
+    const x = t.times(10);
+    expect(x).toEqual([0, 0.1, 0.9, 0.9]);
+    expect(t.at([0, 0.1])).toEqual([2, 3]);
+  });
+  it('forgets the future when the run goes back', () => {
+    const t = new Trace();
+    t.add(block([[0, 1], [1, 1], [2, 1]]), 1, 1);
+    t.add(block([[1, 5]]), 2, 1);
+    expect(t.times(10)).toEqual([0, 1]);
+    expect(t.at([0, 1])).toEqual([1, 5]);
+  });
+});
+
+describe('files', () => {
+  it('quotes names in CSV', () => expect(csv(['s', 'a,b'], [[0, NaN]])).toBe('s,"a,b"\n0,nan\n'));
+  it('breaks lines where there is no value', () => expect(linesSvg([0, 1, 2], [{ label: '<x>', colour: '#000', y: [1, NaN, 2] }])).toMatch(/&lt;x&gt;.*d="M[\d. ]+M[\d. ]+"/));
+});
