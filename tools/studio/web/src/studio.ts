@@ -4,6 +4,7 @@ import { protocolVersion, type ServerMessage } from './protocol/messages';
 import type { Frame } from './protocol/frame';
 import { actions } from './stores/actions.svelte';
 import { model } from './stores/model.svelte';
+import { selection } from './stores/selection.svelte';
 import { run } from './stores/run.svelte';
 import { Streams } from './streams';
 
@@ -49,6 +50,9 @@ function receive(message: ServerMessage): void {
       break;
     case 'system':
       model.system = message;
+      // The diagram begins with the process that is the robot, whose groups show their activity.
+      if (!model.find(selection.process)) selection.process = (message.processes.find((p) => p.module) ?? message.processes[0])?.id ?? null;
+      if (!model.find(selection.id)) selection.id = null;
       streams.resume();
       document.title = `${message.name} · Forage studio`;
       break;

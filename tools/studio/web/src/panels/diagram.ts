@@ -1,5 +1,5 @@
 // Nodes and edges of the diagram. Ids are those of the model; positions are those of the file.
-import { MarkerType, Position, type Edge, type Node } from '@xyflow/svelte';
+import { MarkerType, type Edge, type Node } from '@xyflow/svelte';
 import type { Connection, Process, SystemMessage } from '../protocol/messages';
 
 const width = 104;
@@ -70,7 +70,8 @@ async function layOut(nodes: Node[], connected: { source: string; target: string
 const colours = { excitatory: 'var(--excite)', inhibitory: 'var(--inhibit)', modulatory: 'var(--modulate)' };
 
 /** The lines. On the system's page, connections of one kind between two processes are one line with their number. */
-export function edgesOf(system: SystemMessage, process: Process | null, selected: string | null): Edge[] {
+export function edgesOf(system: SystemMessage, process: Process | null, selected: string | null, nodes: Node[]): Edge[] {
+  const x = new Map(nodes.map((n) => [n.id, n.position.x]));
   const merged = new Map<string, { first: Connection; source: string; target: string; count: number; chosen: boolean }>();
   for (const { connection, source, target } of links(system, process)) {
     const inside = process && process.groups.some((g) => g.id === source) && process.groups.some((g) => g.id === target);
@@ -85,8 +86,8 @@ export function edgesOf(system: SystemMessage, process: Process | null, selected
     source: l.source,
     target: l.target,
     type: 'default',
-    sourcePosition: Position.Right,
-    targetPosition: Position.Left,
+    // A line that leads back leaves on the left side, so that it does not run behind the boxes.
+    ...((x.get(l.target) ?? 0) >= (x.get(l.source) ?? 0) ? { sourceHandle: 'right', targetHandle: 'left' } : { sourceHandle: 'left', targetHandle: 'right' }),
     data: { connection: l.first.id },
     ariaLabel: `${l.first.name}, ${l.first.kind}`,
     class: l.chosen ? 'chosen' : '',
