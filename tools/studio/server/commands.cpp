@@ -456,7 +456,7 @@ struct Commands {
             throw InputError(fmt::format("'{}' exists", file), "overwrite it, or choose another name");
         const auto every = whole(c, "every", 1, 1, 1'000'000);
         std::vector<model::RecordingSpec> specs;
-        for (const auto& source : sources) specs.push_back({{source + "=" + file}, every});
+        for (const auto& source : sources) specs.push_back({{source + "=" + std::filesystem::path(file).filename().string()}, every});
         Diagnostics diagnostics;
         auto files = recorded_files(specs, {}, run().layout(), diagnostics);
         check_output(file, "samples.csv", diagnostics);
@@ -525,6 +525,7 @@ struct Commands {
                 {"bytes", s.history_.bytes()},       {"limit", s.history_.limit()},
                 {"interval", s.history_.interval()}, {"actions", std::move(actions)}};
     }
+    json digest() { return {{"cycle", run().cycle()}, {"digest", run().digest()}}; }
     json seek() {
         const auto cycle = whole(c, "cycle", 0, s.history_.first(), s.history_.last());
         s.go_to(cycle);
@@ -591,6 +592,7 @@ const std::map<std::string, Entry>& table() {
         {"layout_read", {&Commands::layout_read, false}},
         {"layout_write", {&Commands::layout_write, false}},
         {"history", {&Commands::history, false}},
+        {"digest", {&Commands::digest, false}},
         {"seek", {&Commands::seek, true}},
         {"branch", {&Commands::branch, true}},
     };

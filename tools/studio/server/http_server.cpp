@@ -75,6 +75,7 @@ class HttpServer::Parts::Page : public std::enable_shared_from_this<Page> {
     void begin(const http::request<http::string_body>& request) {
         socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
         socket_.read_message_max(most_message);
+        socket_.auto_fragment(false);
         socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
             if (error) return;
             self->number_ = self->server_.next_page++;

@@ -1,0 +1,247 @@
+#!/usr/bin/env python3
+"""The studio over its sockets: what it refuses, its flow control, and that watching changes nothing."""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / 'support'))
+from studio_client import Page, Studio, http  # noqa: E402
+
+forage, root = sys.argv[1], pathlib.Path(sys.argv[2])
+system = str(root / 'systems/reactive_foraging.iqr')
+world = str(root / 'systems/worlds/basic_arena.world')
+
+
+class Refusals(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.studio = Studio(forage, system, '--world', world)
+        cls.cookie = f'Cookie: forage_{cls.studio.port}={cls.studio.token}'
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.studio.__exit__()
+
+    def status(self, target, *headers, **more):
+        return http(self.studio.port, target, headers, **more)[0]
+
+    def test_the_token_becomes_a_cookie(self):
+        status, head, _ = http(self.studio.port, f'/?token={self.studio.token}')
+        self.assertEqual(status, 303)
+        self.assertIn('HttpOnly; SameSite=Strict', head)
+        self.assertEqual(self.status('/', self.cookie), 200)
+
+    def test_nothing_without_the_token(self):
+        for target in ('/', '/basic', '/assets/basic.js', '/picture?what=world', '/ws', '/?token=', '/?token=0'):
+            self.assertEqual(self.status(target), 403, target)
+        self.assertEqual(self.status('/', f'Cookie: forage_{self.studio.port}=' + '0' * 32), 403)
+        self.assertEqual(self.status('/', f'Cookie: forage_{self.studio.port}={self.studio.token[:-1]}'), 403)
+
+    def test_foreign_hosts_and_origins(self):
+        port = self.studio.port
+        self.assertEqual(self.status('/', self.cookie, host=f'localhost:{port}'), 200)
+        for host in ('evil.example', f'127.0.0.1.evil.example:{port}', f'evil.example:{port}', '127.0.0.1', f'127.0.0.1:{port + 1}'):
+            self.assertEqual(self.status('/', self.cookie, host=host), 403, host)
+        self.assertEqual(self.status('/', self.cookie, 'Host: evil.example'), 403)
+        upgrade = ('Upgrade: websocket', 'Connection: Upgrade', 'Sec-WebSocket-Version: 13', 'Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==')
+        for origin in ('http://evil.example', f'http://127.0.0.1:{port}.evil.example', 'null', f'https://127.0.0.1:{port}', f'http://localhost:{port}'):
+            self.assertEqual(self.status('/ws', self.cookie, f'Origin: {origin}', *upgrade), 403, origin)
+
+    def test_methods_paths_and_sizes(self):
+        self.assertEqual(self.status('/', self.cookie, method='POST'), 405)
+        for target in ('/assets/', '/../etc/passwd', '/assets/../basic.html', '/%2e%2e/', '/etc'):
+            self.assertEqual(self.status(target, self.cookie), 404, target)
+        self.assertIn(self.status('/' + 'a' * 20000, self.cookie), (0, 413))
+
+    def test_headers(self):
+        _, head, _ = http(self.studio.port, '/basic', [self.cookie])
+        self.assertIn("Content-Security-Policy: default-src 'self'", head)
+        self.assertIn('X-Content-Type-Options: nosniff', head)
+
+    def test_pictures(self):
+        status, _, body = http(self.studio.port, '/picture?what=world&format=png', [self.cookie])
+        self.assertEqual((status, body[:4]), (200, b'\x89PNG'))
+        self.assertEqual(self.status('/picture?what=diagram&format=svg', self.cookie), 200)
+        self.assertEqual(self.status('/picture?what=nothing&format=svg', self.cookie), 404)
+
+    def test_messages_that_make_no_sense(self):
+        page = Page(self.studio)
+        for text in ('', '{', '[]', '7', '"run"', '{}', '{"command": 7}', '{"command": "fly"}', '{"command": "set"}',
+                     '{"command": "set", "assignments": "x"}', '{"command": "subscribe", "source": "Nothing/here"}',
+                     '{"command": "step", "cycles": -1}', '{"command": "speed", "mode": "times", "value": 0}',
+                     '{"command": "layout_read", "name": "../../etc/passwd"}', '\ufffd', '{"command": "' + 'x' * 70000 + '"}'):
+            before = len(page.replies)
+            page.send(text)
+            while len(page.replies) == before and page.receive():
+                pass
+            reply = page.replies.pop(None)
+            self.assertFalse(reply['ok'], text)
+            self.assertTrue(reply['problems'][0]['message'])
+        page.close()
+
+    def test_a_message_that_is_too_large(self):
+        page = Page(self.studio)
+        with self.assertRaises((ConnectionError, BrokenPipeError)):
+            page.send('x' * (9 << 20))
+            while page.receive():
+                pass
+        page.close()
+
+
+class Watching(unittest.TestCase):
+    def setUp(self):
+        self.studio = Studio(forage, system, '--world', world)
+        self.addCleanup(self.studio.__exit__)
+        self.page = Page(self.studio)
+        self.addCleanup(self.page.close)
+        self.page.do('pause')
+
+    def frames(self, seconds):
+        """The frames that come within some seconds."""
+        self.page.frames.clear()
+        end = time.monotonic() + seconds
+        while (left := end - time.monotonic()) > 0:
+            self.page.receive(left)
+        return self.page.frames
+
+    def test_the_greeting(self):
+        self.assertEqual([m['type'] for m in self.page.messages[:4]], ['hello', 'system', 'world', 'status'])
+        groups = [g['path'] for p in self.page.last('system')['processes'] for g in p['groups']]
+        self.assertIn('Bug/Light', groups)
+        self.assertEqual(len(self.page.last('world')['robots']), 1)
+
+    def test_no_acknowledgement_no_frames(self):
+        self.page.do('subscribe', source='Bug/Light')
+        self.page.do('speed', mode='free')
+        self.page.do('run')
+        frames = list(self.page.frames) + list(self.frames(1))
+        self.assertEqual([f.seq for f in frames], [1, 2])
+        self.page.acknowledge(2)  # both at once
+        later = list(self.frames(1))
+        self.assertEqual([f.seq for f in later], [3, 4])
+        self.assertGreater(later[0].cycle, frames[-1].cycle)
+
+    def test_a_slow_page_gets_the_newest_numbers(self):
+        self.page.do('subscribe', source='world:poses')
+        self.page.do('run')
+        behind = []
+        for _ in range(8):
+            while not self.page.frames:
+                self.page.receive()
+            frame = self.page.frames.pop()
+            self.page.frames.clear()
+            time.sleep(0.2)
+            self.page.acknowledge(frame.seq)
+            behind.append(self.page.do('history')['now'] - frame.cycle)
+        self.assertLess(max(behind), 40)  # cycles of 40 ms; a queue would grow without limit
+
+    def test_every_cycle_is_appended(self):
+        stream = self.page.do('subscribe', source='mean(Bug/Light)', **{'class': 'append'})['stream']
+        pairs = self.page.do('subscribe', source='Bug/Light', every=10, **{'class': 'append'})['stream']
+        self.page.acknowledge(max(f.seq for f in list(self.page.frames) + list(self.frames(0.3))))
+        self.page.do('step', cycles=95)
+        rows = []
+        joined = []
+        for frame in list(self.page.frames) + list(self.frames(0.3)):
+            count, columns, flags, _, _, numbers = frame.streams[stream]
+            self.assertEqual((columns, flags), (2, 0))
+            rows += numbers[::2]
+            joined.append(frame.streams[pairs])
+        self.assertEqual(rows, list(range(95)))
+        self.assertEqual(sum(j[0] for j in joined), 9)
+        self.assertEqual({j[2] for j in joined}, {2})
+
+    def test_a_gap_is_said(self):
+        stream = self.page.do('subscribe', source='Bug/Light', **{'class': 'append'})['stream']
+        self.page.do('step', cycles=1)
+        self.frames(0.3)
+        self.page.do('step', cycles=1)  # the credit is used up
+        self.frames(0.3)
+        self.page.do('step', cycles=200000)
+        self.page.acknowledge(2)
+        frame = self.frames(0.3)[0]
+        count, columns, flags, _, _, numbers = frame.streams[stream]
+        self.assertEqual(flags, 1)
+        self.assertGreater(numbers[0], 2)
+        self.assertEqual(numbers[-columns], 200001)  # the newest cycle is there
+
+    def test_parameters_undo_and_two_pages(self):
+        other = Page(self.studio)
+        found = self.page.do('parameters', item='Bug/Light')
+        parameter = next(p for p in found['parameters'] if p['kind'] == 'real')
+        name, before = parameter['assignment'], parameter['value']
+        self.page.do('set', assignments=[f'{name}=0.25'])
+        other.do('pause')
+        action = other.last('action')
+        self.assertEqual(action['shell'], f"--set '{name}=0.25'")
+        self.assertEqual(action['python'], f'run.params["{name}"] = 0.25')
+        refused = other.ask('set', assignments=[f'{name}=0.5'], generation=0)
+        self.assertTrue(refused['conflict'])
+        value = lambda: next(p['value'] for p in other.do('parameters', item='Bug/Light')['parameters'] if p['assignment'] == name)
+        self.assertEqual(value(), 0.25)
+        self.page.do('undo')
+        self.assertEqual(value(), before)
+        self.page.do('redo')
+        self.assertEqual(value(), 0.25)
+        self.page.do('stop')
+        self.assertEqual(value(), 0.25)
+        self.assertFalse(self.page.ask('set', assignments=[f'{name}=0.5', 'Bug/Lihgt.threshold=1'])['ok'])
+        self.assertEqual(value(), 0.25)  # all or none
+        other.close()
+
+    def test_the_past(self):
+        read = lambda: self.page.do('read', source='world:poses')['values']
+        self.page.do('step', cycles=300)
+        at_300 = read()
+        self.page.do('manipulate', group='Bug/Motor', patterns=[[1.0] + [0.0] * 80])
+        self.page.do('step', cycles=300)
+        at_600 = read()
+        self.page.do('seek', cycle=300)
+        self.assertEqual(read(), at_300)
+        self.page.do('seek', cycle=600)  # with the manipulation, as it was
+        self.assertEqual(read(), at_600)
+        self.page.do('seek', cycle=300)
+        self.page.do('step', cycles=300)
+        self.assertEqual(read(), at_600)
+
+    def test_the_sampler_writes_what_the_command_line_writes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = f'{folder}/light.csv'
+            self.page.do('sample', file=file, sources=['Bug/Light'], every=5)
+            self.page.do('step', cycles=200)
+            self.assertEqual(self.page.do('sample_stop'), {'file': file, 'rows': 40})
+            self.assertFalse(self.page.ask('sample', file=file, sources=['Bug/Light'])['ok'])  # it exists
+            subprocess.run([forage, 'run', system, '--world', world, '-c', '200', '--record', 'Bug/Light=run.csv', '--every', '5',
+                            '-o', folder + '/out', '--quiet'], check=True)
+            self.assertEqual(pathlib.Path(file).read_bytes(), pathlib.Path(folder, 'out/run.csv').read_bytes())
+
+    def test_watching_changes_no_bit(self):
+        for source in ('Bug/Light', 'world:poses', 'world:rays', 'world:camera'):
+            self.page.do('subscribe', source=source)
+        self.page.do('subscribe', source='mean(Bug/Light)', **{'class': 'append'})
+        for _ in range(5):
+            self.page.do('step', cycles=100)
+            for frame in self.page.frames:
+                self.page.acknowledge(frame.seq)
+        self.assertEqual(self.page.do('digest')['cycle'], 500)
+        with tempfile.TemporaryDirectory() as folder:
+            out = subprocess.run([forage, 'run', system, '--world', world, '-c', '500', '--hash', '-o', folder],
+                                 check=True, capture_output=True, text=True).stdout
+        self.assertIn(self.page.do('digest')['digest'], out)
+
+    def test_the_robot_is_moved(self):
+        self.page.do('step')
+        self.page.do('move', robot=self.page.last('world')['robots'][0]['name'], x=0.5, y=-0.5, heading=1.0)
+        pose = self.page.do('read', source='world:poses')['values'][:4]
+        for got, wanted in zip(pose, (0.5, -0.5, 0, 1.0)):
+            self.assertAlmostEqual(got, wanted)
+        x, y = self.page.last('world')['targets'][0]
+        self.assertFalse(self.page.ask('move', robot=self.page.last('world')['robots'][0]['name'], x=99.0, y='a')['ok'])
+
+
+if __name__ == '__main__':
+    unittest.main(argv=sys.argv[:1])
