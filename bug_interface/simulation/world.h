@@ -83,9 +83,9 @@ class World final : public Environment {
     /// start pose. A robot that is never reset begins where its first trial began. The robot stands until the
     /// next command, and its sensors see where it is at the end of the next cycle.
     void begin_trial(std::size_t bug, const std::optional<Pose2>& start = {});
-    /// Moves a robot or a movable object to `pose` between two cycles; it is at rest there, and a trial goes on.
-    /// The sensors see it at the end of the next cycle. Returns false, and changes nothing, when it would overlap
-    /// something there, and while the robot is being reset.
+    /// Moves a robot or a movable object to `pose` between two cycles; it is at rest there, and a trial goes
+    /// on. The sensors see it at the end of the next cycle. Returns false, and changes nothing, when it would
+    /// overlap something there, and while the robot is being reset.
     bool move_robot(std::size_t bug, const Pose2& pose);
     bool move_object(std::size_t object, const Pose2& pose);
     bool has_gripper(std::size_t bug) const { return !robots_[bug].hinges.empty(); }

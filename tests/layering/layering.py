@@ -34,6 +34,8 @@ ALLOWED = {
 }
 ALLOWED['tools'] = set(ALLOWED) - {'core/connectivity', 'core/plugin', 'core/types', 'modules', 'neurons', 'synapses'}
 ALLOWED['tools/python'] = {'core/base', 'core/observe', 'core/run', 'tools/api'}
+ALLOWED['tools/studio/server'] = {'core/base', 'core/types', 'core/model', 'core/observe', 'core/run', 'bug_interface', 'tools/plot', 'tools/api'}
+ALLOWED['tools'].add('tools/studio/server')
 ROOMS = set(ALLOWED)
 
 # Libraries that belong to one room: the beginnings of their headers' names, and the rooms that may include them.
@@ -42,6 +44,7 @@ OWNED = [
     (r'Random123/', {'core/base'}),
     (r'(hdf5|H5\w*)(_hl)?\.h|zip\.h', {'core/observe'}),
     (r'cairo', {'tools/plot'}),
+    (r'boost/', {'tools/studio/server'}),
     (r'(bullet/|bt[A-Z]\w*\.h|Bullet\w*/|LinearMath/|opencv2?/|png\.h)', {'bug_interface'}),
 ]
 

@@ -32,9 +32,8 @@ json states_of(const NeuronType& type) {
     json out = json::array();
     for (const auto& s : type.states)
         out.push_back({{"name", s.name}, {"label", s.label}, {"output", s.output}});
-    constexpr std::pair<const char*, const char*> inputs[] = {{"excIn", "Excitatory input"},
-                                                              {"inhIn", "Inhibitory input"},
-                                                              {"modIn", "Modulatory input"}};
+    constexpr std::pair<const char*, const char*> inputs[] = {
+        {"excIn", "Excitatory input"}, {"inhIn", "Inhibitory input"}, {"modIn", "Modulatory input"}};
     for (const auto& [name, label] : inputs)
         out.push_back({{"name", name}, {"label", label}, {"output", false}});
     return out;
@@ -225,8 +224,7 @@ json describe_world(const bug::World& world) {
         objects.push_back(
             {{"name", object.name}, {"resource", object.resource}, {"solids", std::move(parts)}});
     }
-    for (const auto& d : bug::drawing_of(world.description()))
-        solids.push_back(solid_of(d.solid, d.colour));
+    for (const auto& d : bug::drawing_of(world.description())) solids.push_back(solid_of(d.solid, d.colour));
     for (const auto& t : world.targets()) targets.push_back({t.x(), t.y()});
     for (const auto& s : world.start_poses()) starts.push_back(pose_of(s));
     const auto view = plot::WorldMap(world, {}, 1000, 0, 0).view();

@@ -1,5 +1,5 @@
-// Systems, worlds and parameters as JSON, for programs that show them. docs/design/studio-protocol.md describes
-// the members.
+// Systems, worlds and parameters as JSON, for programs that show them. docs/design/studio-protocol.md
+// describes the members.
 #pragma once
 
 #include <string>
@@ -16,8 +16,8 @@ namespace forage {
 nlohmann::json describe_system(const Run& run);
 /// The robots, objects and fixed solids of a world, with the part of the floor that a map shows.
 nlohmann::json describe_world(const bug::World& world);
-/// The parameters of a group, process or connection, by path, name or id, with their present values, ranges and
-/// meanings. Throws InputError.
+/// The parameters of a group, process or connection, by path, name or id, with their present values, ranges
+/// and meanings. Throws InputError.
 nlohmann::json describe_parameters(Run& run, std::string_view item);
 
 }  // namespace forage

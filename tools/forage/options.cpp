@@ -292,10 +292,11 @@ void add_new(CLI::App& app, NewOptions& o) {
 }
 
 void add_studio(CLI::App& app, StudioCommand& o) {
-    auto& command =
-        *app.add_subcommand("studio", "Watch and touch a system while it runs, in the browser of this machine");
+    auto& command = *app.add_subcommand(
+        "studio", "Watch and touch a system while it runs, in the browser of this machine");
     command.footer(
-        "Example:\n  forage studio systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world --open");
+        "Example:\n  forage studio systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world "
+        "--open");
     add_input(command, o.input);
     command.add_option("--seed", o.input.seed, "Decides everything random [1]")
         ->transform(seed())

@@ -21,11 +21,13 @@ int studio(const StudioCommand& command) {
         studio::serve(
             options,
             [&](const std::string& address) {
-                fmt::print("The studio is at\n\n  {}\n\nOpen it with a browser on this machine; Ctrl-C ends it.\n",
-                           address);
+                fmt::print(
+                    "The studio is at\n\n  {}\n\nOpen it with a browser on this machine; Ctrl-C ends it.\n",
+                    address);
                 std::fflush(stdout);
                 // The address holds no character that a shell reads.
-                if (command.open && std::system(("xdg-open '" + address + "' >/dev/null 2>&1 &").c_str()) != 0)
+                if (command.open &&
+                    std::system(("xdg-open '" + address + "' >/dev/null 2>&1 &").c_str()) != 0)
                     fmt::print(stderr, "warning: no browser could be opened\n");
             },
             [] { return noted_signal() != 0; });

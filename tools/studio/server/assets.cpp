@@ -24,16 +24,21 @@ std::optional<Content> find_asset(const std::string& path) {
     const Asset* found = find(name);
     if (!found && path == "/") found = find("/basic.html");
     if (!found) return std::nullopt;
-    constexpr std::pair<std::string_view, const char*> types[] = {
-        {".html", "text/html; charset=utf-8"}, {".js", "text/javascript; charset=utf-8"},
-        {".css", "text/css; charset=utf-8"},   {".svg", "image/svg+xml"},
-        {".png", "image/png"},                 {".json", "application/json"},
-        {".woff2", "font/woff2"},              {".md", "text/markdown; charset=utf-8"}};
+    constexpr std::pair<std::string_view, const char*> types[] = {{".html", "text/html; charset=utf-8"},
+                                                                  {".js", "text/javascript; charset=utf-8"},
+                                                                  {".css", "text/css; charset=utf-8"},
+                                                                  {".svg", "image/svg+xml"},
+                                                                  {".png", "image/png"},
+                                                                  {".json", "application/json"},
+                                                                  {".woff2", "font/woff2"},
+                                                                  {".md", "text/markdown; charset=utf-8"}};
     const char* type = "application/octet-stream";
     for (const auto& [ending, media] : types)
         if (std::string_view(found->path).ends_with(ending)) type = media;
-    return Content{type, std::string(reinterpret_cast<const char*>(found->begin), reinterpret_cast<const char*>(found->end)),
-                   found->gzip};
+    return Content{
+        type,
+        std::string(reinterpret_cast<const char*>(found->begin), reinterpret_cast<const char*>(found->end)),
+        found->gzip};
 }
 
 }  // namespace forage::studio

@@ -9,7 +9,8 @@ namespace {
 
 template <class T>
 void put(std::string& out, T value) {
-    out.append(reinterpret_cast<const char*>(&value), sizeof value);  // the project runs on little endian only
+    out.append(reinterpret_cast<const char*>(&value),
+               sizeof value);  // the project runs on little endian only
 }
 
 }  // namespace

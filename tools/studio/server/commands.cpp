@@ -7,6 +7,7 @@
 #include <map>
 
 #include <fmt/format.h>
+#include <forage/system.h>
 
 #include "bug_interface/simulation/world.h"
 #include "core/base/output_files.h"
@@ -19,8 +20,6 @@
 #include "tools/api/describe_json.h"
 #include "tools/studio/server/equivalents.h"
 #include "tools/studio/server/session.h"
-
-#include <forage/system.h>
 
 namespace forage::studio {
 namespace {
@@ -177,13 +176,17 @@ struct Commands {
         const auto item =
             model::find_item(run().system(), c.at("connection").get<std::string>(), "synapses", diagnostics);
         throw_errors(diagnostics);
-        SystemFile file{run().system(), s.input_.system, {},
-                        std::shared_ptr<const Registry>(std::shared_ptr<const Registry>(), &run().registry())};
+        SystemFile file{
+            run().system(),
+            s.input_.system,
+            {},
+            std::shared_ptr<const Registry>(std::shared_ptr<const Registry>(), &run().registry())};
         const SynapseTable all = forage::synapses(file, item->id, run().seed());
         const auto none = std::numeric_limits<std::uint64_t>::max();
-        const auto source = whole(c, "source", none, 0, none - 1), target = whole(c, "target", none, 0, none - 1);
-        json out = {{"source", json::array()},   {"target", json::array()},   {"distance", json::array()},
-                    {"delay", json::array()},    {"strength", json::array()}, {"total", all.source.size()}};
+        const auto source = whole(c, "source", none, 0, none - 1),
+                   target = whole(c, "target", none, 0, none - 1);
+        json out = {{"source", json::array()}, {"target", json::array()},   {"distance", json::array()},
+                    {"delay", json::array()},  {"strength", json::array()}, {"total", all.source.size()}};
         for (std::size_t i = 0; i < all.source.size() && out["source"].size() < most_synapses; ++i) {
             if (source != none && static_cast<std::uint64_t>(all.source[i]) != source) continue;
             if (target != none && static_cast<std::uint64_t>(all.target[i]) != target) continue;
@@ -214,7 +217,8 @@ struct Commands {
         const auto name = c.value("robot", "");
         const auto found = name.empty() && world().bugs() > 0 ? 0 : world().find(name);
         if (!found)
-            throw InputError(fmt::format("there is no robot '{}'", name), suggest(name, world().robot_names()));
+            throw InputError(fmt::format("there is no robot '{}'", name),
+                             suggest(name, world().robot_names()));
         return *found;
     }
 
@@ -246,7 +250,8 @@ struct Commands {
             if (const auto it = s.changed_.find(name); it != s.changed_.end() && at_start(*change)) {
                 back.push_back(it->second.assignment);
             } else {
-                if (!at_start(*change)) now = run().simulation().parameter(*change), changes.push_back(*change);
+                if (!at_start(*change))
+                    now = run().simulation().parameter(*change), changes.push_back(*change);
                 back.push_back(name + "=" + to_text(now));
             }
         }
@@ -317,10 +322,10 @@ struct Commands {
         const auto settings = settings_of(command);  // also checks
         const auto& g = laid(number);
         const auto mode = name_of(settings.mode);
-        const auto same = of_manipulation(g.path, mode, settings.patterns,
-                                          g.shape.cells == g.shape.width * g.shape.height ? g.shape.width
-                                                                                        : g.shape.cells,
-                                          settings.every, run().cycle());
+        const auto same =
+            of_manipulation(g.path, mode, settings.patterns,
+                            g.shape.cells == g.shape.width * g.shape.height ? g.shape.width : g.shape.cells,
+                            settings.every, run().cycle());
         s.act(command, describe(number),
               {{"title", fmt::format("{} {}", mode, g.path)},
                {"item", g.path},
@@ -346,9 +351,9 @@ struct Commands {
     }
     json patterns_read() {
         Diagnostics diagnostics;
-        const auto patterns = observe::parse_patterns(c.at("text").get<std::string>(), c.value("file", "patterns"),
-                                                      laid(group(c.at("group").get<std::string>())).shape,
-                                                      diagnostics);
+        const auto patterns =
+            observe::parse_patterns(c.at("text").get<std::string>(), c.value("file", "patterns"),
+                                    laid(group(c.at("group").get<std::string>())).shape, diagnostics);
         throw_errors(diagnostics);
         return {{"patterns", patterns}};
     }
@@ -380,14 +385,20 @@ struct Commands {
         const bool robot = c.contains("robot");
         const auto name = c.at(robot ? "robot" : "object").get<std::string>();
         const auto which = robot ? find_robot() : find_object(name);
-        const Pose2 now =
-            robot ? world().pose(which) : world().movable_object_pose(which).value_or(Pose2{});
+        const Pose2 now = robot ? world().pose(which) : world().movable_object_pose(which).value_or(Pose2{});
         const double x = finite(c, "x"), y = finite(c, "y");
-        const double heading = c.contains("heading") && !c["heading"].is_null() ? finite(c, "heading") : now.yaw;
+        const double heading =
+            c.contains("heading") && !c["heading"].is_null() ? finite(c, "heading") : now.yaw;
         if (std::abs(x) > 1e4 || std::abs(y) > 1e4) throw InputError("a place is within 10 km");
-        s.act({{"command", "move"}, {robot ? "robot" : "object", name}, {"x", x}, {"y", y}, {"heading", heading}},
+        s.act({{"command", "move"},
+               {robot ? "robot" : "object", name},
+               {"x", x},
+               {"y", y},
+               {"heading", heading}},
               std::nullopt,
-              {{"title", fmt::format("move {} to ({:.2f}, {:.2f})", name, x, y)}, {"shell", ""}, {"python", ""}});
+              {{"title", fmt::format("move {} to ({:.2f}, {:.2f})", name, x, y)},
+               {"shell", ""},
+               {"python", ""}});
         return {{"generation", s.generation_}};
     }
     std::size_t find_object(const std::string& name) {
@@ -404,7 +415,8 @@ struct Commands {
         const auto starts = world().start_poses();
         if (start >= static_cast<int>(starts.size()))
             throw InputError(fmt::format("there are {} start poses", starts.size()));
-        s.act({{"command", "begin_trial"}, {"robot", world().robot_names()[robot]}, {"start", start}}, std::nullopt,
+        s.act({{"command", "begin_trial"}, {"robot", world().robot_names()[robot]}, {"start", start}},
+              std::nullopt,
               {{"title", start < 0 ? "next trial" : fmt::format("next trial from start {}", start + 1)},
                {"shell", ""},
                {"python", ""}});
@@ -433,13 +445,15 @@ struct Commands {
         } else if (what == "begin_trial") {
             const int start = c.value("start", -1);
             const auto starts = world().start_poses();
-            world().begin_trial(find_robot(), start < 0 ? std::nullopt
-                                                        : std::optional(starts[static_cast<std::size_t>(start)]));
+            world().begin_trial(find_robot(), start < 0
+                                                  ? std::nullopt
+                                                  : std::optional(starts[static_cast<std::size_t>(start)]));
         } else if (what == "move") {
             const bool robot = c.contains("robot");
             const Pose2 pose{c.at("x").get<double>(), c.at("y").get<double>(), c.at("heading").get<double>()};
-            const bool moved = robot ? world().move_robot(find_robot(), pose)
-                                     : world().move_object(find_object(c.at("object").get<std::string>()), pose);
+            const bool moved =
+                robot ? world().move_robot(find_robot(), pose)
+                      : world().move_object(find_object(c.at("object").get<std::string>()), pose);
             if (!moved)
                 throw InputError("something is there already",
                                  "choose another place; a robot that is being reset cannot be moved");
@@ -456,7 +470,8 @@ struct Commands {
             throw InputError(fmt::format("'{}' exists", file), "overwrite it, or choose another name");
         const auto every = whole(c, "every", 1, 1, 1'000'000);
         std::vector<model::RecordingSpec> specs;
-        for (const auto& source : sources) specs.push_back({{source + "=" + std::filesystem::path(file).filename().string()}, every});
+        for (const auto& source : sources)
+            specs.push_back({{source + "=" + std::filesystem::path(file).filename().string()}, every});
         Diagnostics diagnostics;
         auto files = recorded_files(specs, {}, run().layout(), diagnostics);
         check_output(file, "samples.csv", diagnostics);
@@ -470,7 +485,8 @@ struct Commands {
         sampler.file = file, sampler.every = every;
         if (const auto cycles = whole(c, "cycles", 0, 1, 1'000'000'000'000)) sampler.left = cycles;
         sampler.recorder.emplace(observe::open_row_file(files.front().format, partial(file), header),
-                                 std::move(files.front().sources), observe::Sampling{every, 0, std::nullopt, false});
+                                 std::move(files.front().sources),
+                                 observe::Sampling{every, 0, std::nullopt, false});
         s.sampler_ = std::move(sampler);
         s.status_due_ = true;
         return {{"file", file}};
@@ -520,10 +536,14 @@ struct Commands {
         json actions = json::array();
         for (const auto& a : s.history_.actions())
             actions.push_back({{"cycle", a.cycle}, {"title", a.title}});
-        return {{"first", s.history_.first()},       {"last", s.history_.last()},
-                {"now", run().cycle()},              {"checkpoints", s.history_.cycles()},
-                {"bytes", s.history_.bytes()},       {"limit", s.history_.limit()},
-                {"interval", s.history_.interval()}, {"actions", std::move(actions)}};
+        return {{"first", s.history_.first()},
+                {"last", s.history_.last()},
+                {"now", run().cycle()},
+                {"checkpoints", s.history_.cycles()},
+                {"bytes", s.history_.bytes()},
+                {"limit", s.history_.limit()},
+                {"interval", s.history_.interval()},
+                {"actions", std::move(actions)}};
     }
     json digest() { return {{"cycle", run().cycle()}, {"digest", run().digest()}}; }
     json seek() {

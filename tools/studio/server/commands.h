@@ -16,8 +16,8 @@ class Conflict : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Executes a command and returns its result. Throws InputError, Conflict, and json::exception for members that
-/// are missing or of another type.
+/// Executes a command and returns its result. Throws InputError, Conflict, and json::exception for members
+/// that are missing or of another type.
 nlohmann::json execute_command(Session& session, int client, const nlohmann::json& command);
 /// The names of all commands.
 std::vector<std::string> command_names();

@@ -41,8 +41,8 @@ Equivalent of_assignments(const std::vector<std::string>& assignments, std::uint
         const auto equal = a.find('=');
         const std::string name = a.substr(0, equal), value = equal == a.npos ? "" : a.substr(equal + 1);
         if (!out.shell.empty()) out.shell += ' ', out.python += '\n';
-        out.shell += cycle == 0 ? "--set " + quoted(a)
-                                : "--schedule " + quoted(fmt::format("cycle {}: {}", cycle, a));
+        out.shell +=
+            cycle == 0 ? "--set " + quoted(a) : "--schedule " + quoted(fmt::format("cycle {}: {}", cycle, a));
         out.python += fmt::format("run.params[{}] = {}", literal(name), value_in_python(value));
     }
     return out;
@@ -72,11 +72,11 @@ Equivalent of_manipulation(const std::string& group, const std::string& mode,
     for (const auto& p : patterns) {
         std::vector<std::string> lines;
         for (std::size_t i = 0; i < p.size(); i += static_cast<std::size_t>(width))
-            lines.push_back(fmt::format(
-                "[{}]", fmt::join(p.begin() + static_cast<std::ptrdiff_t>(i),
-                                  p.begin() + static_cast<std::ptrdiff_t>(
-                                                  std::min(p.size(), i + static_cast<std::size_t>(width))),
-                                  ", ")));
+            lines.push_back(
+                fmt::format("[{}]", fmt::join(p.begin() + static_cast<std::ptrdiff_t>(i),
+                                              p.begin() + static_cast<std::ptrdiff_t>(std::min(
+                                                              p.size(), i + static_cast<std::size_t>(width))),
+                                              ", ")));
         rows.push_back(fmt::format("[{}]", fmt::join(lines, ", ")));
     }
     const std::string values = rows.size() == 1 ? rows[0] : fmt::format("[{}]", fmt::join(rows, ", "));

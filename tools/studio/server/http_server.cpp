@@ -1,3 +1,8 @@
+#include "tools/studio/server/http_server.h"
+
+#include <deque>
+#include <map>
+#include <stdexcept>
 #include <utility>  // Boost 1.74 needs it in C++20
 
 #include <boost/asio/ip/tcp.hpp>
@@ -6,14 +11,7 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
-
-#include <deque>
-#include <map>
-#include <stdexcept>
-
 #include <fmt/format.h>
-
-#include "tools/studio/server/http_server.h"
 
 namespace forage::studio {
 namespace {
@@ -135,14 +133,14 @@ class HttpServer::Parts::Connection : public std::enable_shared_from_this<Connec
         parser_->header_limit(most_header);
         parser_->body_limit(0);
         stream_.expires_after(patience);
-        http::async_read(stream_, buffer_, *parser_,
-                         [self = shared_from_this()](beast::error_code error, std::size_t) {
-                             if (error == http::error::header_limit || error == http::error::body_limit)
-                                 return self->answer({"text/plain", "The request is too large.\n", false, 413});
-                             if (error) return;
-                             self->request_ = self->parser_->release();
-                             self->handle();
-                         });
+        http::async_read(
+            stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+                if (error == http::error::header_limit || error == http::error::body_limit)
+                    return self->answer({"text/plain", "The request is too large.\n", false, 413});
+                if (error) return;
+                self->request_ = self->parser_->release();
+                self->handle();
+            });
     }
 
   private:
@@ -167,13 +165,13 @@ class HttpServer::Parts::Connection : public std::enable_shared_from_this<Connec
         if (path == "/" && !query_value(target, "token").empty()) return welcome();
         if (path == "/picture") {
             const std::string format = query_value(target, "format");
-            return server_.options.picture(
-                query_value(target, "what"), format.empty() ? "png" : format,
-                [self = shared_from_this()](Content content) {
-                    asio::post(self->server_.io, [self, content = std::move(content)]() mutable {
-                        self->answer(std::move(content));
-                    });
-                });
+            return server_.options.picture(query_value(target, "what"), format.empty() ? "png" : format,
+                                           [self = shared_from_this()](Content content) {
+                                               asio::post(self->server_.io,
+                                                          [self, content = std::move(content)]() mutable {
+                                                              self->answer(std::move(content));
+                                                          });
+                                           });
         }
         auto file = server_.options.file(path);
         if (!file) return refuse(404, "There is no such file.");
@@ -186,8 +184,8 @@ class HttpServer::Parts::Connection : public std::enable_shared_from_this<Connec
     void welcome() {
         http::response<http::string_body> out{http::status::see_other, request_.version()};
         out.set(http::field::location, "/");
-        out.set(http::field::set_cookie, fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/", server_.cookie,
-                                                     server_.options.token));
+        out.set(http::field::set_cookie, fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/",
+                                                     server_.cookie, server_.options.token));
         write(std::move(out));
     }
     void answer(Content content) {
@@ -209,11 +207,12 @@ class HttpServer::Parts::Connection : public std::enable_shared_from_this<Connec
         out.prepare_payload();
         response_ = std::move(out);
         stream_.expires_after(patience);
-        http::async_write(stream_, response_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-            if (!error && self->response_.keep_alive()) return self->read();
-            beast::error_code ignored;
-            self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
-        });
+        http::async_write(stream_, response_,
+                          [self = shared_from_this()](beast::error_code error, std::size_t) {
+                              if (!error && self->response_.keep_alive()) return self->read();
+                              beast::error_code ignored;
+                              self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+                          });
     }
 
     Parts& server_;

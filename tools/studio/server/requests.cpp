@@ -20,7 +20,8 @@ std::string decoded(std::string_view text) {
     for (std::size_t i = 0; i < text.size(); ++i) {
         if (text[i] == '+') {
             out += ' ';
-        } else if (text[i] == '%' && i + 2 < text.size() && digit(text[i + 1]) >= 0 && digit(text[i + 2]) >= 0) {
+        } else if (text[i] == '%' && i + 2 < text.size() && digit(text[i + 1]) >= 0 &&
+                   digit(text[i + 2]) >= 0) {
             out += static_cast<char>(16 * digit(text[i + 1]) + digit(text[i + 2]));
             i += 2;
         } else {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <forage/forage.h>
 
 #include "bug_interface/simulation/world.h"
 #include "core/base/output_files.h"
@@ -15,8 +16,6 @@
 #include "tools/studio/server/commands.h"
 #include "tools/studio/server/problems.h"
 
-#include <forage/forage.h>
-
 namespace forage::studio {
 namespace {
 
@@ -24,9 +23,9 @@ double clock_now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-constexpr double slice = 0.004;           ///< seconds of cycles between two looks for commands
-constexpr double status_interval = 0.1;   ///< s
-constexpr double most_behind = 0.25;      ///< seconds that a paced run may try to catch up
+constexpr double slice = 0.004;          ///< seconds of cycles between two looks for commands
+constexpr double status_interval = 0.1;  ///< s
+constexpr double most_behind = 0.25;     ///< seconds that a paced run may try to catch up
 
 /// The floor and what never moves, exactly on the view of a map.
 plot::Picture floor_picture(const bug::World& world) {
@@ -87,8 +86,8 @@ void Session::connect(int client) {
           {"protocol", 1},
           {"version", FORAGE_VERSION},
           {"capabilities",
-           {"run", "streams", "parameters", "manipulations", "sampler", "move", "history", "layouts", "panels",
-            "pictures"}}});
+           {"run", "streams", "parameters", "manipulations", "sampler", "move", "history", "layouts",
+            "panels", "pictures"}}});
     send(system_message());
     send(world_message());
     send(status());
@@ -285,8 +284,7 @@ double Session::work(double now) {
     bool waits = false;
     if (failed_.empty())
         for (auto& [id, client] : clients_) {
-            if (auto frame = client.frame(*run_, now, version_, epoch_))
-                send_(id, true, std::move(*frame));
+            if (auto frame = client.frame(*run_, now, version_, epoch_)) send_(id, true, std::move(*frame));
             waits = waits || (client.watches() && client.in_flight() < Client::window);
         }
     if (!running_) return waits || status_due_ ? Client::interval : std::numeric_limits<double>::infinity();

@@ -22,8 +22,8 @@ namespace forage::studio {
 
 using nlohmann::json;
 
-/// Executes the commands of pages between cycles, and runs the system. docs/design/studio-protocol.md describes
-/// the messages. All functions are called by one thread.
+/// Executes the commands of pages between cycles, and runs the system. docs/design/studio-protocol.md
+/// describes the messages. All functions are called by one thread.
 class Session {
   public:
     /// Sends a message to a page: JSON, or a frame when `binary`.

@@ -13,9 +13,9 @@
 namespace forage::studio {
 namespace {
 
-constexpr std::size_t most_cells = 1'000'000;       ///< of a stream
-constexpr std::size_t most_append_cells = 4096;     ///< of a stream of every cycle
-constexpr std::size_t most_kept = 4 << 20;          ///< bytes of rows that a page has not fetched
+constexpr std::size_t most_cells = 1'000'000;    ///< of a stream
+constexpr std::size_t most_append_cells = 4096;  ///< of a stream of every cycle
+constexpr std::size_t most_kept = 4 << 20;       ///< bytes of rows that a page has not fetched
 
 class Cells final : public StreamSource {
   public:
@@ -43,8 +43,7 @@ class Poses final : public StreamSource {
     void read(Run& run, std::span<double> out) const override {
         const auto& world = static_cast<const bug::World&>(*run.environment());
         for (std::size_t i = 0; i < bodies_; ++i) {
-            const auto object =
-                i < world.bugs() ? std::nullopt : world.movable_object_pose(i - world.bugs());
+            const auto object = i < world.bugs() ? std::nullopt : world.movable_object_pose(i - world.bugs());
             const Pose2 pose = i < world.bugs() ? world.pose(i) : object.value_or(Pose2{});
             const double state = i < world.bugs() ? (world.resetting(i) ? 2 : 1) : object ? 1 : 0;
             const double row[] = {pose.x, pose.y, 0, pose.yaw, state};
@@ -80,7 +79,7 @@ class Rays final : public StreamSource {
                 const double angle = pose.yaw + s.cell_angle(k), c = std::cos(angle), d = std::sin(angle);
                 const double range = s.max_range * (1 - activity);
                 const double row[] = {pose.x + s.min_range * c, pose.y + s.min_range * d, pose.x + range * c,
-                                      pose.y + range * d, light ? 1. : 0., activity};
+                                      pose.y + range * d,       light ? 1. : 0.,          activity};
                 std::copy(std::begin(row), std::end(row), out.begin() + static_cast<std::ptrdiff_t>(at));
             }
         }

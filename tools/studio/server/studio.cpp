@@ -15,9 +15,12 @@ namespace forage::studio {
 void serve(const StudioOptions& options, const std::function<void(const std::string&)>& ready,
            const std::function<bool()>& interrupted) {
     std::unique_ptr<HttpServer> server;
-    Session session(options.input, [&server](int client, bool binary, std::string data) {
-        server->send(client, binary, std::move(data));
-    }, options.plot_config);
+    Session session(
+        options.input,
+        [&server](int client, bool binary, std::string data) {
+            server->send(client, binary, std::move(data));
+        },
+        options.plot_config);
     std::unique_ptr<EngineThread> engine;
     HttpServer::Options wanted;
     wanted.port = options.port;

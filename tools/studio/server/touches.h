@@ -8,8 +8,8 @@
 
 namespace forage::studio {
 
-/// An observer that applies them, and that calls back after each cycle. Manipulations come and go while the run
-/// lasts, so a checkpoint holds their settings, too.
+/// An observer that applies them, and that calls back after each cycle. Manipulations come and go while the
+/// run lasts, so a checkpoint holds their settings, too.
 class Touches final : public Observer {
   public:
     using Settings = observe::Manipulation::Settings;

@@ -1,0 +1,61 @@
+// Tries messages of pages to the studio, one per line, and what is read of a request before the token is
+// known. A message changes no file: commands that write are left out.
+#include <cstdint>
+#include <string_view>
+
+#include "tests/fuzz/holds.h"
+#include "tools/studio/server/http_server.h"
+#include "tools/studio/server/session.h"
+
+namespace {
+
+using namespace forage;
+using namespace forage::studio;
+
+struct Small {
+    int replies = 0;
+    Session session;
+
+    Small()
+        : session(input(), [this](int, bool binary, const std::string& data) {
+              if (!binary && json::parse(data)["type"] == "reply") ++replies;
+          }) {
+        session.connect(1);
+    }
+    static RunInput input() {
+        RunInput out;
+        out.system = FORAGE_SOURCE_DIR "/tests/diagnostics/sound/system.iqr";
+        return out;
+    }
+};
+
+/// Whether a message would write a file, read another system or take long.
+bool left_out(std::string_view message) {
+    const auto command = json::parse(message, nullptr, false);
+    if (!command.is_object()) return false;
+    const auto name = command.value("command", json());
+    for (const char* other : {"sample", "layout_write", "open", "step", "run"})
+        if (name == other) return true;
+    return false;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static Small small;
+    std::string_view text(reinterpret_cast<const char*>(data), size);
+    query_value(text, "token"), cookie_value(text, "forage_1"), is_from_here(text, text, 1);
+    while (!text.empty()) {
+        const auto end = std::min(text.find('\n'), text.size());
+        if (const auto message = text.substr(0, end); !left_out(message)) {
+            const auto command = json::parse(message, nullptr, false);
+            const bool ack = command.is_object() && command.value("command", json()) == "ack";
+            small.replies = 0;
+            small.session.message(1, message);
+            test::holds(small.replies == (ack ? 0 : 1), "a message has one reply");
+        }
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    small.session.work(0);
+    return 0;
+}

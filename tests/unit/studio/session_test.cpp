@@ -1,0 +1,228 @@
+// Sessions and streams of the studio, without sockets.
+#include "tools/studio/server/session.h"
+
+#include <cstring>
+#include <map>
+
+#include "tests/support/catch.h"
+#include "tools/studio/server/commands.h"
+#include "tools/studio/server/http_server.h"
+
+namespace {
+
+using namespace forage;
+using namespace forage::studio;
+
+/// A session whose pages are lists of messages.
+struct Fixture {
+    std::map<int, std::vector<json>> messages;
+    std::map<int, std::vector<std::string>> frames;
+    Session session{input(), [this](int client, bool binary, std::string data) {
+                        if (binary)
+                            frames[client].push_back(std::move(data));
+                        else
+                            messages[client].push_back(json::parse(data));
+                    }};
+
+    static RunInput input() {
+        RunInput out;
+        out.system = FORAGE_SOURCE_DIR "/systems/reactive_foraging.iqr";
+        out.world = FORAGE_SOURCE_DIR "/systems/worlds/basic_arena.world";
+        return out;
+    }
+    json ask(json command, int client = 1) { return session.execute(client, command); }
+    json result(json command, int client = 1) {
+        const json reply = ask(std::move(command), client);
+        INFO(reply.dump());
+        REQUIRE(reply["ok"] == true);
+        return reply.value("result", json());
+    }
+};
+
+std::uint32_t number_at(const std::string& frame, std::size_t at) {
+    std::uint32_t out;
+    std::memcpy(&out, frame.data() + at, sizeof out);
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("a page has a credit of two frames, and acknowledges all up to a number") {
+    Fixture f;
+    f.session.connect(1);
+    f.result({{"command", "subscribe"}, {"source", "Bug/Light"}});
+    double now = 100;
+    const auto step = [&] { f.result({{"command", "step"}}), f.session.work(now += 1); };
+    for (int i = 0; i < 5; ++i) step();
+    CHECK(f.frames[1].size() == 2);
+    f.session.message(1, R"({"command": "ack", "seq": 99})");  // was never sent
+    step();
+    CHECK(f.frames[1].size() == 2);
+    f.session.message(1, R"({"command": "ack", "seq": 2})");
+    step();
+    REQUIRE(f.frames[1].size() == 3);
+    CHECK(number_at(f.frames[1][2], 8) == 3);
+    CHECK(number_at(f.frames[1][2], 16) == 7);  // the newest cycle, not the third
+}
+
+TEST_CASE("frames come at most thirty times a second, and only when something has changed") {
+    Fixture f;
+    f.session.connect(1);
+    f.result({{"command", "subscribe"}, {"source", "Bug/Light"}});
+    f.session.work(10);
+    CHECK(f.frames[1].size() == 1);
+    f.session.work(20);
+    CHECK(f.frames[1].size() == 1);  // nothing has changed
+    f.result({{"command", "step"}});
+    f.session.work(10.01);
+    CHECK(f.frames[1].size() == 1);  // too early
+}
+
+TEST_CASE("a page that leaves gets nothing more") {
+    Fixture f;
+    f.session.connect(1), f.session.connect(2);
+    f.result({{"command", "subscribe"}, {"source", "Bug/Light"}}, 1);
+    f.session.disconnect(1);
+    f.result({{"command", "step"}}, 2);
+    f.session.work(10);
+    CHECK(f.frames[1].empty());
+}
+
+TEST_CASE("the smallest and largest number of several cycles are those of every cycle") {
+    Fixture f;
+    auto source = [&] { return find_stream_source(f.session.run(), "Bug/Light", Delivery::append); };
+    Stream every(source(), "Bug/Light", Delivery::append, 1),
+        tenth(source(), "Bug/Light", Delivery::append, 10);
+    for (std::uint64_t cycle = 0; cycle < 105; ++cycle) {
+        f.session.run().step();
+        every.after_cycle(f.session.run(), cycle), tenth.after_cycle(f.session.run(), cycle);
+    }
+    const Chunk all = every.take(f.session.run()), pairs = tenth.take(f.session.run());
+    REQUIRE(all.rows == 105);
+    REQUIRE(pairs.rows == 10);
+    CHECK(pairs.pairs);
+    CHECK(pairs.columns == 1 + 2 * (all.columns - 1));
+    const auto numbers = [](const Chunk& c) {
+        std::vector<double> out(c.bytes.size() / sizeof(double));
+        std::memcpy(out.data(), c.bytes.data(), c.bytes.size());
+        return out;
+    };
+    const auto a = numbers(all), p = numbers(pairs);
+    for (std::size_t row = 0; row < pairs.rows; ++row)
+        for (std::size_t i = 1; i < all.columns; ++i) {
+            double low = 1e300, high = -1e300;
+            for (std::size_t k = 10 * row; k < 10 * row + 10; ++k)
+                low = std::min(low, a[k * all.columns + i]), high = std::max(high, a[k * all.columns + i]);
+            CHECK(p[row * pairs.columns + 2 * i - 1] == low);
+            CHECK(p[row * pairs.columns + 2 * i] == high);
+        }
+    CHECK(every.take(f.session.run()).rows == 0);
+}
+
+TEST_CASE("a run is paced by the clock, and does not catch up a long pause") {
+    Fixture f;
+    f.result({{"command", "speed"}, {"mode", "cycles"}, {"value", 10}});
+    f.result({{"command", "run"}});
+    f.session.work(50);
+    CHECK(f.session.run().cycle() == 1);
+    f.session.work(50.21);
+    CHECK(f.session.run().cycle() == 3);
+    f.session.work(90);
+    CHECK(f.session.run().cycle() <= 5);
+}
+
+TEST_CASE("stop goes back to the first cycle and keeps parameters and manipulations") {
+    Fixture f;
+    const std::string first = f.session.run().digest();
+    f.result({{"command", "step"}, {"cycles", 50}});
+    CHECK(f.session.run().digest() != first);
+    f.result({{"command", "stop"}});
+    CHECK(f.session.run().cycle() == 0);
+    CHECK(f.session.run().digest() == first);
+    f.result({{"command", "restart"}, {"seed", 7}});
+    CHECK(f.session.run().seed() == 7);
+}
+
+TEST_CASE("the past is the same however it is reached") {
+    Fixture f;
+    f.result({{"command", "step"}, {"cycles", 700}});
+    const std::string at_700 = f.session.run().digest();
+    const std::uint64_t cycle = GENERATE(0u, 1u, 249u, 250u, 251u, 500u, 699u);
+    f.result({{"command", "seek"}, {"cycle", cycle}});
+    CHECK(f.session.run().cycle() == cycle);
+    Fixture anew;
+    if (cycle > 0) anew.result({{"command", "step"}, {"cycles", cycle}});
+    CHECK(f.session.run().digest() == anew.session.run().digest());
+    f.result({{"command", "seek"}, {"cycle", 700}});
+    CHECK(f.session.run().digest() == at_700);
+    CHECK(f.ask({{"command", "seek"}, {"cycle", 701}})["ok"] == false);
+}
+
+TEST_CASE("an action in the past forgets what came later") {
+    Fixture f;
+    f.result({{"command", "step"}, {"cycles", 600}});
+    const json found = f.result({{"command", "parameters"}, {"item", "Bug/Light"}});
+    std::string name;
+    for (const auto& p : found["parameters"])
+        if (p["kind"] == "real") name = p["assignment"];
+    f.result({{"command", "branch"}, {"cycle", 300}, {"assignments", {name + "=0.75"}}});
+    CHECK(f.session.run().cycle() == 300);
+    const json history = f.result({{"command", "history"}});
+    CHECK(history["last"] == 300);
+    CHECK(history["actions"].size() == 1);
+    f.result({{"command", "seek"}, {"cycle", 0}});
+    f.result({{"command", "seek"}, {"cycle", 300}});
+    f.result({{"command", "step"}});
+    CHECK(std::get<double>(f.session.run().parameter(name)) == 0.75);
+}
+
+TEST_CASE("a robot and an object are moved to free places only") {
+    Fixture f;
+    f.result({{"command", "step"}});
+    const auto robot = f.session.run().environment()->robot_names().front();
+    f.result({{"command", "move"}, {"robot", robot}, {"x", 0.5}, {"y", -0.5}, {"heading", 1}});
+    const Pose2 pose = f.session.run().environment()->pose(0);
+    CHECK(pose.x == Approx(0.5));
+    CHECK(pose.yaw == Approx(1));
+    const auto before = f.session.generation();
+    CHECK(f.ask({{"command", "move"}, {"robot", robot}, {"x", 1e5}, {"y", 0}})["ok"] == false);
+    CHECK(f.ask({{"command", "move"}, {"robot", "Nobug"}, {"x", 0}, {"y", 0}})["ok"] == false);
+    CHECK(f.session.generation() == before);
+}
+
+TEST_CASE("every command refuses members that are missing or wrong, and changes nothing") {
+    Fixture f;
+    const std::string before = f.session.run().digest();
+    for (const auto& name : command_names())
+        for (const json& wrong : {json(nullptr), json("x"), json(-1), json::array(), json::object()}) {
+            json command = {{"command", name}};
+            for (const char* member :
+                 {"cycles", "cycle",   "seed",        "mode",    "value",      "system", "source",
+                  "stream", "item",    "assignments", "group",   "patterns",   "robot",  "x",
+                  "file",   "sources", "name",        "content", "connection", "start"})
+                command[member] = wrong;
+            if (name == "step" || name == "restart" || name == "stop" || name == "run" ||
+                name == "layout_write")
+                continue;
+            const json reply = f.session.execute(-1, command);
+            INFO(command.dump());
+            CHECK((reply["ok"] == true || !reply["problems"].empty()));
+        }
+    CHECK(f.session.run().digest() == before);
+}
+
+TEST_CASE("requests come from here, with the token") {
+    CHECK(is_from_here("127.0.0.1:80", "", 80));
+    CHECK(is_from_here("localhost:80", "http://localhost:80", 80));
+    for (const char* host :
+         {"", "127.0.0.1", "127.0.0.1:81", "127.0.0.1:80.evil", "evil:80", "127.0.0.1.evil:80"})
+        CHECK_FALSE(is_from_here(host, "", 80));
+    for (const char* origin :
+         {"null", "http://127.0.0.1:81", "https://127.0.0.1:80", "http://127.0.0.1:80.evil"})
+        CHECK_FALSE(is_from_here("127.0.0.1:80", origin, 80));
+    CHECK(query_value("/?a=1&token=x%20y", "token") == "x y");
+    CHECK(query_value("/?tokens=1", "token").empty());
+    CHECK(query_value("/?token", "token").empty());
+    CHECK(cookie_value("a=1; forage_80=t", "forage_80") == "t");
+    CHECK(cookie_value("xforage_80=t", "forage_80").empty());
+}
