@@ -20,6 +20,7 @@ std::uint32_t Client::subscribe(Stream stream) {
         throw InputError(fmt::format("a page has at most {} streams", most_streams), "close some plots");
     streams_.emplace(next_, std::move(stream));
     version_.reset();
+    list();
     return next_++;
 }
 
@@ -35,6 +36,19 @@ void Client::rebind(Run& run) {
         }
     }
     version_.reset();
+    list();
+}
+
+bool Client::unsubscribe(std::uint32_t stream) {
+    const bool found = streams_.erase(stream) > 0;
+    list();
+    return found;
+}
+
+void Client::list() {
+    every_cycle_.clear();
+    for (auto& [number, stream] : streams_)
+        if (stream.delivery() == Delivery::append) every_cycle_.push_back(&stream);
 }
 
 std::optional<std::string> Client::frame(Run& run, double now, std::uint64_t version, std::uint32_t epoch) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tools/studio/server/stream.h"
 
@@ -20,7 +21,7 @@ class Client {
 
     /// Returns the number of the stream. Throws InputError when the page has too many.
     std::uint32_t subscribe(Stream stream);
-    bool unsubscribe(std::uint32_t stream) { return streams_.erase(stream) > 0; }
+    bool unsubscribe(std::uint32_t stream);
     const Stream& stream(std::uint32_t number) const { return streams_.at(number); }
     bool watches() const { return !streams_.empty(); }
     /// Subscribes everything anew in a run that replaces the one before; streams that it does not have end.
@@ -33,7 +34,7 @@ class Client {
     std::uint32_t in_flight() const { return sent_ - acknowledged_; }
 
     void after_cycle(Run& run, std::uint64_t cycle) {
-        for (auto& [number, stream] : streams_) stream.after_cycle(run, cycle);
+        for (Stream* stream : every_cycle_) stream->after_cycle(run, cycle);
     }
     void clear() {
         for (auto& [number, stream] : streams_) stream.clear();
@@ -43,7 +44,10 @@ class Client {
     std::optional<std::string> frame(Run& run, double now, std::uint64_t version, std::uint32_t epoch);
 
   private:
+    void list();
+
     std::map<std::uint32_t, Stream> streams_;
+    std::vector<Stream*> every_cycle_;  ///< those of `streams_` that are not of the latest numbers only
     std::uint32_t next_ = 1, sent_ = 0, acknowledged_ = 0;
     std::optional<std::uint64_t> version_;  ///< of the last frame
     double sent_at_ = -1;

@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""What watching costs: cycles per second with three pages as a ratio to none, and the latency of a slow page.
+
+usage: studio.py FORAGE [ROOT]    prints three lines; the ratio alternates both cases in one run
+"""
+import pathlib
+import statistics
+import sys
+import threading
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / 'support'))
+from studio_client import Page, Studio  # noqa: E402
+
+SOURCES = ['world:poses', 'world:rays', 'world:camera']
+
+
+class Watcher(threading.Thread):
+    """A page that takes everything, and acknowledges after `delay` seconds."""
+
+    def __init__(self, studio, groups, delay=0.0):
+        super().__init__(daemon=True)
+        self.page, self.delay, self.latencies, self.over = Page(studio), delay, [], False
+        for source in [*SOURCES, *groups]:
+            self.page.do('subscribe', source=source)
+        self.page.do('subscribe', source=f'mean({groups[0]})', every=100, **{'class': 'append'})
+
+    def run(self):
+        while not self.over:
+            self.page.receive(0.2)
+            for frame in self.page.frames:
+                time.sleep(self.delay)
+                self.latencies.append(time.monotonic() - frame.at)
+                self.page.acknowledge(frame.seq)
+            self.page.frames.clear()
+            self.page.messages.clear()
+        self.page.close()
+
+
+def busy(studio):
+    """Processor time of the busiest thread of the studio, which is the engine's, s."""
+    tasks = pathlib.Path(f'/proc/{studio.child.pid}/task')
+    return max(int((t / 'schedstat').read_text().split()[0]) for t in tasks.iterdir()) / 1e9
+
+
+def rate(studio, page, seconds=2.0):
+    """Cycles per second of the clock, and per second of the engine's thread: what others on the machine do counts only in the first."""
+    first, begun, worked = page.do('history')['now'], time.monotonic(), busy(studio)
+    time.sleep(seconds)
+    cycles = page.do('history')['now'] - first
+    return cycles / (time.monotonic() - begun), cycles / (busy(studio) - worked)
+
+
+def main():
+    forage = sys.argv[1]
+    root = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else pathlib.Path(__file__).parents[2])
+    with Studio(forage, str(root / 'systems/dac_foraging.iqr'), '--world', str(root / 'systems/worlds/basic_arena.world')) as studio:
+        control = Page(studio)
+        control.do('pause')
+        groups = [g['path'] for p in control.last('system')['processes'] for g in p['groups']][:20]
+        control.do('speed', mode='free')
+        control.do('run')
+        rate(studio, control, 1)
+        ratios = []
+        for _ in range(5):
+            alone = rate(studio, control)
+            watchers = [Watcher(studio, groups) for _ in range(3)]
+            for w in watchers:
+                w.start()
+            time.sleep(0.3)
+            watched = rate(studio, control)
+            for w in watchers:
+                w.over = True
+                w.join()
+            ratios.append([w / a for w, a in zip(watched, alone)])
+        for what, values in zip(('cycles per second', 'cycles per second of the engine\'s thread'), zip(*ratios)):
+            print(f'{what} with three pages / with none: {statistics.median(values):.3f} (from {min(values):.3f} to {max(values):.3f};'
+                  f' {alone[0]:.0f} cycles/s alone)')
+        # The age of what a page that needs 80 ms per frame has just drawn, in real time.
+        control.do('speed', mode='real')
+        slow = Page(studio)
+        slow.do('subscribe', source=groups[0])
+        per_cycle, ages = control.last('system')['seconds_per_cycle'], []
+        for _ in range(60):
+            while not slow.frames:
+                slow.receive()
+            frame = slow.frames.pop(0)
+            time.sleep(0.08)
+            ages.append(time.monotonic() - frame.at)
+            slow.acknowledge(frame.seq)
+        p95 = sorted(ages)[int(0.95 * len(ages))]
+        print(f'latency of a page that is slow by 80 ms, from arrival to drawn: p95 {1000 * p95:.0f} ms')
+
+
+if __name__ == '__main__':
+    main()
