@@ -34,7 +34,7 @@ ALLOWED = {
 }
 ALLOWED['tools'] = set(ALLOWED) - {'core/connectivity', 'core/plugin', 'core/types', 'modules', 'neurons', 'synapses'}
 ALLOWED['tools/python'] = {'core/base', 'core/observe', 'core/run', 'tools/api'}
-ALLOWED['tools/studio/server'] = {'core/base', 'core/types', 'core/model', 'core/observe', 'core/run', 'bug_interface', 'tools/plot', 'tools/api'}
+ALLOWED['tools/studio/server'] = {'core/base', 'core/types', 'core/model', 'core/xml', 'core/observe', 'core/run', 'bug_interface', 'tools/plot', 'tools/api'}
 ALLOWED['tools'].add('tools/studio/server')
 ROOMS = set(ALLOWED)
 

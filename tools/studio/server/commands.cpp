@@ -17,6 +17,7 @@
 #include "core/observe/pattern_file.h"
 #include "core/observe/row_file.h"
 #include "core/run/recordings.h"
+#include "core/xml/panel.h"
 #include "tools/api/describe_json.h"
 #include "tools/studio/server/equivalents.h"
 #include "tools/studio/server/session.h"
@@ -531,6 +532,87 @@ struct Commands {
         return {{"file", path}};
     }
 
+    // ---- panels and sets of parameters ----
+    std::string panel_path(const char* ending) {
+        auto path = c.at("file").get<std::string>();
+        if (!path.ends_with(ending))
+            throw InputError(fmt::format("the name of the file ends with {}", ending));
+        return path;
+    }
+    std::vector<xml::PanelRow> panel_rows(const char* ending) {
+        const auto path = panel_path(ending);
+        Diagnostics diagnostics;
+        auto rows = xml::parse_panel(path, read_file(path), diagnostics);
+        throw_errors(diagnostics);
+        return rows;
+    }
+    /// The parameter of an item, as `parameters` describes it. Throws InputError.
+    json one_parameter(const std::string& item, const std::string& name) {
+        json found = describe_parameters(run(), item);
+        std::vector<std::string> names;
+        for (auto& p : found["parameters"]) {
+            if (p["name"] == name || p["assignment"] == name) {
+                p["item"] = found["item"], p["id"] = found["id"], p["owner"] = found["kind"];
+                return p;
+            }
+            names.push_back(p["name"]);
+        }
+        throw InputError(fmt::format("'{}' has no parameter '{}'", item, name), suggest(name, names));
+    }
+    static xml::PanelRow row_of(const json& p) {
+        auto type = p["owner"].get<std::string>();
+        std::transform(type.begin(), type.end(), type.begin(),
+                       [](char l) { return static_cast<char>(l - 'a' + 'A'); });
+        return {type,
+                p["id"],
+                p["name"],
+                p["label"],
+                p["value"].is_string() ? p["value"].get<std::string>() : p["value"].dump(),
+                {}};
+    }
+    json panel_read() {
+        json rows = json::array();
+        for (const auto& r : panel_rows(".hconf")) rows.push_back(one_parameter(r.id, r.parameter));
+        return {{"rows", std::move(rows)}};
+    }
+    json panel_write() {
+        const auto path = panel_path(".hconf");
+        std::vector<xml::PanelRow> rows;
+        for (const auto& r : c.at("rows"))
+            rows.push_back(
+                row_of(one_parameter(r.at("item").get<std::string>(), r.at("parameter").get<std::string>())));
+        write_file(path, xml::panel_text(rows, false));
+        return {{"file", path}};
+    }
+    json parameters_read() {
+        std::vector<std::string> assignments;
+        for (const auto& r : panel_rows(".pconf"))
+            assignments.push_back(one_parameter(r.id, r.parameter)["assignment"].get<std::string>() + "=" +
+                                  r.value);
+        return set(assignments, "parameters of " + c.at("file").get<std::string>(), true);
+    }
+    json parameters_write() {
+        const auto path = panel_path(".pconf");
+        std::vector<std::string> items = c.value("items", std::vector<std::string>());
+        if (items.empty())
+            for (const auto& p : run().system().processes) {
+                if (p.module) items.push_back(p.id);
+                for (const auto& g : p.groups) items.push_back(g.id);
+            }
+        if (!c.contains("items"))
+            for (const auto& connection : run().system().connections) items.push_back(connection.id);
+        std::vector<xml::PanelRow> rows;
+        for (const auto& item : items) {
+            const json found = describe_parameters(run(), item);
+            for (json p : found["parameters"]) {
+                p["id"] = found["id"], p["owner"] = found["kind"];
+                rows.push_back(row_of(p));
+            }
+        }
+        write_file(path, xml::panel_text(rows, true));
+        return {{"file", path}, {"rows", rows.size()}};
+    }
+
     // ---- the past ----
     json history() {
         json actions = json::array();
@@ -611,6 +693,10 @@ const std::map<std::string, Entry>& table() {
         {"layouts", {&Commands::layouts, false}},
         {"layout_read", {&Commands::layout_read, false}},
         {"layout_write", {&Commands::layout_write, false}},
+        {"panel_read", {&Commands::panel_read, false}},
+        {"panel_write", {&Commands::panel_write, false}},
+        {"parameters_read", {&Commands::parameters_read, true}},
+        {"parameters_write", {&Commands::parameters_write, false}},
         {"history", {&Commands::history, false}},
         {"digest", {&Commands::digest, false}},
         {"seek", {&Commands::seek, true}},

@@ -10,6 +10,7 @@
 
 #include "bug_interface/simulation/world.h"
 #include "core/base/output_files.h"
+#include "core/base/text_file.h"
 #include "tools/api/describe_json.h"
 #include "tools/api/sources.h"
 #include "tools/plot/world_map.h"
@@ -36,8 +37,11 @@ plot::Picture floor_picture(const bug::World& world) {
 
 }  // namespace
 
-Session::Session(RunInput input, Send send, std::string plot_config)
-    : send_(std::move(send)), plot_config_(std::move(plot_config)) {
+Session::Session(RunInput input, Send send, const std::string& plot_config) : send_(std::move(send)) {
+    if (!plot_config.empty()) layout_ = json::parse(read_file(plot_config), nullptr, false);
+    if (layout_.is_discarded())
+        throw InputError("'" + plot_config + "' is not a layout of the studio",
+                         "its name ends with .layout.json");
     open(std::move(input));
 }
 
@@ -87,7 +91,8 @@ void Session::connect(int client) {
           {"version", FORAGE_VERSION},
           {"capabilities",
            {"run", "streams", "parameters", "manipulations", "sampler", "move", "history", "layouts",
-            "panels", "pictures"}}});
+            "panels", "pictures"}},
+          {"layout", layout_}});
     send(system_message());
     send(world_message());
     send(status());

@@ -30,7 +30,7 @@ class Session {
     using Send = std::function<void(int client, bool binary, std::string data)>;
 
     /// Opens the system. Throws InputError.
-    Session(RunInput input, Send send, std::string plot_config = {});
+    Session(RunInput input, Send send, const std::string& plot_config = {});
 
     void connect(int client);
     void disconnect(int client) { clients_.erase(client); }
@@ -85,7 +85,7 @@ class Session {
 
     RunInput input_;
     Send send_;
-    std::string plot_config_;
+    json layout_;  ///< the layout that pages begin with; null for none
     std::optional<Run> run_;
     Touches* touches_ = nullptr;
     History history_;

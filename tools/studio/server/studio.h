@@ -12,7 +12,7 @@ namespace forage::studio {
 struct StudioOptions {
     RunInput input;
     std::uint16_t port = 0;   ///< 0: a free one
-    std::string plot_config;  ///< a layout to open, .conf or .layout.json; may be empty
+    std::string plot_config;  ///< a layout that pages begin with (.layout.json); may be empty
     std::string token;        ///< empty: a random one
 };
 

@@ -1,0 +1,70 @@
+#include "core/xml/panel.h"
+
+#include <fmt/format.h>
+
+#include "core/xml/document.h"
+
+namespace forage::xml {
+namespace {
+
+std::string attribute(const std::string& text) {
+    std::string out;
+    for (const char c : text) switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            default:
+                out += c;
+        }
+    return out;
+}
+
+}  // namespace
+
+std::vector<PanelRow> parse_panel(const std::string& path, const std::string& text,
+                                  Diagnostics& diagnostics) {
+    std::vector<PanelRow> out;
+    const auto document = Document::parse(path, text, "<HarborConfig>", 100'000, diagnostics);
+    if (!document) return out;
+    const Element root = document->root();
+    const bool values = root.name() == "ParamSet";
+    if (!values && root.name() != "HarborConfig") {
+        diagnostics.error(root.where(),
+                          fmt::format("<{}> is neither a panel nor a set of parameters", root.name()),
+                          "a .hconf begins with <HarborConfig>, a .pconf with <ParamSet>");
+        return out;
+    }
+    for (const Element row : root.children(values ? "Parameter" : "ParamTrade")) {
+        const Value id = row["itemID"], name = row[values ? "name" : "ParamName"], value = row["value"];
+        if (!id || !name || (values && !value)) {
+            diagnostics.error(row.where(),
+                              fmt::format("<{}> needs {}", row.name(),
+                                          values ? "itemID, name and value" : "itemID and ParamName"));
+            continue;
+        }
+        out.push_back({row["itemType"].text(), id.text(), name.text(), row["ParamLabel"].text(), value.text(),
+                       row.where()});
+    }
+    return out;
+}
+
+std::string panel_text(const std::vector<PanelRow>& rows, bool values) {
+    std::string out = values ? "<ParamSet>\n" : "<HarborConfig>\n";
+    for (const PanelRow& r : rows)
+        out += values ? fmt::format("  <Parameter itemType=\"{}\" itemID=\"{}\" name=\"{}\" value=\"{}\"/>\n",
+                                    attribute(r.type), attribute(r.id), attribute(r.parameter),
+                                    attribute(r.value))
+                      : fmt::format(
+                            "  <ParamTrade itemType=\"{}\" itemChild=\"\" itemID=\"{}\" ParamLabel=\"{}\" "
+                            "ParamName=\"{}\"/>\n",
+                            attribute(r.type), attribute(r.id), attribute(r.label), attribute(r.parameter));
+    return out + (values ? "</ParamSet>\n" : "</HarborConfig>\n");
+}
+
+}  // namespace forage::xml
