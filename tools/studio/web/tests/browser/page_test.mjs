@@ -42,6 +42,8 @@ try {
   const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, colorScheme: 'light' });
   const page = await context.newPage();
   page.setDefaultTimeout(10000);
+  let received = 0; // binary frames
+  page.on('websocket', (socket) => socket.on('framereceived', (f) => (received += typeof f.payload === 'string' ? 0 : 1)));
   page.on('pageerror', (e) => faults.push(e.message));
   page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
   const until = (what, condition, argument) => page.waitForFunction(condition, argument, { timeout: 10000, polling: 100 }).catch(() => assert.fail(`waited in vain: ${what}`));
@@ -63,12 +65,16 @@ try {
   assert.notEqual(await pixels('[role="group"][aria-label="Arena"] canvas'), before[1]);
   assert.notEqual(await pixels(light), before[0]);
 
-  step('pause: the cycle stays, space runs and pauses');
+  step('pause: the cycle stays; space runs and pauses');
   await page.getByRole('button', { name: 'Pause', exact: true }).click();
   await page.getByRole('button', { name: 'Run', exact: true }).waitFor();
   const paused = await seek.inputValue();
   await page.waitForTimeout(300);
   assert.equal(await seek.inputValue(), paused);
+  await page.locator('body').press(' ');
+  await page.getByRole('button', { name: 'Pause', exact: true }).waitFor();
+  await page.locator('body').press(' ');
+  await page.getByRole('button', { name: 'Run', exact: true }).waitFor();
 
   step('Ctrl+K finds a group; the inspector shows its parameters; a change has effect; undo takes it back');
   await page.keyboard.press('Control+k');
@@ -87,7 +93,7 @@ try {
   await page.getByRole('button', { name: 'Redo' }).click();
   await until('redo', (id) => document.getElementById(id)?.value === '0.77', 'Adaptive/Threshold CR.threshold');
 
-  step('drive the motor by hand: the plot shows the clamped cell, and the robot turns on the spot');
+  step('drive the motor by hand: the plot shows the clamped cell');
   await page.getByRole('navigation').getByText('Motor', { exact: true }).click();
   await inspector.getByRole('button', { name: 'Drive' }).click();
   const drive = page.getByRole('group', { name: 'Drive Bug/Motor' });
@@ -117,18 +123,36 @@ try {
     await page.waitForTimeout(800);
     return ((await cycle()) - a) / ((performance.now() - t) / 1000);
   };
+  const earlier = received;
   const seen = await rate();
+  assert.ok(received - earlier > 5, `only ${received - earlier} frames in 0.8 s`);
   await page.evaluate(() => {
     window.kept = window.requestAnimationFrame;
     window.requestAnimationFrame = () => 0;
   });
+  await page.waitForTimeout(200); // what is under way
+  const sent = received;
   const hidden = await rate();
+  assert.ok(received - sent <= 2, `${received - sent} frames were sent to a page that draws nothing`);
   await page.evaluate(() => (window.requestAnimationFrame = window.kept));
   assert.ok(hidden > 0.5 * seen, `${hidden} cycles/s while hidden, ${seen} before`);
 
   if (screenshot) {
     await page.screenshot({ path: screenshot });
   }
+  step('the way back: the slider seeks a cycle, and the run waits there');
+  await seek.fill('40');
+  await seek.dispatchEvent('change');
+  await until('cycle 40', () => document.querySelector('[aria-label="Moment of the run"]')?.value === '40');
+  await page.getByRole('button', { name: 'Run', exact: true }).waitFor();
+
+  step('a page that is loaded again shows the same run and the same panels');
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  await page.reload();
+  await page.locator('.uplot canvas').first().waitFor();
+  await page.getByText('Bug/Motor driven by hand').waitFor();
+  await page.getByRole('button', { name: 'Pause', exact: true }).click();
+
   step('stop: back to cycle 0');
   await page.getByRole('button', { name: 'Stop', exact: true }).click();
   await until('cycle 0', () => document.querySelector('[aria-label="Moment of the run"]')?.value === '0');
