@@ -188,6 +188,15 @@ TEST_CASE("a robot and an object are moved to free places only") {
     CHECK(pose.yaw == Approx(1));
     const auto before = f.session.generation();
     CHECK(f.ask({{"command", "move"}, {"robot", robot}, {"x", 1e5}, {"y", 0}})["ok"] == false);
+    f.session.connect(1);
+    const json solids = f.messages[1][2]["solids"];
+    const auto wall = std::find_if(solids.begin(), solids.end(), [](const json& d) {
+        return d["kind"] == "box" && d["size"][2].get<double>() > 0.2 && d["z"].get<double>() < 1;
+    });
+    REQUIRE(wall != solids.end());
+    CHECK(f.ask({{"command", "move"}, {"robot", robot}, {"x", (*wall)["x"]}, {"y", (*wall)["y"]}})["ok"] ==
+          false);
+    CHECK(f.session.run().environment()->pose(0).x == Approx(0.5));
     CHECK(f.ask({{"command", "move"}, {"robot", "Nobug"}, {"x", 0}, {"y", 0}})["ok"] == false);
     CHECK(f.session.generation() == before);
 }
