@@ -1,6 +1,7 @@
 // Layouts that the studio brings: each is a list of panels with places, filled in where the system has the groups.
 import { dock } from './stores/dock.svelte';
 import { model } from './stores/model.svelte';
+import type { LayoutContent } from './protocol/messages';
 import type { PanelState } from './panels/registry';
 
 export interface Preset { name: string; hint: string; spaces: string[]; times: string[]; raster?: string[]; weights?: boolean }
@@ -41,12 +42,14 @@ export function applyPreset(preset: Preset): void {
   if (model.world) dock.open({ kind: 'diagram' }, { beside: arena, direction: 'below', height: Math.round(api.height * 0.42) });
 }
 
-/** Opens the plots of a layout file of the original. */
-export function showPlots(plots: { kind?: string; type?: string; source?: string; group?: string; sources?: string[] }[]): void {
-  for (const p of plots) {
+/** Arranges the panels as a layout file says. Returns whether it says anything. */
+export function applyLayout(content: LayoutContent | null | undefined): boolean {
+  if (content?.dock) dock.api?.fromJSON(content.dock as never);
+  for (const p of content?.plots ?? []) {
     const item = p.group ?? p.source ?? p.sources?.[0];
     if (!item) continue;
     const kind = (p.kind ?? p.type ?? 'space').replace(/plot$/i, '').toLowerCase();
     dock.plot(kind === 'time' ? { kind: 'time', sources: p.sources ?? [`mean(${item})`] } : { kind: 'space', item });
   }
+  return !!content?.dock;
 }

@@ -36,5 +36,6 @@ export const kinds: Record<string, PanelKind> = {
   camera: { title: (p) => `Camera of ${p.item}`, load: () => import('./Camera.svelte') },
   manipulate: { title: (p) => `Drive ${group(p)}`, load: () => import('./Manipulate.svelte') },
   sampler: { title: () => 'Record to a file', load: () => import('./Sampler.svelte') },
+  chosen: { title: () => 'Chosen parameters', load: () => import('./Chosen.svelte') },
   log: { title: () => 'Log', load: () => import('./Log.svelte') },
 };

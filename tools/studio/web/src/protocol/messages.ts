@@ -116,7 +116,10 @@ export interface StatusMessage {
   } | null;
 }
 
-export interface HelloMessage { type: 'hello'; protocol: number; version: string; capabilities: string[] }
+export interface HelloMessage { type: 'hello'; protocol: number; version: string; capabilities: string[]; layout?: LayoutContent | null }
+
+/** A layout file: the panels' arrangement, or the plots of a file of the original. */
+export interface LayoutContent { dock?: unknown; plots?: { kind?: string; type?: string; source?: string; group?: string; sources?: string[] }[] }
 
 export interface ActionMessage {
   type: 'action';
