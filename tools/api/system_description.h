@@ -71,8 +71,8 @@ SystemDescription describe(const model::System& system, const engine::Simulation
 std::string as_text(const SystemDescription& description);
 /// Three tables in Markdown: processes and modules, groups, connections.
 std::string as_markdown(const SystemDescription& description);
-/// The tables of Nordlie, Gewaltig and Plesser (2009, PLoS Comput. Biol. 5:e1000456) as a LaTeX fragment for
-/// \input: a summary, populations, connections. It needs the packages longtable and booktabs.
+/// The tables of Nordlie, Gewaltig and Plesser (2009, PLoS Comput. Biol. 5:e1000456) as a LaTeX fragment
+/// to include: a summary, populations, connections. It needs the packages longtable and booktabs.
 std::string as_latex(const SystemDescription& description);
 /// A graph for Graphviz: groups in a cluster per process, connections in the colours of the diagram.
 std::string as_dot(const SystemDescription& description);
