@@ -39,6 +39,11 @@ class Table(numpy.ndarray[typing.Any, numpy.dtype[numpy.void]]):
     def __array_finalize__(self, origin: typing.Any) -> None:
         self._directory = getattr(origin, "_directory", None)
 
+    def __getitem__(self, key: typing.Any) -> typing.Any:
+        """A column is a plain array, so its mean is a number."""
+        part = super().__getitem__(key)
+        return numpy.asarray(part) if isinstance(part, Table) and part.dtype.names is None else part
+
     @property
     def directory(self) -> str | None:
         """The folder of the results; None when they are not kept."""
