@@ -22,7 +22,8 @@ class Picture:
         return self.data if self.format == "png" else None
 
     def _repr_svg_(self) -> str | None:
-        return self.data.decode() if self.format == "svg" else None
+        # Without the XML declaration, which nbconvert refuses in text.
+        return self.data.decode().split("?>", 1)[-1].lstrip() if self.format == "svg" else None
 
     def __repr__(self) -> str:
         return f"<forage.Picture, {self.format}, {len(self.data)} bytes>"
