@@ -28,7 +28,7 @@ def test_pictures_have_formats_and_are_saved(dac, tmp_path):
     dac.run(cycles=10)
     png, svg = dac.plot("trajectory"), dac.diagram()
     assert png._repr_png_().startswith(b"\x89PNG") and png._repr_svg_() is None
-    assert svg._repr_svg_().lstrip().startswith("<?xml") and svg._repr_png_() is None
+    assert svg._repr_svg_().lstrip().startswith("<svg") and svg._repr_png_() is None
     assert dac.diagram("Bug", format="pdf").data.startswith(b"%PDF")
     svg.save(tmp_path / "diagram.svg")
     assert (tmp_path / "diagram.svg").read_bytes() == svg.data
