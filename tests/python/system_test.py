@@ -243,7 +243,7 @@ def test_diagram(command, tmp_path):
     command("plot", "forager.iqr", "diagram", "diagram:Bug")
     assert system.diagram(format="png").data == (tmp_path / "diagram.png").read_bytes()
     assert system.diagram("Bug", "png").data == (tmp_path / "diagram_Bug.png").read_bytes()
-    assert system.diagram().data.decode() == system._repr_svg_()
+    assert system.diagram()._repr_html_() == system._repr_html_()
     for wrong in ({"format": "bmp"}, {"process": "Bugs"}):
         with pytest.raises(forage.InputError, match=list(wrong.values())[0]):
             system.diagram(**wrong)

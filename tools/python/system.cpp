@@ -229,7 +229,8 @@ Raises InputError with all mistakes. Their lines are those of to_xml(). Warnings
 
 format: "text"; for papers "markdown" or "latex" (tables), or "dot" (a graph for Graphviz); for programs "json".
 Raises InputError for mistakes in the system, and ValueError for another format.)")
-        .def("_repr_svg_", [](const PythonSystem& self) { return diagram(self, {}, "svg"); })
+        .def("_repr_html_",
+             [](const PythonSystem& self) { return draw_diagram(self, {}, "svg").attr("_repr_html_")(); })
         .def("copy", &copy_of, "An independent copy.")
         .def("__copy__", &copy_of)
         .def("__deepcopy__", [](const PythonSystem& self, const py::dict&) { return copy_of(self); });

@@ -14,7 +14,7 @@ def with_table(head, rows):
     """Shows what repr() gives and a table; no table of a run that is closed or running, or that does not compute these numbers."""
     def show(self):
         try:
-            return plain(self) + table(head, rows(self))
+            return plain(self) + folded(head, rows(self))
         except (InputError, RunError):
             return plain(self)
 
@@ -30,6 +30,12 @@ def table(head, rows):
 
     lines = ["".join(cell(v, "th") for v in head), *("".join(cell(v, "td") for v in row) for row in rows)]
     return "<table>" + "".join(f"<tr>{line}</tr>" for line in lines) + "</table>"
+
+
+def folded(head, rows, most=12):
+    """A table, which a reader opens when it is long."""
+    whole = table(head, rows)
+    return whole if len(rows) <= most else f"<details><summary>{len(rows)} rows</summary>{whole}</details>"
 
 
 def size(group):

@@ -1,6 +1,7 @@
 """Pictures, which notebooks show."""
 from __future__ import annotations
 
+import base64
 import os
 
 
@@ -21,9 +22,11 @@ class Picture:
     def _repr_png_(self) -> bytes | None:
         return self.data if self.format == "png" else None
 
-    def _repr_svg_(self) -> str | None:
-        # Without the XML declaration, which nbconvert refuses in text.
-        return self.data.decode().split("?>", 1)[-1].lstrip() if self.format == "svg" else None
+    def _repr_html_(self) -> str | None:
+        # A picture of its own, not elements of the page: cairo's ids repeat in every SVG, and nbconvert removes what it does not know.
+        if self.format != "svg":
+            return None
+        return f'<img style="max-width: 100%" src="data:image/svg+xml;base64,{base64.b64encode(self.data).decode()}">'
 
     def __repr__(self) -> str:
         return f"<forage.Picture, {self.format}, {len(self.data)} bytes>"
