@@ -1,84 +1,294 @@
-"""The stubs say what is there."""
-import importlib.util
+"""Types of neurons, synapses and modules that are classes of Python."""
+import copy
+import gc
 import os
-import subprocess
-import sys
+import pickle
+import signal
+import threading
 
-import pytest
-
-import forage
-from conftest import PROJECT
-
-PACKAGE = os.environ["PYTHONPATH"]
-CONFIGURATION = "[mypy]\nignore_missing_imports = True\n"  # packages that are imported when they are needed
-
-
-def check(module, *arguments, folder):
-    if importlib.util.find_spec(module.split(".")[0]) is None:
-        pytest.skip("mypy is not installed")
-    environment = {**os.environ, "MYPYPATH": PACKAGE}
-    done = subprocess.run([sys.executable, "-m", module, *arguments], cwd=folder, env=environment, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
-
-
-def test_stubs_agree_with_the_package(tmp_path):
-    (tmp_path / "mypy.ini").write_text(CONFIGURATION)
-    # The metaclass and the constructor are pybind11's; annotations use names that are imported for mypy only.
-    (tmp_path / "allowed").write_text(r"""forage(\._forage)?\._?[A-Z]\w*(\.[A-Z]\w*)?
-forage(\._forage)?\._?[A-Z]\w*(\.[A-Z]\w*)?\.__init__
-forage\._\w+\.(Any|Sequence|DTypeLike|NDArray|numpy)
-""")
-    check("mypy.stubtest", "--mypy-config-file", "mypy.ini", "--allowlist", "allowed", "--ignore-unused-allowlist", "forage", folder=tmp_path)
-
-
-PROGRAM = """
-import forage
 import numpy
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-with forage.open("a.iqr", world="a.world", settings={"Bug/Light.threshold": 0.5}, observe=["Bug/Light"]) as run:
-    light = run["Bug/Light"]
-    act: numpy.ndarray[tuple[int, ...], numpy.dtype[numpy.float64]] = light.act
-    probe = run.probe("Bug/Light", every=10)
-    @run.on_cycle(every=100)
-    def note(run: forage.Run) -> None:
-        run.params["Bug/Light.threshold"] = 0.3
-    with light.clamp(0.5):
-        held: bool = run.run_until("trial 3", cycles=100)
-    recording: forage.Recording = probe.take()
-    state: bytes = run.save_state()
-try:
-    forage.resume(state).run(seconds=1, progress=True)
-except forage.InputError as error:
-    print(error.file, error.line, error.column, error.hint)
+import forage
 
-with forage.System("a") as system:
-    a = system.add_process("P").add_group("A", 3, threshold=0.5)
-    connection = system.connect(a, "P/A", pattern=forage.Pattern.foreach(), delay=3, weight=0.5)
-    connection.attenuation = 0.5  # type: ignore[assignment]
-    connection.source = a
-a.params["threshold"] = 1
-table = forage.sweep(system, values={"P/A.threshold": [0, 1]}, seeds=2, cycles=3, measure={"act": lambda run: run["P/A"].act.max()})
-where: str | None = forage.experiment("a.xml", jobs=2).directory
-print(table["act"], table.to_pandas(), where)
+
+@forage.neuron
+class LeakyNeuron:
+    """Leaks, with noise."""
+
+    threshold = forage.parameter(0.3, min=0, max=1, doc="The least potential that shows.")
+    noise = forage.parameter(0.1)
+    vm = forage.state(0.0, label="Membrane potential")
+
+    def update(self, cells):
+        cells.vm = 0.9 * cells.vm + cells.exc - cells.inh + self.noise * cells.random()
+        cells.act = numpy.where(cells.vm >= self.threshold, cells.vm, 0)
+
+
+@forage.synapse
+class Oja:
+    rate = forage.parameter(0.01)
+    weight = forage.state(0.5)
+    post = forage.feedback()
+
+    def update(self, synapses):
+        synapses.weight += self.rate * synapses.post * (synapses.pre - synapses.post * synapses.weight)
+        synapses.synpot = synapses.weight * synapses.pre
+
+
+@forage.module
+class Echo:
+    gain = forage.parameter(0.5)
+    heard = forage.input()
+    said = forage.output()
+    total = forage.state(0.0)
+    last = forage.state(numpy.zeros(3))
+
+    def update(self, ports):
+        self.total += float(ports.heard.sum())
+        self.last = numpy.roll(self.last, 1) + ports.random(3)
+        ports.said = self.gain * ports.heard
+
+
+TWINS = r"""
+#include <forage/plugin.h>
+struct Leaky {
+    double threshold = 0.3, noise = 0.1;
+    struct Cell { double vm = 0, act = 0; };
+    static constexpr int random_numbers = 1;
+    static void describe(forage::NeuronSpec<Leaky>& s) {
+        s.name("neuronLeakyTwin", "Leaky").reads(forage::InputKind::excitatory, forage::InputKind::inhibitory);
+        s.param("threshold", &Leaky::threshold).range(0, 1);
+        s.param("noise", &Leaky::noise);
+        s.state("vm", &Cell::vm, "Membrane potential").output("act", &Cell::act, "Activity");
+    }
+    void update(Cell& c, const forage::Input& in) const {
+        c.vm = 0.9 * c.vm + in.excitation - in.inhibition + noise * in.random[0];
+        c.act = c.vm >= threshold ? c.vm : 0;
+    }
+};
+struct Oja {
+    double rate = 0.01;
+    struct Synapse { double weight = 0.5; };
+    struct Target { double post = 0; };
+    static void describe(forage::SynapseSpec<Oja>& s) {
+        s.name("synapseOjaTwin", "Oja");
+        s.param("rate", &Oja::rate);
+        s.state("weight", &Synapse::weight, "Weight").output("synpot", "Potential").feedback("post", &Target::post, "Target");
+    }
+    void update(Synapse& s, double pre, const Target& t) const { s.weight += rate * t.post * (pre - t.post * s.weight); }
+    double output(const Synapse& s, double pre) const { return s.weight * pre; }
+};
+FORAGE_PLUGIN(Leaky, Oja);
 """
 
 
-def test_programs_and_the_package_itself_are_checked_strictly(tmp_path):
-    (tmp_path / "program.py").write_text(PROGRAM)
-    (tmp_path / "mypy.ini").write_text(CONFIGURATION)
-    modules = [str(PROJECT / f"tools/python/forage/{name}.py") for name in ("_errors", "_experiment", "_picture", "_recording", "_types")]
-    check("mypy", "--strict", "--config-file", "mypy.ini", "--cache-dir", str(tmp_path / "cache"), "program.py", *modules, folder=tmp_path)
-    # Its fallback for gymnasium is not annotated.
-    gym = str(PROJECT / "tools/python/forage/gym.py")
-    check("mypy", "--strict", "--follow-imports=silent", "--config-file", "mypy.ini", "--cache-dir", str(tmp_path / "gym"), gym, folder=tmp_path)
+@pytest.fixture(scope="module")
+def twins():
+    return forage.build_plugin(TWINS, name="twins")
 
 
-def test_everything_has_a_docstring():
-    missing = []
-    for name in forage.__all__:
-        thing = getattr(forage, name)
-        members = [(f"{name}.{m}", v) for m, v in vars(thing).items() if not m.startswith("_")] if isinstance(thing, type) else []
-        for path, member in [(name, thing), *members]:
-            if type(member).__name__ != "member_descriptor" and not (getattr(member, "__doc__", None) or "").strip():
-                missing.append(path)
-    assert not missing
+def system_of(neuron=LeakyNeuron, synapse=Oja, plugins=(), module=None, **values):
+    with forage.System("types", plugins=list(plugins)) as system:
+        brain = system.add_process("P")
+        a = brain.add_group("A", 20, 10, neuron, **values)
+        b = brain.add_group("B", 20, 10, neuron, threshold=0.6)
+        link = system.connect(a, b, synapse=synapse, name="Link")
+        link.feedback = {"post": "act"}
+        system.connect(b, a, "inhibitory", weight=0.2, delay=2)
+        if module:
+            brain.set_module(module, inputs={"heard": a}, outputs={"said": b})
+    return system
+
+
+@pytest.mark.parametrize("seed, threads", [(1, 1), (7, 1), (7, 3)])
+def test_a_twin_in_cpp_gives_the_same_bits(twins, seed, threads):
+    runs = [forage.open(system_of(), seed=seed, threads=threads), forage.open(system_of("neuronLeakyTwin", "synapseOjaTwin", [twins]), seed=seed)]
+    for cycle in range(200):
+        for run in runs:
+            if cycle == 100:
+                run.params["P/A.threshold"] = 0.5
+            run.step()
+        for what in ("P/A", "P/B", "P/A:vm"):
+            assert (runs[0].read(what) == runs[1].read(what)).all()
+        assert runs[0].digest() == runs[1].digest()
+    assert runs[0]["P/B"].act.any() and numpy.array_equal(runs[0].read("Link:weight"), runs[1].read("Link:weight"), equal_nan=True)
+
+
+def test_types_are_described_and_validated():
+    about = forage.types()["neuronLeaky"]
+    assert (about.kind, about.doc, about.parameters, about.states) == ("neuron", "Leaks, with noise.", {"threshold": 0.3, "noise": 0.1}, ("vm", "act"))
+    assert forage.types()["moduleEcho"].outputs == ("said",)
+    assert LeakyNeuron.type_name == "neuronLeaky" and LeakyNeuron.threshold == 0.3
+    with pytest.warns(forage.InputWarning, match="threshold"):
+        forage.open(system_of(threshold=2.0))
+    with pytest.raises(forage.InputError, match="thresold"):
+        system_of(thresold=1.0)
+    run = forage.open(system_of())
+    with pytest.raises(forage.InputError):
+        run.params["P/A.threshold"] = "high"
+
+
+def test_a_missing_type_hints_at_the_decorator():
+    with pytest.raises(forage.InputError, match="@forage.neuron"):
+        system_of("neuronUnknown")
+    text = system_of().to_xml().replace("neuronLeaky", "neuronUnknown")
+    with pytest.raises(forage.InputError, match="@forage.neuron"):
+        forage.System.parse(text).validate()
+
+
+def test_saved_copied_and_pickled_runs_go_on_with_the_same_bits():
+    run = forage.open(system_of(module=Echo), seed=4)
+    run.run(cycles=20)
+    others = [forage.resume(run.save_state()), copy.copy(run), pickle.loads(pickle.dumps(run))]
+    run.run(cycles=20)
+    for other in others:
+        other.run(cycles=20)
+        assert other.digest() == run.digest()
+
+
+def test_a_state_is_refused_when_its_type_has_changed():
+    @forage.neuron(name="neuronChanges")
+    class Before:
+        def update(self, cells):
+            cells.act = cells.exc
+
+    with forage.System("s") as system:
+        system.add_process("P").add_group("A", 3, 3, "neuronChanges")
+    state = forage.open(system).save_state()
+    forage.resume(state)
+
+    @forage.neuron(name="neuronChanges")
+    class After:
+        def update(self, cells):
+            cells.act = 0.5
+
+    with pytest.raises(forage.InputError, match="'neuronChanges' has changed"):
+        forage.resume(state)
+
+
+def failing(update):
+    """Runs a system of one group whose update is `update`, and returns the error."""
+    forage.neuron(name="neuronFails")(type("Fails", (), {"vm": forage.state(0.0), "update": update}))
+    with forage.System("fails") as system:
+        system.add_process("P").add_group("A", 4, 2, "neuronFails")
+    run = forage.open(system)
+    with pytest.raises(forage.RunError) as caught:
+        run.run(cycles=9)
+    assert str(caught.value).startswith("neuronFails of group 'P/A' failed in cycle 3: ")
+    return caught.value
+
+
+def assign(name, value):
+    return lambda self, cells: setattr(cells, name, value) if cells.cycle == 3 else None
+
+
+@pytest.mark.parametrize("update, message", [
+    (assign("vm", numpy.zeros(3)), "'vm' has the shape \\(8,\\), and gets an array of the shape \\(3,\\)"),
+    (assign("vm", numpy.nan), "leaves nan in 'vm', in cell 0"),
+    (assign("exc", 1), "'exc' is read-only"),
+    (assign("wm", 1), "there is no state 'wm'"),
+    (lambda self, cells: cells.exc.__setitem__(0, 1) if cells.cycle == 3 else None, "read-only"),
+    (lambda self, cells: setattr(self, "kept", 1) if cells.cycle == 3 else None, "forage.state"),
+    (lambda self, cells: cells.vm.resize(2, refcheck=False) if cells.cycle == 3 else None, "changes the size of 'vm'"),
+])
+def test_broken_contracts_are_errors(update, message):
+    with pytest.raises(Exception, match=message):
+        raise failing(update)
+
+
+def test_an_exception_is_the_cause_with_its_traceback():
+    def update(self, cells):
+        if cells.cycle == 3:
+            raise ZeroDivisionError("three")
+
+    error = failing(update)
+    assert isinstance(error.__cause__, ZeroDivisionError)
+    frame = error.__cause__.__traceback__
+    while frame.tb_next:
+        frame = frame.tb_next
+    assert frame.tb_frame.f_code is update.__code__
+    forage.open(system_of()).run(cycles=5)
+
+
+def test_arrays_and_random_numbers_that_outlive_their_call_are_safe():
+    kept = []
+
+    @forage.neuron
+    class Keeps:
+        def update(self, cells):
+            cells.act = cells.cycle + 1
+            kept.append((cells, cells.act[::2], cells.exc))
+
+    with forage.System("s") as system:
+        system.add_process("P").add_group("A", 8, 1, Keeps)
+    with forage.open(system) as run:
+        run.run(cycles=5)
+    del run
+    gc.collect()
+    assert [act[0] for _, act, _ in kept] == [1, 2, 3, 4, 5]
+    kept[0][0].act = 7  # writes into memory of its own
+    with pytest.raises(forage.RunError, match="while update"):
+        kept[0][0].random()
+
+
+def test_runs_in_threads_and_sweeps():
+    digests = []
+
+    def work():
+        with forage.open(system_of(), seed=9) as run:
+            run.run(cycles=100)
+            digests.append(run.digest())
+
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    for t in threads:
+        t.start()
+    for t in threads:
+        t.join()
+    assert len(digests) == 4 and len(set(digests)) == 1
+    table = forage.sweep(system_of(), values={"P/A.threshold": [0.2, 0.5]}, seeds=2, cycles=20, measure={"vm": lambda run: run["P/B"].vm.sum()})
+    assert len(set(table["vm"])) == 4
+
+
+def test_ctrl_c_leaves_a_run_that_can_go_on():
+    @forage.neuron
+    class Interrupted:
+        def update(self, cells):
+            if cells.cycle == 3:
+                os.kill(os.getpid(), signal.SIGINT)
+            cells.act = cells.act + 1
+
+    with forage.System("s") as system:
+        system.add_process("P").add_group("A", 2, 1, Interrupted)
+    run = forage.open(system)
+    with pytest.raises(KeyboardInterrupt):
+        run.run(cycles=100)
+    run.run(cycles=10)
+    assert (run["P/A"].act == run.cycle).all()
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.floats(-1e6, 1e6), st.integers(1, 40), st.integers(1, 9))
+def test_states_begin_with_their_values(initial, width, height):
+    forage.neuron(name="neuronStill")(type("Still", (), {"vm": forage.state(initial), "update": lambda self, cells: None}))
+    with forage.System("s") as system:
+        system.add_process("P").add_group("A", width, height, "neuronStill")
+    with forage.open(system) as run:
+        run.step()
+        assert (run["P/A"].vm == initial).all() and run["P/A"].vm.shape == (height, width)
+
+
+def test_errors_of_the_compiler_have_places(tmp_path):
+    with pytest.raises(forage.InputError) as caught:
+        forage.build_plugin(TWINS.replace("0.9 * c.vm", "0.9 * c.wm"), name="wrong", directory=tmp_path)
+    assert caught.value.file == str(tmp_path / "wrong.cpp") and caught.value.line == 14 and "wm" in str(caught.value)
+    assert os.listdir(tmp_path) == ["wrong.cpp"]
+
+
+def test_names_of_forage_are_taken():
+    with pytest.raises(forage.InputError, match="neuronLinearThreshold"):
+        forage.neuron(name="neuronLinearThreshold")(type("X", (), {"update": lambda self, cells: None}))
+    with pytest.raises(forage.InputError, match="has no method update"):
+        forage.neuron(type("Y", (), {}))

@@ -1,0 +1,84 @@
+"""The stubs say what is there."""
+import importlib.util
+import os
+import subprocess
+import sys
+
+import pytest
+
+import forage
+from conftest import PROJECT
+
+PACKAGE = os.environ["PYTHONPATH"]
+CONFIGURATION = "[mypy]\nignore_missing_imports = True\n"  # packages that are imported when they are needed
+
+
+def check(module, *arguments, folder):
+    if importlib.util.find_spec(module.split(".")[0]) is None:
+        pytest.skip("mypy is not installed")
+    environment = {**os.environ, "MYPYPATH": PACKAGE}
+    done = subprocess.run([sys.executable, "-m", module, *arguments], cwd=folder, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_stubs_agree_with_the_package(tmp_path):
+    (tmp_path / "mypy.ini").write_text(CONFIGURATION)
+    # The metaclass and the constructor are pybind11's; annotations use names that are imported for mypy only.
+    (tmp_path / "allowed").write_text(r"""forage(\._forage)?\._?[A-Z]\w*(\.[A-Z]\w*)?
+forage(\._forage)?\._?[A-Z]\w*(\.[A-Z]\w*)?\.__init__
+forage\._\w+\.(Any|Sequence|DTypeLike|NDArray|numpy)
+""")
+    check("mypy.stubtest", "--mypy-config-file", "mypy.ini", "--allowlist", "allowed", "--ignore-unused-allowlist", "forage", folder=tmp_path)
+
+
+PROGRAM = """
+import forage
+import numpy
+
+with forage.open("a.iqr", world="a.world", settings={"Bug/Light.threshold": 0.5}, observe=["Bug/Light"]) as run:
+    light = run["Bug/Light"]
+    act: numpy.ndarray[tuple[int, ...], numpy.dtype[numpy.float64]] = light.act
+    probe = run.probe("Bug/Light", every=10)
+    @run.on_cycle(every=100)
+    def note(run: forage.Run) -> None:
+        run.params["Bug/Light.threshold"] = 0.3
+    with light.clamp(0.5):
+        held: bool = run.run_until("trial 3", cycles=100)
+    recording: forage.Recording = probe.take()
+    state: bytes = run.save_state()
+try:
+    forage.resume(state).run(seconds=1, progress=True)
+except forage.InputError as error:
+    print(error.file, error.line, error.column, error.hint)
+
+with forage.System("a") as system:
+    a = system.add_process("P").add_group("A", 3, threshold=0.5)
+    connection = system.connect(a, "P/A", pattern=forage.Pattern.foreach(), delay=3, weight=0.5)
+    connection.attenuation = 0.5  # type: ignore[assignment]
+    connection.source = a
+a.params["threshold"] = 1
+table = forage.sweep(system, values={"P/A.threshold": [0, 1]}, seeds=2, cycles=3, measure={"act": lambda run: run["P/A"].act.max()})
+where: str | None = forage.experiment("a.xml", jobs=2).directory
+print(table["act"], table.to_pandas(), where)
+"""
+
+
+def test_programs_and_the_package_itself_are_checked_strictly(tmp_path):
+    (tmp_path / "program.py").write_text(PROGRAM)
+    (tmp_path / "mypy.ini").write_text(CONFIGURATION)
+    modules = [str(PROJECT / f"tools/python/forage/{name}.py") for name in ("_errors", "_experiment", "_picture", "_recording", "_types")]
+    check("mypy", "--strict", "--config-file", "mypy.ini", "--cache-dir", str(tmp_path / "cache"), "program.py", *modules, folder=tmp_path)
+    # Its fallback for gymnasium is not annotated.
+    gym = str(PROJECT / "tools/python/forage/gym.py")
+    check("mypy", "--strict", "--follow-imports=silent", "--config-file", "mypy.ini", "--cache-dir", str(tmp_path / "gym"), gym, folder=tmp_path)
+
+
+def test_everything_has_a_docstring():
+    missing = []
+    for name in forage.__all__:
+        thing = getattr(forage, name)
+        members = [(f"{name}.{m}", v) for m, v in vars(thing).items() if not m.startswith("_")] if isinstance(thing, type) else []
+        for path, member in [(name, thing), *members]:
+            if type(member).__name__ != "member_descriptor" and not (getattr(member, "__doc__", None) or "").strip():
+                missing.append(path)
+    assert not missing
