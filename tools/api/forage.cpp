@@ -140,8 +140,7 @@ ExperimentOutcome experiment(model::Experiment wanted, const ExperimentSettings&
         diagnostics);
 }
 
-RunPlan plan(model::Experiment wanted, const std::vector<std::string>& plugins,
-                             Diagnostics* warnings) {
+RunPlan plan(model::Experiment wanted, const std::vector<std::string>& plugins, Diagnostics* warnings) {
     Diagnostics diagnostics;
     auto planned = plan_experiment(std::move(wanted), {}, plugins, diagnostics);
     throw_errors(diagnostics);

@@ -128,7 +128,7 @@ ExperimentOutcome experiment(model::Experiment experiment, const ExperimentSetti
 /// The runs of an experiment that was described in code. Nothing is run or written. Throws InputError for all
 /// mistakes in them. Warnings are added to `warnings`, if it is not null.
 RunPlan plan(model::Experiment experiment, const std::vector<std::string>& plugins = {},
-                             Diagnostics* warnings = nullptr);
+             Diagnostics* warnings = nullptr);
 
 /// The types that ship with Forage, and those of `plugins`: shared objects and folders of them. Throws
 /// InputError.
