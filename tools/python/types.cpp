@@ -59,7 +59,7 @@ void in_python(Function function) {
     try {
         function();
     } catch (py::error_already_set& e) {
-        const py::object raised = e.value();
+        const py::object& raised = e.value();
         if (e.trace()) PyException_SetTraceback(raised.ptr(), e.trace().ptr());
         const auto type = py::type::handle_of(raised).attr("__name__").cast<std::string>();
         const auto words = py::str(raised).cast<std::string>();

@@ -31,7 +31,7 @@ void serve(const StudioOptions& options, const std::function<void(const std::str
     wanted.received = [&](int client, std::string text) {
         engine->post([client, text = std::move(text)](Session& s) { s.message(client, text); });
     };
-    wanted.picture = [&](std::string what, std::string format, std::function<void(Content)> done) {
+    wanted.picture = [&](std::string what, std::string format, const std::function<void(Content)>& done) {
         engine->post([what, format, done](Session& s) {
             try {
                 const std::string type = format == "png"   ? "image/png"
