@@ -105,6 +105,19 @@ def test_episodes_are_the_trials_of_the_run_and_start_where_they_should():
     assert gps == pytest.approx([11, 8, 0.5 + numpy.pi], abs=1e-5)
 
 
+def test_the_paths_of_the_robot_are_kept_when_wanted():
+    with pytest.raises(forage.InputError, match="open it with the option paths"):
+        BugEnv(WORLD).run.plot("trajectory")
+    env = BugEnv(WORLD, paths=True, max_steps=4)
+    drawn = []
+    for seed in (1, None, 1):  # a seed begins a new run, whose first trial is the same
+        env.reset(seed=seed)
+        for _ in range(4):
+            env.step(1)
+        drawn.append(env.run.plot("trajectory").data)
+    assert drawn[0] == drawn[2] != drawn[1]
+
+
 def test_actions_move_the_robot_as_cells_velocities_and_activities():
     def moved(step, **options):
         env = BugEnv(WORLD, noise=False, sensors=["gps"], cycles_per_step=10, **options)

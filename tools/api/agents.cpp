@@ -109,8 +109,10 @@ Run AgentTask::open(std::uint64_t seed) const {
     Diagnostics diagnostics;
     auto loaded = assemble(sources_, input, diagnostics);
     throw_errors(diagnostics);
-    OpenOptions open{
-        .seed = seed, .observe = std::vector<std::string>(), .overwrite = std::vector<std::string>()};
+    OpenOptions open{.seed = seed,
+                     .observe = std::vector<std::string>(),
+                     .overwrite = std::vector<std::string>(),
+                     .paths = options_.paths};
     for (const auto& agent : options_.agents) {
         open.observe->insert(open.observe->end(), agent.sensors.begin(), agent.sensors.end());
         if (!agent.reward.empty()) open.observe->push_back(agent.reward);

@@ -48,6 +48,7 @@ struct AgentOptions {
     int cycles_per_step = 5;
     std::uint64_t max_steps = 1000;  ///< after which an episode is truncated; 0: never
     bool end_at_target = true;       ///< whether an episode ends when the robot reaches a target
+    bool paths = false;              ///< whether a run keeps the paths of its robots, for its trajectory
 };
 
 /// Checked options and the content of their files. Many runs may share one.

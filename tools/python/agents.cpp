@@ -78,7 +78,7 @@ PythonTask read_task(
     const std::vector<std::tuple<std::string, std::vector<Port>, std::vector<Port>, std::string>>& agents,
     bool every_robot, const std::string& action, int cycles_per_step, std::uint64_t max_steps,
     bool end_at_target, std::pair<double, double> speed, std::uint64_t seed, const py::object& settings,
-    const std::vector<path>& plugins, bool noise, std::optional<double> real_time_factor) {
+    const std::vector<path>& plugins, bool noise, std::optional<double> real_time_factor, bool paths) {
     AgentOptions options;
     options.input.world = world.string();
     if (system) options.input.system = system->string();
@@ -96,7 +96,7 @@ PythonTask read_task(
     }
     options.every_robot = every_robot, options.action = action_kind(action);
     options.cycles_per_step = cycles_per_step, options.max_steps = max_steps;
-    options.end_at_target = end_at_target;
+    options.end_at_target = end_at_target, options.paths = paths;
     return {AgentTask::read(std::move(options))};
 }
 
@@ -210,7 +210,7 @@ void add_agents(py::module_& module) {
                            "What agents do in a world, with the content of its files. forage.gym uses it.")
         .def(py::init(&read_task), py::kw_only(), "world"_a, "system"_a, "agents"_a, "every_robot"_a,
              "action"_a, "cycles_per_step"_a, "max_steps"_a, "end_at_target"_a, "speed"_a, "seed"_a,
-             "settings"_a, "plugins"_a, "noise"_a, "real_time_factor"_a);
+             "settings"_a, "plugins"_a, "noise"_a, "real_time_factor"_a, "paths"_a);
     py::class_<PythonAgents>(module, "AgentRun", "A run that agents drive. forage.gym uses it.")
         .def(py::init([](const PythonTask& task) { return std::make_unique<PythonAgents>(task.task); }),
              "task"_a)

@@ -450,6 +450,7 @@ class AgentTask:
         plugins: typing.Sequence[_Path],
         noise: bool,
         real_time_factor: typing.Optional[float],
+        paths: bool,
     ) -> None: ...
 
 class AgentRun:

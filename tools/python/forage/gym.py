@@ -61,7 +61,7 @@ def _agent(robot: str, system: typing.Any, sensors: typing.Any, motors: typing.A
 
 def _task(world: typing.Any, system: typing.Any, agents: typing.Any, options: typing.Any, every_robot: bool = False) -> _forage.AgentTask:
     usual: dict[str, typing.Any] = {"action": "cell", "cycles_per_step": 5, "max_steps": 1000, "end_at_target": True, "speed": (1.0, 1.5), "seed": 1,
-             "settings": None, "plugins": (), "noise": True, "real_time_factor": None}
+             "settings": None, "plugins": (), "noise": True, "real_time_factor": None, "paths": False}
     unknown = set(options) - set(usual)
     if unknown:
         raise TypeError(f"unknown options: {', '.join(sorted(unknown))}; there are {', '.join(usual)}")
@@ -181,7 +181,7 @@ class BugEnv(_Rendered, Env):  # type: ignore[misc]
 
     Other options: cycles_per_step=5, max_steps=1000 (0: endless), end_at_target=True, speed=(1.0, 1.5) (m/s and rad/s at full
     speed, without a system), seed=1 (until reset() is called with one), settings, plugins, noise, real_time_factor as in
-    forage.open(). Raises InputError.
+    forage.open(), and paths=False: whether the run keeps the paths of its robots, for env.run.plot("trajectory"). Raises InputError.
     """
 
     metadata = {"render_modes": _render_modes, "render_fps": 5}
