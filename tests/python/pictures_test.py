@@ -38,6 +38,15 @@ def test_pictures_have_formats_and_are_saved(dac, tmp_path):
     assert twin.plot("trajectory").data == png.data
 
 
+def test_a_diagram_is_in_the_page_that_a_notebook_exports(dac):
+    """nbconvert removes what it does not know from SVG that is part of the page."""
+    nbconvert, v4 = pytest.importorskip("nbconvert"), pytest.importorskip("nbformat.v4")
+    html = dac.diagram()._repr_html_()
+    shown = v4.new_output("execute_result", {"text/html": html, "text/plain": "a diagram"})
+    page, _ = nbconvert.HTMLExporter().from_notebook_node(v4.new_notebook(cells=[v4.new_code_cell("dac.diagram()", outputs=[shown])]))
+    assert html in page
+
+
 def test_what_cannot_be_drawn_says_why(dac):
     for picture, message in (("time:Bug/Light", "is not recorded"), ("time:Bug/Ligth", "'Bug' has no group 'Ligth'|there is no group"),
                              ("curve:success", "results of several runs"), ("nothing:x", "nothing"), ("connection:None", "None"),
