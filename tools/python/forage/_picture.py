@@ -1,7 +1,6 @@
 """Pictures, which notebooks show."""
 from __future__ import annotations
 
-import base64
 import os
 
 
@@ -26,6 +25,8 @@ class Picture:
         # A picture of its own, not elements of the page: cairo's ids repeat in every SVG, and nbconvert removes what it does not know.
         if self.format != "svg":
             return None
+        import base64  # when it is needed: importing forage stays light
+
         return f'<img style="max-width: 100%" src="data:image/svg+xml;base64,{base64.b64encode(self.data).decode()}">'
 
     def __repr__(self) -> str:
