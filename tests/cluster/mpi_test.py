@@ -48,25 +48,35 @@ class Mpi(unittest.TestCase):
         for name in ("results.csv", "summary.csv"):
             self.assertEqual((self.folder / "mpi" / name).read_bytes(), (self.folder / "whole" / name).read_bytes())
 
+    def lines(self):
+        """The lines of finished runs."""
+        files = (self.folder / "mpi" / "parts").glob("*.jsonl")
+        return [line for file in files for line in file.read_text().splitlines() if line.endswith("}}")]
+
+    def finished(self):
+        return len(self.lines())
+
     def test_ranks_are_killed(self):
         chance = random.Random(1)
         killed = 0
         for _ in range(5):
+            before = self.finished()
             job = self.start(3, "x.xml", "-o", "mpi", "-q")
-            time.sleep(chance.uniform(0.2, 0.6))
+            while job.poll() is None and self.finished() <= before:  # by progress, not by time
+                time.sleep(0.005)
             ranks = self.ranks_of(job)
             if ranks:
                 os.kill(chance.choice(ranks), signal.SIGKILL)
             output, errors = job.communicate()
             if job.returncode:
                 killed += 1
-                self.assertRegex(errors, "signal 9|Killed|non-zero exit code")  # the latter of a rank that has not yet started MPI
+                self.assertRegex(errors, "signal 9|Killed|non-zero exit code")
         self.assertGreater(killed, 1)
         job = self.start(3, "x.xml", "-o", "mpi")
         output, errors = job.communicate()
         self.assertEqual(job.returncode, 0, errors)
         self.assertIn("x.xml: 200 runs\n", output)
-        lines = [line for file in (self.folder / "mpi" / "parts").iterdir() for line in file.read_text().splitlines() if line.endswith("}}")]
+        lines = self.lines()
         self.assertEqual(len(lines), 200)
         self.assertEqual(len({json.loads(line)["run"] for line in lines}), 200)
         self.same_as_one_machine()
