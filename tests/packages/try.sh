@@ -14,6 +14,9 @@ with forage.open("systems/dac_foraging.iqr", world="systems/worlds/basic_arena.w
 test -s path.png
 cd leaky
 forage build-plugin leaky.cpp
+python3 -c 'import forage
+plugin = forage.build_plugin(open("leaky.cpp").read())
+assert len(plugin.types) == 1, plugin.types'
 forage run example.iqr --cycles 20 --record Example/Cells
 rm -rf plugins
 cmake -B build
