@@ -28,7 +28,7 @@ def test_a_page_is_followed_to_its_end(page, needed, tmp_path, monkeypatch):
             with contextlib.redirect_stdout(io.StringIO()) as out:
                 exec(compile(content, f"{page}.md", "exec"), names)
             printed = out.getvalue()
-    assert printed == "" and len(blocks) > 2
+    assert printed == "" and len(blocks) > (2 if page == "from-other-tools" else 5)  # that page has one model
 
 
 def test_brian2_counts_the_same_spikes(tmp_path, monkeypatch):
