@@ -1,0 +1,108 @@
+// The functions of commands. Each topic has a file: commands_run.cpp, commands_looking.cpp,
+// commands_parameters.cpp, commands_touching.cpp, commands_sampler.cpp, commands_files.cpp,
+// commands_past.cpp.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bug_interface/simulation/world.h"
+#include "core/model/edit.h"
+#include "core/observe/manipulation.h"
+#include "core/xml/panel.h"
+#include "tools/studio/server/session.h"
+
+namespace forage::studio {
+
+/// A whole number of a command. Throws InputError.
+std::uint64_t whole(const json& command, const char* member, std::uint64_t otherwise, std::uint64_t least,
+                    std::uint64_t most);
+/// A finite number of a command. Throws InputError.
+double finite(const json& command, const char* member);
+
+/// A command of a page. Its functions are those of the table in commands.cpp, and what several of them need.
+struct Commands {
+    Session& s;
+    int client;
+    const json& c;
+    Run& run() { return *s.run_; }
+    bug::World& world();
+    int group(const std::string& name);
+    const engine::Layout::Group& laid(int i) { return run().layout().groups[static_cast<std::size_t>(i)]; }
+
+    // ---- the run ----
+    json start();
+    json pause();
+    json step();
+    json stop();
+    json restart();
+    json speed();
+    json open();
+
+    // ---- looking ----
+    json subscribe();
+    json unsubscribe();
+    json read();
+    json synapses();
+    json trials();
+    std::size_t find_robot();
+
+    // ---- parameters ----
+    json parameters();
+    static std::string value_in(const std::string& assignment);
+    /// Checks assignments and returns those that would undo them. Throws InputError for all mistakes at once.
+    std::vector<std::string> inverse(const std::vector<std::string>& assignments);
+    static bool at_start(const model::Assignment& a) { return !a.parameter || a.parameter->at_start; }
+    json set(const std::vector<std::string>& assignments, const std::string& title, bool undoable);
+    json set();
+    json undo();
+    json redo();
+    json back_or_forth(std::vector<Session::Undo>& from, std::vector<Session::Undo>& to, bool back);
+
+    // ---- manipulations ----
+    json describe(int number);
+    json manipulate();
+    json revoke();
+    json manipulations();
+    json patterns_read();
+    observe::Manipulation::Settings settings_of(const json& command);
+
+    // ---- the world ----
+    json move();
+    std::size_t find_object(const std::string& name);
+    json begin_trial();
+    /// Changes the run as a noted action says.
+    void apply();
+
+    // ---- the sampler ----
+    json sample();
+    json sample_stop();
+
+    // ---- layouts ----
+    std::filesystem::path folder();
+    std::string layout_path(const std::string& name);
+    json layouts();
+    json layout_read();
+    json layout_write();
+
+    // ---- panels and sets of parameters ----
+    std::string panel_path(const char* ending);
+    std::vector<xml::PanelRow> panel_rows(const char* ending);
+    /// The parameter of an item, as `parameters` describes it. Throws InputError.
+    json one_parameter(const std::string& item, const std::string& name);
+    static xml::PanelRow row_of(const json& p);
+    json panel_read();
+    json panel_write();
+    json parameters_read();
+    json parameters_write();
+
+    // ---- the past ----
+    json history();
+    json digest();
+    json seek();
+    json branch();
+};
+
+}  // namespace forage::studio

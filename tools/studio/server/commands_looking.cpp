@@ -1,0 +1,100 @@
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <forage/system.h>
+
+#include "core/model/lookup.h"
+#include "tools/studio/server/command_functions.h"
+
+namespace forage::studio {
+namespace {
+
+constexpr std::size_t most_synapses = 200'000;  ///< in a reply
+
+}  // namespace
+
+json Commands::subscribe() {
+    const auto it = s.clients_.find(client);
+    if (it == s.clients_.end()) throw InputError("only a page can subscribe");
+    const auto text = c.at("source").get<std::string>();
+    const auto wanted = c.value("class", "latest");
+    if (wanted != "latest" && wanted != "append")
+        throw InputError(fmt::format("'{}' is not a class of streams", wanted), "latest or append");
+    const Delivery delivery = wanted == "append" ? Delivery::append : Delivery::latest;
+    Stream stream(find_stream_source(run(), text, delivery), text, delivery,
+                  whole(c, "every", 1, 1, 1'000'000'000));
+    const auto number = it->second.subscribe(std::move(stream));
+    const auto& kept = it->second.stream(number);
+    return {{"stream", number},
+            {"rows", kept.source().rows()},
+            {"columns", kept.source().columns()},
+            {"label", kept.source().label()},
+            {"every", kept.every()}};
+}
+
+json Commands::unsubscribe() {
+    const auto it = s.clients_.find(client);
+    if (it == s.clients_.end() || !it->second.unsubscribe(c.at("stream").get<std::uint32_t>()))
+        throw InputError("there is no such stream");
+    return json::object();
+}
+
+json Commands::read() {
+    const auto source = find_stream_source(run(), c.at("source").get<std::string>(), Delivery::latest);
+    std::vector<double> values(static_cast<std::size_t>(source->rows()) * source->columns());
+    source->read(run(), values);
+    return {{"rows", source->rows()}, {"columns", source->columns()}, {"values", values}};
+}
+
+json Commands::synapses() {
+    Diagnostics diagnostics;
+    const auto item =
+        model::find_item(run().system(), c.at("connection").get<std::string>(), "synapses", diagnostics);
+    throw_errors(diagnostics);
+    SystemFile file{run().system(),
+                    s.input_.system,
+                    {},
+                    std::shared_ptr<const Registry>(std::shared_ptr<const Registry>(), &run().registry())};
+    const SynapseTable all = forage::synapses(file, item->id, run().seed());
+    const auto none = std::numeric_limits<std::uint64_t>::max();
+    const auto source = whole(c, "source", none, 0, none - 1), target = whole(c, "target", none, 0, none - 1);
+    json out = {{"source", json::array()}, {"target", json::array()},   {"distance", json::array()},
+                {"delay", json::array()},  {"strength", json::array()}, {"total", all.source.size()}};
+    for (std::size_t i = 0; i < all.source.size() && out["source"].size() < most_synapses; ++i) {
+        if (source != none && static_cast<std::uint64_t>(all.source[i]) != source) continue;
+        if (target != none && static_cast<std::uint64_t>(all.target[i]) != target) continue;
+        out["source"].push_back(all.source[i]), out["target"].push_back(all.target[i]);
+        out["distance"].push_back(all.distance[i]), out["delay"].push_back(all.delay[i]);
+        out["strength"].push_back(all.strength[i]);
+    }
+    return out;
+}
+
+json Commands::trials() {
+    const auto robot = find_robot();
+    json out = json::array();
+    for (const Trial& t : world().trials(robot)) {
+        json row = {{"number", t.number},
+                    {"seconds", static_cast<double>(t.cycles) * run().seconds_per_cycle()},
+                    {"first_cycle", t.first_cycle},
+                    {"cycles", t.cycles},
+                    {"reached_target", t.reached_target},
+                    {"start", {t.start.x, t.start.y, t.start.yaw}},
+                    {"end", {t.end.x, t.end.y, t.end.yaw}},
+                    {"smallest_distance", nullptr}};
+        if (std::isfinite(t.smallest_distance)) row["smallest_distance"] = t.smallest_distance;
+        out.push_back(std::move(row));
+    }
+    return {{"trials", std::move(out)}};
+}
+
+std::size_t Commands::find_robot() {
+    const auto name = c.value("robot", "");
+    const auto found = name.empty() && world().bugs() > 0 ? 0 : world().find(name);
+    if (!found)
+        throw InputError(fmt::format("there is no robot '{}'", name), suggest(name, world().robot_names()));
+    return *found;
+}
+
+}  // namespace forage::studio

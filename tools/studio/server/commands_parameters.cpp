@@ -1,0 +1,88 @@
+#include <algorithm>
+
+#include "tools/api/describe_json.h"
+#include "tools/studio/server/command_functions.h"
+#include "tools/studio/server/equivalents.h"
+
+namespace forage::studio {
+
+json Commands::parameters() {
+    json out = describe_parameters(run(), c.at("item").get<std::string>());
+    for (auto& p : out["parameters"])
+        if (const auto it = s.changed_.find(p["assignment"].get<std::string>()); it != s.changed_.end()) {
+            p["loaded"] = it->second.loaded;
+            if (p["at_start"]) p["value"] = value_in(it->second.assignment);
+        }
+    return out;
+}
+
+std::string Commands::value_in(const std::string& assignment) {
+    return assignment.substr(std::min(assignment.find('=') + 1, assignment.size()));
+}
+
+std::vector<std::string> Commands::inverse(const std::vector<std::string>& assignments) {
+    Diagnostics diagnostics;
+    std::vector<model::Assignment> changes;
+    std::vector<std::string> back;
+    for (const std::string& text : assignments) {
+        const auto change =
+            model::parse_assignment(run().system(), run().registry(), text, "set", diagnostics);
+        if (!change) continue;
+        const std::string name = text.substr(0, text.find('='));
+        ParameterValue now = model::value_of(run().system(), *change);
+        if (const auto it = s.changed_.find(name); it != s.changed_.end() && at_start(*change)) {
+            back.push_back(it->second.assignment);
+        } else {
+            if (!at_start(*change)) now = run().simulation().parameter(*change), changes.push_back(*change);
+            back.push_back(name + "=" + to_text(now));
+        }
+    }
+    run().simulation().check(changes, diagnostics);
+    throw_errors(diagnostics);
+    return back;
+}
+
+json Commands::set(const std::vector<std::string>& assignments, const std::string& title, bool undoable) {
+    if (assignments.empty()) throw InputError("there is nothing to set");
+    const auto back = inverse(assignments);
+    json values = json::object();
+    for (const auto& a : assignments) values[a.substr(0, a.find('='))] = value_in(a);
+    const auto same = of_assignments(assignments, run().cycle());
+    s.act({{"command", "set"}, {"assignments", assignments}},
+          undoable ? std::optional<json>({{"command", "set"}, {"assignments", back}}) : std::nullopt,
+          {{"title", title}, {"values", values}, {"shell", same.shell}, {"python", same.python}});
+    return {{"generation", s.generation_}};
+}
+
+json Commands::set() {
+    const auto assignments = c.at("assignments").get<std::vector<std::string>>();
+    std::string title = assignments.empty() ? "" : assignments.front();
+    if (const auto equal = title.find('='); equal != title.npos) title.replace(equal, 1, " = ");
+    if (assignments.size() > 1) title += fmt::format(" and {} more", assignments.size() - 1);
+    return set(assignments, title, true);
+}
+
+json Commands::undo() { return back_or_forth(s.undo_, s.redo_, true); }
+
+json Commands::redo() { return back_or_forth(s.redo_, s.undo_, false); }
+
+json Commands::back_or_forth(std::vector<Session::Undo>& from, std::vector<Session::Undo>& to, bool back) {
+    if (from.empty()) throw InputError(back ? "there is nothing to undo" : "there is nothing to redo");
+    Session::Undo entry = std::move(from.back());
+    from.pop_back();
+    json told = {{"title", (back ? "undo: " : "redo: ") + entry.title}};
+    const json& command = back ? entry.undo : entry.redo;
+    if (command.at("command") == "set") {
+        const auto same =
+            of_assignments(command.at("assignments").get<std::vector<std::string>>(), run().cycle());
+        told["shell"] = same.shell, told["python"] = same.python;
+    }
+    auto undone = std::move(s.undo_), redone = std::move(s.redo_);
+    s.undo_.clear(), s.redo_.clear();
+    s.act(command, std::nullopt, told);
+    s.undo_ = std::move(undone), s.redo_ = std::move(redone);
+    to.push_back(std::move(entry));
+    return {{"generation", s.generation_}};
+}
+
+}  // namespace forage::studio

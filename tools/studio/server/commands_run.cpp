@@ -1,0 +1,78 @@
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "tools/studio/server/command_functions.h"
+
+namespace forage::studio {
+namespace {
+
+constexpr std::uint64_t most_steps = 1'000'000;
+
+}  // namespace
+
+json Commands::start() {
+    if (!s.failed_.empty()) throw InputError("the run has failed: " + s.failed_, "stop it, or go back");
+    s.running_ = s.status_due_ = true;
+    s.pace_from_ = s.rate_from_ = -1, s.measured_rate_ = 0;
+    return json::object();
+}
+
+json Commands::pause() {
+    s.running_ = false, s.status_due_ = true;
+    return json::object();
+}
+
+json Commands::step() {
+    const auto cycles = whole(c, "cycles", 1, 1, most_steps);
+    pause();
+    if (!s.failed_.empty()) throw InputError("the run has failed: " + s.failed_, "stop it, or go back");
+    try {
+        for (std::uint64_t i = 0; i < cycles; ++i) s.cycle();
+    } catch (const engine::RunError& e) {
+        s.failed_ = e.what();
+        throw;
+    }
+    return {{"cycle", run().cycle()}};
+}
+
+json Commands::stop() {
+    s.reset();
+    return json::object();
+}
+
+json Commands::restart() {
+    const auto before = s.input_.seed;
+    s.input_.seed = whole(c, "seed", before, 0, std::numeric_limits<std::uint64_t>::max());
+    try {
+        s.reset();
+    } catch (...) {
+        s.input_.seed = before;
+        throw;
+    }
+    return {{"seed", s.input_.seed}};
+}
+
+json Commands::speed() {
+    const auto mode = c.at("mode").get<std::string>();
+    const double value = mode == "times" || mode == "cycles" ? finite(c, "value") : 1;
+    if (mode != "real" && mode != "times" && mode != "cycles" && mode != "free")
+        throw InputError(fmt::format("'{}' is not a speed", mode), "real, times, cycles or free");
+    if (!(value > 0 && value <= 1e9)) throw InputError("a speed is above 0, at most 1e9");
+    s.set_speed(mode, value);
+    return json::object();
+}
+
+json Commands::open() {
+    RunInput input = s.input_;
+    input.more.clear(), input.settings.clear(), input.text.clear();
+    input.system = c.at("system").get<std::string>();
+    input.world = c.value("world", "");
+    s.open(std::move(input));
+    s.changed_.clear(), s.undo_.clear(), s.redo_.clear();
+    for (auto& [id, page] : s.clients_) page.rebind(run());
+    s.tell(s.system_message()), s.tell(s.world_message());
+    return json::object();
+}
+
+}  // namespace forage::studio
