@@ -243,5 +243,118 @@ class Watching(unittest.TestCase):
         self.assertFalse(self.page.ask('move', robot=self.page.last('world')['robots'][0]['name'], x=99.0, y='a')['ok'])
 
 
+class Crashes(unittest.TestCase):
+    """A studio that is killed: what it kept, and that the run goes on as if nothing had happened."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.state = folder.name
+
+    def start(self, *more):
+        studio = Studio(forage, system, '--world', world, *more, state=self.state)
+        self.addCleanup(studio.__exit__)
+        page = Page(studio)
+        self.addCleanup(page.close)
+        page.do('pause')
+        return studio, page
+
+    def kept(self):
+        return sorted(f.name for f in pathlib.Path(self.state).rglob('*.forage'))
+
+    @staticmethod
+    def course(page):
+        """What happens before the crash."""
+        page.do('step', cycles=300)
+        page.do('manipulate', group='Bug/Motor', patterns=[[1.0] + [0.0] * 80])
+        page.do('step', cycles=210)
+        page.do('set', assignments=['Bug/Light.threshold=0.25'])
+        page.do('step', cycles=77)
+
+    def kill(self, studio, page):
+        """Kills the studio when it has kept the present cycle."""
+        cycle = page.do('digest')['cycle']
+        end = time.monotonic() + 20
+        while time.monotonic() < end and not any(cycle.to_bytes(8, 'little') in f.read_bytes()[:300] for f in pathlib.Path(self.state).rglob('running.forage')):
+            time.sleep(0.1)
+        studio.child.kill()
+        studio.child.wait(20)
+
+    def test_a_run_goes_on_after_a_crash(self):
+        with Studio(forage, system, '--world', world) as other:
+            undisturbed = Page(other)
+            self.course(undisturbed)
+            undisturbed.do('step', cycles=400)
+            wanted = undisturbed.do('digest')
+            undisturbed.do('seek', cycle=100)
+            early = undisturbed.do('digest')
+            undisturbed.close()
+        studio, page = self.start()
+        self.course(page)
+        page.do('panels_keep', content={'plots': ['as they were']})
+        self.kill(studio, page)
+        self.assertEqual(self.kept(), ['running.forage'])
+
+        studio, page = self.start()
+        self.assertEqual(page.last('status')['killed']['cycle'], 587)
+        page.do('step', cycles=5)  # a new run, which is killed, too, leaves the page to choose
+        studio.child.terminate()
+        studio.child.wait(20)
+        self.assertIn('--recover', studio.child.stderr.read())
+        self.assertEqual(self.kept(), ['killed.forage'])
+
+        studio, page = self.start('--recover')
+        self.assertEqual(page.last('status')['cycle'], 587)
+        self.assertEqual(page.last('hello')['panels'], {'plots': ['as they were']})
+        self.assertEqual(page.last('status')['undo'], 'Bug/Light.threshold = 0.25')
+        self.assertEqual(page.last('status')['manipulations'], ['Bug/Motor'])
+        page.do('step', cycles=400)
+        self.assertEqual(page.do('digest'), wanted)
+        page.do('seek', cycle=100)
+        self.assertEqual(page.do('digest'), early)  # the past is there, too
+        page.do('seek', cycle=987)
+        self.assertEqual(page.do('digest'), wanted)
+
+    def test_recovered_in_the_page_and_changed_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mine = pathlib.Path(folder, 'mine.iqr')
+            mine.write_bytes(pathlib.Path(system).read_bytes())
+            start = lambda: Studio(forage, str(mine), '--world', world, state=self.state)  # noqa: E731
+            with start() as studio:
+                page = Page(studio)
+                page.do('step', cycles=40)
+                self.kill(studio, page)
+            mine.write_bytes(pathlib.Path(system).read_bytes() + b'<!-- changed -->\n')
+            with start() as studio:
+                page = Page(studio)
+                refused = page.ask('recover')
+                self.assertIn('has changed', refused['problems'][0]['message'])
+                mine.write_bytes(pathlib.Path(system).read_bytes())
+                self.assertEqual(page.do('recover')['cycle'], 40)
+                page.do('pause')
+                self.assertIsNone(page.last('status')['killed'])
+                page.close()
+        self.assertEqual(self.kept(), [])
+
+    def test_what_is_kept_is_damaged(self):
+        studio, page = self.start()
+        page.do('step', cycles=40)
+        self.kill(studio, page)
+        file = next(pathlib.Path(self.state).rglob('running.forage'))
+        file.write_bytes(file.read_bytes()[:-100])
+        _, page = self.start()
+        self.assertIsNone(page.last('status')['killed'])
+        self.assertIn('is damaged', page.last('status')['save_failed'])
+
+    def test_a_clean_end_leaves_nothing(self):
+        studio, page = self.start()
+        page.do('step', cycles=10)
+        while not self.kept():
+            time.sleep(0.1)
+        studio.child.terminate()
+        studio.child.wait(20)
+        self.assertEqual(self.kept(), [])
+
+
 if __name__ == '__main__':
     unittest.main(argv=sys.argv[:1])

@@ -6,6 +6,7 @@ import re
 import socket
 import struct
 import subprocess
+import tempfile
 import time
 
 
@@ -29,10 +30,13 @@ def http(port, target, headers=(), method='GET', host=None):
 
 
 class Studio:
-    """`forage studio` as a child."""
+    """`forage studio` as a child. What it keeps for the case of a crash is in the folder `state`, or in one that goes with it."""
 
-    def __init__(self, forage, *arguments, cwd=None):
-        self.child = subprocess.Popen([forage, 'studio', *arguments], stdout=subprocess.PIPE, text=True, cwd=cwd)
+    def __init__(self, forage, *arguments, cwd=None, state=None):
+        self.folder = None if state else tempfile.TemporaryDirectory()
+        environment = {**os.environ, 'XDG_STATE_HOME': state or self.folder.name}
+        self.child = subprocess.Popen([forage, 'studio', *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE if state else None,
+                                      text=True, cwd=cwd, env=environment)
         while True:
             line = self.child.stdout.readline()
             assert line, 'the studio did not start'
@@ -48,6 +52,10 @@ class Studio:
         self.child.terminate()
         self.child.wait(20)
         self.child.stdout.close()
+        if self.folder:
+            self.folder.cleanup()
+        else:
+            self.child.stderr.close()
 
 
 class Page:

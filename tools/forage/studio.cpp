@@ -15,12 +15,14 @@ int studio(const StudioCommand& command) {
     studio::StudioOptions options;
     options.input = command.input;
     options.plot_config = command.plot_config;
+    options.recover = command.recover;
     options.port = static_cast<std::uint16_t>(command.port);
     note_signals("the studio");
     try {
         studio::serve(
             options,
-            [&](const std::string& address) {
+            [&](const std::string& address, const std::string& note) {
+                if (!note.empty()) fmt::print(stderr, "note: {}\n", note);
                 fmt::print(
                     "The studio is at\n\n  {}\n\nOpen it with a browser on this machine; Ctrl-C ends it.\n",
                     address);

@@ -2,6 +2,7 @@
 #include "tools/studio/server/session.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <map>
@@ -261,5 +262,41 @@ TEST_CASE("panels and sets of parameters are written and read back, in the form 
     CHECK(std::get<double>(f.session.run().parameter(name)) == 0.625);
     CHECK(f.ask({{"command", "panel_read"}, {"file", values}})["ok"] == false);
     CHECK(f.ask({{"command", "panel_write"}, {"file", "/etc/passwd"}, {"rows", rows}})["ok"] == false);
+    std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("a session that is killed while it runs goes on where it was kept, byte by byte") {
+    const auto folder = std::filesystem::temp_directory_path() / "forage-studio-states";
+    std::filesystem::remove_all(folder);
+    setenv("XDG_STATE_HOME", folder.c_str(), 1);
+    std::uint64_t kept = 0;
+    {
+        Fixture f;
+        f.session.keep();
+        f.result({{"command", "speed"}, {"mode", "free"}});
+        f.result({{"command", "run"}});
+        f.session.work(1000);
+        f.result({{"command", "set"}, {"assignments", {"Bug/Light.threshold=0.25"}}});
+        f.session.work(1010);  // too early to be kept again
+        f.session.work(1021);
+        kept = f.session.run().cycle();
+        f.session.work(1030);
+        CHECK(f.session.run().cycle() > kept);
+    }  // without end()
+    Fixture f, undisturbed;
+    f.session.keep();
+    REQUIRE(f.session.killed().at("cycle") == kept);
+    f.session.recover();
+    CHECK(f.session.run().cycle() == kept);
+    json actions = f.result({{"command", "history"}})["actions"];
+    REQUIRE(actions.size() == 1);
+    undisturbed.result({{"command", "step"}, {"cycles", actions[0]["cycle"]}});
+    undisturbed.result({{"command", "set"}, {"assignments", {"Bug/Light.threshold=0.25"}}});
+    undisturbed.result(
+        {{"command", "step"}, {"cycles", kept + 100 - actions[0]["cycle"].get<std::uint64_t>()}});
+    f.result({{"command", "step"}, {"cycles", 100}});
+    CHECK(f.session.run().digest() == undisturbed.session.run().digest());
+    f.session.end();
+    CHECK(std::filesystem::is_empty(folder / "forage/studio"));
     std::filesystem::remove_all(folder);
 }

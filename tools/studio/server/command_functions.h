@@ -86,6 +86,7 @@ struct Commands {
     json layouts();
     json layout_read();
     json layout_write();
+    json panels_keep();
 
     // ---- panels and sets of parameters ----
     std::string panel_path(const char* ending);
@@ -103,6 +104,8 @@ struct Commands {
     json digest();
     json seek();
     json branch();
+    json recover();
+    json forget();
 };
 
 }  // namespace forage::studio

@@ -91,6 +91,7 @@ const std::map<std::string, Entry>& table() {
         {"layouts", {&Commands::layouts, false}},
         {"layout_read", {&Commands::layout_read, false}},
         {"layout_write", {&Commands::layout_write, false}},
+        {"panels_keep", {&Commands::panels_keep, false}},
         {"panel_read", {&Commands::panel_read, false}},
         {"panel_write", {&Commands::panel_write, false}},
         {"parameters_read", {&Commands::parameters_read, true}},
@@ -99,6 +100,8 @@ const std::map<std::string, Entry>& table() {
         {"digest", {&Commands::digest, false}},
         {"seek", {&Commands::seek, true}},
         {"branch", {&Commands::branch, true}},
+        {"recover", {&Commands::recover, true}},
+        {"forget", {&Commands::forget, false}},
     };
     return entries;
 }

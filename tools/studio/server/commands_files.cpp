@@ -45,6 +45,12 @@ json Commands::layout_write() {
     return {{"file", path}};
 }
 
+json Commands::panels_keep() {
+    s.panels_ = c.at("content");
+    s.saved_version_.reset();
+    return json::object();
+}
+
 std::string Commands::panel_path(const char* ending) {
     auto path = c.at("file").get<std::string>();
     if (!path.ends_with(ending)) throw InputError(fmt::format("the name of the file ends with {}", ending));

@@ -29,4 +29,16 @@ json Commands::branch() {
     return set(assignments, fmt::format("from cycle {}: {}", run().cycle(), assignments.front()), true);
 }
 
+json Commands::recover() {
+    s.recover();
+    s.tell(s.system_message()), s.tell(s.world_message());
+    return {{"cycle", run().cycle()}, {"panels", s.panels_}};
+}
+
+json Commands::forget() {
+    if (s.kept_) s.kept_->forget_killed();
+    s.killed_ = nullptr, s.status_due_ = true;
+    return json::object();
+}
+
 }  // namespace forage::studio

@@ -70,6 +70,15 @@ json Commands::open() {
     input.world = c.value("world", "");
     s.open(std::move(input));
     s.changed_.clear(), s.undo_.clear(), s.redo_.clear();
+    if (s.kept_) {
+        s.kept_->forget_running();
+        try {
+            s.keep();
+        } catch (const std::exception& e) {
+            s.kept_.reset();
+            s.save_failed_ = e.what();
+        }
+    }
     for (auto& [id, page] : s.clients_) page.rebind(run());
     s.tell(s.system_message()), s.tell(s.world_message());
     return json::object();

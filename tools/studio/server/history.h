@@ -24,6 +24,11 @@ class History {
         std::uint64_t cycle;
         nlohmann::json command;
         std::string title;
+        void checkpoint(Archive& archive) {
+            std::string text = command.dump();
+            archive(cycle, text, title);
+            if (archive.loading()) command = nlohmann::json::parse(text);
+        }
     };
 
     /// Forgets everything and notes the state of a run that begins.
@@ -56,6 +61,20 @@ class History {
         run.checkpoint(archive);
         next_action_ = 0;
         while (next_action_ < actions_.size() && actions_[next_action_].cycle < at) ++next_action_;
+    }
+    /// Writes what is needed to come to `now` again in another program: the first checkpoint, the last one
+    /// before `now`, and all actions.
+    void save(Archive& archive, std::uint64_t now) {
+        std::map<std::uint64_t, std::string> kept = {*checkpoints_.begin(),
+                                                     *std::prev(checkpoints_.upper_bound(now))};
+        archive(kept, actions_, last_);
+    }
+    /// Reads what save() wrote. restore() must follow.
+    void load(Archive& archive) {
+        archive(checkpoints_, actions_, last_);
+        bytes_ = 0, interval_ = first_interval;
+        for (const auto& [cycle, bytes] : checkpoints_) bytes_ += bytes.size();
+        if (checkpoints_.empty()) throw ArchiveError("the past of the run has no beginning");
     }
     /// Whether going on from `now` to `cycle` is shorter than from a checkpoint.
     bool ahead(std::uint64_t now, std::uint64_t cycle) const {

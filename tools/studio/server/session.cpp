@@ -26,6 +26,8 @@ double clock_now() {
 
 constexpr double slice = 0.004;          ///< seconds of cycles between two looks for commands
 constexpr double status_interval = 0.1;  ///< s
+constexpr double save_interval = 20;     ///< s, while the run goes
+constexpr double save_rest = 1;          ///< s, while it does not
 constexpr double most_behind = 0.25;     ///< seconds that a paced run may try to catch up
 
 /// The floor and what never moves, exactly on the view of a map.
@@ -47,7 +49,8 @@ Session::Session(RunInput input, Send send, const std::string& plot_config) : se
 
 void Session::open(RunInput input) {
     Diagnostics diagnostics;
-    auto loaded = load(input, diagnostics);
+    const Sources sources = read_sources(input, diagnostics);
+    auto loaded = assemble(sources, input, diagnostics);
     throw_errors(diagnostics);
     auto run = Run::make(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world),
                          {.seed = input.seed}, diagnostics);
@@ -56,7 +59,8 @@ void Session::open(RunInput input) {
     run->start();
     run->title = run_title(input);
     close_sampler();
-    input_ = std::move(input);
+    files_ = source_digests(input, sources);
+    input_ = begun_ = std::move(input);
     run_ = std::move(*run);
     touches_ = &touches;
     failed_.clear(), running_ = false;
@@ -91,8 +95,9 @@ void Session::connect(int client) {
           {"version", FORAGE_VERSION},
           {"capabilities",
            {"run", "streams", "parameters", "manipulations", "sampler", "move", "history", "layouts",
-            "panels", "pictures"}},
-          {"layout", layout_}});
+            "panels", "pictures", "recovery"}},
+          {"layout", layout_},
+          {"panels", panels_}});
     send(system_message());
     send(world_message());
     send(status());
@@ -158,7 +163,9 @@ json Session::status() const {
             {"sampler", std::move(sampler)},
             {"manipulations", std::move(manipulations)},
             {"history", {{"first", history_.first()}, {"last", history_.last()}}},
-            {"trials", trials_status()}};
+            {"trials", trials_status()},
+            {"killed", killed_},
+            {"save_failed", save_failed_}};
 }
 
 void Session::message(int client, std::string_view text) {
@@ -236,15 +243,18 @@ void Session::go_to(std::uint64_t cycle) {
             history_ = std::move(past);
             for (auto& [id, client] : clients_) client.rebind(*run_);
         }
-        history_.restore(*run_, cycle);
-        rewound();
-        while (run_->cycle() < cycle) {
-            repeat_actions();
-            run_->step();
-        }
-        return;
+        return replay(cycle);
     }
     while (run_->cycle() < cycle) this->cycle();
+}
+
+void Session::replay(std::uint64_t cycle) {
+    history_.restore(*run_, cycle);
+    rewound();
+    while (run_->cycle() < cycle) {
+        repeat_actions();
+        run_->step();
+    }
 }
 
 void Session::set_speed(const std::string& mode, double value) {
@@ -286,13 +296,19 @@ double Session::work(double now) {
         tell(status());
         status_at_ = now, status_due_ = false;
     }
+    if (kept_ && saved_version_ != version_ && now - saved_at_ >= (running_ ? save_interval : save_rest))
+        save(), saved_at_ = now;
     bool waits = false;
     if (failed_.empty())
         for (auto& [id, client] : clients_) {
             if (auto frame = client.frame(*run_, now, version_, epoch_)) send_(id, true, std::move(*frame));
             waits = waits || (client.watches() && client.in_flight() < Client::window);
         }
-    if (!running_) return waits || status_due_ ? Client::interval : std::numeric_limits<double>::infinity();
+    if (!running_) {
+        if (waits || status_due_) return Client::interval;
+        return kept_ && saved_version_ != version_ ? std::max(saved_at_ + save_rest - now, 0.001)
+                                                   : std::numeric_limits<double>::infinity();
+    }
     const double wanted = rate();
     if (wanted <= 0) return 0;
     const double due = pace_from_ + static_cast<double>(run_->cycle() - pace_cycle_) / wanted;

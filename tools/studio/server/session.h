@@ -16,6 +16,7 @@
 #include "core/run/run_spec.h"
 #include "tools/studio/server/client.h"
 #include "tools/studio/server/history.h"
+#include "tools/studio/server/recovery.h"
 #include "tools/studio/server/touches.h"
 
 namespace forage::studio {
@@ -31,6 +32,18 @@ class Session {
 
     /// Opens the system. Throws InputError.
     Session(RunInput input, Send send, const std::string& plot_config = {});
+
+    /// Keeps the session in the user's folder of states from now on, so that a killed program loses at most
+    /// half a minute. Throws std::runtime_error.
+    void keep();
+    /// Goes on with the session that was killed. Throws InputError when there is none, or when it cannot go
+    /// on.
+    void recover();
+    /// What is left of a session of this system that was killed: {"cycle", "seconds", "saved"}, the last in
+    /// seconds since 1970; null without one.
+    const json& killed() const { return killed_; }
+    /// The user ends the session: nothing of it is kept.
+    void end();
 
     void connect(int client);
     void disconnect(int client) { clients_.erase(client); }
@@ -64,11 +77,14 @@ class Session {
         std::optional<observe::Recorder> recorder;
     };
 
+    void save();  ///< into the folder of states; notes what goes wrong
+    void look_for_killed();
     void open(RunInput input);  ///< throws InputError, and leaves the run as it is then
     void reset();               ///< opens the same system with the parameters as they are now
     void cycle();               ///< one cycle, with what follows it
     void repeat_actions();
     void go_to(std::uint64_t cycle);
+    void replay(std::uint64_t cycle);  ///< from the last checkpoint before it
     void rewound();
     /// Changes the run as a command says, without undo. Throws InputError.
     void apply(const json& command);
@@ -83,9 +99,10 @@ class Session {
     void set_speed(const std::string& mode, double value);
     double rate() const;  ///< cycles per second that are wanted; 0: as many as possible
 
-    RunInput input_;
+    RunInput input_, begun_;  ///< as the system was opened; and with the parameters of the last stop
     Send send_;
     json layout_;  ///< the layout that pages begin with; null for none
+    json panels_;  ///< the arrangement that a page had last; null for none
     std::optional<Run> run_;
     Touches* touches_ = nullptr;
     History history_;
@@ -97,6 +114,12 @@ class Session {
     };
     std::map<std::string, Change> changed_;  ///< by the name of the parameter
     std::optional<Sampler> sampler_;
+    std::optional<RecoveryFiles> kept_;
+    json killed_;
+    std::string files_;  ///< digest of the files of system and world, when they were read
+    std::string save_failed_;
+    std::optional<std::uint64_t> saved_version_;
+    double saved_at_ = -1e9;
 
     bool running_ = false, status_due_ = true;
     std::string mode_ = "real", failed_;

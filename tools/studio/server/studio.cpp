@@ -12,7 +12,27 @@
 
 namespace forage::studio {
 
-void serve(const StudioOptions& options, const std::function<void(const std::string&)>& ready,
+namespace {
+
+/// Begins to keep the session, or goes on with the one that was killed. Returns what the user should know.
+std::string keep(Session& session, bool recover) {
+    try {
+        session.keep();
+    } catch (const std::exception& e) {
+        if (recover) throw InputError(fmt::format("nothing is kept of sessions: {}", e.what()));
+        return fmt::format("if this program is killed, the run is lost: {}", e.what());
+    }
+    if (recover) return session.recover(), "";
+    if (session.killed().is_null()) return "";
+    return fmt::format(
+        "a session of this system was killed in cycle {}; go on with it with --recover, or in the page",
+        session.killed().at("cycle").get<std::uint64_t>());
+}
+
+}  // namespace
+
+void serve(const StudioOptions& options,
+           const std::function<void(const std::string&, const std::string&)>& ready,
            const std::function<bool()>& interrupted) {
     std::unique_ptr<HttpServer> server;
     Session session(
@@ -21,6 +41,7 @@ void serve(const StudioOptions& options, const std::function<void(const std::str
             server->send(client, binary, std::move(data));
         },
         options.plot_config);
+    const std::string note = keep(session, options.recover);
     std::unique_ptr<EngineThread> engine;
     HttpServer::Options wanted;
     wanted.port = options.port;
@@ -47,11 +68,12 @@ void serve(const StudioOptions& options, const std::function<void(const std::str
     server = std::make_unique<HttpServer>(std::move(wanted));
     engine = std::make_unique<EngineThread>(session);
     std::thread network([&] { server->run(); });
-    ready(fmt::format("http://127.0.0.1:{}/?token={}", server->port(), token));
+    ready(fmt::format("http://127.0.0.1:{}/?token={}", server->port(), token), note);
     while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
     server->stop();
     network.join();
     engine.reset();
+    session.end();
 }
 
 }  // namespace forage::studio

@@ -114,9 +114,14 @@ export interface StatusMessage {
     current: { number: number; seconds: number; smallest_distance: number } | null;
     last: { number: number; seconds: number; reached_target: boolean } | null;
   } | null;
+  /** A session of this system that was killed, and that can go on; `saved` in s since 1970. */
+  killed: { cycle: number; seconds: number; saved: number } | null;
+  /** Why the session cannot be kept for the case of a crash; empty while it can. */
+  save_failed: string;
 }
 
-export interface HelloMessage { type: 'hello'; protocol: number; version: string; capabilities: string[]; layout?: LayoutContent | null }
+/** `layout` is that of --plot-config, `panels` the arrangement that a page had last. */
+export interface HelloMessage { type: 'hello'; protocol: number; version: string; capabilities: string[]; layout?: LayoutContent | null; panels?: LayoutContent | null }
 
 /** A layout file: the panels' arrangement, or the plots of a file of the original. */
 export interface LayoutContent { dock?: unknown; plots?: { kind?: string; type?: string; source?: string; group?: string; sources?: string[] }[] }

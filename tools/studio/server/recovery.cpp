@@ -1,0 +1,89 @@
+#include "tools/studio/server/recovery.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "core/run/checkpoint_file.h"
+
+namespace forage::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int most_studios = 8;  ///< of one system at a time
+
+std::string state_home() {
+    const auto given = [](const char* name) {
+        const char* value = std::getenv(name);
+        return std::string(value && *value == '/' ? value : "");
+    };
+    if (const auto state = given("XDG_STATE_HOME"); !state.empty()) return state;
+    if (const auto home = given("HOME"); !home.empty()) return home + "/.local/state";
+    throw std::runtime_error("neither XDG_STATE_HOME nor HOME names a folder");
+}
+
+}  // namespace
+
+RecoveryFiles::RecoveryFiles(const std::string& system) {
+    const std::string whole = fs::weakly_canonical(system).string();
+    const std::string name = fmt::format("{}/forage/studio/{}-{}", state_home(),
+                                         file_name(fs::path(whole).stem().string()), digest(whole));
+    for (int i = 1;; ++i) {
+        folder_ = i == 1 ? name : fmt::format("{}-{}", name, i);
+        make_directory(folder_);
+        try {
+            hold_ = DirectoryHold(folder_);
+            break;
+        } catch (const std::runtime_error&) {
+            if (i == most_studios) throw;
+        }
+    }
+    remove_unfinished(folder_);
+    if (fs::exists(running_path())) fs::rename(running_path(), killed_path());
+}
+
+void RecoveryFiles::write(std::string_view content) const { write_durably(running_path(), sealed(content)); }
+
+std::optional<std::string> RecoveryFiles::killed() const {
+    if (!fs::exists(killed_path())) return std::nullopt;
+    return read_checkpoint(killed_path());
+}
+
+void RecoveryFiles::forget_killed() const {
+    std::error_code ignored;
+    fs::remove(killed_path(), ignored);
+}
+
+void RecoveryFiles::forget_running() const {
+    std::error_code ignored;
+    fs::remove(running_path(), ignored);
+    if (fs::is_empty(folder_, ignored)) fs::remove(folder_, ignored);
+}
+
+void archive_input(Archive& archive, RunInput& input) {
+    const auto absolute = [](std::string& path) {
+        if (!path.empty()) path = fs::absolute(path).string();
+    };
+    const auto expressions = [&](std::vector<model::Expression>& all) {
+        std::uint64_t count = all.size();
+        archive(count);
+        if (archive.loading()) all.clear();
+        for (std::uint64_t i = 0; i < count; ++i) {
+            if (archive.loading()) all.emplace_back();
+            archive(all[i].text);
+        }
+    };
+    if (!archive.loading()) {
+        absolute(input.system), absolute(input.world), absolute(input.replay);
+        for (auto& path : input.more) absolute(path);
+        for (auto& path : input.plugins) absolute(path);
+    }
+    archive(input.system, input.world, input.more, input.replay, input.plugins, input.lenient, input.seed,
+            input.real_time_factor, input.noise, input.sensor_rates, input.latency, input.game, input.text);
+    expressions(input.settings), expressions(input.robots);
+}
+
+}  // namespace forage::studio

@@ -1,0 +1,43 @@
+// What a program that is killed leaves of its session: a file that is written while the session lives.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/base/archive.h"
+#include "core/base/output_files.h"
+#include "core/run/run_spec.h"
+
+namespace forage::studio {
+
+/// The folder of a system in the user's folder of states ($XDG_STATE_HOME, or ~/.local/state), with the file
+/// of the session that runs and that of one which was killed. Studios of one system have a folder each.
+class RecoveryFiles {
+  public:
+    /// Creates and locks the folder; a file that a killed program left becomes that of the killed session.
+    /// Throws std::runtime_error.
+    explicit RecoveryFiles(const std::string& system);
+    RecoveryFiles(RecoveryFiles&&) = default;
+    RecoveryFiles& operator=(RecoveryFiles&&) = default;
+
+    /// Writes the content of the session that runs. Throws std::runtime_error.
+    void write(std::string_view content) const;
+    /// The content of the killed session; empty without one. Throws CheckpointError when it is damaged.
+    std::optional<std::string> killed() const;
+    void forget_killed() const;
+    /// The session ends as its user wants: nothing of it remains.
+    void forget_running() const;
+
+  private:
+    std::string running_path() const { return folder_ + "/running.forage"; }
+    std::string killed_path() const { return folder_ + "/killed.forage"; }
+
+    std::string folder_;
+    DirectoryHold hold_;
+};
+
+/// How a run was opened, in an archive; its paths become absolute.
+void archive_input(Archive& archive, RunInput& input);
+
+}  // namespace forage::studio
