@@ -3,8 +3,11 @@
 # Exit code 77 when Node, the packages or the browser are missing.
 command -v node >/dev/null || { echo "SKIPPED: there is no Node"; exit 77; }
 [ -d "$2/node_modules/vitest" ] || { echo "SKIPPED: the page was not built, see tools/studio/web"; exit 77; }
-cd "$2" || exit 1
+cp -r "$4/tools/studio/web/tests" "$2" && cd "$2" || exit 1
 case $1 in
     check) npm run --silent check && npm run --silent test ;;
-    browser) exec node tests/browser/page_test.mjs "$3" "$4" ;;
+    browser) for test in tests/browser/*_test.mjs; do
+                 echo "$test"
+                 node "$test" "$3" "$4" || exit
+             done ;;
 esac

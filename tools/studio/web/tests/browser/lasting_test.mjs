@@ -1,0 +1,36 @@
+// What lasts in Chromium against the real program: node lasting_test.mjs FORAGE SOURCES
+import assert from 'node:assert/strict';
+import { resolve } from 'node:path';
+import { inBrowser } from './support.mjs';
+
+const [forage, sources] = process.argv.slice(2).map((p) => resolve(p));
+const step = (text) => console.log(text);
+const cycle = (page) => page.getByLabel('Moment of the run').inputValue().then(Number);
+
+await inBrowser(sources, async ({ context, start, until }) => {
+  step('a studio that is killed: the next one offers to go on, with the panels as they were');
+  const first = start(forage);
+  const page = await context.newPage();
+  page.setDefaultTimeout(10000);
+  await page.goto(await first.address);
+  await page.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
+  await page.getByRole('navigation').getByText('CS', { exact: true }).first().dblclick();
+  await page.getByRole('group', { name: /^Space plot of .*\/CS$/ }).waitFor();
+  for (let i = 0; i < 7; i++) await page.locator('body').press('.');
+  await until(page, 'seven cycles', () => document.querySelector('[aria-label="Moment of the run"]')?.value === '7');
+  await page.waitForTimeout(2500); // it is kept one second after the last change
+  first.child.removeAllListeners('exit');
+  first.child.kill('SIGKILL');
+
+  const second = start(forage);
+  const again = await context.newPage();
+  again.setDefaultTimeout(10000);
+  await again.goto(await second.address);
+  await again.getByText("This system's last session was not closed.").waitFor();
+  assert.equal(await cycle(again), 0);
+  await again.getByRole('button', { name: 'Go on with it' }).click();
+  await until(again, 'cycle 7', () => document.querySelector('[aria-label="Moment of the run"]')?.value === '7');
+  await again.getByRole('group', { name: /^Space plot of .*\/CS$/ }).waitFor();
+  assert.equal(await again.getByText("This system's last session was not closed.").count(), 0);
+  console.log('all fine');
+});
