@@ -219,6 +219,44 @@ class Watching(unittest.TestCase):
                             '-o', folder + '/out', '--quiet'], check=True)
             self.assertEqual(pathlib.Path(file).read_bytes(), pathlib.Path(folder, 'out/run.csv').read_bytes())
 
+    def test_the_sampler_appends_and_numbers_its_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = f'{folder}/light.csv'
+            sample = lambda **more: self.page.do('sample', file=file, sources=['Bug/Light'], **more)  # noqa: E731
+            sample(cycles=20)
+            self.page.do('step', cycles=30)
+            sample(mode='append')
+            self.page.do('step', cycles=5)
+            self.page.do('sample_stop')
+            lines = pathlib.Path(file).read_text().splitlines()
+            self.assertEqual([line.split(',')[0] for line in lines], ['cycle', *map(str, range(20)), *map(str, range(30, 35))])
+            refused = self.page.ask('sample', file=file, sources=['Bug/Motor'], mode='append')
+            self.assertIn('the same sources', refused['problems'][0]['message'])
+            for number in (1, 2):
+                self.assertEqual(sample(mode='sequence')['file'], f'{folder}/light_00{number}.csv')
+                self.page.do('step', cycles=2)
+                self.page.do('sample_stop')
+            self.assertEqual(pathlib.Path(file).read_text().splitlines(), lines)
+            self.assertEqual(sorted(f.name for f in pathlib.Path(folder).iterdir()), ['light.csv', 'light_001.csv', 'light_002.csv'])
+
+    def test_the_sampler_begins_and_ends_with_the_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = f'{folder}/light.dat'
+            self.page.do('stop')
+            self.assertIsNone(self.page.do('sample', file=file, sources=['Bug/Light'], mode='sequence', automatic=True)['file'])
+            for _ in range(2):
+                self.page.do('step', cycles=10)
+                self.page.do('step', cycles=10)
+                self.page.do('stop')
+            names = sorted(f.name for f in pathlib.Path(folder).iterdir())
+            self.assertEqual(names, ['light_001.dat', 'light_002.dat'])
+            texts = [pathlib.Path(folder, n).read_text() for n in names]
+            self.assertEqual(texts[0], texts[1])  # the same run again
+            self.assertEqual(len(texts[0].splitlines()), 2 + 20)
+            self.page.do('sample_stop')
+            self.page.do('step')
+            self.assertEqual(len(list(pathlib.Path(folder).iterdir())), 2)
+
     def test_watching_changes_no_bit(self):
         for source in ('Bug/Light', 'world:poses', 'world:rays', 'world:camera'):
             self.page.do('subscribe', source=source)
@@ -274,6 +312,7 @@ class Crashes(unittest.TestCase):
     def kill(self, studio, page):
         """Kills the studio when it has kept the present cycle."""
         cycle = page.do('digest')['cycle']
+        page.close()
         end = time.monotonic() + 20
         while time.monotonic() < end and not any(cycle.to_bytes(8, 'little') in f.read_bytes()[:300] for f in pathlib.Path(self.state).rglob('running.forage')):
             time.sleep(0.1)

@@ -79,6 +79,9 @@ struct Commands {
     // ---- the sampler ----
     json sample();
     json sample_stop();
+    void begin_sampling(const json& how);
+    /// Begins what was asked to begin with the run.
+    void begin_waiting_sampler();
 
     // ---- layouts ----
     std::filesystem::path folder();

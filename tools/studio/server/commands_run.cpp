@@ -13,6 +13,7 @@ constexpr std::uint64_t most_steps = 1'000'000;
 
 json Commands::start() {
     if (!s.failed_.empty()) throw InputError("the run has failed: " + s.failed_, "stop it, or go back");
+    begin_waiting_sampler();
     s.running_ = s.status_due_ = true;
     s.pace_from_ = s.rate_from_ = -1, s.measured_rate_ = 0;
     return json::object();
@@ -27,6 +28,7 @@ json Commands::step() {
     const auto cycles = whole(c, "cycles", 1, 1, most_steps);
     pause();
     if (!s.failed_.empty()) throw InputError("the run has failed: " + s.failed_, "stop it, or go back");
+    begin_waiting_sampler();
     try {
         for (std::uint64_t i = 0; i < cycles; ++i) s.cycle();
     } catch (const engine::RunError& e) {
@@ -69,6 +71,7 @@ json Commands::open() {
     input.system = c.at("system").get<std::string>();
     input.world = c.value("world", "");
     s.open(std::move(input));
+    s.sampler_waits_ = nullptr;
     s.changed_.clear(), s.undo_.clear(), s.redo_.clear();
     if (s.kept_) {
         s.kept_->forget_running();

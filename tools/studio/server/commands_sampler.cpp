@@ -1,23 +1,74 @@
 #include <fmt/format.h>
 
 #include "core/base/output_files.h"
+#include "core/base/text_file.h"
 #include "core/observe/row_file.h"
 #include "core/run/recordings.h"
 #include "tools/studio/server/command_functions.h"
 
 namespace forage::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The next name of a sequence of files that is free: "light.csv" gives "light_001.csv", "light_002.csv", ...
+std::string next_of_sequence(const fs::path& file) {
+    for (int i = 1;; ++i) {
+        const auto name = file.parent_path() /
+                          fmt::format("{}_{:03}{}", file.stem().string(), i, file.extension().string());
+        if (!fs::exists(name)) return name.string();
+    }
+}
+
+/// Opens partial(file) with the rows that `file` has, to append rows of the same sources. Throws InputError.
+std::unique_ptr<observe::RowFile> continued(observe::RecordingFormat format, const std::string& file,
+                                            const observe::RowFileHeader& header) {
+    if (format != observe::RecordingFormat::csv && format != observe::RecordingFormat::sampler)
+        throw InputError("rows can be appended to a .csv or a .dat file", "record a sequence of files");
+    auto anew = observe::open_row_file(format, partial(file), header);
+    anew->close();
+    const std::string head = read_file(partial(file)), old = read_file(file);
+    if (!old.starts_with(head) || !old.ends_with('\n')) {
+        fs::remove(partial(file));
+        throw InputError(fmt::format("'{}' does not hold the same sources", file),
+                         "record into another file, or a sequence of files");
+    }
+    fs::copy_file(file, partial(file), fs::copy_options::overwrite_existing);
+    return observe::open_row_file(format, partial(file), header, observe::RowFilePosition{0, old.size()});
+}
+
+}  // namespace
 
 json Commands::sample() {
     if (s.sampler_) throw InputError("the sampler runs already", "stop it first");
-    const auto file = c.at("file").get<std::string>();
-    const auto sources = c.at("sources").get<std::vector<std::string>>();
+    const bool automatic = c.value("automatic", false);
+    if (automatic && !s.running_) {
+        s.sampler_waits_ = c;
+        s.status_due_ = true;
+        return {{"file", nullptr}};
+    }
+    begin_sampling(c);
+    if (automatic) s.sampler_waits_ = c;
+    return {{"file", s.sampler_->file}};
+}
+
+void Commands::begin_sampling(const json& how) {
+    std::string file = how.at("file").get<std::string>();
+    const auto mode = how.value("mode", "new");
+    const auto sources = how.at("sources").get<std::vector<std::string>>();
     if (sources.empty()) throw InputError("the sampler needs a source");
-    if (!c.value("overwrite", false) && std::filesystem::exists(file))
-        throw InputError(fmt::format("'{}' exists", file), "overwrite it, or choose another name");
-    const auto every = whole(c, "every", 1, 1, 1'000'000);
+    if (mode == "sequence")
+        file = next_of_sequence(file);
+    else if (mode == "new" && fs::exists(file))
+        throw InputError(fmt::format("'{}' exists", file),
+                         "overwrite it, append to it, or choose another name");
+    else if (mode != "new" && mode != "overwrite" && mode != "append")
+        throw InputError(fmt::format("'{}' is not a way to write a file", mode),
+                         "new, overwrite, append or sequence");
+    const auto every = whole(how, "every", 1, 1, 1'000'000);
     std::vector<model::RecordingSpec> specs;
     for (const auto& source : sources)
-        specs.push_back({{source + "=" + std::filesystem::path(file).filename().string()}, every});
+        specs.push_back({{source + "=" + fs::path(file).filename().string()}, every});
     Diagnostics diagnostics;
     auto files = recorded_files(specs, {}, run().layout(), diagnostics);
     check_output(file, "samples.csv", diagnostics);
@@ -29,18 +80,27 @@ json Commands::sample() {
     header.every = every;
     Session::Sampler sampler;
     sampler.file = file, sampler.every = every;
-    if (const auto cycles = whole(c, "cycles", 0, 1, 1'000'000'000'000)) sampler.left = cycles;
-    sampler.recorder.emplace(observe::open_row_file(files.front().format, partial(file), header),
-                             std::move(files.front().sources),
+    if (const auto cycles = whole(how, "cycles", 0, 1, 1'000'000'000'000)) sampler.left = cycles;
+    auto rows = mode == "append" && fs::exists(file)
+                    ? continued(files.front().format, file, header)
+                    : observe::open_row_file(files.front().format, partial(file), header);
+    sampler.recorder.emplace(std::move(rows), std::move(files.front().sources),
                              observe::Sampling{every, 0, std::nullopt, false});
     s.sampler_ = std::move(sampler);
     s.status_due_ = true;
-    return {{"file", file}};
+}
+
+void Commands::begin_waiting_sampler() {
+    if (s.sampler_waits_.is_null() || s.sampler_ || s.sampled_) return;
+    begin_sampling(s.sampler_waits_);
+    s.sampled_ = true;
 }
 
 json Commands::sample_stop() {
-    if (!s.sampler_) throw InputError("the sampler does not run");
-    const json out = {{"file", s.sampler_->file}, {"rows", s.sampler_->rows}};
+    if (!s.sampler_ && s.sampler_waits_.is_null()) throw InputError("the sampler does not run");
+    json out = {{"file", nullptr}, {"rows", 0}};
+    if (s.sampler_) out = {{"file", s.sampler_->file}, {"rows", s.sampler_->rows}};
+    s.sampler_waits_ = nullptr, s.status_due_ = true;
     s.close_sampler();
     return out;
 }

@@ -63,7 +63,7 @@ void Session::open(RunInput input) {
     input_ = begun_ = std::move(input);
     run_ = std::move(*run);
     touches_ = &touches;
-    failed_.clear(), running_ = false;
+    failed_.clear(), running_ = sampled_ = false;
     history_.begin(*run_);
     rewound();
 }
@@ -161,6 +161,7 @@ json Session::status() const {
             {"divergence", run_->divergence()},
             {"failed", failed_},
             {"sampler", std::move(sampler)},
+            {"sampler_waits", sampler_waits_.is_null() ? json(nullptr) : sampler_waits_.at("file")},
             {"manipulations", std::move(manipulations)},
             {"history", {{"first", history_.first()}, {"last", history_.last()}}},
             {"trials", trials_status()},

@@ -114,6 +114,8 @@ class Session {
     };
     std::map<std::string, Change> changed_;  ///< by the name of the parameter
     std::optional<Sampler> sampler_;
+    json sampler_waits_;    ///< the command of a sampler that begins with the run; null for none
+    bool sampled_ = false;  ///< whether it has begun in this run
     std::optional<RecoveryFiles> kept_;
     json killed_;
     std::string files_;  ///< digest of the files of system and world, when they were read

@@ -106,6 +106,8 @@ export interface StatusMessage {
   divergence: string;
   failed: string;
   sampler: { file: string; rows: number } | null;
+  /** The file of a sampler that begins with the run. */
+  sampler_waits: string | null;
   manipulations: string[];
   history: { first: number; last: number } | null;
   trials: {
