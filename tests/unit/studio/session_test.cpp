@@ -81,6 +81,36 @@ TEST_CASE("frames come at most thirty times a second, and only when something ha
     CHECK(f.frames[1].size() == 1);  // too early
 }
 
+TEST_CASE("what several pages watch is read once, and they get the same") {
+    struct Counting final : StreamSource {
+        int& reads;
+        explicit Counting(int& count) : reads(count) {}
+        std::uint32_t rows() const override { return 1; }
+        std::uint32_t columns() const override { return 2; }
+        std::string label() const override { return "count"; }
+        void read(Run&, std::span<double> out) const override { out[0] = ++reads, out[1] = -1; }
+    };
+    Fixture f;
+    int reads = 0;
+    SharedSource shared(std::make_unique<Counting>(reads));
+    for (std::uint64_t version = 1; version <= 3; ++version)
+        for (int page = 0; page < 3; ++page) {
+            CHECK(shared.numbers(f.session.run(), version)[0] == static_cast<double>(version));
+            CHECK(shared.chunk(f.session.run(), version).highest == static_cast<float>(version));
+        }
+    CHECK(reads == 3);
+    for (int client = 1; client <= 3; ++client) {
+        f.session.connect(client);
+        f.result({{"command", "subscribe"}, {"source", "world:camera"}}, client);
+    }
+    f.result({{"command", "step"}});
+    f.session.work(10);
+    REQUIRE(f.frames[1].size() == 1);
+    CHECK(f.frames[1][0].size() > 1000);
+    CHECK(f.frames[2] == f.frames[1]);
+    CHECK(f.frames[3] == f.frames[1]);
+}
+
 TEST_CASE("a page that leaves gets nothing more") {
     Fixture f;
     f.session.connect(1), f.session.connect(2);
@@ -93,14 +123,15 @@ TEST_CASE("a page that leaves gets nothing more") {
 
 TEST_CASE("the smallest and largest number of several cycles are those of every cycle") {
     Fixture f;
-    auto source = [&] { return find_stream_source(f.session.run(), "Bug/Light", Delivery::append); };
+    SourcePool pool;
+    auto source = [&] { return pool.find(f.session.run(), "Bug/Light", Delivery::append); };
     Stream every(source(), "Bug/Light", Delivery::append, 1),
         tenth(source(), "Bug/Light", Delivery::append, 10);
     for (std::uint64_t cycle = 0; cycle < 105; ++cycle) {
         f.session.run().step();
-        every.after_cycle(f.session.run(), cycle), tenth.after_cycle(f.session.run(), cycle);
+        every.after_cycle(f.session.run(), cycle, cycle), tenth.after_cycle(f.session.run(), cycle, cycle);
     }
-    const Chunk all = every.take(f.session.run()), pairs = tenth.take(f.session.run());
+    const Chunk all = every.take(f.session.run(), 105), pairs = tenth.take(f.session.run(), 105);
     REQUIRE(all.rows == 105);
     REQUIRE(pairs.rows == 10);
     CHECK(pairs.pairs);
@@ -119,7 +150,7 @@ TEST_CASE("the smallest and largest number of several cycles are those of every 
             CHECK(p[row * pairs.columns + 2 * i - 1] == low);
             CHECK(p[row * pairs.columns + 2 * i] == high);
         }
-    CHECK(every.take(f.session.run()).rows == 0);
+    CHECK(every.take(f.session.run(), 106).rows == 0);
 }
 
 TEST_CASE("a run is paced by the clock, and does not catch up a long pause") {

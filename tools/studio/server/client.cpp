@@ -24,12 +24,12 @@ std::uint32_t Client::subscribe(Stream stream) {
     return next_++;
 }
 
-void Client::rebind(Run& run) {
+void Client::rebind(Run& run, SourcePool& sources) {
     for (auto it = streams_.begin(); it != streams_.end();) {
         const Stream& old = it->second;
         try {
-            it->second = Stream(find_stream_source(run, old.text(), old.delivery()), old.text(),
-                                old.delivery(), old.every());
+            it->second = Stream(sources.find(run, old.text(), old.delivery()), old.text(), old.delivery(),
+                                old.every());
             ++it;
         } catch (const InputError&) {
             it = streams_.erase(it);
@@ -51,14 +51,13 @@ void Client::list() {
         if (stream.delivery() == Delivery::append) every_cycle_.push_back(&stream);
 }
 
-std::optional<std::string> Client::frame(Run& run, double now, std::uint64_t version, std::uint32_t epoch) {
-    if (streams_.empty() || in_flight() >= window || now - sent_at_ < interval || version_ == version)
-        return std::nullopt;
-    version_ = version, sent_at_ = now;
+std::optional<std::string> Client::frame(Run& run, std::uint64_t version, std::uint32_t epoch) {
+    if (streams_.empty() || in_flight() >= window || version_ == version) return std::nullopt;
+    version_ = version;
     const std::size_t head = 32 + 32 * streams_.size();
     std::string payload, table;
     for (auto& [number, stream] : streams_) {
-        const Chunk c = stream.take(run);
+        const Chunk& c = stream.take(run, version);
         payload.resize((payload.size() + 7) / 8 * 8);
         put(table, number), put(table, c.rows), put(table, c.columns);
         put(table, static_cast<std::uint8_t>(c.type));

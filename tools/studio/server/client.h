@@ -16,7 +16,6 @@ namespace forage::studio {
 class Client {
   public:
     static constexpr std::uint32_t window = 2;
-    static constexpr double interval = 1. / 30;  ///< seconds between two frames
     static constexpr std::size_t most_streams = 256;
 
     /// Returns the number of the stream. Throws InputError when the page has too many.
@@ -25,7 +24,7 @@ class Client {
     const Stream& stream(std::uint32_t number) const { return streams_.at(number); }
     bool watches() const { return !streams_.empty(); }
     /// Subscribes everything anew in a run that replaces the one before; streams that it does not have end.
-    void rebind(Run& run);
+    void rebind(Run& run, SourcePool& sources);
 
     /// Acknowledges all frames up to `seq`. Numbers of frames that were not sent are ignored.
     void acknowledge(std::uint32_t seq) {
@@ -33,15 +32,15 @@ class Client {
     }
     std::uint32_t in_flight() const { return sent_ - acknowledged_; }
 
-    void after_cycle(Run& run, std::uint64_t cycle) {
-        for (Stream* stream : every_cycle_) stream->after_cycle(run, cycle);
+    void after_cycle(Run& run, std::uint64_t cycle, std::uint64_t version) {
+        for (Stream* stream : every_cycle_) stream->after_cycle(run, cycle, version);
     }
     void clear() {
         for (auto& [number, stream] : streams_) stream.clear();
     }
-    /// The next frame; empty when the page has no credit, the last frame was sent less than `interval` before
-    /// `now` (s), or nothing has changed since: `version` is a number that grows with each change of the run.
-    std::optional<std::string> frame(Run& run, double now, std::uint64_t version, std::uint32_t epoch);
+    /// The next frame; empty when the page has no credit, or nothing has changed since the last one:
+    /// `version` is a number that grows with each change of the run.
+    std::optional<std::string> frame(Run& run, std::uint64_t version, std::uint32_t epoch);
 
   private:
     void list();
@@ -50,7 +49,6 @@ class Client {
     std::vector<Stream*> every_cycle_;  ///< those of `streams_` that are not of the latest numbers only
     std::uint32_t next_ = 1, sent_ = 0, acknowledged_ = 0;
     std::optional<std::uint64_t> version_;  ///< of the last frame
-    double sent_at_ = -1;
 };
 
 }  // namespace forage::studio

@@ -22,7 +22,7 @@ json Commands::subscribe() {
     if (wanted != "latest" && wanted != "append")
         throw InputError(fmt::format("'{}' is not a class of streams", wanted), "latest or append");
     const Delivery delivery = wanted == "append" ? Delivery::append : Delivery::latest;
-    Stream stream(find_stream_source(run(), text, delivery), text, delivery,
+    Stream stream(s.sources_.find(run(), text, delivery), text, delivery,
                   whole(c, "every", 1, 1, 1'000'000'000));
     const auto number = it->second.subscribe(std::move(stream));
     const auto& kept = it->second.stream(number);

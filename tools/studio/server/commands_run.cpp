@@ -82,7 +82,7 @@ json Commands::open() {
             s.save_failed_ = e.what();
         }
     }
-    for (auto& [id, page] : s.clients_) page.rebind(run());
+    s.rebind();
     s.tell(s.system_message()), s.tell(s.world_message());
     return json::object();
 }

@@ -24,11 +24,12 @@ double clock_now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-constexpr double slice = 0.004;          ///< seconds of cycles between two looks for commands
-constexpr double status_interval = 0.1;  ///< s
-constexpr double save_interval = 20;     ///< s, while the run goes
-constexpr double save_rest = 1;          ///< s, while it does not
-constexpr double most_behind = 0.25;     ///< seconds that a paced run may try to catch up
+constexpr double slice = 0.004;             ///< seconds of cycles between two looks for commands
+constexpr double status_interval = 0.1;     ///< s
+constexpr double frame_interval = 1. / 30;  ///< s
+constexpr double save_interval = 20;        ///< s, while the run goes
+constexpr double save_rest = 1;             ///< s, while it does not
+constexpr double most_behind = 0.25;        ///< seconds that a paced run may try to catch up
 
 /// The floor and what never moves, exactly on the view of a map.
 plot::Picture floor_picture(const bug::World& world) {
@@ -78,7 +79,12 @@ void Session::reset() {
     input_ = as_opened, input_.seed = seed;
     for (const auto& [group, manipulation] : touched) touches_->put(manipulation.settings());
     history_.begin(*run_);
-    for (auto& [id, client] : clients_) client.rebind(*run_);
+    rebind();
+}
+
+void Session::rebind() {
+    sources_.clear();
+    for (auto& [id, client] : clients_) client.rebind(*run_, sources_);
 }
 
 void Session::rewound() {
@@ -218,7 +224,7 @@ void Session::cycle() {
     ++version_;
     history_.after_cycle(*run_);
     const std::uint64_t done = run_->cycle() - 1;
-    for (auto& [id, client] : clients_) client.after_cycle(*run_, done);
+    for (auto& [id, client] : clients_) client.after_cycle(*run_, done, version_);
     if (!sampler_) return;
     sampler_->recorder->record(run_->simulation());
     if (done % sampler_->every == 0) ++sampler_->rows;
@@ -242,7 +248,7 @@ void Session::go_to(std::uint64_t cycle) {
             const RunInput input = input_;
             open(input);
             history_ = std::move(past);
-            for (auto& [id, client] : clients_) client.rebind(*run_);
+            rebind();
         }
         return replay(cycle);
     }
@@ -299,21 +305,25 @@ double Session::work(double now) {
     }
     if (kept_ && saved_version_ != version_ && now - saved_at_ >= (running_ ? save_interval : save_rest))
         save(), saved_at_ = now;
-    bool waits = false;
-    if (failed_.empty())
-        for (auto& [id, client] : clients_) {
-            if (auto frame = client.frame(*run_, now, version_, epoch_)) send_(id, true, std::move(*frame));
-            waits = waits || (client.watches() && client.in_flight() < Client::window);
-        }
+    // All pages get their frames at the same time, so that what several of them watch is drawn once.
+    bool waits = false, sent = false;
+    const bool due = failed_.empty() && now - frames_at_ >= frame_interval;
+    for (auto& [id, client] : clients_) {
+        if (due)
+            if (auto frame = client.frame(*run_, version_, epoch_))
+                send_(id, true, std::move(*frame)), sent = true;
+        waits = waits || (failed_.empty() && client.watches() && client.in_flight() < Client::window);
+    }
+    if (sent) frames_at_ = now;
     if (!running_) {
-        if (waits || status_due_) return Client::interval;
+        if (waits || status_due_) return frame_interval;
         return kept_ && saved_version_ != version_ ? std::max(saved_at_ + save_rest - now, 0.001)
                                                    : std::numeric_limits<double>::infinity();
     }
     const double wanted = rate();
     if (wanted <= 0) return 0;
-    const double due = pace_from_ + static_cast<double>(run_->cycle() - pace_cycle_) / wanted;
-    return std::clamp(due - clock_now(), 0.0, Client::interval);
+    const double next = pace_from_ + static_cast<double>(run_->cycle() - pace_cycle_) / wanted;
+    return std::clamp(next - clock_now(), 0.0, frame_interval);
 }
 
 std::string Session::picture(const std::string& what, const std::string& format) {

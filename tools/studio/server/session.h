@@ -86,6 +86,7 @@ class Session {
     void go_to(std::uint64_t cycle);
     void replay(std::uint64_t cycle);  ///< from the last checkpoint before it
     void rewound();
+    void rebind();  ///< subscribes for all pages anew: the run is another one
     /// Changes the run as a command says, without undo. Throws InputError.
     void apply(const json& command);
     /// Applies and notes a command, and tells the pages.
@@ -107,6 +108,7 @@ class Session {
     Touches* touches_ = nullptr;
     History history_;
     std::map<int, Client> clients_;
+    SourcePool sources_;
     std::vector<Undo> undo_, redo_;
     struct Change {
         std::string assignment;
@@ -128,7 +130,7 @@ class Session {
     double value_ = 1;
     std::uint32_t epoch_ = 1;
     std::uint64_t generation_ = 0, version_ = 0;
-    double pace_from_ = -1, status_at_ = -1;
+    double pace_from_ = -1, status_at_ = -1, frames_at_ = -1;
     std::uint64_t pace_cycle_ = 0;
     double rate_from_ = -1, measured_rate_ = 0;
     std::uint64_t rate_cycle_ = 0;

@@ -111,7 +111,7 @@ void Session::recover() {
     for (const auto& u : rest.at("redo")) redo_.push_back({u.at(0), u.at(1), u.at(2).get<std::string>()});
     panels_ = rest.at("panels");
     set_speed(rest.at("mode").get<std::string>(), rest.at("value").get<double>());
-    for (auto& [id, client] : clients_) client.rebind(*run_);
+    rebind();
     save();
     if (save_failed_.empty()) kept_->forget_killed();
     killed_ = nullptr;

@@ -159,6 +159,17 @@ std::string bytes_of(std::span<const double> numbers) {
     return out;
 }
 
+/// The lowest and highest of the finite numbers; of rows of `row` numbers without the first, the cycle.
+void set_range(Chunk& chunk, std::span<const double> numbers, std::size_t row) {
+    float low = std::numeric_limits<float>::infinity(), high = -low;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (row > 0 && i % row == 0) continue;
+        if (const auto v = static_cast<float>(numbers[i]); std::isfinite(v))
+            low = std::min(low, v), high = std::max(high, v);
+    }
+    chunk.lowest = low <= high ? low : 0, chunk.highest = low <= high ? high : 0;
+}
+
 }  // namespace
 
 std::unique_ptr<StreamSource> find_stream_source(Run& run, std::string_view text, Delivery delivery) {
@@ -182,32 +193,58 @@ std::unique_ptr<StreamSource> find_stream_source(Run& run, std::string_view text
     return out;
 }
 
-Stream::Stream(std::unique_ptr<StreamSource> source, std::string text, Delivery delivery, std::uint64_t every)
+std::shared_ptr<SharedSource> SourcePool::find(Run& run, const std::string& text, Delivery delivery) {
+    auto& known = sources_[{text, delivery}];
+    if (auto shared = known.lock()) return shared;
+    std::erase_if(sources_, [](const auto& s) { return s.second.expired(); });
+    auto made = std::make_shared<SharedSource>(find_stream_source(run, text, delivery));
+    sources_[{text, delivery}] = made;
+    return made;
+}
+
+std::span<const double> SharedSource::numbers(Run& run, std::uint64_t version) {
+    if (read_ != version) source_->read(run, numbers_), read_ = version;
+    return numbers_;
+}
+
+const Chunk& SharedSource::chunk(Run& run, std::uint64_t version) {
+    if (packed_ == version) return chunk_;
+    const auto all = numbers(run, version);
+    chunk_.type = source_->type();
+    chunk_.rows = source_->rows(), chunk_.columns = source_->columns();
+    set_range(chunk_, all, 0);
+    chunk_.bytes = chunk_.type == Type::float32 ? bytes_of<float>(all) : bytes_of<std::uint8_t>(all);
+    packed_ = version;
+    return chunk_;
+}
+
+Stream::Stream(std::shared_ptr<SharedSource> source, std::string text, Delivery delivery, std::uint64_t every)
     : source_(std::move(source)),
       text_(std::move(text)),
       delivery_(delivery),
-      every_(std::max<std::uint64_t>(every, 1)),
-      now_(static_cast<std::size_t>(source_->rows()) * source_->columns()) {
-    row_size_ = 1 + now_.size() * (every_ > 1 ? 2 : 1);
+      every_(std::max<std::uint64_t>(every, 1)) {
+    const auto cells = static_cast<std::size_t>(this->source().rows()) * this->source().columns();
+    row_size_ = 1 + cells * (every_ > 1 ? 2 : 1);
     most_rows_ = std::max<std::size_t>(64, most_kept / (row_size_ * sizeof(double)));
 }
 
 void Stream::clear() { rows_.clear(), joined_ = 0, gap_ = false; }
 
-void Stream::after_cycle(Run& run, std::uint64_t cycle) {
+void Stream::after_cycle(Run& run, std::uint64_t cycle, std::uint64_t version) {
     if (delivery_ != Delivery::append) return;
-    source_->read(run, now_);
-    if (every_ == 1) return push(cycle, now_);
+    const auto now = source_->numbers(run, version);
+    if (every_ == 1) return push(cycle, now);
     if (joined_ == 0) {
-        first_ = cycle, low_ = high_ = now_;
+        first_ = cycle;
+        low_.assign(now.begin(), now.end()), high_ = low_;
     } else {
-        for (std::size_t i = 0; i < now_.size(); ++i)
-            low_[i] = std::min(low_[i], now_[i]), high_[i] = std::max(high_[i], now_[i]);
+        for (std::size_t i = 0; i < now.size(); ++i)
+            low_[i] = std::min(low_[i], now[i]), high_[i] = std::max(high_[i], now[i]);
     }
     if (++joined_ < every_) return;
     joined_ = 0;
-    std::vector<double> pairs(2 * now_.size());
-    for (std::size_t i = 0; i < now_.size(); ++i) pairs[2 * i] = low_[i], pairs[2 * i + 1] = high_[i];
+    std::vector<double> pairs(2 * now.size());
+    for (std::size_t i = 0; i < now.size(); ++i) pairs[2 * i] = low_[i], pairs[2 * i + 1] = high_[i];
     push(first_, pairs);
 }
 
@@ -220,33 +257,16 @@ void Stream::push(std::uint64_t cycle, std::span<const double> numbers) {
     rows_.insert(rows_.end(), numbers.begin(), numbers.end());
 }
 
-Chunk Stream::take(Run& run) {
-    Chunk out;
-    std::span<const double> numbers;
-    if (delivery_ == Delivery::append) {
-        out.type = Type::float64;
-        out.columns = static_cast<std::uint32_t>(row_size_);
-        out.rows = static_cast<std::uint32_t>(rows_.size() / row_size_);
-        out.gap = std::exchange(gap_, false), out.pairs = every_ > 1;
-        numbers = rows_;
-    } else {
-        out.type = source_->type();
-        out.rows = source_->rows(), out.columns = source_->columns();
-        source_->read(run, now_);
-        numbers = now_;
-    }
-    float low = std::numeric_limits<float>::infinity(), high = -low;
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        if (delivery_ == Delivery::append && i % row_size_ == 0) continue;  // the cycle
-        if (const auto v = static_cast<float>(numbers[i]); std::isfinite(v))
-            low = std::min(low, v), high = std::max(high, v);
-    }
-    if (low <= high) out.lowest = low, out.highest = high;
-    out.bytes = out.type == Type::float32   ? bytes_of<float>(numbers)
-                : out.type == Type::float64 ? bytes_of<double>(numbers)
-                                            : bytes_of<std::uint8_t>(numbers);
-    if (delivery_ == Delivery::append) rows_.clear();
-    return out;
+const Chunk& Stream::take(Run& run, std::uint64_t version) {
+    if (delivery_ == Delivery::latest) return source_->chunk(run, version);
+    chunk_.type = Type::float64;
+    chunk_.columns = static_cast<std::uint32_t>(row_size_);
+    chunk_.rows = static_cast<std::uint32_t>(rows_.size() / row_size_);
+    chunk_.gap = std::exchange(gap_, false), chunk_.pairs = every_ > 1;
+    set_range(chunk_, rows_, row_size_);
+    chunk_.bytes = bytes_of<double>(rows_);
+    rows_.clear();
+    return chunk_;
 }
 
 }  // namespace forage::studio

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <map>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/observe/observer.h"
@@ -47,33 +50,66 @@ class StreamSource {
 /// "world:camera:ROBOT", "world:trail:ROBOT". Throws InputError.
 std::unique_ptr<StreamSource> find_stream_source(Run& run, std::string_view text, Delivery delivery);
 
+/// A source that all its streams share: it is read, drawn and packed once, however many pages watch it. A
+/// version is a number that grows with each change of the run.
+class SharedSource {
+  public:
+    explicit SharedSource(std::unique_ptr<StreamSource> source)
+        : source_(std::move(source)),
+          numbers_(static_cast<std::size_t>(source_->rows()) * source_->columns()) {}
+    const StreamSource& source() const { return *source_; }
+    /// The numbers as they are now.
+    std::span<const double> numbers(Run& run, std::uint64_t version);
+    /// The same, for a frame.
+    const Chunk& chunk(Run& run, std::uint64_t version);
+
+  private:
+    std::unique_ptr<StreamSource> source_;
+    std::vector<double> numbers_;
+    Chunk chunk_;
+    std::optional<std::uint64_t> read_, packed_;  ///< versions
+};
+
+/// The sources of a run that pages watch.
+class SourcePool {
+  public:
+    /// The source that a page names, as find_stream_source() finds it.
+    std::shared_ptr<SharedSource> find(Run& run, const std::string& text, Delivery delivery);
+    /// Forgets all: the run is replaced by another one.
+    void clear() { sources_.clear(); }
+
+  private:
+    std::map<std::pair<std::string, Delivery>, std::weak_ptr<SharedSource>> sources_;
+};
+
 /// A source with a delivery. A stream of every cycle keeps the rows that were not taken, up to a bound.
 class Stream {
   public:
-    Stream(std::unique_ptr<StreamSource> source, std::string text, Delivery delivery, std::uint64_t every);
+    Stream(std::shared_ptr<SharedSource> source, std::string text, Delivery delivery, std::uint64_t every);
 
     const std::string& text() const { return text_; }
     Delivery delivery() const { return delivery_; }
     std::uint64_t every() const { return every_; }
-    const StreamSource& source() const { return *source_; }
+    const StreamSource& source() const { return source_->source(); }
 
     /// Notes the numbers of the last cycle, if the stream is one of every cycle.
-    void after_cycle(Run& run, std::uint64_t cycle);
-    /// The newest numbers, or the rows since the last call.
-    Chunk take(Run& run);
+    void after_cycle(Run& run, std::uint64_t cycle, std::uint64_t version);
+    /// The newest numbers, or the rows since the last call. Valid until the next call.
+    const Chunk& take(Run& run, std::uint64_t version);
     /// Forgets the rows: the run begins anew or goes back.
     void clear();
 
   private:
     void push(std::uint64_t cycle, std::span<const double> numbers);
 
-    std::unique_ptr<StreamSource> source_;
+    std::shared_ptr<SharedSource> source_;
     std::string text_;
     Delivery delivery_;
     std::uint64_t every_, first_ = 0, joined_ = 0;  ///< of the row that grows
     std::size_t row_size_, most_rows_;
-    std::vector<double> now_, low_, high_, rows_;
+    std::vector<double> low_, high_, rows_;
     bool gap_ = false;
+    Chunk chunk_;
 };
 
 }  // namespace forage::studio
