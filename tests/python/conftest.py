@@ -3,6 +3,7 @@ import pathlib
 import subprocess
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 import forage
 
@@ -10,6 +11,11 @@ PROJECT = pathlib.Path(__file__).parents[2]
 SYSTEMS = PROJECT / "systems"
 SMALL = SYSTEMS / "cookbook/oscillator.iqr"  # without a world
 WORLD = SYSTEMS / "worlds/basic_arena.world"
+
+# The same examples in each run, so that a failure is that of a change. The health checks are about how fast examples are made:
+# they fail by chance with few examples, and on a busy machine.
+settings.register_profile("forage", deadline=None, derandomize=True, database=None, suppress_health_check=list(HealthCheck))
+settings.load_profile("forage")
 
 
 def outside():

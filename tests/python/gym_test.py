@@ -339,7 +339,7 @@ def test_an_environment_is_not_used_by_two_threads_at_once():
     assert 0 < len(refused) < 4 and "another thread" in refused[0]
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(st.lists(st.integers(0, 8), min_size=1, max_size=40), st.integers(0, 2**31))
 def test_any_actions_give_observations_in_the_space_and_the_same_ones_again(actions, seed):
     def play():

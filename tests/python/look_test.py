@@ -4,7 +4,7 @@ import warnings
 
 import numpy
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
@@ -115,7 +115,7 @@ def test_parameters_are_read_written_and_checked(dac):
         params["Bug/Light.threshold"] = -1e9
 
 
-@settings(max_examples=50, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=50)
 @given(value=st.floats(allow_nan=False, allow_infinity=False))
 def test_a_parameter_keeps_every_number(dac, value):
     with warnings.catch_warnings():
@@ -124,7 +124,7 @@ def test_a_parameter_keeps_every_number(dac, value):
     assert dac.params["Bug/Light.threshold"] == value
 
 
-@settings(max_examples=50, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=50)
 @given(values=arrays.arrays(float, (1, 32), elements=st.floats(-1e6, 1e6)))
 def test_a_clamped_group_has_the_numbers_of_the_array(dac, values):
     with dac["Bug/Light"].clamp(values):

@@ -300,7 +300,7 @@ functions = some.one_of(some.builds(DistanceFunction.uniform, numbers), some.bui
                         some.builds(DistanceFunction.block, numbers, numbers, sizes, sizes))
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(patterns, arborizations, functions, functions, some.text(min_size=1, alphabet=some.characters(blacklist_categories=("Cs", "Cc", "Cn", "Co"))))
 def test_everything_that_is_built_is_read_again(pattern, arborization, attenuation, delay, name):
     system = forage.System(name)

@@ -269,7 +269,7 @@ def test_ctrl_c_leaves_a_run_that_can_go_on():
     assert (run["P/A"].act == run.cycle).all()
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(st.floats(-1e6, 1e6), st.integers(1, 40), st.integers(1, 9))
 def test_states_begin_with_their_values(initial, width, height):
     forage.neuron(name="neuronStill")(type("Still", (), {"vm": forage.state(initial), "update": lambda self, cells: None}))
