@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/number.h"
 #include "core/connectivity/connect.h"
 #include "core/model/lookup.h"
 #include "core/observe/source.h"
