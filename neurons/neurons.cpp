@@ -6,6 +6,7 @@
 #include "neurons/pyramid_apical_shunt.h"
 #include "neurons/random_spike.h"
 #include "neurons/sigmoid.h"
+#include "neurons/tanh.h"
 #include "neurons/td_value.h"
 
 namespace forage {
@@ -17,6 +18,7 @@ void add_neurons(Registry& registry) {
     registry.add(neuron_type<PyramidApicalShunt>());
     registry.add(neuron_type<RandomSpike>());
     registry.add(neuron_type<Sigmoid>());
+    registry.add(neuron_type<TanH>());
     registry.add(neuron_type<TDValue>());
 }
 

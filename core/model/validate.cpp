@@ -10,6 +10,7 @@
 #include "core/base/exception_message.h"
 #include "core/base/named_file.h"
 #include "core/model/lookup.h"
+#include "core/model/original_types.h"
 
 namespace forage::model {
 namespace {
@@ -24,12 +25,21 @@ std::string_view name_of(InputKind kind) {
     return std::array{"excitatory", "inhibitory", "modulatory"}[static_cast<std::size_t>(kind)];
 }
 
-/// A hint for an unknown type.
-std::string suggest_type(const std::string& name, const std::vector<std::string>& known) {
-    const std::string out = suggest(name, known);
-    if (out.starts_with("did you mean")) return out;
-    return out +
-           "; if it comes from a plugin: --plugin PATH, or its .so in a folder 'plugins' beside the system";
+struct UnknownType {
+    std::string message, hint;
+};
+
+/// What to say about a type that is not known. `kind` is "neuron", "synapse" or "module".
+UnknownType unknown_type(std::string_view kind, const std::string& name,
+                         const std::vector<std::string>& known) {
+    if (const auto* original = find_missing_original_type(name))
+        return {fmt::format("Forage does not have the original's {}: {}", name, original->reason),
+                std::string(original->hint)};
+    std::string hint = suggest(name, known);
+    if (!hint.starts_with("did you mean"))
+        hint +=
+            "; if it comes from a plugin: --plugin PATH, or its .so in a folder 'plugins' beside the system";
+    return {fmt::format("there is no {} type '{}'", kind, name), hint};
 }
 
 class Validator {
@@ -168,9 +178,10 @@ class Validator {
         if (const NeuronType* type = registry_.neuron(group.neuron.type)) {
             check_settings(group.neuron, type->parameters);
             check_with_type(group.neuron, *type, trim(group.name));
-        } else
-            out_.error(group.neuron.at, fmt::format("there is no neuron type '{}'", group.neuron.type),
-                       suggest_type(group.neuron.type, names(registry_.neurons())));
+        } else {
+            const auto unknown = unknown_type("neuron", group.neuron.type, names(registry_.neurons()));
+            out_.error(group.neuron.at, unknown.message, unknown.hint);
+        }
         check_topology(group);
     }
 
@@ -196,8 +207,7 @@ class Validator {
         const ModuleUse& use = *process.module;
         const ModuleType* type = registry_.module(use.type);
         if (!type) {
-            const std::string message = fmt::format("there is no module type '{}'", use.type);
-            const std::string hint = suggest_type(use.type, names(registry_.modules()));
+            const auto [message, hint] = unknown_type("module", use.type, names(registry_.modules()));
             if (process.module_enabled)
                 out_.error(use.at, message, hint);
             else
@@ -338,8 +348,8 @@ class Validator {
             check_with_type(*c.synapse, *type, trim(c.name));
             check_feedback(*c.synapse, *type, target);
         } else {
-            out_.error(c.synapse->at, fmt::format("there is no synapse type '{}'", c.synapse->type),
-                       suggest_type(c.synapse->type, names(registry_.synapses())));
+            const auto unknown = unknown_type("synapse", c.synapse->type, names(registry_.synapses()));
+            out_.error(c.synapse->at, unknown.message, unknown.hint);
         }
         check_attenuation(c.attenuation);
         check_delay(c.delay);

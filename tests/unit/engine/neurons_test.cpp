@@ -6,6 +6,7 @@
 
 #include "core/model/build.h"
 #include "core/model/validate.h"
+#include "neurons/tanh.h"
 #include "tests/support/catch.h"
 
 using namespace forage;
@@ -41,13 +42,10 @@ struct Cells {
 TEST_CASE("A NaN passes through a graded neuron, and does not make a spiking neuron spike") {
     Registry registry;
     add_neurons(registry);
-    const std::map<std::string, bool> passes{{"neuronLinearThreshold", true},
-                                             {"neuronSigmoid", true},
-                                             {"neuronNumeric", true},
-                                             {"neuronIntegrateFire", false},
-                                             {"neuronPyramidApicalShunt", false},
-                                             {"neuronTDValue", false},
-                                             {"neuronRandomSpike", false}};
+    const std::map<std::string, bool> passes{
+        {"neuronLinearThreshold", true}, {"neuronSigmoid", true},        {"neuronTanH", true},
+        {"neuronNumeric", true},         {"neuronIntegrateFire", false}, {"neuronPyramidApicalShunt", false},
+        {"neuronTDValue", false},        {"neuronRandomSpike", false}};
     REQUIRE(passes.size() == registry.neurons().size());
     for (const auto& [name, type] : registry.neurons()) {
         INFO(name);
@@ -60,6 +58,22 @@ TEST_CASE("A NaN passes through a graded neuron, and does not make a spiking neu
             CHECK(cells.output[1] == 1);
         }
     }
+}
+
+TEST_CASE("The hyperbolic tangent leaks like the other types, and is odd around its midpoint") {
+    TanH type;
+    type.slope = 2;
+    type.midpoint = 0.25;
+    type.membrane.persistence = 0.5;
+    TanH::Cell cell;
+    for (const auto& [excitation, inhibition, vm] :
+         {std::tuple{1.0, 0.0, 1.0}, {0.0, 0.0, 0.5}, {0.0, 0.25, 0.0}, {0.25, 0.0, 0.25}}) {
+        Input in{excitation, inhibition};
+        type.update(cell, in);
+        CHECK(cell.vm == vm);
+        CHECK(cell.act == std::tanh(2 * (vm - 0.25)));
+    }
+    CHECK(cell.act == 0);
 }
 
 TEST_CASE(
