@@ -35,7 +35,21 @@ std::string loop(PreparedRun& p, const RunCallbacks& callbacks) {
     auto next_look = begun;
     int looks = 0;                          // one per second
     bool told = !run.divergence().empty();  // reported before the stop
+    const auto interruption = [&] {
+        auto why = callbacks.interrupted ? callbacks.interrupted() : std::string();
+        if (!why.empty() && p.checkpoints) p.checkpoints->write(run);
+        return why;
+    };
+    if (p.remote) p.remote->tell = callbacks.commanded;
     while (!p.stop.reached(run)) {
+        if (p.remote) {
+            p.remote->obey(run);
+            for (; p.remote->paused() && !p.remote->quit(); p.remote->obey(run)) {
+                if (auto why = interruption(); !why.empty()) return why;
+                p.remote->wait();
+            }
+            if (p.remote->quit()) return {};
+        }
         run.step();
         if (const auto now = Clock::now(); now >= next_look) {
             next_look = now + std::chrono::seconds(1);
@@ -53,10 +67,7 @@ std::string loop(PreparedRun& p, const RunCallbacks& callbacks) {
             if (callbacks.diverged) callbacks.diverged(run.divergence());
         }
         if (callbacks.after_cycle) callbacks.after_cycle();
-        if (auto why = callbacks.interrupted ? callbacks.interrupted() : std::string(); !why.empty()) {
-            if (p.checkpoints) p.checkpoints->write(run);
-            return why;
-        }
+        if (auto why = interruption(); !why.empty()) return why;
         if (auto why = p.stop.timeout_reason(run); !why.empty()) return why;
     }
     return {};

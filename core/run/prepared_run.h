@@ -11,6 +11,7 @@
 #include "core/observe/group_statistics.h"
 #include "core/observe/schedule.h"
 #include "core/run/checkpoint_writer.h"
+#include "core/run/remote_control.h"
 #include "core/run/result_files.h"
 #include "core/run/run.h"
 #include "core/run/run_measures.h"
@@ -28,6 +29,7 @@ struct PreparedRun {
     const observe::Schedule* schedule;  ///< an observer of the run, like the next two
     RunMeasures* measures;
     CheckpointWriter* checkpoints;               ///< null in a run without checkpoints
+    RemoteControl* remote;                       ///< null in a run without remote control
     const observe::GroupStatistics* statistics;  ///< null unless the spec asks for an explanation
     /// Returns sentences on what drove the robots, after the run; empty like `statistics`.
     std::function<std::vector<std::string>()> commands;
@@ -53,12 +55,15 @@ struct RunCallbacks {
     /// Called once, after a few seconds, when the rest of the run will take more than an hour at this rate:
     /// the time that is left, s.
     std::function<void(double)> takes_long = {};
+    /// Called with a line about each command of remote control.
+    std::function<void(const std::string&)> commanded = {};
     /// Called once, with the first number that is not finite.
     std::function<void(const std::string&)> diverged = {};
 };
 
-/// Runs until the stop condition holds or something stops the run. Then writes the observers' files and
-/// run.json into spec.directory. When one file fails, the others are still written.
+/// Runs until the stop condition holds, a command of remote control ends it, or something stops the run. Then
+/// writes the observers' files and run.json into spec.directory. When one file fails, the others are still
+/// written.
 RunOutcome run_to_end(PreparedRun& prepared, const RunCallbacks& callbacks = {});
 
 /// The title of a run's pictures, such as "dac.iqr in arena.world, seed 1".

@@ -176,6 +176,7 @@ void Recordings::reopen(const File& f) const {
 
 void Recordings::checkpoint(Archive& archive) {
     archive.same(all_.size(), "the number of recordings");
+    archive(paused_);
     std::vector<observe::RowFilePosition> positions;
     for (auto& f : all_) {
         archive.same(f.path.substr(directory_.size()), "a recording");

@@ -45,7 +45,12 @@ class Recordings final : public Observer {
     /// renamed. Throws std::runtime_error.
     void checkpoint(Archive& archive) override;
 
+    /// Leaves out the cycles from now on, until it is called with false. A mean of several cycles then begins
+    /// anew.
+    void pause(bool paused) { paused_ = paused; }
+
     void after_cycle(RunView& run) override {
+        if (paused_) return;
         for (auto& f : all_) f.recorder->record(run.simulation);
     }
     /// Closes and renames every file, also when one of them fails.
@@ -66,6 +71,7 @@ class Recordings final : public Observer {
     std::vector<File> all_;
     RecordOptions options_;
     std::string directory_;
+    bool paused_ = false;
     std::vector<ResultFiles::Recording> entries_;
 };
 

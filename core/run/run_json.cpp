@@ -89,6 +89,9 @@ std::string run_json(const PreparedRun& p, const RunOutcome& outcome) {
     if (!outcome.state.empty()) result["state"] = outcome.state;
     for (const auto& e : p.schedule->entries())
         result["changes"].push_back({{"at", e.text}, {"cycle", e.cycle ? Json(*e.cycle) : Json()}});
+    if (p.remote)
+        for (const auto& c : p.remote->obeyed())
+            result["commands"].push_back({{"cycle", c.cycle}, {"command", c.text}});
     if (const auto* environment = run.environment()) {
         const auto names = environment->robot_names();
         for (std::size_t i = 0; i < names.size(); ++i) {

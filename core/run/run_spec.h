@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/model/experiment.h"
+#include "core/run/udp_socket.h"
 
 namespace forage {
 
@@ -57,6 +58,14 @@ struct CheckpointInterval {
     bool in_seconds = false;  ///< whether `amount` is in seconds of the world instead of cycles
 };
 
+/// Averages of groups that a run sends while it lasts (broadcaster.h).
+struct BroadcastSpec {
+    std::optional<Endpoint> to;  ///< none when empty
+    int interval_ms = 500;       ///< time between two datagrams, ms of the clock
+    std::vector<model::Expression>
+        sources;  ///< "Process/Group:state"; the activities of all groups when empty
+};
+
 /// What a run does when a number becomes NaN or infinite. The search covers every group that the run
 /// computes.
 enum class OnNan { warn, stop, ignore };
@@ -82,6 +91,9 @@ struct RunSpec {
     /// Whether to start even if the directory holds the checkpoint of an unfinished run.
     bool discard_checkpoint = false;
     std::optional<CheckpointInterval> checkpoint_every;
+    std::optional<Endpoint>
+        remote;  ///< where the run receives commands (remote_control.h); nowhere when empty
+    BroadcastSpec broadcast;
     std::vector<std::string> arguments;  ///< arguments of the command line, which checkpoints keep
 };
 

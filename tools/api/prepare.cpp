@@ -10,6 +10,7 @@
 #include "bug_interface/versions.h"
 #include "core/base/cores.h"
 #include "core/observe/manipulation_spec.h"
+#include "core/run/broadcaster.h"
 #include "core/run/checkpoint_file.h"
 #include "core/run/path_recorder.h"
 #include "core/run/recordings.h"
@@ -75,6 +76,38 @@ void add_world_observers(Run& run, bug::World& world, const RunSpec& spec,
         run.add(std::make_unique<plot::FilmRecorder>(world, spec.video, run.seconds_per_cycle(), title));
 }
 
+/// The groups whose averages are sent.
+std::vector<observe::Source> broadcast_sources(const BroadcastSpec& spec, const engine::Layout& layout,
+                                               Diagnostics& diagnostics) {
+    std::vector<observe::Source> out;
+    const auto add = [&](const std::string& text, const Location& at) {
+        auto source = observe::find_source(layout, text, "--broadcast-group", diagnostics, at);
+        if (source && source->what().synapses)
+            diagnostics.error(at, fmt::format("--broadcast-group '{}' is a connection", text),
+                              "name a group");
+        else if (source)
+            out.push_back(std::move(*source));
+    };
+    for (const auto& [text, at] : spec.sources) add(text, at);
+    if (spec.to && spec.sources.empty())
+        for (const auto& g : layout.groups) add("#" + g.id, {});
+    return out;
+}
+
+RemoteControl& add_remote(Run& run, const RunSpec& spec, plot::Format format, const std::string& title) {
+    auto& remote = run.add(std::make_unique<RemoteControl>(*spec.remote));
+    if (!spec.directory.empty())
+        remote.plot = [=, directory = spec.directory](const RemoteCommand& command, const std::string& id,
+                                                      Run& now) {
+            const auto drawn = command.item == RemoteCommand::Item::group
+                                   ? plot::draw_group_now(now, id, command.parameter, format, title)
+                                   : plot::draw_connection_now(now, id, format, title);
+            write_file(directory + "/" + drawn.name, drawn.content);
+            return drawn.name;
+        };
+    return remote;
+}
+
 CheckpointWriter& add_checkpoints(Run& run, const RunSpec& spec, const Sources& sources,
                                   const observe::Schedule& schedule) {
     const auto& wanted = *spec.checkpoint_every;
@@ -119,6 +152,7 @@ std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given,
         std::make_unique<RunMeasures>(spec.measures, run.layout(), run.environment(), diagnostics);
     auto manipulations =
         observe::make_manipulations(spec.manipulations, run.layout(), run.has_trials(), diagnostics);
+    auto sent = broadcast_sources(spec.broadcast, run.layout(), diagnostics);
     auto recorded = recorded_files(spec.recordings, spec.record, run.layout(), diagnostics);
 
     const auto* schedule_added = &run.add(std::move(schedule));
@@ -149,6 +183,10 @@ std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given,
         const std::vector<std::pair<std::string, std::string>> libraries = bug::library_versions();
         DirectoryHold hold;
         if (world) add_world_observers(run, *world, spec, trajectories, format, title);
+        if (spec.broadcast.to)
+            run.add(std::make_unique<Broadcaster>(*spec.broadcast.to, std::move(sent),
+                                                  std::chrono::milliseconds(spec.broadcast.interval_ms)));
+        RemoteControl* remote = spec.remote ? &add_remote(run, spec, format, title) : nullptr;
         // The state of recordings is read last from a checkpoint, so that no file is changed when something
         // else does not fit.
         if (!spec.directory.empty())
@@ -159,10 +197,18 @@ std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given,
             return std::nullopt;
         CheckpointWriter* checkpoints = nullptr;
         if (spec.checkpoint_every) checkpoints = &add_checkpoints(run, spec, sources, *schedule_added);
-        return PreparedRun{
-            std::move(spec), std::move(hold), std::move(run), std::move(stop),     schedule_added,
-            measures_added,  checkpoints,     statistics,     std::move(commands), std::move(loaded->plugins),
-            libraries};
+        return PreparedRun{std::move(spec),
+                           std::move(hold),
+                           std::move(run),
+                           std::move(stop),
+                           schedule_added,
+                           measures_added,
+                           checkpoints,
+                           remote,
+                           statistics,
+                           std::move(commands),
+                           std::move(loaded->plugins),
+                           libraries};
     } catch (const std::exception& e) {
         diagnostics.error({}, e.what());
         return std::nullopt;

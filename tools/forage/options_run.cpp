@@ -118,6 +118,45 @@ void add_recording(CLI::App& run, RunSpec& o) {
     add_plot_format(run, o.plot_format);
 }
 
+/// Reads HOST:PORT or PORT.
+Endpoint endpoint(const std::string& option, const std::string& text, int lowest) {
+    const auto out = parse_endpoint(text);
+    if (!out || out->port < lowest)
+        throw CLI::ValidationError(option,
+                                   fmt::format("'{}' is neither a port, such as '54923', nor a host and a "
+                                               "port, such as '127.0.0.1:54923'",
+                                               text));
+    return *out;
+}
+
+void add_network(CLI::App& run, RunSpec& o) {
+    run.add_option_function<std::string>(
+           "--remote", [&o](const std::string& text) { o.remote = endpoint("--remote", text, 0); },
+           "Obey commands that arrive as datagrams at this port of this computer: 'cmd:stop', "
+           "'cmd:param;...'. 0 "
+           "takes a free port; HOST:PORT listens at another address, to anybody who reaches it")
+        ->option_text("PORT");
+    auto* broadcast =
+        run.add_option_function<std::string>(
+               "--broadcast",
+               [&o](const std::string& text) { o.broadcast.to = endpoint("--broadcast", text, 1); },
+               "Send the average activity of all groups in datagrams, 'groupID:average;...'")
+            ->option_text("HOST:PORT");
+    run.add_option("--broadcast-every", o.broadcast.interval_ms,
+                   "Milliseconds of the clock between datagrams [500]")
+        ->check(CLI::Range(40, 10000))
+        ->option_text("MS")
+        ->needs(broadcast);
+    repeated(run.add_option_function<std::vector<std::string>>(
+                 "--broadcast-group",
+                 [&o](const std::vector<std::string>& texts) {
+                     for (const auto& text : texts) o.broadcast.sources.push_back({text});
+                 },
+                 "Send the average of this group, as for --record, instead of all; may be repeated"))
+        ->option_text("SOURCE")
+        ->needs(broadcast);
+}
+
 /// Adds the options of `forage run`.
 void add_run_options(CLI::App& run, RunOptions& options) {
     RunSpec& o = options.spec;
@@ -161,6 +200,7 @@ void add_run_options(CLI::App& run, RunOptions& options) {
                    "Table that modules of type moduleReplay play: cycle,process,target,v0,v1,...")
         ->option_text("FILE");
     add_manipulations(run, o);
+    add_network(run, o);
     run.add_option("-o,--output", o.directory, "Directory for results [forage-out]; '' for none")
         ->option_text("DIR");
     run.add_option("--real-time-factor", o.input.real_time_factor,
@@ -245,7 +285,8 @@ void add_explain(CLI::App& app, RunOptions& options) {
         "Example:\n"
         "  forage explain systems/reactive_foraging_exercise.iqr --world systems/worlds/basic_arena.world");
     add_run_options(explain, options);
-    for (const char* name : {"--checkpoint-every", "--discard-checkpoint"})  // a resumed run explains nothing
+    for (const char* name :
+         {"--checkpoint-every", "--discard-checkpoint", "--remote"})  // a resumed run explains nothing
         explain.remove_option(explain.get_option(name));
 }
 

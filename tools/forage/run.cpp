@@ -54,10 +54,21 @@ int run_to_end(const RunOptions& o, PreparedRun& prepared) {
         progress.clear();
         fmt::print(stderr, "warning: {}\n  hint: --on-nan stop ends the run there\n", what);
     };
+    callbacks.commanded = [&](const std::string& what) {
+        if (o.quiet) return;
+        progress.clear();
+        fmt::print(stderr, "remote: {}\n", what);
+    };
+    if (prepared.remote && !o.quiet) {
+        fmt::print(stderr, "remote: commands are received at {}\n", prepared.remote->address());
+        std::fflush(stderr);
+    }
     callbacks.after_cycle = [&] {
         note_cycle(run.cycle());
         if (o.real_time)
-            if (const double ahead = run.seconds() - begun - progress.elapsed(); ahead > 0)
+            if (const double ahead = run.seconds() - begun - progress.elapsed() +
+                                     (prepared.remote ? prepared.remote->waited() : 0);
+                ahead > 0)
                 std::this_thread::sleep_for(std::chrono::duration<double>(ahead));
         if (progress.due())
             progress.draw(

@@ -56,6 +56,11 @@ std::string summary(const PreparedRun& p, const RunOutcome& outcome, bool resuma
     if (const std::string& until = p.spec.length.until.text; !until.empty())
         line("until", p.stop.holds(run) ? fmt::format("{}: it held after cycle {}", until, run.cycle())
                                         : until + ": it never held");
+    if (p.remote && !p.remote->obeyed().empty())
+        line("commands", fmt::format("{}{}", p.remote->obeyed().size(),
+                                     p.remote->quit()
+                                         ? fmt::format("; cmd:quit ended the run after cycle {}", run.cycle())
+                                         : ""));
     if (environment) {
         const auto names = environment->robot_names();
         for (std::size_t i = 0; i < names.size(); ++i)
