@@ -11,8 +11,8 @@
 #include <unistd.h>
 
 #include "core/observe/disk_space.h"
-#include "core/observe/hdf5_handle.h"
 #include "core/observe/hdf5_recording.h"
+#include "core/observe/hdf5_set.h"
 
 namespace forage::observe {
 namespace {
@@ -20,28 +20,6 @@ namespace {
 constexpr std::size_t rows_block = 1 << 16;  ///< bytes of rows that are written together
 constexpr std::uint64_t index_space =
     1 << 18;  ///< bytes that HDF5 writes at most in addition to the rows, until the file is closed
-
-void check(herr_t status, const std::string& what) {
-    if (status < 0) throw std::runtime_error(fmt::format("HDF5: cannot {}", what));
-}
-
-void attribute(hid_t object, const std::string& name, const std::string& text) {
-    const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a type");
-    H5Tset_size(type, std::max<std::size_t>(text.size(), 1));
-    H5Tset_cset(type, H5T_CSET_UTF8);
-    H5Tset_strpad(type, H5T_STR_NULLPAD);
-    const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a space");
-    const Hdf5Handle a(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                       "add attribute " + name);
-    check(H5Awrite(a, type, text.empty() ? "\0" : text.data()), "write attribute " + name);
-}
-
-void attribute(hid_t object, const std::string& name, std::int64_t value) {
-    const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a space");
-    const Hdf5Handle a(H5Acreate2(object, name.c_str(), H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT),
-                       H5Aclose, "add attribute " + name);
-    check(H5Awrite(a, H5T_NATIVE_INT64, &value), "write attribute " + name);
-}
 
 /// "Process/Group:state(1..3,2)" -> "/Process/Group/state(1..3,2)"
 std::string place_of(const Recorded& what) {
@@ -51,73 +29,10 @@ std::string place_of(const Recorded& what) {
     return "/" + out;
 }
 
-/// Creates the groups above `place`, without times, so that the same run gives the same bytes.
-void add_groups(hid_t file, const std::string& place) {
-    const Hdf5Handle options(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, "make a list");
-    H5Pset_obj_track_times(options, false);
-    const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "make a list");
-    H5Pset_char_encoding(links, H5T_CSET_UTF8);
-    for (auto slash = place.find('/', 1); slash != std::string::npos; slash = place.find('/', slash + 1)) {
-        const std::string group = place.substr(0, slash);
-        if (H5Lexists(file, group.c_str(), H5P_DEFAULT) <= 0)
-            Hdf5Handle(H5Gcreate2(file, group.c_str(), links, options, H5P_DEFAULT), H5Gclose,
-                       "add " + group);
-    }
-}
-
-/// A data set that grows along its first dimension.
-class Growing {
-  public:
-    Growing(hid_t file, const std::string& place, hid_t disk_type, hid_t memory_type,
-            std::vector<hsize_t> row, std::size_t rows_of_a_chunk)
-        : memory_type_(memory_type), shape_{0} {
-        shape_.insert(shape_.end(), row.begin(), row.end());
-        std::vector<hsize_t> most = shape_, chunk = shape_;
-        most[0] = H5S_UNLIMITED;
-        chunk[0] = rows_of_a_chunk;
-        const Hdf5Handle space(H5Screate_simple(rank(), shape_.data(), most.data()), H5Sclose,
-                               "make a space");
-        add_groups(file, place);
-        const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "make a list");
-        H5Pset_char_encoding(links, H5T_CSET_UTF8);
-        const Hdf5Handle options(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make a list");
-        H5Pset_obj_track_times(options, false);
-        H5Pset_chunk(options, rank(), chunk.data());
-        set_ = {H5Dcreate2(file, place.c_str(), disk_type, space, links, options, H5P_DEFAULT), H5Dclose,
-                "add " + place};
-    }
-    hid_t id() const { return set_; }
-
-    void append(const void* rows, hsize_t count) {
-        std::vector<hsize_t> start(shape_.size(), 0), extent = shape_;
-        start[0] = shape_[0];
-        extent[0] = count;
-        shape_[0] += count;
-        check(H5Dset_extent(set_, shape_.data()), "grow");
-        const Hdf5Handle space(H5Dget_space(set_), H5Sclose, "grow");
-        check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr),
-              "grow");
-        const Hdf5Handle memory(H5Screate_simple(rank(), extent.data(), nullptr), H5Sclose, "grow");
-        check(H5Dwrite(set_, memory_type_, memory, space, H5P_DEFAULT, rows), "write");
-        check(H5Dflush(set_), "write");
-    }
-
-  private:
-    int rank() const { return static_cast<int>(shape_.size()); }
-    Hdf5Handle set_;
-    hid_t memory_type_;
-    std::vector<hsize_t> shape_;
-};
-
 class Hdf5File final : public RowFile {
   public:
     Hdf5File(const std::string& path, const RowFileHeader& header) : path_(path) {
-        quiet_hdf5();
-        const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a list");
-        H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
-        const Hdf5Handle options(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "make a list");
-        H5Pset_obj_track_times(options, false);
-        file_ = {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, options, access), H5Fclose, "write '" + path + "'"};
+        file_ = create_hdf5(path);
         space_.emplace(path);
         try {
             reserve(0);
@@ -125,16 +40,16 @@ class Hdf5File final : public RowFile {
             std::filesystem::remove(path);
             throw std::runtime_error(fmt::format("cannot write '{}': {}", path, e.what()));
         }
-        for (const auto& [name, text] : header.attributes) attribute(file_, name, text);
+        for (const auto& [name, text] : header.attributes) add_attribute(file_, name, text);
         std::size_t row = 1;
         for (const auto& s : header.sources) row += s.size();
         chunk_ = std::max<std::size_t>(1, rows_block / (8 * row));
         cycle_.emplace(file_, "/cycle", H5T_STD_U64LE, H5T_NATIVE_UINT64, std::vector<hsize_t>{}, chunk_);
         H5DSset_scale(cycle_->id(), "cycle");
-        attribute(cycle_->id(), "unit", "cycle");
-        attribute(cycle_->id(), "every", static_cast<std::int64_t>(header.every));
+        add_attribute(cycle_->id(), "unit", "cycle");
+        add_attribute(cycle_->id(), "every", static_cast<std::int64_t>(header.every));
         for (const auto& s : header.sources) add_source(s);
-        check(H5Fstart_swmr_write(file_), "write '" + path + "'");
+        check_hdf5(H5Fstart_swmr_write(file_), "write '" + path + "'");
     }
 
     void add(std::uint64_t cycle, std::span<const double> numbers) override {
@@ -171,7 +86,7 @@ class Hdf5File final : public RowFile {
 
   private:
     struct Set {
-        Growing set;
+        GrowingSet set;
         std::size_t size;
         std::vector<double> rows;
     };
@@ -180,15 +95,15 @@ class Hdf5File final : public RowFile {
         std::vector<hsize_t> row;
         if (!s.mean) row = {static_cast<hsize_t>(s.cells.height), static_cast<hsize_t>(s.cells.width)};
         sets_.push_back(
-            {Growing(file_, place_of(s), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, row, chunk_), s.size(), {}});
+            {GrowingSet(file_, place_of(s), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, row, chunk_), s.size(), {}});
         const hid_t set = sets_.back().set.id();
-        attribute(set, "name", s.name);
-        attribute(set, "label", s.label);
-        attribute(set, "group_id", s.group_id);
-        attribute(set, "unit", "1");
-        attribute(set, "first_column", s.cells.x);
-        attribute(set, "first_row", s.cells.y);
-        attribute(set, "numbered", s.numbered);
+        add_attribute(set, "name", s.name);
+        add_attribute(set, "label", s.label);
+        add_attribute(set, "group_id", s.group_id);
+        add_attribute(set, "unit", "1");
+        add_attribute(set, "first_column", s.cells.x);
+        add_attribute(set, "first_row", s.cells.y);
+        add_attribute(set, "numbered", s.numbered);
         H5DSattach_scale(set, cycle_->id(), 0);
         static constexpr std::array<const char*, 3> dimensions = {"cycle", "row", "column"};
         for (unsigned d = 0; d <= row.size(); ++d) H5DSset_label(set, d, dimensions[d]);
@@ -212,7 +127,7 @@ class Hdf5File final : public RowFile {
     std::string path_;
     std::optional<DiskSpace> space_;
     Hdf5Handle file_;
-    std::optional<Growing> cycle_;
+    std::optional<GrowingSet> cycle_;
     std::vector<Set> sets_;
     std::vector<std::uint64_t> cycles_;
     std::size_t chunk_ = 1;  ///< number of rows of a chunk, in all data sets

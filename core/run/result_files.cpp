@@ -7,7 +7,9 @@
 namespace forage {
 
 void ResultFiles::write(const std::string& name, const std::function<std::string()>& content) {
-    if (!directory_.empty()) attempt([&] { write_file(path(name), content()); }, {name});
+    if (name == kept_name_) kept_ = content();
+    if (directory_.empty()) return;
+    attempt([&] { write_file(path(name), name == kept_name_ ? kept_ : content()); }, {name});
 }
 
 void ResultFiles::attempt(const std::function<void()>& action, const std::vector<std::string>& names) {

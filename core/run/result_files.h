@@ -15,11 +15,16 @@ namespace forage {
 /// still are.
 class ResultFiles {
   public:
-    /// `directory` must exist. When it is empty, nothing is written.
-    explicit ResultFiles(std::string directory) : directory_(std::move(directory)) {}
+    /// `directory` must exist. When it is empty, nothing is written. The text of the file `kept` is kept in
+    /// memory, too.
+    explicit ResultFiles(std::string directory, std::string kept = {})
+        : directory_(std::move(directory)), kept_name_(std::move(kept)) {}
 
     const std::string& directory() const { return directory_; }
     std::string path(const std::string& name) const { return directory_ + "/" + name; }
+
+    /// The text of the file that is kept; empty when there is none.
+    const std::string& kept() const { return kept_; }
 
     /// Writes content() to the file `name`. A failure is added to problems().
     void write(const std::string& name, const std::function<std::string()>& content);
@@ -51,7 +56,7 @@ class ResultFiles {
     const std::vector<std::string>& problems() const { return problems_; }
 
   private:
-    std::string directory_;
+    std::string directory_, kept_name_, kept_;
     std::vector<std::string> names_, problems_;
     std::vector<std::pair<std::string, std::string>> notes_;
     std::vector<Recording> recordings_;

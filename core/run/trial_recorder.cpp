@@ -99,11 +99,12 @@ void TrialRecorder::finish(RunView& run, ResultFiles& files) {
     files.write(file_, [&] { return trials_csv(all); });
 }
 
+const char* const trial_columns =
+    "trial,start_x,start_y,start_yaw,cycles,smallest_distance,outcome,first_cycle,end_x,end_y,end_yaw,"
+    "start,patches,recent_success,discrepancy,cue_peak,distractor_peak,sequences,segments\n";
+
 std::string trials_csv(const MeasuredTrials& trials) {
-    std::string out =
-        "trial,start_x,start_y,start_yaw,cycles,smallest_distance,outcome,first_cycle,end_x,end_y,end_yaw,"
-        "start,patches,"
-        "recent_success,discrepancy,cue_peak,distractor_peak,sequences,segments\n";
+    std::string out = trial_columns;
     const auto add = [&](const MeasuredTrial& t, const std::string& recent) {
         const auto& m = t.measures;
         const auto peaks = m.peaks();

@@ -58,6 +58,8 @@ struct MeasuredTrials {
     double recent_success(std::size_t count) const;
 };
 
+/// The columns of trials.csv, in a line.
+extern const char* const trial_columns;
 /// The table trials.csv, one row per trial, in m and rad. Values that do not apply are empty.
 /// docs/reference/results.md explains the columns.
 std::string trials_csv(const MeasuredTrials& trials);

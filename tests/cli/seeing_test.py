@@ -198,6 +198,47 @@ class Formats(Cli):
                 self.assertGreater(len(numpy.load(self.here / "full" / name)), 3)
 
 
+@unittest.skipUnless(numpy, "NumPy and h5py are absent")
+class Tables(Cli):
+    def test_results_of_an_experiment(self):
+        (self.here / "x.xml").write_text(f"""<experiment>
+  <world file="{WORLD}"/>
+  <length trials="2" longest-trial="60"/>
+  <seeds count="2"/>
+  <sweep systems="{SYSTEM} {self.copied("ümlaut.iqr")}"/>
+  <sweep parameter="Reactive Layer/US.threshold" values="0.2 1e3"/>
+  <measure name="success" success="all"/>
+  <measure name="it's light, ✓" first="max(Bug/Light) > 0.5"/>
+  <measure name="seconds" first="cycle > 1000000"/>
+</experiment>""")
+        self.forage("experiment", "x.xml", "-o", "out", "--table-format", "npy", "--table-format", "hdf5")
+        header, *rows = self.table("out/results.csv")
+        self.assertEqual(len(rows), 8)
+        npy = numpy.load(self.here / "out/results.npy")
+        with h5py.File(self.here / "out/results.h5") as file:
+            hdf5 = file["table"][:]
+        names = header[:-2] + ["seconds'", "remark"]
+        self.assertEqual(list(npy.dtype.names), names)
+        self.assertEqual(list(hdf5.dtype.names), names)
+        for i, name in enumerate(names):
+            texts = [row[i] for row in rows]
+            if npy.dtype[name].kind == "U":
+                self.assertEqual(npy[name].tolist(), texts)
+                self.assertEqual([t.decode() for t in hdf5[name]], texts)
+            else:
+                numbers = [float(t) if t else numpy.nan for t in texts]
+                numpy.testing.assert_array_equal(npy[name], numbers)
+                numpy.testing.assert_array_equal(hdf5[name], numbers)
+        self.assertEqual([n for n in names if npy.dtype[n].kind == "U"], ["run", "system", "status", "remark"])
+        before = [(self.here / f"out/results.{end}").read_bytes() for end in ("npy", "h5")]
+        self.forage("experiment", "x.xml", "-o", "out", "--merge", "--table-format", "npy", "--table-format", "hdf5")
+        self.assertEqual([(self.here / f"out/results.{end}").read_bytes() for end in ("npy", "h5")], before)
+        self.assertIn("--table-format", self.forage("experiment", "x.xml", "--table-format", "xls", status=2).stderr)
+
+    def copied(self, name):
+        return shutil.copy(SYSTEM, self.here / name)
+
+
 class Mistakes(Cli):
     def test_wrong_selections_and_plots(self):
         for arguments, message in (

@@ -1,68 +1,37 @@
-"""Experiments in parts: the same tables as in one piece, after kills at any moment.
-
-    parts_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
-"""
-import json
-import pathlib
+"""Experiments in parts: the same tables as in one piece, after kills at any moment. The arguments are those of support.py."""
 import random
-import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
-FORAGE = str(pathlib.Path(sys.argv[1]).resolve())
-PROJECT = pathlib.Path(sys.argv[2]).resolve()
-
-EXPERIMENT = f"""<experiment>
-  <system file="{PROJECT}/systems/reactive_foraging.iqr"/>
-  <world file="{PROJECT}/systems/worlds/basic_arena.world"/>
-  <length trials="2" longest-trial="60"/>
-  <seeds first="1" count="SEEDS"/>
-  <sweep parameter="Reactive Layer/US.threshold" values="0.2 0.8"/>
-  <measure name="success" success="all"/>
-  <measure name="length" duration="all"/>
-  <measure name="light" first="max(Bug/Light) > 0.5"/>
-</experiment>
-"""
+from support import FORAGE, KILLS, ExperimentTest
 
 
-class Parts(unittest.TestCase):
+class Parts(ExperimentTest):
     def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="forage-parts-"))
-        self.addCleanup(shutil.rmtree, self.folder)
-        self.write(20)
+        super().setUp()
+        self.write(20, trials=2)
 
-    def write(self, seeds):
-        (self.folder / "x.xml").write_text(EXPERIMENT.replace("SEEDS", str(seeds)))
-
-    def forage(self, *arguments, directory="parts"):
-        return subprocess.run([FORAGE, "experiment", "x.xml", "-o", directory, "-q", *arguments], cwd=self.folder, capture_output=True, text=True)
-
-    def part(self, text):
-        done = self.forage("--shard", text, "--jobs", "1")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-
-    def tables(self, directory):
-        return [(self.folder / directory / name).read_bytes() for name in ("results.csv", "summary.csv")]
+    def forage(self, *arguments, **options):
+        return super().forage("-q", *arguments, **options)
 
     def same_as_one_machine(self):
         merged = self.forage("--merge")
         self.assertEqual(merged.returncode, 0, merged.stderr)
-        self.assertEqual(self.forage(directory="whole").returncode, 0)
-        self.assertEqual(self.tables("parts"), self.tables("whole"))
+        super().same_as_one_machine()
 
-    def lines(self):
-        return [line for file in (self.folder / "parts" / "parts").iterdir() for line in file.read_text().splitlines()]
+    def part(self, text):
+        done = self.forage("--shard", text, "--jobs", "1")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_parts_in_any_order_and_repeated(self):
         for part in ("3/3", "1/3", "3/3", "1/2", "2/3"):
             self.part(part)
         self.same_as_one_machine()
         self.assertEqual(len(self.lines()), 40)  # nothing twice, although the division changed
-        self.assertEqual(len(list((self.folder / "parts" / "parts").iterdir())), 4)  # few files
+        self.assertEqual(len(self.part_files()), 4)  # few files
         self.assertFalse((self.folder / "parts" / "runs").exists())
 
     def test_missing_parts(self):
@@ -77,9 +46,9 @@ class Parts(unittest.TestCase):
         self.same_as_one_machine()
 
     def test_more_seeds_keep_results(self):
-        self.write(10)
+        self.write(10, trials=2)
         self.part("1/1")
-        self.write(20)
+        self.write(20, trials=2)
         self.part("1/1")
         self.assertEqual(len(self.lines()), 40)
         self.same_as_one_machine()
@@ -98,7 +67,7 @@ class Parts(unittest.TestCase):
     def test_damaged_lines(self):
         self.part("1/2")
         self.part("2/2")
-        first, second = sorted((self.folder / "parts" / "parts").iterdir())
+        first, second = self.part_files()
         first.write_bytes(first.read_bytes()[:-5])  # as after a kill within a write
         with second.open("ab") as file:
             file.write(b"\0" * 100 + b'\n{"key":"12"}\n{"key":"zz","at":1,"result":{}}\n[1]\n')  # as after a power cut
@@ -120,33 +89,35 @@ class Parts(unittest.TestCase):
         self.assertIn("error: run 'threshold-0.8_seed-3': ", done.stderr)
         merged, whole = self.forage("--merge"), self.forage(directory="whole")
         self.assertEqual((merged.returncode, whole.returncode), (1, 1))
-        rows = [[t.replace(b"parts/", b"whole/") for t in self.tables(d)] for d in ("parts", "whole")]
+        rows = [{name: t.replace(b"parts/", b"whole/") for name, t in self.tables(d).items()} for d in ("parts", "whole")]
         self.assertEqual(*rows)
-        self.assertIn(b",failed,", rows[0][0])
+        self.assertIn(b",failed,", rows[0]["results.csv"])
+        self.assertNotIn(b"threshold-0.8_seed-3,", rows[0]["trials.csv"])
         (self.folder / "parts" / "runs" / "threshold-0.8_seed-3").unlink()
         self.part("1/1")
         self.assertEqual(self.forage("--merge").returncode, 0)
-        self.assertNotIn(b",failed,", self.tables("parts")[0])
+        self.assertNotIn(b",failed,", self.tables("parts")["results.csv"])
 
     def test_kills(self):
         """Parts and merges are killed at random moments; each kill loses at most the current run."""
-        self.write(200)
+        self.write(200, trials=2)
         chance = random.Random(1)
-        executed = 0
-        for kill in range(30):
-            part = subprocess.Popen([FORAGE, "experiment", "x.xml", "-o", "parts", "-q", "-j", "1", "--shard", f"{kill % 2 + 1}/2"], cwd=self.folder)
-            time.sleep(chance.uniform(0, 0.25))
-            part.send_signal(signal.SIGKILL)
-            executed += part.wait() == 0
+
+        def killed(after, *arguments):
+            process = subprocess.Popen([FORAGE, "experiment", "x.xml", "-o", "parts", "-q", "-j", "1", *arguments], cwd=self.folder)
+            time.sleep(chance.uniform(0, after))
+            process.send_signal(signal.SIGKILL)
+            return process.wait() != 0
+
+        parts = merges = 0
+        for number in range(KILLS or 30):
+            parts += killed(0.25, "--shard", f"{number % 2 + 1}/2")
         for part in ("1/2", "2/2"):
             self.part(part)
-        lines = [json.loads(line) for line in self.lines() if line.endswith("}}")]
-        self.assertEqual(len(lines), len({line["run"] for line in lines}), "a run was executed twice")
-        for _ in range(5):
-            merge = subprocess.Popen([FORAGE, "experiment", "x.xml", "-o", "parts", "-q", "--merge"], cwd=self.folder)
-            time.sleep(chance.uniform(0, 0.1))
-            merge.kill()
-            merge.wait()
+        self.nothing_twice()
+        for _ in range(KILLS or 5):
+            merges += killed(0.1, "--merge")
+        print(f"{parts} parts and {merges} merges were killed")
         self.same_as_one_machine()
 
 

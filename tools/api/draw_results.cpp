@@ -185,7 +185,9 @@ std::string draw_one(const PlotSpec& spec, Results& results, const std::optional
     const std::string& title = results.context.run;
     std::optional<plot::Picture> picture;
     if (spec.kind == Kind::learning)
-        picture = draw_learning(spec, runs_of(results), title, part_of(results), diagnostics);
+        picture =
+            draw_learning(spec, runs_of(results), results.experiment ? results.directory + "/trials.csv" : "",
+                          title, part_of(results), diagnostics);
     else if (spec.kind == Kind::occupancy && !loaded->world)
         diagnostics.error({}, fmt::format("'{}': these runs have no world", spec.text));
     else if (spec.kind == Kind::occupancy)

@@ -10,8 +10,10 @@
 #include "core/base/cores.h"
 #include "core/base/named_file.h"
 #include "core/run/experiment/tables.h"
+#include "core/run/experiment/trials_table.h"
 #include "core/xml/experiment.h"
 #include "tools/api/prepare.h"
+#include "tools/api/run_table.h"
 
 namespace forage {
 namespace {
@@ -66,9 +68,14 @@ std::string directory_of(const std::string& file, const std::string& directory) 
     return directory.empty() ? "forage-out/" + std::filesystem::path(file).stem().string() : directory;
 }
 
-void write_tables(const PreparedExperiment& e, std::span<const RunResult> results) {
+void write_tables(const PreparedExperiment& e, std::span<const RunResult> results, const PartResults& found) {
+    write_trials(e.trials_file(), e.runs, results, found);
     write_durably(e.results_file(), results_csv(e.experiment, e.runs, results));
     write_durably(e.summary_file(), summary_csv(e.experiment, e.runs, results));
+    for (const auto format : e.formats)
+        observe::write_table(
+            format, e.directory + (format == observe::TableFormat::npy ? "/results.npy" : "/results.h5"),
+            results_columns(e.experiment, e.runs, results), results.size());
 }
 
 /// All results, or nothing when a run has none.
@@ -120,7 +127,8 @@ std::optional<PreparedExperiment> prepare_experiment(model::Experiment wanted, s
     const char* hint = "choose another directory for the results with -o";
     try {
         make_directory(out->directory + "/runs");
-        for (const auto& table : {out->results_file(), out->summary_file()}) check_regular_file(table);
+        for (const auto& table : {out->results_file(), out->summary_file(), out->trials_file()})
+            check_regular_file(table);
         hint = held_hint;
         out->hold = DirectoryHold(out->directory);
         report_leftovers(*out, diagnostics);
@@ -150,7 +158,8 @@ std::optional<PreparedExperiment> prepare_part(const std::string& file, std::str
     if (!out) return out;
     try {
         make_directory(out->directory);
-        for (const auto& table : {out->results_file(), out->summary_file()}) check_regular_file(table);
+        for (const auto& table : {out->results_file(), out->summary_file(), out->trials_file()})
+            check_regular_file(table);
     } catch (const std::exception& e) {
         diagnostics.error({}, e.what(), "choose another directory for the results with -o");
         return std::nullopt;
@@ -160,13 +169,12 @@ std::optional<PreparedExperiment> prepare_part(const std::string& file, std::str
 
 PartResults read_results(const PreparedExperiment& e, const std::optional<Shard>& only) {
     PartResults out = read_parts(e.directory, e.runs, e.experiment, only);
-    std::error_code none;
-    const std::filesystem::directory_iterator runs(e.directory + "/runs", none);
-    if (none || runs == std::filesystem::directory_iterator()) return out;
+    if (!has_runs(e.directory)) return out;
     for (std::size_t i = only ? only->number - 1 : 0; i < e.runs.size(); i += only ? only->of : 1) {
         if (out.results[i] && out.results[i]->failure.empty()) continue;
         const PlannedRun run = e.runs[i];
-        if (auto result = read_result(run, key_of(run, e.experiment))) out.results[i] = std::move(result);
+        if (auto result = read_result(run, key_of(run, e.experiment)))
+            out.results[i] = std::move(result), out.lines[i] = {};
     }
     return out;
 }
@@ -184,17 +192,20 @@ std::optional<std::vector<RunResult>> run_experiment(const PreparedExperiment& e
         std::remove(table.c_str());
     if (fresh) forget_parts(e.directory);
     PartResults found;
-    found.results.resize(e.runs.size());
+    found.results.resize(e.runs.size()), found.lines.resize(e.runs.size());
     if (!fresh) found = read_results(e);
     const PrepareRun prepare = [&](const RunSpec& spec, Diagnostics& d) { return e.prepare(spec, d); };
     RunBlock block{e.experiment, prepare, e.runs, open_runs(found)};
     block.earlier = e.runs.size() - block.open.size();
     if (!execute_runs(
             block, jobs > 0 ? jobs : cores(),
-            [&](std::size_t run, RunResult&& result) { found.results[run] = std::move(result); }, callbacks))
+            [&](std::size_t run, RunResult&& result, const std::string&) {
+                found.results[run] = std::move(result), found.lines[run] = {};
+            },
+            callbacks))
         return std::nullopt;
     auto results = all_of(found.results);
-    write_tables(e, *results);
+    write_tables(e, *results, found);
     return results;
 }
 
@@ -207,9 +218,9 @@ PartOutcome run_part(const PreparedExperiment& e, PartFile& file, std::vector<st
     const RunKeys keys(e.runs, e.experiment);
     out.finished = execute_runs(
         block, jobs > 0 ? jobs : cores(),
-        [&](std::size_t run, RunResult&& result) {
+        [&](std::size_t run, RunResult&& result, const std::string& trials) {
             const std::string name = e.runs.name(run);
-            file.add(name, keys[run], result);
+            file.add(name, keys[run], result, trials);
             ++out.runs;
             if (!result.failure.empty()) out.failures.emplace_back(name, result.failure);
         },
@@ -249,7 +260,7 @@ std::optional<std::vector<RunResult>> merge(const PreparedExperiment& e, Diagnos
         return std::nullopt;
     }
     auto results = all_of(found.results);
-    write_tables(e, *results);
+    write_tables(e, *results, found);
     return results;
 }
 

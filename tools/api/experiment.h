@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/output_files.h"
+#include "core/observe/table_file.h"
 #include "core/run/experiment/exercise.h"
 #include "core/run/experiment/parts.h"
 #include "core/run/experiment/runs.h"
@@ -22,11 +23,13 @@ struct PreparedExperiment {
     RunPlan runs;
     std::map<std::string, Sources> sources;  ///< by the path of the first system of the runs
     DirectoryHold hold;
+    std::vector<observe::TableFormat> formats = {};  ///< in which results.csv is written, too
 
     std::optional<PreparedRun> prepare(const RunSpec& spec, Diagnostics& diagnostics) const;
 
     std::string results_file() const { return directory + "/results.csv"; }
     std::string summary_file() const { return directory + "/summary.csv"; }
+    std::string trials_file() const { return directory + "/trials.csv"; }
     /// Whether its runs leave files besides their numbers, when parts execute them.
     bool parts_leave_files() const { return !experiment.recordings.empty() || !experiment.plots.empty(); }
 };

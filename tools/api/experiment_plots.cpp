@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <unordered_map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,7 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 using plot::PlotSpec;
 
-constexpr std::size_t most_lines = 10;   ///< that can be told apart
+constexpr std::size_t most_lines = 10;  ///< that can be told apart
+constexpr std::size_t unreadable_lines = 100;
 constexpr std::size_t most_blocks = 25;  ///< of trials, in a picture of learning
 
 /// Places of values on an axis, and whether they are logarithms. On a logarithmic axis, 0 is at the left, and
@@ -86,13 +88,14 @@ plot::Picture curve(const RunTable& table, const std::vector<Axis>& axes, std::s
         {},    places.gap};
     for (std::size_t i = 0; i < x.values.size(); ++i) out.x_ticks.emplace_back(places.at[i], x.values[i]);
     std::vector<std::optional<plot::Estimate>> estimates;
+    const std::vector<Axis> others(axes.begin() + 1, axes.end());
+    std::unordered_map<std::string, std::size_t> lines;
     for (const auto& c : conditions_of(table)) {
-        const std::string name = name_of(c, {axes.begin() + 1, axes.end()}, table);
-        auto line =
-            std::find_if(out.lines.begin(), out.lines.end(), [&](const auto& l) { return l.name == name; });
-        if (line == out.lines.end()) line = out.lines.insert(out.lines.end(), {name, {}});
+        const std::string name = name_of(c, others, table);
+        const auto [line, added] = lines.try_emplace(name, out.lines.size());
+        if (added) out.lines.push_back({name, {}});
         estimates.push_back(plot::estimate(c.numbers(measure)));
-        line->points.push_back({places.at[index_of(x.values, x.value_of(c))], estimates.back()});
+        out.lines[line->second].points.push_back({places.at[x.value_of(c)], estimates.back()});
     }
     for (auto& line : out.lines)
         std::sort(line.points.begin(), line.points.end(),
@@ -108,8 +111,7 @@ plot::Picture heat(const RunTable& table, const std::vector<Axis>& axes, std::si
     plot::HeatMap out{title, {}, table.measures[measure], x.name, y.name, x.values, y.values, {}};
     out.cells.resize(x.values.size() * y.values.size());
     for (const auto& c : conditions_of(table))
-        out.cells[index_of(y.values, y.value_of(c)) * x.values.size() + index_of(x.values, x.value_of(c))] =
-            plot::estimate(c.numbers(measure));
+        out.cells[y.value_of(c) * x.values.size() + x.value_of(c)] = plot::estimate(c.numbers(measure));
     out.subtitle = subtitle_of(table.part, out.cells);
     return plot::heat_map(out);
 }
@@ -119,23 +121,27 @@ bool has_numbers(const RunTable& table, std::size_t measure) {
                        [&](const auto& row) { return row.measures[measure].has_value(); });
 }
 
-/// The numbers of a run's finished trials: a column of trials.csv, or 1 for a target and 0 for a miss.
-std::vector<std::optional<double>> numbers_of_trials(const std::string& directory,
-                                                     const std::string& column) {
-    const std::string path = directory + "/trials.csv";
+using Numbers = std::vector<std::optional<double>>;
+
+/// The numbers of the finished trials by run: a column of trials.csv, or 1 for a target and 0 for a miss. In
+/// the table of a single run, its name is empty.
+std::unordered_map<std::string, Numbers> numbers_of_trials(const std::string& path,
+                                                           const std::string& column) {
     TableReader trials(open_file(path), path);
     if (!trials.read_header()) trials.require_whole(), trials.refuse("it is empty");
     const auto outcome = trials.column("outcome");
     const auto wanted = column.empty() ? outcome : trials.column(column);
-    std::vector<std::optional<double>> out;
+    const bool several = trials.fields().front() == "run";
+    std::unordered_map<std::string, Numbers> out;
     while (trials.next()) {
         const auto& fields = trials.fields();
         if (fields[outcome] == "unfinished") continue;
+        Numbers& numbers = out[several ? std::string(fields.front()) : ""];
         if (column.empty())
-            out.emplace_back(fields[outcome] == "target" ? 1 : 0);
+            numbers.emplace_back(fields[outcome] == "target" ? 1 : 0);
         else
-            out.push_back(fields[wanted].empty() ? std::nullopt
-                                                 : std::optional(trials.number(fields[wanted])));
+            numbers.push_back(fields[wanted].empty() ? std::nullopt
+                                                     : std::optional(trials.number(fields[wanted])));
     }
     trials.require_whole();
     return out;
@@ -149,14 +155,17 @@ std::vector<std::string> usual_plots(const RunTable& table, const std::string& d
     for (std::size_t m = 0; m < table.measures.size(); ++m)
         if (!axes.empty() && has_numbers(table, m))
             out.push_back((axes.size() == 2 ? "heat:" : "curve:") + table.measures[m]);
-    const auto any = [&](const char* file) {
-        return std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
-            return fs::exists(fmt::format("{}/runs/{}/{}", directory, row.run, file));
-        });
-    };
     const auto conditions = conditions_of(table).size();
-    if (table.trials && any("trials.csv") && conditions <= most_lines) out.emplace_back("learning");
-    if (any("trajectory.csv") && conditions <= plot::most_maps) out.emplace_back("occupancy");
+    const bool runs = has_runs(directory);
+    const auto any = [&](const char* file) {
+        return runs && std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+                   return fs::exists(fmt::format("{}/runs/{}/{}", directory, row.run, file));
+               });
+    };
+    if (table.trials && conditions <= most_lines &&
+        (fs::exists(directory + "/trials.csv") || any("trials.csv")))
+        out.emplace_back("learning");
+    if (conditions <= plot::most_maps && any("trajectory.csv")) out.emplace_back("occupancy");
     return out;
 }
 
@@ -189,6 +198,9 @@ std::optional<plot::Picture> draw_measure(const PlotSpec& spec, const RunTable& 
         return refuse(fmt::format("a heat map has two parameters, and here {} vary: '{}'", axes.size(),
                                   fmt::join(names, "', '")),
                       fmt::format("fix the others: --where '{}'", example_of(axes[2])));
+    if (!as_heat && lines_of(axes) > unreadable_lines)
+        return refuse(fmt::format("{} lines are too many for a picture", lines_of(axes)),
+                      fmt::format("draw a part: --where '{}'", example_of(axes[1])));
     if (!as_heat && lines_of(axes) > most_lines)
         diagnostics.warning(
             {}, fmt::format("'{}' has {} lines in {} colours", spec.text, lines_of(axes), most_lines),
@@ -207,21 +219,25 @@ std::vector<RunSeries> run_series(const RunTable& table, const std::string& dire
 }
 
 std::optional<plot::Picture> draw_learning(const PlotSpec& spec, const std::vector<RunSeries>& series,
-                                           const std::string& title, const std::string& part,
-                                           Diagnostics& diagnostics) {
+                                           const std::string& table, const std::string& title,
+                                           const std::string& part, Diagnostics& diagnostics) {
     if (series.size() > most_lines) {
         diagnostics.error(
             {}, fmt::format("'{}': {} conditions are too many for a picture", spec.text, series.size()),
             "draw some of them, with --where 'PARAMETER=VALUE'");
         return std::nullopt;
     }
-    std::vector<std::vector<std::vector<std::optional<double>>>> trials;  // by series, run, trial
+    const bool together = fs::exists(table);
+    std::unordered_map<std::string, Numbers> by_run;
+    if (together) by_run = numbers_of_trials(table, spec.what);
+    std::vector<std::vector<Numbers>> trials;  // by series, run, trial
     std::size_t longest = 0;
     for (const auto& s : series) {
         auto& all = trials.emplace_back();
         for (const auto& directory : s.directories) {
-            if (!fs::exists(directory + "/trials.csv")) continue;  // the run failed
-            all.push_back(numbers_of_trials(directory, spec.what));
+            if (!together && !fs::exists(directory + "/trials.csv")) continue;  // the run failed
+            all.push_back(together ? by_run[fs::path(directory).filename().string()]
+                                   : numbers_of_trials(directory + "/trials.csv", spec.what)[""]);
             longest = std::max(longest, all.back().size());
         }
     }

@@ -25,10 +25,11 @@ struct RunSeries {
     std::vector<std::string> directories;
 };
 /// The share of trials that reached the target, or the mean of a column of trials.csv, in blocks of trials.
-/// `part` says which part of the runs these are. Throws FileError. Reports a column that is not there.
+/// `table` is the table of the trials of all runs, if there is one; otherwise each run has its own. `part`
+/// says which part of the runs these are. Throws FileError. Reports a column that is not there.
 std::optional<plot::Picture> draw_learning(const plot::PlotSpec& spec, const std::vector<RunSeries>& series,
-                                           const std::string& title, const std::string& part,
-                                           Diagnostics& diagnostics);
+                                           const std::string& table, const std::string& title,
+                                           const std::string& part, Diagnostics& diagnostics);
 /// The series of an experiment, one per condition.
 std::vector<RunSeries> run_series(const RunTable& table, const std::string& directory);
 

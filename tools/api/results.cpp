@@ -72,12 +72,15 @@ Results open_results(const std::string& path) {
     if (holds_experiment(path)) {
         out.directory = path;
         out.experiment = read_run_table(path);
-        for (const auto& row : out.experiment->rows)  // all have the same world
+        const bool runs = has_runs(path);
+        for (const auto& row : out.experiment->rows) {  // all have the same world
+            if (!runs) break;
             if (const auto run = read_run_json(fmt::format("{}/runs/{}", path, row.run))) {
                 out.input = run->input;
                 out.context.seconds_per_cycle = run->seconds_per_cycle;
                 break;
             }
+        }
         out.context.run = fs::weakly_canonical(path).filename().string();
     } else if (fs::is_directory(path)) {
         out.directory = path;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <unordered_set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -35,13 +37,14 @@ std::string joined(const std::vector<std::string>& values, const std::vector<std
     return fmt::format("{}", fmt::join(out, ", "));
 }
 
-/// The different values of some parameters, in the order of the table.
-std::vector<std::string> values_of(const RunTable& table, const std::vector<std::size_t>& parameters) {
-    std::vector<std::string> out;
+/// What some parameters have: the different values, in the order of the table.
+Axis axis_of(const RunTable& table, const std::vector<std::size_t>& parameters, std::string name) {
+    Axis out{parameters, std::move(name), {}};
     for (const auto& row : table.rows)
-        if (auto value = joined(row.values, parameters);
-            std::find(out.begin(), out.end(), value) == out.end())
-            out.push_back(std::move(value));
+        if (const auto [at, added] =
+                out.indices.try_emplace(joined(row.values, parameters), out.values.size());
+            added)
+            out.values.push_back(at->first);
     return out;
 }
 
@@ -50,6 +53,12 @@ std::vector<std::string> values_of(const RunTable& table, const std::vector<std:
 bool holds_experiment(const std::string& directory) {
     return fs::exists(directory + "/results.csv") &&
            (fs::is_directory(directory + "/runs") || fs::is_directory(directory + "/parts"));
+}
+
+bool has_runs(const std::string& directory) {
+    std::error_code none;
+    const fs::directory_iterator first(directory + "/runs", none);
+    return !none && first != fs::directory_iterator();
 }
 
 RunTable read_run_table(const std::string& directory) {
@@ -107,9 +116,9 @@ void keep_runs(RunTable& table, const std::vector<std::string>& where, Diagnosti
             continue;
         }
         std::vector<std::string> values;
+        std::unordered_set<std::string> known;
         for (const auto& row : table.rows)
-            if (std::find(values.begin(), values.end(), value_of(row, p)) == values.end())
-                values.push_back(value_of(row, p));
+            if (known.insert(value_of(row, p)).second) values.push_back(value_of(row, p));
         const auto number = parse_number<double>(value);
         const auto found = std::find_if(values.begin(), values.end(), [&](const std::string& v) {
             return v == value || (number && parse_number<double>(v) == number);
@@ -144,32 +153,35 @@ std::vector<double> Condition::numbers(std::size_t measure) const {
 
 std::vector<Condition> conditions_of(const RunTable& table) {
     std::vector<Condition> out;
+    std::map<std::vector<std::string>, std::size_t> indices;
     for (const auto& row : table.rows) {
-        auto at = std::find_if(out.begin(), out.end(), [&](const auto& c) { return c.values == row.values; });
-        if (at == out.end()) at = out.insert(out.end(), {row.values, {}});
-        at->rows.push_back(&row);
+        const auto [at, added] = indices.try_emplace(row.values, out.size());
+        if (added) out.push_back({row.values, {}});
+        out[at->second].rows.push_back(&row);
     }
     return out;
 }
 
-std::string Axis::value_of(const Condition& condition) const { return joined(condition.values, parameters); }
+std::size_t Axis::value_of(const Condition& condition) const {
+    return indices.at(joined(condition.values, parameters));
+}
 
 std::vector<Axis> axes_of(const RunTable& table) {
     std::vector<Axis> out;
     for (std::size_t p = 0; p < table.parameters.size(); ++p) {
-        const auto alone = values_of(table, {p});
-        if (alone.size() == 1) continue;
+        Axis alone = axis_of(table, {p}, table.parameters[p]);
+        if (alone.values.size() == 1) continue;
         if (!out.empty()) {  // sweeps that vary together stand one after the other
             Axis& last = out.back();
             auto parameters = last.parameters;
             parameters.push_back(p);
-            auto values = values_of(table, parameters);
-            if (values.size() < last.values.size() * alone.size()) {
-                last = {std::move(parameters), last.name + ", " + table.parameters[p], std::move(values)};
+            Axis both = axis_of(table, parameters, last.name + ", " + table.parameters[p]);
+            if (both.values.size() < last.values.size() * alone.values.size()) {
+                last = std::move(both);
                 continue;
             }
         }
-        out.push_back({{p}, table.parameters[p], alone});
+        out.push_back(std::move(alone));
     }
     return out;
 }

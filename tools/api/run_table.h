@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "core/base/diagnostic.h"
@@ -25,6 +26,8 @@ struct RunTable {
 
 /// Whether a directory holds the results of an experiment.
 bool holds_experiment(const std::string& directory);
+/// Whether runs have directories there. Those that parts executed may have none.
+bool has_runs(const std::string& directory);
 /// Reads the table of an experiment. Throws FileError.
 RunTable read_run_table(const std::string& directory);
 
@@ -50,7 +53,10 @@ struct Axis {
     std::string name;                 ///< the names of the parameters
     std::vector<std::string> values;  ///< different ones, in the order of the table
 
-    std::string value_of(const Condition& condition) const;
+    /// The index of the value that a condition has.
+    std::size_t value_of(const Condition& condition) const;
+
+    std::unordered_map<std::string, std::size_t> indices = {};  ///< of the values
 };
 /// What was varied in the table: parameters with several values. Parameters vary together when the table has
 /// not all combinations of their values.

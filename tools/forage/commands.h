@@ -60,7 +60,8 @@ struct ExperimentOptions {
     int jobs = 0;        ///< number of simultaneous runs; 0: one per core
     bool fresh = false;  ///< whether finished runs are repeated
     bool quiet = false;
-    std::string shard = {};  ///< "3/10": executes this part only
+    std::vector<std::string> formats = {};  ///< of further tables: "npy", "hdf5"
+    std::string shard = {};                 ///< "3/10": executes this part only
     bool merge = false, status = false;
     bool slurm = false, dry_run = false;   ///< submits to Slurm, or only writes the scripts
     int tasks = 0;                         ///< of Slurm's array; 0: at most 100

@@ -85,6 +85,13 @@ int print_results(const ExperimentOptions& o, const PreparedExperiment& e,
     return failures ? run_failed : fine;
 }
 
+std::vector<observe::TableFormat> formats_of(const ExperimentOptions& o) {
+    std::vector<observe::TableFormat> out;
+    for (const auto& format : o.formats)
+        out.push_back(format == "npy" ? observe::TableFormat::npy : observe::TableFormat::hdf5);
+    return out;
+}
+
 /// Executes one part.
 int execute_shard(const ExperimentOptions& o, const PreparedExperiment& e) {
     begin(e);
@@ -124,12 +131,13 @@ int submit(const ExperimentOptions& o, const PreparedExperiment& e) {
 /// What parts need: everything but executing all runs here.
 int experiment_in_parts(const ExperimentOptions& o) {
     Diagnostics diagnostics;
-    const auto e = prepare_part(o.file, o.directory, o.plugins, diagnostics);
+    auto e = prepare_part(o.file, o.directory, o.plugins, diagnostics);
     if (diagnostics.failed() || !o.quiet) fmt::print(stderr, "{}", format(diagnostics));
     if (!e) return bad_input;
     if (!o.shard.empty()) return execute_shard(o, *e);
     if (o.status) return print_status(*e);
     if (o.slurm) return submit(o, *e);
+    e->formats = formats_of(o);
     Diagnostics merging;
     const auto results = merge(*e, merging);
     fmt::print(stderr, "{}", format(merging));
@@ -141,10 +149,11 @@ int experiment_in_parts(const ExperimentOptions& o) {
 int experiment(const ExperimentOptions& o) {
     if (!o.shard.empty() || o.merge || o.status || o.slurm) return experiment_in_parts(o);
     Diagnostics diagnostics;
-    const auto wanted = prepare_experiment(o.file, o.directory, o.plugins, diagnostics, o.system);
+    auto wanted = prepare_experiment(o.file, o.directory, o.plugins, diagnostics, o.system);
     if (diagnostics.failed() || !o.quiet) fmt::print(stderr, "{}", format(diagnostics));
     if (!wanted) return bad_input;
     begin(*wanted);
+    wanted->formats = formats_of(o);
     Progress progress(!o.quiet);
     const auto results = run_experiment(*wanted, o.jobs, o.fresh, callbacks_of(progress));
     progress.clear();

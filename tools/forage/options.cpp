@@ -168,6 +168,11 @@ void add_experiment(CLI::App& app, ExperimentOptions& o) {
         ->option_text("N");
     add_plugins(experiment, o.plugins);
     experiment.add_flag("--fresh", o.fresh, "Repeat finished runs");
+    repeated(experiment.add_option("--table-format", o.formats,
+                                   "Write the results also as results.npy or results.h5: npy or hdf5; may be "
+                                   "repeated"))
+        ->check(one_of({"npy", "hdf5"}))
+        ->option_text("FORMAT");
     experiment.add_flag("-q,--quiet", o.quiet, "Print errors only");
     const std::string cluster = "Many machines";
     auto* shard = experiment.add_option("--shard", o.shard, "Execute part I of N parts only, such as 3/10");

@@ -1,6 +1,7 @@
 #include "tools/plot/heat.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -14,7 +15,10 @@ Picture heat_map(const HeatMap& map) {
     double wide = 0, beside = 0;
     for (const auto& n : map.x_names) wide = std::max(wide, measure.canvas().width_of(n, 12));
     for (const auto& n : map.y_names) beside = std::max(beside, measure.canvas().width_of(n, 12));
-    const double cell = std::clamp(std::max(560.0 / std::max(columns, rows), wide + 10), 12.0, 90.0);
+    // Up to 40 values stand side by side with their names; of more, some have names.
+    const int most_values = std::max(columns, rows);
+    const double cell = most_values > 40 ? std::max(1000.0 / most_values, 1.0)
+                                         : std::clamp(std::max(560.0 / most_values, wide + 10), 12.0, 90.0);
     const double top = 62, title = measure.canvas().width_of(map.x_title, 13);
     const double left = std::max(beside + 50, 12 + (title - cell * columns) / 2);
     const Box box{left, top, cell * columns, cell * rows};
@@ -23,9 +27,11 @@ Picture heat_map(const HeatMap& map) {
     std::size_t most = 0;
     for (const auto& e : map.cells)
         if (e) scale.include(e->mean), most = std::max(most, e->count);
-    const auto ticks = [](const std::vector<std::string>& names) {
+    const auto ticks = [&](const std::vector<std::string>& names, double size) {
+        const auto step = most_values > 40 ? static_cast<std::size_t>(std::ceil(size / cell)) : 1;
         std::vector<std::pair<double, std::string>> out;
-        for (const auto& n : names) out.emplace_back(static_cast<double>(out.size() + 1), n);
+        for (std::size_t i = 0; i < names.size(); i += step)
+            out.emplace_back(static_cast<double>(i + 1), names[i]);
         return out;
     };
     const double bar = std::max(box.height, 110.0);
@@ -34,7 +40,7 @@ Picture heat_map(const HeatMap& map) {
                   24 + measure.canvas().width_of(map.title, 15, true),
                   24 + measure.canvas().width_of(map.subtitle, 12)});
     return {width, top + bar + 50,
-            [=, x_ticks = ticks(map.x_names), y_ticks = ticks(map.y_names)](Canvas& canvas) {
+            [=, x_ticks = ticks(map.x_names, wide + 10), y_ticks = ticks(map.y_names, 16)](Canvas& canvas) {
                 canvas.text(12, 22, map.title, 15, 0, black, true);
                 canvas.text(12, 40, map.subtitle, 12, 0, grey);
                 const auto at = [&](int column, int row) -> const auto& {

@@ -99,12 +99,14 @@ PartFile::~PartFile() {
     close(file_);
 }
 
-void PartFile::add(const std::string& run, std::uint64_t key, const RunResult& result) {
+void PartFile::add(const std::string& run, std::uint64_t key, const RunResult& result,
+                   const std::string& trials) {
     if (file_ < 0) create();
     const double at = now();
     Json json;
     json["key"] = fmt::format("{:016x}", key), json["run"] = run;
     json["at"] = static_cast<std::uint64_t>(at * 1000);  // ms since 1970
+    if (!trials.empty()) json["trials"] = trials;
     json["result"] = json_of(result);
     const std::string line = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
     ssize_t written;
@@ -132,19 +134,19 @@ PartResults read_parts(const std::string& directory, const RunPlan& plan, const 
                        const std::optional<Shard>& only) {
     PartResults out;
     out.results.resize(plan.size());
-    const auto files = part_files(directory, only);
-    out.files = files.size();
-    if (files.empty()) return out;
+    out.lines.resize(plan.size());
+    for (const auto& file : part_files(directory, only)) out.files.push_back(file.string());
+    if (out.files.empty()) return out;
     const RunKeys keys(plan, experiment);
     std::vector<std::pair<std::uint64_t, std::size_t>> runs;  // runs with equal input have equal keys
     runs.reserve(plan.size());
     for (std::size_t i = 0; i < plan.size(); ++i) runs.emplace_back(keys[i], i);
     std::sort(runs.begin(), runs.end());
     std::vector<std::uint64_t> times;  // ms
-    for (const auto& file : files) {
-        std::ifstream in(file, std::ios::binary);
+    for (std::uint32_t file = 0; file < out.files.size(); ++file) {
+        std::ifstream in(out.files[file], std::ios::binary);
         std::string line;
-        while (std::getline(in, line)) {
+        for (std::uint64_t at = 0; std::getline(in, line); at += line.size() + 1) {
             if (in.eof()) break;  // a line without its end was cut off by a kill
             try {
                 const auto json = Json::parse(line);
@@ -156,7 +158,8 @@ PartResults read_parts(const std::string& directory, const RunPlan& plan, const 
                 times.push_back(json.at("at").get<std::uint64_t>());
                 auto run = std::lower_bound(runs.begin(), runs.end(), std::pair(key, std::size_t{0}));
                 for (; run != runs.end() && run->first == key; ++run)
-                    if (auto& kept = out.results[run->second]; !kept || !kept->failure.empty()) kept = result;
+                    if (auto& kept = out.results[run->second]; !kept || !kept->failure.empty())
+                        kept = result, out.lines[run->second] = {file, at};
             } catch (const std::exception&) {
                 ++out.damaged;
             }
@@ -170,6 +173,27 @@ PartResults read_parts(const std::string& directory, const RunPlan& plan, const 
     out.newest = static_cast<double>(newest) / 1000;
     if (newest > oldest)
         out.rate = static_cast<double>(recent - 1) * 1000 / static_cast<double>(newest - oldest);
+    return out;
+}
+
+std::vector<std::string> read_trials(const PartResults& parts, std::span<const PartResults::Line> lines) {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        if (lines[i].file != PartResults::no_file) order.push_back(i);
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::pair(lines[a].file, lines[a].at) < std::pair(lines[b].file, lines[b].at);
+    });
+    std::vector<std::string> out(lines.size());
+    std::ifstream in;
+    std::uint32_t open = PartResults::no_file;
+    for (const std::size_t i : order) {
+        const std::string& path = parts.files[lines[i].file];
+        if (lines[i].file != open) in = std::ifstream(path, std::ios::binary), open = lines[i].file;
+        std::string line;
+        in.seekg(static_cast<std::streamoff>(lines[i].at));
+        if (!std::getline(in, line)) throw std::runtime_error(fmt::format("cannot read '{}'", path));
+        out[i] = Json::parse(line).value("trials", "");
+    }
     return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,9 +48,10 @@ class PartFile {
     PartFile& operator=(const PartFile&) = delete;
     ~PartFile();
 
-    /// Adds a result, and flushes the file to the disk once per second, which bounds what a power cut loses.
-    /// Throws std::runtime_error.
-    void add(const std::string& run, std::uint64_t key, const RunResult& result);
+    /// Adds a result and the run's trials.csv (empty when there is none), and flushes the file to the disk
+    /// once per second, which bounds what a power cut loses. Throws std::runtime_error.
+    void add(const std::string& run, std::uint64_t key, const RunResult& result,
+             const std::string& trials = {});
 
   private:
     void create();
@@ -62,9 +64,17 @@ class PartFile {
 /// What the files of parts hold.
 struct PartResults {
     std::vector<std::optional<RunResult>> results;  ///< one per run; empty where there is none
-    std::size_t files = 0, damaged = 0;             ///< files; lines that cannot be read, without a last one
-    double newest = 0;                              ///< when the newest result was written, s since 1970
-    double rate = 0;                                ///< runs per second in the last minute before `newest`
+    /// Where the line of a run stands; `file` is an index of `files`, or no_file for a run without a line.
+    struct Line {
+        std::uint32_t file = no_file;
+        std::uint64_t at = 0;
+    };
+    static constexpr std::uint32_t no_file = ~std::uint32_t{0};
+    std::vector<Line> lines;         ///< one per run
+    std::vector<std::string> files;  ///< their paths
+    std::size_t damaged = 0;         ///< lines that cannot be read, without a last one
+    double newest = 0;               ///< when the newest result was written, s since 1970
+    double rate = 0;                 ///< runs per second in the last minute before `newest`
 
     std::size_t finished() const;  ///< runs with numbers
     std::size_t failed() const;
@@ -75,6 +85,10 @@ struct PartResults {
 /// out, because they have none of its runs.
 PartResults read_parts(const std::string& directory, const RunPlan& plan, const model::Experiment& experiment,
                        const std::optional<Shard>& only = {});
+
+/// The trials.csv that stand in these lines, one text per line; empty where there is none. Reads each file
+/// once. Throws std::runtime_error.
+std::vector<std::string> read_trials(const PartResults& parts, std::span<const PartResults::Line> lines);
 
 /// Removes the files of all parts, or those of one part.
 void forget_parts(const std::string& directory, const std::optional<Shard>& only = {});

@@ -56,13 +56,14 @@ class Work {
     /// of the current run.
     void take_part(std::atomic<double>& part) {
         for (std::size_t i; (i = next_++) < block_.open.size() && !interrupted() && !error_;) {
-            auto result = make(block_.open[i], part);
+            std::string trials;
+            auto result = make(block_.open[i], part, trials);
             if (!result) return;
             part = 0;
             const std::lock_guard lock(results_mutex_);
             (result->failure.empty() ? done_ : failed_) += 1;
             try {
-                keep_(block_.open[i], std::move(*result));
+                keep_(block_.open[i], std::move(*result), trials);
             } catch (...) {
                 kept_badly_ = std::current_exception();
                 error_ = true;
@@ -93,7 +94,7 @@ class Work {
     bool interrupted() const { return callbacks_.interrupted && callbacks_.interrupted(); }
 
     /// The results, or nothing when the experiment was interrupted.
-    std::optional<RunResult> make(std::size_t index, std::atomic<double>& part) {
+    std::optional<RunResult> make(std::size_t index, std::atomic<double>& part, std::string& table) {
         PlannedRun run = block_.plan[index];
         if (!block_.files) run.spec.directory.clear();
         try {
@@ -108,14 +109,14 @@ class Work {
                     for (const auto& o : prepared->run.observers()) o->begin_files(files);
             }
             if (!prepared) return failed(first_error(diagnostics));
-            return make(run, *prepared, part);
+            return make(run, *prepared, part, table);
         } catch (const std::exception& e) {
             return failed(e.what());
         }
     }
 
-    std::optional<RunResult> make(const PlannedRun& planned, PreparedRun& prepared,
-                                  std::atomic<double>& part) {
+    std::optional<RunResult> make(const PlannedRun& planned, PreparedRun& prepared, std::atomic<double>& part,
+                                  std::string& table) {
         Run& run = prepared.run;
         RunResult result;
         bool stopped_by_user = false;
@@ -138,7 +139,7 @@ class Work {
                 std::count_if(trials.begin(), trials.end(), [](const Trial& t) { return t.reached_target; }));
         }
         result.measures = run.measure(*prepared.measures);
-        ResultFiles files(prepared.spec.directory);
+        ResultFiles files(prepared.spec.directory, "trials.csv");
         {
             const std::lock_guard lock(libraries_);
             run.finish(files);
@@ -150,6 +151,7 @@ class Work {
             files.write("run.json", [&] { return run_json(prepared, outcome); });
         if (stopped_by_user) return std::nullopt;
         if (!files.problems().empty()) return failed(files.problems().front());
+        table = files.kept();
         if (block_.files) write_result(planned, key_of(planned, block_.experiment), result, files.names());
         return result;
     }

@@ -44,8 +44,8 @@ struct RunBlock {
     std::size_t earlier = 0;        ///< how many others have results, for progress
     bool files = true;              ///< whether each run leaves files in its directory, also its result
 };
-/// Takes a result as soon as there is one; called by one thread at a time.
-using KeepResult = std::function<void(std::size_t run, RunResult&&)>;
+/// Takes a result, and the run's trials.csv, as soon as there is one; called by one thread at a time.
+using KeepResult = std::function<void(std::size_t run, RunResult&&, const std::string& trials)>;
 
 /// Executes runs, `jobs` at a time, each on one thread. Returns whether all were executed; the others were
 /// interrupted. Throws what `keep` throws.

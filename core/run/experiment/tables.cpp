@@ -72,11 +72,70 @@ std::vector<Combination> combinations(const RunPlan& plan, std::span<const RunRe
     return out;
 }
 
+using observe::TableColumn;
+
+bool have_trials(std::span<const RunResult> results) {
+    return std::any_of(results.begin(), results.end(), [](const auto& r) { return r.trials.has_value(); });
+}
+
+std::string status_of(const RunResult& r) {
+    return !r.failure.empty() ? "failed" : r.stopped.empty() ? "finished" : "stopped";
+}
+
+const std::string& remark_of(const RunResult& r) {
+    return !r.failure.empty() ? r.failure : r.stopped.empty() ? r.diverged : r.stopped;
+}
+
+/// The values of a sweep by combination: numbers if all of them are.
+TableColumn swept_column(const model::Experiment& e, const RunPlan& plan, std::size_t sweep) {
+    std::vector<std::string> texts;
+    std::vector<double> numbers;
+    for (std::size_t c = 0; c < plan.combinations(); ++c) {
+        texts.push_back(plan.values(c)[sweep]);
+        if (const auto n = parse_number<double>(texts.back())) numbers.push_back(*n);
+    }
+    const auto& name = e.sweeps[sweep].parameter.text;
+    const std::size_t seeds = plan.seeds();
+    if (numbers.size() == texts.size())
+        return {name,
+                TableColumn::Numbers([numbers, seeds](std::size_t run) { return numbers[run / seeds]; })};
+    return {name, TableColumn::Texts([texts, seeds](std::size_t run) { return texts[run / seeds]; })};
+}
+
 }  // namespace
 
+std::vector<observe::TableColumn> results_columns(const model::Experiment& e, const RunPlan& plan,
+                                                  std::span<const RunResult> results) {
+    std::vector<TableColumn> out;
+    const auto add = [&](TableColumn column) {
+        while (std::any_of(out.begin(), out.end(), [&](const auto& c) { return c.name == column.name; }))
+            column.name += '\'';
+        out.push_back(std::move(column));
+    };
+    const auto counts = [&](const char* name, auto value) {
+        add({name, TableColumn::Counts([results, value](std::size_t run) { return value(results[run]); })});
+    };
+    add({"run", TableColumn::Texts([&plan](std::size_t run) { return plan.name(run); })});
+    for (std::size_t s = 0; s < e.sweeps.size(); ++s) add(swept_column(e, plan, s));
+    add({"seed", TableColumn::Counts([&plan](std::size_t run) { return plan.seed(run); })});
+    add({"status", TableColumn::Texts([results](std::size_t run) { return status_of(results[run]); })});
+    counts("cycles", [](const RunResult& r) { return r.cycles; });
+    add({"seconds", TableColumn::Numbers([results](std::size_t run) { return results[run].seconds; })});
+    if (have_trials(results)) {
+        counts("trials", [](const RunResult& r) { return r.trials.value_or(0); });
+        counts("reached", [](const RunResult& r) { return r.reached.value_or(0); });
+    }
+    for (std::size_t m = 0; m < e.measures.size(); ++m)
+        add({e.measures[m].name, TableColumn::Numbers([results, m](std::size_t run) {
+                 const RunResult& r = results[run];
+                 return r.failure.empty() ? r.measures[m].value_or(std::nan("")) : std::nan("");
+             })});
+    add({"remark", TableColumn::Texts([results](std::size_t run) { return remark_of(results[run]); })});
+    return out;
+}
+
 std::string results_csv(const model::Experiment& e, const RunPlan& plan, std::span<const RunResult> results) {
-    const bool trials =
-        std::any_of(results.begin(), results.end(), [](const auto& r) { return r.trials.has_value(); });
+    const bool trials = have_trials(results);
     std::vector<std::string> header = {"run"};
     for (const auto& s : e.sweeps) header.push_back(field(s.parameter.text));
     for (const char* name : {"seed", "status", "cycles", "seconds"}) header.emplace_back(name);
@@ -90,13 +149,13 @@ std::string results_csv(const model::Experiment& e, const RunPlan& plan, std::sp
         std::vector<std::string> fields = {plan.name(i)};
         for (const auto& value : plan.values(i / plan.seeds())) fields.push_back(field(value));
         fields.push_back(fmt::format("{}", plan.seed(i)));
-        fields.emplace_back(failed ? "failed" : r.stopped.empty() ? "finished" : "stopped");
+        fields.push_back(status_of(r));
         fields.push_back(failed ? "" : fmt::format("{}", r.cycles));
         fields.push_back(failed ? "" : fmt::format("{}", r.seconds));
         if (trials) fields.push_back(field(r.trials)), fields.push_back(field(r.reached));
         for (std::size_t m = 0; m < e.measures.size(); ++m)
             fields.push_back(failed ? "" : field(r.measures[m]));
-        fields.push_back(field(failed ? r.failure : r.stopped.empty() ? r.diverged : r.stopped));
+        fields.push_back(field(remark_of(r)));
         out += row(fields);
     }
     return out;

@@ -7,6 +7,7 @@
 
 #include "core/base/diagnostic.h"
 #include "core/model/experiment.h"
+#include "core/observe/table_file.h"
 #include "core/run/experiment/result.h"
 
 namespace forage {
@@ -15,6 +16,12 @@ namespace forage {
 /// trials and reached (in a world with trials), the measures, remark. A field without a number is empty.
 std::string results_csv(const model::Experiment& experiment, const RunPlan& plan,
                         std::span<const RunResult> results);
+
+/// The columns of results_csv() with their types, for other formats. A parameter is a number if all its
+/// values are; where a run has no number, there is NaN or, for cycles and trials, 0. Names that repeat get a
+/// ' at their end. All arguments must outlive the columns.
+std::vector<observe::TableColumn> results_columns(const model::Experiment& experiment, const RunPlan& plan,
+                                                  std::span<const RunResult> results);
 
 /// One row per combination of swept values: the number of runs with results, and for each measure the mean,
 /// standard deviation (n - 1), minimum and maximum over the seeds, with the number of runs that have it.
