@@ -92,11 +92,11 @@ TEST_CASE("what several pages watch is read once, and they get the same") {
     };
     Fixture f;
     int reads = 0;
-    SharedSource shared(std::make_unique<Counting>(reads));
+    SharedSource shared(f.session.run(), std::make_unique<Counting>(reads));
     for (std::uint64_t version = 1; version <= 3; ++version)
         for (int page = 0; page < 3; ++page) {
-            CHECK(shared.numbers(f.session.run(), version)[0] == static_cast<double>(version));
-            CHECK(shared.chunk(f.session.run(), version).highest == static_cast<float>(version));
+            CHECK(shared.numbers(version)[0] == static_cast<double>(version));
+            CHECK(shared.chunk(version).highest == static_cast<float>(version));
         }
     CHECK(reads == 3);
     for (int client = 1; client <= 3; ++client) {
@@ -124,14 +124,14 @@ TEST_CASE("a page that leaves gets nothing more") {
 TEST_CASE("the smallest and largest number of several cycles are those of every cycle") {
     Fixture f;
     SourcePool pool;
-    auto source = [&] { return pool.find(f.session.run(), "Bug/Light", Delivery::append); };
+    auto source = [&] { return pool.find(f.session.run(), nullptr, "Bug/Light", Delivery::append); };
     Stream every(source(), "Bug/Light", Delivery::append, 1),
         tenth(source(), "Bug/Light", Delivery::append, 10);
     for (std::uint64_t cycle = 0; cycle < 105; ++cycle) {
         f.session.run().step();
-        every.after_cycle(f.session.run(), cycle, cycle), tenth.after_cycle(f.session.run(), cycle, cycle);
+        every.after_cycle(cycle, cycle), tenth.after_cycle(cycle, cycle);
     }
-    const Chunk all = every.take(f.session.run(), 105), pairs = tenth.take(f.session.run(), 105);
+    const Chunk all = every.take(105), pairs = tenth.take(105);
     REQUIRE(all.rows == 105);
     REQUIRE(pairs.rows == 10);
     CHECK(pairs.pairs);
@@ -150,7 +150,7 @@ TEST_CASE("the smallest and largest number of several cycles are those of every 
             CHECK(p[row * pairs.columns + 2 * i - 1] == low);
             CHECK(p[row * pairs.columns + 2 * i] == high);
         }
-    CHECK(every.take(f.session.run(), 106).rows == 0);
+    CHECK(every.take(106).rows == 0);
 }
 
 TEST_CASE("a run is paced by the clock, and does not catch up a long pause") {
@@ -330,4 +330,47 @@ TEST_CASE("a session that is killed while it runs goes on where it was kept, byt
     f.session.end();
     CHECK(std::filesystem::is_empty(folder / "forage/studio"));
     std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("two runs go side by side from any moment: one as it was, one with another parameter") {
+    Fixture f, before;
+    const auto both = [](Fixture& x) {
+        x.result({{"command", "step"}, {"cycles", 300}});
+        x.result({{"command", "manipulate"},
+                  {"group", "Bug/Motor"},
+                  {"patterns", {std::vector<double>(81, 0.2)}}});
+        x.result({{"command", "step"}, {"cycles", 300}});
+    };
+    both(f), both(before);
+    const auto at = [](Fixture& x, const char* source) {
+        return x.result({{"command", "read"}, {"source", source}})["values"];
+    };
+    const auto earlier = at(before, "world:poses");
+
+    f.session.connect(1);
+    f.result({{"command", "compare"}, {"cycle", 200}, {"assignments", {"Bug/Light.threshold=0.9"}}});
+    CHECK(f.session.run().cycle() == 200);
+    CHECK(at(f, "reference:world:poses") == at(f, "world:poses"));
+    const auto stream =
+        f.result({{"command", "subscribe"}, {"source", "reference:mean(Bug/Motor)"}, {"class", "append"}});
+    CHECK(stream["rows"] == 1);
+    f.result({{"command", "step"}, {"cycles", 400}});
+    CHECK(at(f, "reference:world:poses") == earlier);  // with what was done at cycle 300
+    CHECK(at(f, "world:poses") != earlier);
+    CHECK(f.result({{"command", "parameters"}, {"item", "Bug/Light"}}).dump().find("0.9") !=
+          std::string::npos);
+
+    f.result({{"command", "seek"}, {"cycle", 250}});  // both go back
+    f.result({{"command", "step"}, {"cycles", 350}});
+    CHECK(at(f, "reference:world:poses") == earlier);
+    f.result({{"command", "seek"}, {"cycle", 100}});  // before they differ, there is one run
+    CHECK(f.ask({{"command", "read"}, {"source", "reference:world:poses"}})["ok"] == false);
+
+    Fixture alone;
+    alone.result({{"command", "step"}, {"cycles", 200}});
+    alone.result({{"command", "set"}, {"assignments", {"Bug/Light.threshold=0.9"}}});
+    alone.result({{"command", "step"}, {"cycles", 100}});
+    f.result({{"command", "seek"}, {"cycle", 300}});
+    CHECK(f.session.run().digest() ==
+          alone.session.run().digest());  // the reference changes no bit of the run
 }

@@ -28,14 +28,19 @@ void Client::rebind(Run& run, SourcePool& sources) {
     for (auto it = streams_.begin(); it != streams_.end();) {
         const Stream& old = it->second;
         try {
-            it->second = Stream(sources.find(run, old.text(), old.delivery()), old.text(), old.delivery(),
-                                old.every());
+            it->second = Stream(sources.find(run, nullptr, old.text(), old.delivery()), old.text(),
+                                old.delivery(), old.every());
             ++it;
         } catch (const InputError&) {
             it = streams_.erase(it);
         }
     }
     version_.reset();
+    list();
+}
+
+void Client::end_reference() {
+    std::erase_if(streams_, [](const auto& s) { return s.second.text().starts_with(SourcePool::beside); });
     list();
 }
 
@@ -57,7 +62,7 @@ std::optional<std::string> Client::frame(Run& run, std::uint64_t version, std::u
     const std::size_t head = 32 + 32 * streams_.size();
     std::string payload, table;
     for (auto& [number, stream] : streams_) {
-        const Chunk& c = stream.take(run, version);
+        const Chunk& c = stream.take(version);
         payload.resize((payload.size() + 7) / 8 * 8);
         put(table, number), put(table, c.rows), put(table, c.columns);
         put(table, static_cast<std::uint8_t>(c.type));

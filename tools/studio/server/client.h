@@ -25,6 +25,8 @@ class Client {
     bool watches() const { return !streams_.empty(); }
     /// Subscribes everything anew in a run that replaces the one before; streams that it does not have end.
     void rebind(Run& run, SourcePool& sources);
+    /// Ends the streams of the run that went beside.
+    void end_reference();
 
     /// Acknowledges all frames up to `seq`. Numbers of frames that were not sent are ignored.
     void acknowledge(std::uint32_t seq) {
@@ -32,8 +34,8 @@ class Client {
     }
     std::uint32_t in_flight() const { return sent_ - acknowledged_; }
 
-    void after_cycle(Run& run, std::uint64_t cycle, std::uint64_t version) {
-        for (Stream* stream : every_cycle_) stream->after_cycle(run, cycle, version);
+    void after_cycle(std::uint64_t cycle, std::uint64_t version) {
+        for (Stream* stream : every_cycle_) stream->after_cycle(cycle, version);
     }
     void clear() {
         for (auto& [number, stream] : streams_) stream.clear();

@@ -45,6 +45,7 @@ struct Commands {
     json subscribe();
     json unsubscribe();
     json read();
+    Run* beside();  ///< the run to compare with; null without one
     json synapses();
     json trials();
     std::size_t find_robot();
@@ -107,6 +108,8 @@ struct Commands {
     json digest();
     json seek();
     json branch();
+    json compare();
+    json compare_end();
     json recover();
     json forget();
 };

@@ -100,6 +100,8 @@ const std::map<std::string, Entry>& table() {
         {"digest", {&Commands::digest, false}},
         {"seek", {&Commands::seek, true}},
         {"branch", {&Commands::branch, true}},
+        {"compare", {&Commands::compare, true}},
+        {"compare_end", {&Commands::compare_end, false}},
         {"recover", {&Commands::recover, true}},
         {"forget", {&Commands::forget, false}},
     };

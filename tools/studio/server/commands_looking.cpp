@@ -22,7 +22,7 @@ json Commands::subscribe() {
     if (wanted != "latest" && wanted != "append")
         throw InputError(fmt::format("'{}' is not a class of streams", wanted), "latest or append");
     const Delivery delivery = wanted == "append" ? Delivery::append : Delivery::latest;
-    Stream stream(s.sources_.find(run(), text, delivery), text, delivery,
+    Stream stream(s.sources_.find(run(), beside(), text, delivery), text, delivery,
                   whole(c, "every", 1, 1, 1'000'000'000));
     const auto number = it->second.subscribe(std::move(stream));
     const auto& kept = it->second.stream(number);
@@ -41,11 +41,13 @@ json Commands::unsubscribe() {
 }
 
 json Commands::read() {
-    const auto source = find_stream_source(run(), c.at("source").get<std::string>(), Delivery::latest);
-    std::vector<double> values(static_cast<std::size_t>(source->rows()) * source->columns());
-    source->read(run(), values);
-    return {{"rows", source->rows()}, {"columns", source->columns()}, {"values", values}};
+    const auto text = c.at("source").get<std::string>();
+    const auto shared = s.sources_.find(run(), beside(), text, Delivery::latest);
+    const auto values = shared->numbers(s.version_);
+    return {{"rows", shared->source().rows()}, {"columns", shared->source().columns()}, {"values", values}};
 }
+
+Run* Commands::beside() { return s.reference_ ? s.reference_->run.get() : nullptr; }
 
 json Commands::synapses() {
     Diagnostics diagnostics;

@@ -29,6 +29,24 @@ json Commands::branch() {
     return set(assignments, fmt::format("from cycle {}: {}", run().cycle(), assignments.front()), true);
 }
 
+json Commands::compare() {
+    const auto cycle = whole(c, "cycle", run().cycle(), s.history_.first(), s.history_.last());
+    const auto assignments = c.value("assignments", std::vector<std::string>());
+    if (!assignments.empty()) inverse(assignments);
+    if (s.sampler_ && cycle != run().cycle())
+        throw InputError("a sampler cannot go back", "stop the sampler first");
+    s.begin_reference(cycle);
+    s.go_to(cycle);
+    if (!assignments.empty())
+        set(assignments, fmt::format("compare from cycle {}: {}", cycle, assignments.front()), true);
+    return {{"cycle", cycle}};
+}
+
+json Commands::compare_end() {
+    s.end_reference();
+    return json::object();
+}
+
 json Commands::recover() {
     s.recover();
     s.tell(s.system_message()), s.tell(s.world_message());

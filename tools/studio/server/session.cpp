@@ -48,7 +48,7 @@ Session::Session(RunInput input, Send send, const std::string& plot_config) : se
     open(std::move(input));
 }
 
-void Session::open(RunInput input) {
+std::pair<std::unique_ptr<Run>, Touches*> Session::make_run(const RunInput& input, std::string* files) {
     Diagnostics diagnostics;
     const Sources sources = read_sources(input, diagnostics);
     auto loaded = assemble(sources, input, diagnostics);
@@ -59,11 +59,19 @@ void Session::open(RunInput input) {
     auto& touches = run->add(std::make_unique<Touches>());
     run->start();
     run->title = run_title(input);
+    if (files) *files = source_digests(input, sources);
+    return {std::make_unique<Run>(std::move(*run)), &touches};
+}
+
+void Session::open(RunInput input) {
+    std::string files;
+    auto [run, touches] = make_run(input, &files);
     close_sampler();
-    files_ = source_digests(input, sources);
+    end_reference();
+    files_ = std::move(files);
     input_ = begun_ = std::move(input);
-    run_ = std::move(*run);
-    touches_ = &touches;
+    run_ = std::move(run);
+    touches_ = touches;
     failed_.clear(), running_ = sampled_ = false;
     history_.begin(*run_);
     rewound();
@@ -101,7 +109,7 @@ void Session::connect(int client) {
           {"version", FORAGE_VERSION},
           {"capabilities",
            {"run", "streams", "parameters", "manipulations", "sampler", "move", "history", "layouts",
-            "panels", "pictures", "recovery"}},
+            "panels", "pictures", "recovery", "compare"}},
           {"layout", layout_},
           {"panels", panels_}});
     send(system_message());
@@ -171,6 +179,7 @@ json Session::status() const {
             {"manipulations", std::move(manipulations)},
             {"history", {{"first", history_.first()}, {"last", history_.last()}}},
             {"trials", trials_status()},
+            {"compare", reference_ ? json{{"from", reference_->from}} : json(nullptr)},
             {"killed", killed_},
             {"save_failed", save_failed_}};
 }
@@ -223,8 +232,9 @@ void Session::cycle() {
     run_->step();
     ++version_;
     history_.after_cycle(*run_);
+    if (reference_) step_reference();
     const std::uint64_t done = run_->cycle() - 1;
-    for (auto& [id, client] : clients_) client.after_cycle(*run_, done, version_);
+    for (auto& [id, client] : clients_) client.after_cycle(done, version_);
     if (!sampler_) return;
     sampler_->recorder->record(run_->simulation());
     if (done % sampler_->every == 0) ++sampler_->rows;
@@ -241,6 +251,7 @@ void Session::close_sampler() {
 
 void Session::go_to(std::uint64_t cycle) {
     running_ = false;
+    if (reference_ && (cycle < reference_->from || !failed_.empty())) end_reference();
     if (!failed_.empty() || !history_.ahead(run_->cycle(), cycle)) {
         if (sampler_) throw InputError("a sampler cannot go back", "stop the sampler first");
         if (!failed_.empty()) {  // a run that failed cannot go on, so its past is restored into a new one
@@ -250,7 +261,12 @@ void Session::go_to(std::uint64_t cycle) {
             history_ = std::move(past);
             rebind();
         }
-        return replay(cycle);
+        replay(cycle);
+        if (!reference_) return;
+        swap_reference();
+        replay(cycle);
+        swap_reference();
+        return;
     }
     while (run_->cycle() < cycle) this->cycle();
 }

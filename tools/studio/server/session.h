@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -70,6 +72,19 @@ class Session {
         json undo, redo;  ///< commands
         std::string title;
     };
+    struct Change {
+        std::string assignment;
+        json loaded;  ///< the value of the file
+    };
+    using Changes = std::map<std::string, Change>;  ///< by the name of the parameter
+    /// A run from the same past, in step with the run. It takes the course that the run took before.
+    struct Reference {
+        std::uint64_t from = 0;  ///< the cycle since which they may differ
+        std::unique_ptr<Run> run;
+        Touches* touches = nullptr;
+        History past;
+        Changes changed;
+    };
     struct Sampler {
         std::string file;
         std::uint64_t every = 1, rows = 0;
@@ -79,10 +94,17 @@ class Session {
 
     void save();  ///< into the folder of states; notes what goes wrong
     void look_for_killed();
+    /// A started run of the system, with the touches of pages. Throws InputError.
+    std::pair<std::unique_ptr<Run>, Touches*> make_run(const RunInput& input, std::string* files = nullptr);
     void open(RunInput input);  ///< throws InputError, and leaves the run as it is then
     void reset();               ///< opens the same system with the parameters as they are now
     void cycle();               ///< one cycle, with what follows it
     void repeat_actions();
+    /// Lets the session work on the reference instead of its run.
+    void swap_reference();
+    void step_reference();
+    void begin_reference(std::uint64_t cycle);
+    void end_reference();
     void go_to(std::uint64_t cycle);
     void replay(std::uint64_t cycle);  ///< from the last checkpoint before it
     void rewound();
@@ -104,17 +126,14 @@ class Session {
     Send send_;
     json layout_;  ///< the layout that pages begin with; null for none
     json panels_;  ///< the arrangement that a page had last; null for none
-    std::optional<Run> run_;
+    std::unique_ptr<Run> run_;
     Touches* touches_ = nullptr;
     History history_;
+    std::optional<Reference> reference_;
     std::map<int, Client> clients_;
     SourcePool sources_;
     std::vector<Undo> undo_, redo_;
-    struct Change {
-        std::string assignment;
-        json loaded;  ///< the value of the file
-    };
-    std::map<std::string, Change> changed_;  ///< by the name of the parameter
+    Changes changed_;
     std::optional<Sampler> sampler_;
     json sampler_waits_;    ///< the command of a sampler that begins with the run; null for none
     bool sampled_ = false;  ///< whether it has begun in this run

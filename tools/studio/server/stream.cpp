@@ -193,23 +193,30 @@ std::unique_ptr<StreamSource> find_stream_source(Run& run, std::string_view text
     return out;
 }
 
-std::shared_ptr<SharedSource> SourcePool::find(Run& run, const std::string& text, Delivery delivery) {
-    auto& known = sources_[{text, delivery}];
-    if (auto shared = known.lock()) return shared;
+std::shared_ptr<SharedSource> SourcePool::find(Run& run, Run* reference, const std::string& text,
+                                               Delivery delivery) {
+    if (const auto known = sources_.find({text, delivery}); known != sources_.end())
+        if (auto shared = known->second.lock()) return shared;
     std::erase_if(sources_, [](const auto& s) { return s.second.expired(); });
-    auto made = std::make_shared<SharedSource>(find_stream_source(run, text, delivery));
+    std::string_view name = text;
+    Run* of = &run;
+    if (name.starts_with(beside)) name.remove_prefix(beside.size()), of = reference;
+    if (!of)
+        throw InputError(fmt::format("'{}' needs a run to compare with", text),
+                         "the command compare begins one");
+    auto made = std::make_shared<SharedSource>(*of, find_stream_source(*of, name, delivery));
     sources_[{text, delivery}] = made;
     return made;
 }
 
-std::span<const double> SharedSource::numbers(Run& run, std::uint64_t version) {
-    if (read_ != version) source_->read(run, numbers_), read_ = version;
+std::span<const double> SharedSource::numbers(std::uint64_t version) {
+    if (read_ != version) source_->read(run_, numbers_), read_ = version;
     return numbers_;
 }
 
-const Chunk& SharedSource::chunk(Run& run, std::uint64_t version) {
+const Chunk& SharedSource::chunk(std::uint64_t version) {
     if (packed_ == version) return chunk_;
-    const auto all = numbers(run, version);
+    const auto all = numbers(version);
     chunk_.type = source_->type();
     chunk_.rows = source_->rows(), chunk_.columns = source_->columns();
     set_range(chunk_, all, 0);
@@ -230,9 +237,11 @@ Stream::Stream(std::shared_ptr<SharedSource> source, std::string text, Delivery 
 
 void Stream::clear() { rows_.clear(), joined_ = 0, gap_ = false; }
 
-void Stream::after_cycle(Run& run, std::uint64_t cycle, std::uint64_t version) {
+void Stream::after_cycle(std::uint64_t cycle, std::uint64_t version) {
     if (delivery_ != Delivery::append) return;
-    const auto now = source_->numbers(run, version);
+    // Rows begin at multiples of `every`, so that streams that began at different times have the same cycles.
+    if (joined_ == 0 && cycle % every_ != 0) return;
+    const auto now = source_->numbers(version);
     if (every_ == 1) return push(cycle, now);
     if (joined_ == 0) {
         first_ = cycle;
@@ -257,8 +266,8 @@ void Stream::push(std::uint64_t cycle, std::span<const double> numbers) {
     rows_.insert(rows_.end(), numbers.begin(), numbers.end());
 }
 
-const Chunk& Stream::take(Run& run, std::uint64_t version) {
-    if (delivery_ == Delivery::latest) return source_->chunk(run, version);
+const Chunk& Stream::take(std::uint64_t version) {
+    if (delivery_ == Delivery::latest) return source_->chunk(version);
     chunk_.type = Type::float64;
     chunk_.columns = static_cast<std::uint32_t>(row_size_);
     chunk_.rows = static_cast<std::uint32_t>(rows_.size() / row_size_);

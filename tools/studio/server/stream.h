@@ -54,27 +54,31 @@ std::unique_ptr<StreamSource> find_stream_source(Run& run, std::string_view text
 /// version is a number that grows with each change of the run.
 class SharedSource {
   public:
-    explicit SharedSource(std::unique_ptr<StreamSource> source)
-        : source_(std::move(source)),
+    SharedSource(Run& run, std::unique_ptr<StreamSource> source)
+        : run_(run),
+          source_(std::move(source)),
           numbers_(static_cast<std::size_t>(source_->rows()) * source_->columns()) {}
     const StreamSource& source() const { return *source_; }
     /// The numbers as they are now.
-    std::span<const double> numbers(Run& run, std::uint64_t version);
+    std::span<const double> numbers(std::uint64_t version);
     /// The same, for a frame.
-    const Chunk& chunk(Run& run, std::uint64_t version);
+    const Chunk& chunk(std::uint64_t version);
 
   private:
+    Run& run_;
     std::unique_ptr<StreamSource> source_;
     std::vector<double> numbers_;
     Chunk chunk_;
     std::optional<std::uint64_t> read_, packed_;  ///< versions
 };
 
-/// The sources of a run that pages watch.
+/// The sources of a run, and of another one that goes beside it, that pages watch.
 class SourcePool {
   public:
-    /// The source that a page names, as find_stream_source() finds it.
-    std::shared_ptr<SharedSource> find(Run& run, const std::string& text, Delivery delivery);
+    static constexpr std::string_view beside = "reference:";
+    /// The source that a page names, as find_stream_source() finds it; after "reference:" one of the run
+    /// beside, which may be null. Throws InputError.
+    std::shared_ptr<SharedSource> find(Run& run, Run* reference, const std::string& text, Delivery delivery);
     /// Forgets all: the run is replaced by another one.
     void clear() { sources_.clear(); }
 
@@ -93,9 +97,9 @@ class Stream {
     const StreamSource& source() const { return source_->source(); }
 
     /// Notes the numbers of the last cycle, if the stream is one of every cycle.
-    void after_cycle(Run& run, std::uint64_t cycle, std::uint64_t version);
+    void after_cycle(std::uint64_t cycle, std::uint64_t version);
     /// The newest numbers, or the rows since the last call. Valid until the next call.
-    const Chunk& take(Run& run, std::uint64_t version);
+    const Chunk& take(std::uint64_t version);
     /// Forgets the rows: the run begins anew or goes back.
     void clear();
 
