@@ -3,6 +3,11 @@ import type { Block } from '../protocol/frame';
 
 const capacity = 20000;
 
+/** How many cycles a row holds, so that `seconds` have about a row per pixel: a power of two. */
+export function cyclesPerRow(seconds: number, secondsPerCycle: number, pixels: number): number {
+  return Math.max(1, 2 ** Math.floor(Math.log2(seconds / secondsPerCycle / Math.max(100, pixels))));
+}
+
 export class Trace {
   private x: number[] = [];
   private y: number[] = [];
@@ -12,11 +17,15 @@ export class Trace {
     return this.x.length;
   }
 
-  /** Adds rows of a block: the cycle, then a number per cell, of which the mean is shown. */
-  add(block: Block, epoch: number, secondsPerCycle: number): void {
+  /**
+   * Adds rows of a block: the cycle, then a number per cell, of which the mean is shown. A row of `every` cycles has the lowest and the
+   * highest number per cell: both become points, half a row apart.
+   */
+  add(block: Block, epoch: number, secondsPerCycle: number, every = 1): void {
+    if (block.rows === 0) return;
     if (epoch !== this.epoch) {
       // The run began anew, or went back: what follows belongs to another course of it.
-      const first = block.rows > 0 ? block.values[0]! * secondsPerCycle : 0;
+      const first = block.values[0]! * secondsPerCycle;
       const keep = this.x.findIndex((t) => t >= first);
       if (this.epoch !== -1 && keep !== -1) this.x.length = this.y.length = keep;
       this.epoch = epoch;
@@ -25,13 +34,18 @@ export class Trace {
       this.x.push(block.values[0]! * secondsPerCycle);
       this.y.push(NaN);
     }
-    for (let r = 0; r < block.rows; r++) {
-      const at = r * block.columns;
-      let sum = 0;
-      for (let c = 1; c < block.columns; c++) sum += block.values[at + c]!;
-      this.x.push(block.values[at]! * secondsPerCycle);
-      this.y.push(block.columns > 1 ? sum / (block.columns - 1) : NaN);
-    }
+    const step = block.minMax ? 2 : 1;
+    const cells = (block.columns - 1) / step;
+    for (let r = 0; r < block.rows; r++)
+      for (let k = 0; k < step; k++) {
+        const at = r * block.columns;
+        const x = (block.values[at]! + (k * every) / 2) * secondsPerCycle;
+        if (x < this.x[this.x.length - 1]!) continue; // a stream of other rows has shown this already
+        let sum = 0;
+        for (let c = 1 + k; c < block.columns; c += step) sum += block.values[at + c]!;
+        this.x.push(x);
+        this.y.push(cells > 0 ? sum / cells : NaN);
+      }
     if (this.x.length > capacity * 1.25) {
       this.x.splice(0, this.x.length - capacity);
       this.y.splice(0, this.y.length - capacity);

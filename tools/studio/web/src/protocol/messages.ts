@@ -116,6 +116,8 @@ export interface StatusMessage {
     current: { number: number; seconds: number; smallest_distance: number } | null;
     last: { number: number; seconds: number; reached_target: boolean } | null;
   } | null;
+  /** The run goes beside another one since this cycle: sources with "reference:" before them. */
+  compare: { from: number } | null;
   /** A session of this system that was killed, and that can go on; `saved` in s since 1970. */
   killed: { cycle: number; seconds: number; saved: number } | null;
   /** Why the session cannot be kept for the case of a crash; empty while it can. */

@@ -17,7 +17,7 @@ const folder = mkdtempSync(join(tmpdir(), 'forage-page-'));
 cpSync(join(sources, 'systems'), join(folder, 'systems'), { recursive: true });
 
 function startStudio() {
-  const child = spawn(forage, ['studio', 'systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world'], { cwd: folder });
+  const child = spawn(forage, ['studio', 'systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world'], { cwd: folder, env: { ...process.env, XDG_STATE_HOME: join(folder, 'state') } });
   const address = new Promise((resolve, reject) => {
     let text = '';
     const read = (chunk) => {

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { csv, linesSvg } from '../../src/draw/save';
 import { adapt, extent, short } from '../../src/draw/scale';
-import { Trace } from '../../src/panels/trace';
+import { cyclesPerRow, Trace } from '../../src/panels/trace';
 
 describe('scales', () => {
   it('auto follows, expand only grows, manual stays', () => {
@@ -24,9 +24,23 @@ describe('Trace', () => {
     expect(x).toEqual([0, 0.1, 0.9, 0.9]);
     expect(t.at([0, 0.1])).toEqual([2, 3]);
   });
+  it('draws the lowest and the highest of several cycles', () => {
+    const t = new Trace();
+    t.add({ ...block([[0, 1, 9], [4, 2, 8]]), minMax: true }, 1, 0.1, 4);
+    t.add(block([[6, 5], [8, 7]]), 1, 0.1); // the first is shown already
+    expect(t.times(10)).toEqual([0, 0.2, 0.4, 0.6, 0.6, 0.8].map((v) => expect.closeTo(v)));
+    expect(t.at(t.times(10)).slice(0, 4)).toEqual([1, 9, 2, 8]);
+  });
+  it('takes as many cycles for a row as a pixel can show', () => {
+    expect(cyclesPerRow(30, 0.04, 400)).toBe(1);
+    expect(cyclesPerRow(600, 0.04, 400)).toBe(32);
+    expect(cyclesPerRow(600, 0.04, 0)).toBe(128);
+  });
   it('forgets the future when the run goes back', () => {
     const t = new Trace();
     t.add(block([[0, 1], [1, 1], [2, 1]]), 1, 1);
+    t.add({ ...block([[0, 0]]), rows: 0 }, 2, 1); // the run rests after it has gone back
+    expect(t.length).toBe(3);
     t.add(block([[1, 5]]), 2, 1);
     expect(t.times(10)).toEqual([0, 1]);
     expect(t.at([0, 1])).toEqual([1, 5]);

@@ -1,0 +1,71 @@
+// Two runs side by side in Chromium, and what the canvases show: node compare_test.mjs FORAGE SOURCES [SCREENSHOT]
+import assert from 'node:assert/strict';
+import { resolve } from 'node:path';
+import { inBrowser } from './support.mjs';
+
+const [forage, sources, screenshot] = process.argv.slice(2).map((p) => resolve(p));
+const step = (text) => console.log(text);
+
+await inBrowser(sources, async ({ context, start, until }) => {
+  const page = await context.newPage();
+  page.setDefaultTimeout(10000);
+  await page.goto(await start(forage).address);
+  await page.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
+  const seek = page.getByLabel('Moment of the run');
+  const cycle = (n) => until(page, `cycle ${n}`, (wanted) => Number(document.querySelector('[aria-label="Moment of the run"]')?.value) >= wanted, n);
+  const inspector = page.getByRole('region', { name: 'Inspector' });
+
+  step('the canvases show something: several colours in the arena, and the heat map of a group that is zero is one dark blue');
+  const count = (selector) => page.locator(selector).first().evaluate((c) => new Set(new Uint32Array(c.getContext('2d').getImageData(0, 0, c.width, c.height).data.buffer)).size);
+  await until(page, 'the floor', () => {
+    const c = document.querySelector('[role="group"][aria-label="Arena"] canvas');
+    return new Set(new Uint32Array(c.getContext('2d').getImageData(0, 0, c.width, c.height).data.buffer)).size > 20;
+  });
+  await until(page, 'the first colour of viridis, one pixel per cell', () => {
+    const c = document.querySelector('[aria-label="Space plot of Bug/Motor"] canvas.heat');
+    return c.width === 9 && c.height === 9 && [...c.getContext('2d').getImageData(4, 4, 1, 1).data].join() === '68,1,84,255';
+  });
+  assert.equal(await count('[aria-label="Space plot of Bug/Motor"] canvas.heat'), 1);
+
+  step('a run, with the motor over time');
+  await page.getByRole('navigation').getByText('Motor', { exact: true }).click();
+  await inspector.getByRole('button', { name: 'Time' }).click();
+  await page.locator('.uplot canvas').first().waitFor();
+  await page.getByRole('button', { name: '4×' }).click();
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  await cycle(150);
+  await page.getByRole('button', { name: 'Pause', exact: true }).click();
+
+  step('from cycle 50 on twice: with a motor that does nothing, and as it was');
+  await seek.fill('50');
+  await until(page, 'cycle 50', () => document.querySelector('[aria-label="Moment of the run"]')?.value === '50');
+  await page.getByRole('button', { name: 'Compare from here' }).click();
+  await page.getByRole('button', { name: 'End comparison' }).waitFor();
+  await inspector.getByRole('heading', { name: 'Bug/Motor' }).waitFor();
+  const gain = inspector.locator('input[id^="Bug/Motor."]').first();
+  await gain.fill('0');
+  await gain.press('Enter');
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  await cycle(140);
+  await page.getByRole('button', { name: 'Pause', exact: true }).click();
+
+  step('both traces are in the plot, with their values; both robots are in the arena');
+  const key = page.locator('.key .number').filter({ hasText: '/' }).first();
+  await key.waitFor();
+  const [now, before] = (await key.innerText()).split('/').map(Number);
+  assert.ok(Number.isFinite(now) && Number.isFinite(before) && now !== before, `${now} / ${before}`);
+  const robots = () => page.locator('[role="group"][aria-label="Arena"] canvas').first().evaluate((c) => {
+    const { data } = c.getContext('2d').getImageData(0, 0, c.width, c.height);
+    let blue = 0;
+    for (let i = 0; i < data.length; i += 4) if (data[i + 2] > 180 && data[i + 2] > data[i] + 60 && data[i + 1] > 100) blue++;
+    return blue;
+  });
+  const both = await robots();
+  if (screenshot) await page.screenshot({ path: screenshot });
+  await page.getByRole('button', { name: 'End comparison' }).click();
+  await page.getByRole('button', { name: 'Compare from here' }).waitFor();
+  await until(page, 'one value', () => ![...document.querySelectorAll('.key .number')].some((n) => n.textContent.includes('/')));
+  await page.waitForTimeout(300);
+  assert.ok(both > (await robots()), 'the pale robot and its trail are gone');
+  console.log('all fine');
+});
