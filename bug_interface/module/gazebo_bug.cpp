@@ -23,7 +23,8 @@ enum Out : std::size_t {
     image_third,
     place_group,
     head_group,
-    audio_in
+    audio_in,
+    trial
 };
 
 constexpr int max_image_width = 32, max_image_height = 28;
@@ -196,6 +197,13 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
         .optional()
         .cells(36)
         .doc("The sum of the messages of the other robots, each attenuated with its distance.");
+    s.output("_trial", "Trial")
+        .optional()
+        .size(2, 1)
+        .doc(
+            "Cell 1: 1 in the cycle after a trial that reached a target. Cell 2: 1 from the end of a trial "
+            "to the "
+            "beginning of the next one. Not delayed by --latency.");
 }
 
 void GazeboBug::check(const ModulePorts& ports, Diagnostics& diagnostics) {
@@ -301,6 +309,11 @@ void GazeboBug::copy_pose(ModuleFrame& frame) const {
         Column out = frame.output(place_group);
         place_cells(at.x, at.y, place_.width, place_.height,
                     {place_x_offset, place_y_offset, place_x_max, place_y_max, place_sigma}, cells_of(out));
+    }
+    if (frame.is_read(trial)) {
+        Column out = frame.output(trial);
+        out[0] = world_->just_reached(bug_);
+        out[1] = world_->resetting(bug_);
     }
     if (frame.is_read(head_group)) {
         Column out = frame.output(head_group);

@@ -79,6 +79,7 @@ std::optional<ResetPlan> find_reset(const WorldDescription& world, Diagnostics& 
     const auto bounds = bounds_of(*ground, diagnostics);
     if (!bounds) return {};
     plan.bounds = *bounds;
+    if (world.trials) plan.heading = world.trials->heading;
     for (std::size_t i = 0; i < starts.size(); ++i) {
         const Eigen::Vector2d at(plan.starts[i].x, plan.starts[i].y);
         if (!plan.bounds.contains(at - Eigen::Vector2d::Constant(jitter)) ||
@@ -93,11 +94,12 @@ std::optional<ResetPlan> find_reset(const WorldDescription& world, Diagnostics& 
     return plan;
 }
 
-Reset::Phase Reset::substep(const Pose2& pose) {
+Reset::Phase Reset::substep(const Pose2& pose, bool over) {
     if (left_ > 0) return --left_ == 0 ? Phase::end : Phase::hold;
     const auto& low = plan_.bounds.min();
     const auto& high = plan_.bounds.max();
-    if (!(pose.x > high.x() || pose.y > high.y() || pose.x < low.x() || pose.y < low.y())) return Phase::none;
+    const bool outside = pose.x > high.x() || pose.y > high.y() || pose.x < low.x() || pose.y < low.y();
+    if (!outside && !over) return Phase::none;
     left_ = substeps - 1;
     return Phase::begin;
 }
@@ -107,8 +109,8 @@ Pose2 Reset::draw(std::uint64_t index) const {
     random_.uniform(index, u);
     const Pose2& start =
         plan_.starts[static_cast<std::size_t>(u[0] * static_cast<double>(plan_.starts.size()))];
-    const auto off = [](double v) { return (2 * v - 1) * jitter; };
-    return {start.x + off(u[1]), start.y + off(u[2]), start.yaw + off(u[3])};
+    const auto off = [](double v, double most = jitter) { return (2 * v - 1) * most; };
+    return {start.x + off(u[1]), start.y + off(u[2]), start.yaw + off(u[3], plan_.heading)};
 }
 
 }  // namespace forage::bug

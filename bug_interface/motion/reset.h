@@ -1,4 +1,4 @@
-// The reset rule: a robot that leaves the bounds is reset to a start pose.
+// The reset rule: a robot that leaves the bounds, or whose trial is over, is reset to a start pose.
 #pragma once
 
 #include <optional>
@@ -18,6 +18,7 @@ struct ResetPlan {
     std::vector<Pose2> starts;
     std::vector<std::string> names;  ///< names of the models that give `starts`
     Eigen::AlignedBox2d bounds;      ///< bounds of the centre of a robot, m
+    double heading = 0.01;           ///< largest deviation of a start pose's heading, rad
 };
 
 /// The start poses are those of the models Reset_0 to Reset_9. The bounds are the bounding box of the last
@@ -28,22 +29,23 @@ struct ResetPlan {
 /// inside the bounds. When two models have one of these names, a warning is given and the first one is used.
 std::optional<ResetPlan> find_reset(const WorldDescription& world, Diagnostics& diagnostics);
 
-/// The reset of one robot. It begins when the centre of the robot is outside the bounds, and lasts for that
-/// substep and 1000 more. The original draws a new pose in every substep of a reset. Here a pose is drawn
-/// only when the robot is observed and at the end, which gives the same distribution: a start pose, each
-/// equally likely, plus up to 0.01 m in x and y and up to 0.01 rad.
+/// The reset of one robot. It begins when the centre of the robot is outside the bounds or the world's rules
+/// end the trial, and lasts for that substep and 1000 more. The original draws a new pose in every substep of
+/// a reset. Here a pose is drawn only when the robot is observed and at the end, which gives the same
+/// distribution: a start pose, each equally likely, plus up to 0.01 m in x and y and up to 0.01 rad, or what
+/// the world's rules say.
 class Reset {
   public:
     Reset(ResetPlan plan, RandomStream random) : plan_(std::move(plan)), random_(random) {}
 
     enum class Phase {
         none,   ///< the robot is driven
-        begin,  ///< the robot has just left the bounds; it is not driven
+        begin,  ///< the trial has just ended; the robot is not driven
         hold,   ///< the robot is not driven
         end     ///< the robot is placed at a start pose, and is driven from the next substep on
     };
-    /// Called once per substep with the pose at its beginning.
-    Phase substep(const Pose2& pose);
+    /// Called once per substep with the pose at its beginning, and whether the rules end the trial.
+    Phase substep(const Pose2& pose, bool over = false);
     bool running() const { return left_ > 0; }
     /// Ends a running reset without a start pose.
     void stop() { left_ = 0; }

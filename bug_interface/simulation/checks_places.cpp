@@ -4,7 +4,6 @@
 
 #include "bug_interface/simulation/checks.h"
 #include "bug_interface/simulation/movable_object.h"
-#include "bug_interface/simulation/trials.h"
 #include "bug_interface/simulation/world_queries.h"
 
 namespace forage::bug {
@@ -24,7 +23,7 @@ void check_bounds(const WorldDescription& world, const ResetPlan& plan, Diagnost
         WorldDescription alone;
         alone.models.push_back(model);
         for (const Eigen::Vector2d& target : targets_of(alone))
-            if (plan.bounds.exteriorDistance(target) >= TrialLog::reach)
+            if (plan.bounds.exteriorDistance(target) >= world.trials.value_or(TrialRules()).reach)
                 diagnostics.warning(
                     model.where,
                     fmt::format("no robot can reach the target at ({:g}, {:g}): it is reset before",

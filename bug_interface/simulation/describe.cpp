@@ -62,9 +62,16 @@ std::string describe(const World& world) {
         line("bounds", fmt::format("x {} to {}, y {} to {}", number(plan->bounds.min().x()),
                                    number(plan->bounds.max().x()), number(plan->bounds.min().y()),
                                    number(plan->bounds.max().y())));
-    line("trials", !plan          ? "none: there are no start poses (models named Reset_0 to Reset_9)"
-                   : !with_resets ? "none: no robot has the plugin libreset_plugin.so"
-                                  : "a robot that leaves the bounds is reset to a start pose");
+    line("trials",
+         !plan          ? "none: there are no start poses (models named Reset_0 to Reset_9)"
+         : !with_resets ? "none: no robot has the plugin libreset_plugin.so"
+         : !world.description().trials
+             ? "a robot that leaves the bounds is reset to a start pose"
+             : fmt::format("end within {} m of a target{}, or outside the bounds",
+                           number(world.description().trials->reach),
+                           world.description().trials->duration < 1e9
+                               ? fmt::format(", after {} s", number(world.description().trials->duration))
+                               : ""));
     line("time", fmt::format("{} s of simulated time per cycle", number(world.seconds_per_cycle())));
     out += "  in m and rad; heading 0 is along x, 1.571 along y\n";
     return out;

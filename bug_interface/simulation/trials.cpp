@@ -32,7 +32,7 @@ Trial TrialLog::current(const Pose2& pose, std::uint64_t done) const {
     trial.end = pose;
     trial.cycles = done - std::min(done, trial.first_cycle);
     trial.smallest_distance = std::sqrt(smallest_squared_);
-    trial.reached_target = trial.smallest_distance < reach;
+    trial.reached_target = trial.smallest_distance < reach_;
     return trial;
 }
 

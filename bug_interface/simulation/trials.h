@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "bug_interface/world/description.h"
 #include "core/run/trial.h"
 
 namespace forage::bug {
@@ -16,12 +17,10 @@ namespace forage::bug {
 /// Records the trials of one robot.
 class TrialLog {
   public:
-    /// Distance between the centres of a robot (radius 0.2 m) and a target (radius 0.25 m) below which the
-    /// target is reached, m.
-    static constexpr double reach = 0.45;
-
-    /// `targets` are the centres of the targets, m.
-    explicit TrialLog(std::vector<Eigen::Vector2d> targets) : targets_(std::move(targets)) {}
+    /// `targets` are the centres of the targets, m. One is reached when the robot's centre is nearer than
+    /// `reach`, m.
+    explicit TrialLog(std::vector<Eigen::Vector2d> targets, double reach = TrialRules().reach)
+        : targets_(std::move(targets)), reach_(reach) {}
 
     /// Begins a trial. `cycle` is the first cycle in which the robot is driven.
     void begin(const Pose2& start, std::uint64_t cycle);
@@ -51,6 +50,7 @@ class TrialLog {
 
   private:
     std::vector<Eigen::Vector2d> targets_;
+    double reach_;  ///< m
     std::vector<Trial> finished_;
     Trial current_;
     bool running_ = false;

@@ -57,7 +57,8 @@ bool World::every_substep_matters(std::uint64_t steps) const {
         for (const Robot& robot : robots_) pushed = std::max(pushed, 2 * travel(robot));
     return std::any_of(robots_.begin(), robots_.end(), [&](const Robot& robot) {
         if (!robot.reset) return false;
-        if (robot.reset->running()) return true;
+        if (robot.reset->running() || is_over(robot.number)) return true;
+        if (description_.trials && may_reach_target(robot.number, steps)) return true;
         const double margin = std::max(pushed, travel(robot));
         const Eigen::Vector2d at(physics_->pose(robot.number).x, physics_->pose(robot.number).y);
         const Eigen::AlignedBox2d& bounds = robot.reset->plan().bounds;
@@ -111,7 +112,7 @@ void World::move_island(std::size_t island, std::uint64_t steps) {
 
 /// Whether a robot is so near to a target that every substep of its path counts.
 bool World::may_reach_target(std::size_t bug, std::uint64_t steps) const {
-    constexpr double near_target = 1;  ///< m
+    const double near_target = rules().reach + 0.55;  // 1 m
     const double near = near_target + (std::abs(robots_[bug].command.forward) + speed_noise) *
                                           static_cast<double>(steps) * description_.step;
     const Eigen::Vector2d at(physics_->pose(bug).x, physics_->pose(bug).y);
@@ -155,11 +156,24 @@ void World::drive_freely(std::size_t island, std::uint64_t steps) {
     robot.trials->follow(from, physics_->pose(bug));
 }
 
+/// Whether the world's rules end the trial of a robot.
+bool World::is_over(std::size_t bug) const {
+    if (!description_.trials) return false;
+    const Trial trial = robots_[bug].trials->current(physics_->pose(bug), cycle_);
+    return trial.reached_target ||
+           static_cast<double>(trial.cycles) * seconds_per_cycle() >= rules().duration;
+}
+
+bool World::just_reached(std::size_t bug) const {
+    const auto& all = robots_[bug].trials->finished();
+    return !all.empty() && all.back().reached_target && all.back().first_cycle + all.back().cycles == cycle_;
+}
+
 /// Applies the reset rule in one substep. Returns true when the robot is not driven.
 bool World::update_reset(std::size_t bug) {
     Robot& robot = robots_[bug];
     if (!robot.reset) return false;
-    switch (robot.reset->substep(physics_->pose(bug))) {
+    switch (robot.reset->substep(physics_->pose(bug), is_over(bug))) {
         case Reset::Phase::none:
             return false;
         case Reset::Phase::begin:

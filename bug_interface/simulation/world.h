@@ -35,9 +35,9 @@ struct WorldOptions {
 };
 
 /// A world with robots and movable objects. A robot is a model with a link named "bug" and the velocity
-/// plugin. A robot with the reset plugin is reset to a start pose when it leaves the bounds, which ends a
-/// trial. All other models that are not static are movable objects: robots can push and carry them. Robots
-/// are numbered from 0 in the order of the file.
+/// plugin. A robot with the reset plugin is reset to a start pose when it leaves the bounds or the world's
+/// rules say so, which ends a trial. All other models that are not static are movable objects: robots can
+/// push and carry them. Robots are numbered from 0 in the order of the file.
 ///
 /// In each cycle the neural system runs first: its module reads the snapshots and gives commands. Then step()
 /// is called. The result depends only on the description, the options and the commands. Each robot and each
@@ -125,10 +125,12 @@ class World final : public Environment {
         return robots_[bug].trials->finished();
     }
     Trial current_trial(std::size_t bug) const override;
+    /// Whether a trial that reached a target ended in the last cycle.
+    bool just_reached(std::size_t bug) const;
     std::vector<Pose2> start_poses() const override { return plan_ ? plan_->starts : std::vector<Pose2>(); }
     bool has_targets() const override { return !targets_.empty(); }
     double target_distance(std::size_t bug) const override;
-    bool at_target(std::size_t bug) const override { return target_distance(bug) < TrialLog::reach; }
+    bool at_target(std::size_t bug) const override { return target_distance(bug) < rules().reach; }
     void note_touches() override { physics_->note_touches(); }
     bool touched(std::size_t bug) const override { return physics_->touched(bug); }
 
@@ -150,6 +152,11 @@ class World final : public Environment {
     const std::vector<Eigen::Vector2d>& targets() const { return targets_; }  ///< centres, m
     std::optional<ResetPlan> reset_plan() const { return plan_; }             ///< start poses and bounds
     const Game& game() const { return game_; }
+    /// The rules of trials in the world's file, or the defaults.
+    const TrialRules& rules() const {
+        static const TrialRules defaults;
+        return description_.trials ? *description_.trials : defaults;
+    }
     const Robot& robot(std::size_t bug) const { return robots_[bug]; }
     const BodyPoses& body_poses() const { return body_poses_; }  ///< poses at the end of the last cycle
     std::span<const MovingVisual> moving_visuals() const { return moving_visuals_.all(); }
@@ -180,6 +187,7 @@ class World final : public Environment {
     Velocity drive(std::size_t bug, std::uint64_t substep, std::uint64_t steps);
     void drive_freely(std::size_t island, std::uint64_t steps);
     bool update_reset(std::size_t bug);
+    bool is_over(std::size_t bug) const;
     // ---- sensing ----
     void update_body_poses();
     void colour_resources();

@@ -137,7 +137,7 @@ void World::add_robot(const Model& model, Diagnostics& diagnostics) {
         robots_.emplace_back(model, robots_.size(), options_.seed, options_.noise, heights_, diagnostics);
     if (plan_ && has_plugin(model, "libreset_plugin.so"))
         robot.reset.emplace(*plan_, robot_stream(options_.seed, robot.name, RobotStream::reset_draws));
-    robot.trials.emplace(targets_);
+    robot.trials.emplace(targets_, rules().reach);
 }
 
 void World::add_movable_objects(Diagnostics& diagnostics) {

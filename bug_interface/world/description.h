@@ -142,6 +142,14 @@ struct GameRules {
     std::vector<GameSite> sites;  ///< when empty, they are drawn from the challenge's table
 };
 
+/// When trials end, besides leaving the bounds, and how they begin.
+struct TrialRules {
+    Location where;
+    double reach = 0.45;    ///< distance between the centres of robot and target that ends a trial, m
+    double duration = 1e9;  ///< longest trial, s
+    double heading = 0.01;  ///< largest deviation of a start's heading from that of its model, rad
+};
+
 /// Everything in a world file that Forage uses.
 struct WorldDescription {
     std::string path;
@@ -150,7 +158,8 @@ struct WorldDescription {
     float ambient = 0.4f;       ///< ambient light, 0..1
     std::optional<Eigen::Vector3d> sun;  ///< unit vector towards a directional light
     std::vector<Model> models;
-    std::optional<GameRules> game;  ///< the rules in the plugin libforage_game.so
+    std::optional<GameRules> game;     ///< the rules in the plugin libforage_game.so
+    std::optional<TrialRules> trials;  ///< the rules in the plugin libforage_trials.so
 };
 
 /// The first model named `name`, or null.

@@ -20,5 +20,7 @@ void check_joints(SdfSource& in, const Model& model);
 void read_sensor(SdfSource& in, const xml::Element& e, Link& link);
 /// Reads the <plugin> with the rules of the game.
 GameRules read_game(SdfSource& in, const xml::Element& e);
+/// Reads the <plugin> with the rules of trials.
+TrialRules read_trials(SdfSource& in, const xml::Element& e);
 
 }  // namespace forage::bug

@@ -192,6 +192,20 @@ xml::Format make_game_format() {
         .link();
 }
 
+xml::Format make_trials_format() {
+    return xml::Format{.name = "trials",
+                       .beginning = "<plugin ...>",
+                       .roots = {"plugin"},
+                       .values = {{"metres", number("metres", 0.2, 100)},
+                                  {"seconds", number("seconds of the world", 1e-3, 1e6)},
+                                  {"radians", number("radians", 0, 3.2)}},
+                       .elements = {{"plugin",
+                                     "the rules of trials",
+                                     "reach?:metres duration?:seconds heading?:radians",
+                                     {xml::text("name", ""), xml::text("filename", "")}}}}
+        .link();
+}
+
 }  // namespace
 
 const xml::Format& sdf_format() {
@@ -201,6 +215,11 @@ const xml::Format& sdf_format() {
 
 const xml::Format& game_format() {
     static const xml::Format format = make_game_format();
+    return format;
+}
+
+const xml::Format& trials_format() {
+    static const xml::Format format = make_trials_format();
     return format;
 }
 

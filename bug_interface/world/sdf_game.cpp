@@ -32,4 +32,16 @@ GameRules read_game(SdfSource& in, const xml::Element& e) {
     return rules;
 }
 
+TrialRules read_trials(SdfSource& in, const xml::Element& e) {
+    TrialRules rules;
+    rules.where = e.where();
+    const int errors_before = in.diagnostics.errors();
+    xml::check(e, *trials_format().find("plugin"), trials_format(), in.diagnostics);
+    if (in.diagnostics.errors() > errors_before) return rules;
+    rules.reach = e.value("reach").number(rules.reach);
+    rules.duration = e.value("duration").number(rules.duration);
+    rules.heading = e.value("heading").number(rules.heading);
+    return rules;
+}
+
 }  // namespace forage::bug

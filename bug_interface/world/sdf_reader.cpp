@@ -206,15 +206,21 @@ class Reader {
         for (const xml::Element& light : e.children("light")) read_light(light);
         for (const xml::Element& p : e.children("plugin")) {
             const std::string_view file = p["filename"].view;
-            if (file != "libforage_game.so")
+            const bool game = file == "libforage_game.so";
+            if (!game && file != "libforage_trials.so")
                 diagnostics_.warning(
                     p.where(),
                     fmt::format("plugin '{}' of the world is not known here and does nothing", file),
-                    "known is libforage_game.so");
-            else if (world.game)
-                diagnostics_.error(p.where(), "there are two games in this world", "take one away");
-            else
+                    "known are libforage_game.so and libforage_trials.so");
+            else if (game ? world.game.has_value() : world.trials.has_value())
+                diagnostics_.error(p.where(),
+                                   game ? "there are two games in this world"
+                                        : "there are two rules of trials in this world",
+                                   "take one away");
+            else if (game)
                 world.game = read_game(in_, p);
+            else
+                world.trials = read_trials(in_, p);
         }
         each_model(e, world.models, read_light);
         return world;

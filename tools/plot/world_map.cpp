@@ -215,7 +215,7 @@ void WorldMap::draw_targets(Canvas& canvas) const {
         cairo_set_source_rgb(c, 1, 1, 1);
         cairo_set_line_width(c, 1.5);
         canvas.dashes(3, 3);
-        cairo_arc(c, px(t.x()), py(t.y()), bug::TrialLog::reach * scale_, 0, 2 * M_PI);
+        cairo_arc(c, px(t.x()), py(t.y()), world_.rules().reach * scale_, 0, 2 * M_PI);
         cairo_stroke(c);
         canvas.dashes(0, 0);
     }
