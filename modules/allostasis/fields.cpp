@@ -71,7 +71,7 @@ double TemperatureField::mean() const {
     return sum / cells;
 }
 
-LocalViews local_views(Place robot, Place predator, Place mate, int step) {
+LocalViews local_views(Place robot, Place predator, Place mate, int step, bool offset) {
     const int column = static_cast<int>(grid(robot.x)), row = static_cast<int>(grid(robot.y));
     LocalViews views;
     const TemperatureField warm(step);
@@ -79,8 +79,9 @@ LocalViews local_views(Place robot, Place predator, Place mate, int step) {
     const auto sense = [&](Need need, const Source& source) {
         quadrants(views, need, column, row, [&](int x, int y) { return source.at(x, y); });
     };
-    sense(hydration, Source(285, 285, 280));
-    sense(energy, Source(65, 285, 280));
+    const int y = offset ? 285 : 290;
+    sense(hydration, Source(y, y, 280));
+    sense(energy, Source(offset ? 65 : 70, y, 280));
     sense(security, Source(grid(predator.x), grid(predator.y), 200));
     sense(mating, Source(grid(mate.x), grid(mate.y), 280));
     return views;

@@ -36,7 +36,8 @@ class TemperatureField {
     double middle_;  ///< x0
 };
 
-/// The local views of all fields at the robot's place. `step` is the whole part of c.
-LocalViews local_views(Place robot, Place predator, Place mate, int step);
+/// The local views of all fields at the robot's place. `step` is the whole part of c. With `offset`, as in
+/// the original, the fields of water and food lie 5 cm off their objects, towards the middle in x and y.
+LocalViews local_views(Place robot, Place predator, Place mate, int step, bool offset = true);
 
 }  // namespace forage::allostasis

@@ -6,21 +6,15 @@
 #include <fmt/format.h>
 
 #include "core/types/cell_model.h"
+#include "modules/allostasis/bug.h"
 
 namespace forage::allostasis {
 namespace {
 
 enum In : std::size_t { gps_in, mate_in, predator_in, proximity_in };
-enum Out : std::size_t { needs_out, forces_out, views_out, motor_out, time_out };
+enum Out : std::size_t { needs_out, forces_out, views_out, motor_out, time_out, errors_out, balance_out };
 
 constexpr std::uint32_t draw_noise = 0, draw_steering = 16, draw_control = 32;
-
-/// The metres to the next surface as the original's sensors give them, from a cell of the proximity group:
-/// the Bug's sensor has a range of 2 m from its axis, and a radius of 0.2 m.
-double range(double activity, double scale) { return std::min(0.3, (2 * (1 - activity) - 0.2) / scale); }
-
-/// The cell of a row of `n` whose place -1..1 is nearest to `x`.
-Index cell_at(double x, int n) { return std::lround((std::clamp(x, -1.0, 1.0) + 1) / 2 * (n - 1)); }
 
 }  // namespace
 
@@ -38,6 +32,18 @@ void AllostasisModule::describe(ModuleSpec<AllostasisModule>& s) {
         .unit("s")
         .range(0.01, 1)
         .doc("Time between steps of needs and network; their rates are per step.");
+    s.param("View Interval", &T::view_interval)
+        .unit("s")
+        .range(0, 100)
+        .doc("Time between two views of the fields; 0: a view in every step.");
+    s.param("View Delay", &T::view_delay)
+        .unit("s")
+        .range(0, 100)
+        .doc("Age that a view has when it is first used; until the first one, nothing is sensed.");
+    s.param("Field Offset", &T::field_offset)
+        .doc(
+            "Whether the fields of water and food are 5 cm (times 'Scale') off their objects, as in the "
+            "original.");
     s.param("Extent X", &T::extent_x).unit("m").range(0, 100).doc("What the GPS groups add to x.");
     s.param("Extent Y", &T::extent_y).unit("m").range(0, 100).doc("What the GPS groups add to y.");
     s.param("Noise", &T::noise)
@@ -89,6 +95,16 @@ void AllostasisModule::describe(ModuleSpec<AllostasisModule>& s) {
         .optional()
         .cells(2)
         .doc("Step of the day, 0 to 1, and mean temperature, 0 to 1.");
+    s.output("errors", "Errors")
+        .optional()
+        .cells(needs)
+        .doc("Homeostatic errors, 1 - state, 0 to 1, in the same order.");
+    s.output("balance", "Balance")
+        .optional()
+        .cells(3)
+        .doc(
+            "Efficiency (mean of the states), fairness (1 - largest + smallest), stability (1 - mean of the "
+            "squared errors).");
 }
 
 void AllostasisModule::check(const ModulePorts&, Diagnostics& diagnostics) const {
@@ -101,8 +117,9 @@ void AllostasisModule::check(const ModulePorts&, Diagnostics& diagnostics) const
 void AllostasisModule::start(const ModulePorts& ports) {
     drives_ = {}, steering_ = {}, wheels_ = {}, day_ = {};
     views_.setZero();
-    stepped_ = false;
-    last_step_ = 0;
+    stepped_ = looked_ = false;
+    last_step_ = last_look_ = 0;
+    coming_.clear();
     random_ = ports.random;
     motor_width_ = ports.outputs[motor_out].shape.width;
     motor_height_ = ports.outputs[motor_out].shape.height;
@@ -124,9 +141,7 @@ void AllostasisModule::update(ModuleFrame& frame) {
             mating_priority;
         NetworkSettings network;
         network.noise = noise;
-        views_ = local_views(place(frame.input(gps_in)), place(frame.input(predator_in)),
-                             place(frame.input(mate_in)), step);
-        drives_.sense(views_, settings);
+        if (look(frame, time, step)) drives_.sense(views_, settings);
         FiveNeeds z;
         for (std::uint32_t i = 0; i < needs; ++i)
             z[i] = normal(random_.uniform(frame.cycle(), draw_noise + 2 * i),
@@ -135,6 +150,11 @@ void AllostasisModule::update(ModuleFrame& frame) {
         stepped_ = true;
         last_step_ = time;
         if (frame.is_read(needs_out)) frame.output(needs_out) = drives_.states();
+        const FiveNeeds error = drives_.errors(settings);
+        if (frame.is_read(errors_out)) frame.output(errors_out) = error;
+        if (frame.is_read(balance_out))
+            frame.output(balance_out) << drives_.states().mean(), 1 - error.maxCoeff() + error.minCoeff(),
+                1 - error.square().mean();
         if (frame.is_read(forces_out)) frame.output(forces_out) = drives_.forces();
         if (frame.is_read(views_out))
             for (int i = 0; i < needs; ++i)
@@ -143,6 +163,24 @@ void AllostasisModule::update(ModuleFrame& frame) {
             frame.output(time_out) << step / Day::length, TemperatureField(step).mean();
     }
     act(frame, time);
+}
+
+/// Takes a view when one is due, and returns whether a view has become old enough to be used.
+bool AllostasisModule::look(ModuleFrame& frame, double time, int step) {
+    const double tolerance = cycle / 2;
+    if (!looked_ || time >= last_look_ + view_interval - tolerance) {
+        coming_.push_back({time, local_views(place(frame.input(gps_in)), place(frame.input(predator_in)),
+                                             place(frame.input(mate_in)), step, field_offset)});
+        looked_ = true;
+        last_look_ = time;
+    }
+    bool found = false;
+    while (!coming_.empty() && time >= coming_.front().time + view_delay - tolerance) {
+        views_ = coming_.front().views;
+        coming_.pop_front();
+        found = true;
+    }
+    return found;
 }
 
 void AllostasisModule::act(ModuleFrame& frame, double time) {
@@ -156,19 +194,15 @@ void AllostasisModule::act(ModuleFrame& frame, double time) {
     FrontRanges ranges;
     const auto& near = frame.input(proximity_in);
     if (near.size() == 32)
-        ranges = {range(near[16], scale), range(near[19], scale), range(near[10], scale),
-                  range(near[13], scale)};
+        ranges = {range(near[ray_of[0]], scale), range(near[ray_of[1]], scale), range(near[ray_of[6]], scale),
+                  range(near[ray_of[7]], scale)};
     Wheels z;
     if (control)
         z = {normal(number(draw_control), number(draw_control + 1)),
              normal(number(draw_control + 2), number(draw_control + 3))};
     const Wheels w = wheels_.step(time, ranges, wanted, z);
-    // Speeds as shares of the largest ones, which the motor group stands for.
-    const double forward = (w.right + w.left) / (2 * fastest_wheel),
-                 left = (w.right - w.left) / (2 * fastest_wheel);
     auto motor = frame.output(motor_out);
-    motor.setZero();
-    motor[cell_at(-forward, motor_height_) * motor_width_ + cell_at(-left, motor_width_)] = 1;
+    show_wheels(w, motor_width_, motor_height_, motor);
 }
 
 }  // namespace forage::allostasis

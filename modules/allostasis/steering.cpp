@@ -61,7 +61,7 @@ Wheels WheelControl::step(double time, const FrontRanges& r, const Wheels& wante
 
 Wheels RandomWalk::step(const Eigen::Array<double, 8, 1>& ranges, const Wheels& z, const WalkSettings& s) {
     drew_ = false;
-    if (++counter_ <= 10) return wheels_;
+    if (++counter_ <= s.interval) return wheels_;
     if ((ranges < near).any()) {
         const bool room_on_the_right = ranges[0] + ranges[1] + ranges[2] > ranges[5] + ranges[6] + ranges[7];
         double& inner = room_on_the_right ? wheels_.right : wheels_.left;

@@ -53,6 +53,7 @@ class WheelControl {
 /// The random walk of the mate or of the predator.
 struct WalkSettings {
     double lowest, highest, fastest_turn;  ///< wheel speeds, rad/s
+    int interval = 10;                     ///< steps between random changes
 };
 inline constexpr WalkSettings mate_walk{3, 6, 4}, predator_walk{1, 4, 2.5};
 

@@ -132,8 +132,9 @@ void SequentialControlModule::describe(ModuleSpec<SequentialControlModule>& s) {
         .doc("The executed action: the most active cell, the first of several; none if no cell is above 0.");
     s.input("reward", "Reward")
         .doc(
-            "Cell 1: reward of this cycle. Cell 2, if there is one: above 0 in the last cycle of an episode; "
-            "without it a goal ends the episode.");
+            "Cell 1: reward of this cycle. Cell 2, if there is one: above 0 from the last cycle of an "
+            "episode "
+            "to the beginning of the next one; without it a goal ends the episode.");
     s.input("discrepancy", "Discrepancy")
         .optional()
         .cells(1)
@@ -211,6 +212,11 @@ void SequentialControlModule::start(const ModulePorts& ports) {
 void SequentialControlModule::update(ModuleFrame& frame) {
     const auto now = settings();
     const auto& reward = frame.input(reward_in);
+    if (reward.size() > 1 && reward[1] > 0 && at_end_) {  // the next episode has not begun
+        frame.output(action_out).setZero();
+        at_goal_ = reward[0] >= goal;
+        return;
+    }
     reward_ += reward[0] - penalty;
     // A reward or an end that lasts for several cycles counts once.
     const bool goal_now = reward[0] >= goal, goal_reached = goal_now && !at_goal_;
@@ -226,7 +232,11 @@ void SequentialControlModule::update(ModuleFrame& frame) {
     }
     if (ends) {
         memory_.end_episode();
-        if (clear) memory_.clear_recent(), pending_ = false;
+        // The last couplet comes after what was stored: it begins the next sequence.
+        const int executed = winner(frame.input(action_in));
+        if (pending_ && executed >= 0) memory_.remember(state_, executed, now);
+        pending_ = false;
+        if (clear) memory_.clear_recent();
         reward_ = 0;
         cycles_ = 0;
     }

@@ -44,7 +44,8 @@ Measures trial(bool control, double security_priority, std::uint64_t seed) {
     b.in("gps", 3, 1).in("mate", 3, 1).in("predator", 3, 1).in("proximity", 32, 1);
     b.out("needs", 5, 1);
     b.bind("forces", true, 0, 0, 0).bind("views", true, 0, 0, 0);
-    b.out("motor", 41, 41).bind("time", true, 0, 0, 0);
+    b.out("motor", 41, 41);
+    for (const char* p : {"time", "errors", "balance"}) b.bind(p, true, 0, 0, 0);
     b.set("Control", control ? "true" : "false").set("Security Priority", std::to_string(security_priority));
     b.seed(seed).start();
     const RandomStream random(seed, "walks");
@@ -58,7 +59,7 @@ Measures trial(bool control, double security_priority, std::uint64_t seed) {
             cells << 4 * at.x + 10, 4 * at.y + 10, at.heading + std::numbers::pi;
         };
         gps(b.inputs[0], robot), gps(b.inputs[1], others[0]), gps(b.inputs[2], others[1]);
-        for (const auto& [cell, sensor] : {std::pair{16, 0}, {19, 1}, {10, 6}, {13, 7}})
+        for (const auto& [cell, sensor] : {std::pair{17, 0}, {20, 1}, {11, 6}, {14, 7}})
             b.inputs[3][cell] = 1 - (robot.range(sensor) * 4 + 0.2) / 2;
         b.update();
         Index best = 0;
