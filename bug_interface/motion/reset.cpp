@@ -66,7 +66,13 @@ std::optional<ResetPlan> find_reset(const WorldDescription& world, Diagnostics& 
             plan.starts.push_back(in_plane(start->pose));
             plan.names.push_back(start->name);
         }
-    if (starts.empty()) return {};
+    if (starts.empty()) {
+        if (world.trials)
+            diagnostics.warning(world.trials->where,
+                                "there are rules of trials, but no start poses, so no trials",
+                                "add models named Reset_0 to Reset_9");
+        return {};
+    }
     const Model* ground = find_model(world, "GroundPlane");
     if (!ground) {
         diagnostics.error(

@@ -224,18 +224,15 @@ void SequentialControlModule::update(ModuleFrame& frame) {
     at_goal_ = goal_now, at_end_ = end_now;
     if (goal_reached) memory_.store(reward_, now, [&] { return random_.uniform(frame.cycle(), 1); });
     const bool silent = ignore_silence && !(frame.input(state_in) > 0).any();
-    if (cycles_++ % std::max(interval, 1) == 0 && !silent) {
-        decide(frame, now);
-        show(frame);
-    } else if (silent && shown_) {
-        frame.output(action_out).setZero();
+    if (cycles_++ % std::max(interval, 1) == 0) {
+        complete(frame, now);
+        if (!silent) decide(frame, now), show(frame);
     }
+    if (silent && shown_) frame.output(action_out).setZero();
     if (ends) {
         memory_.end_episode();
         // The last couplet comes after what was stored: it begins the next sequence.
-        const int executed = winner(frame.input(action_in));
-        if (pending_ && executed >= 0) memory_.remember(state_, executed, now);
-        pending_ = false;
+        complete(frame, now);
         if (clear) memory_.clear_recent();
         reward_ = 0;
         cycles_ = 0;
@@ -243,9 +240,14 @@ void SequentialControlModule::update(ModuleFrame& frame) {
     shown_ = true;
 }
 
-void SequentialControlModule::decide(ModuleFrame& frame, const Settings& now) {
+/// Remembers the state of the last decision with the action that is being executed.
+void SequentialControlModule::complete(const ModuleFrame& frame, const Settings& now) {
     const int executed = winner(frame.input(action_in));
     if (pending_ && executed >= 0) memory_.remember(state_, executed, now);
+    pending_ = false;
+}
+
+void SequentialControlModule::decide(ModuleFrame& frame, const Settings& now) {
     state_ = frame.input(state_in);
     pending_ = true;
     const bool empty = memory_.sequences().empty();

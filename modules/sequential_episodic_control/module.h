@@ -11,7 +11,8 @@ namespace forage::sec {
 
 /// Remembers what led to rewards, and repeats it (Freire et al., arXiv:2112.14734). describe() lists its
 /// ports. A decision is made in every k-th cycle of an episode and stays valid until the next one. The
-/// couplet of a decision holds the state of that decision and the action that is executed at the next one.
+/// couplet of a decision holds its state and the action that is executed k cycles later, or when the episode
+/// ends.
 class SequentialControlModule {
   public:
     int segments = 50, capacity = 500, interval = 4, least = 4;
@@ -32,6 +33,7 @@ class SequentialControlModule {
     const Decision& decision() const { return decision_; }
 
   private:
+    void complete(const ModuleFrame& frame, const Settings& settings);
     void decide(ModuleFrame& frame, const Settings& settings);
     void show(ModuleFrame& frame) const;
     Settings settings() const;

@@ -127,3 +127,71 @@ TEST_CASE("Start poses are drawn evenly, with deviations up to 0.01 m and 0.01 r
     CHECK(farthest.maxCoeff() <= 0.01 + 1e-12);
     CHECK(farthest.minCoeff() > 0.0099);
 }
+
+namespace {
+
+/// The basic arena, whose trials end at the target (2.5 m north, with a reach of 0.8 m) or after 6 s.
+WorldDescription with_rules() {
+    WorldDescription world = test::description("basic_arena");
+    world.trials.emplace();
+    world.trials->reach = 0.8;
+    world.trials->duration = 6;
+    return world;
+}
+
+}  // namespace
+
+TEST_CASE("With rules, a trial ends at a target, and only one cycle reports it") {
+    const auto world = test::make_world(with_rules());
+    world->command(0, {1, 0});  // straight on, from (0, -2)
+    int reported = 0;
+    while (world->trials(0).empty()) {
+        world->step();
+        reported += world->just_reached(0);
+    }
+    const Trial& trial = world->trials(0).front();
+    CHECK(trial.reached_target);
+    CHECK(trial.end.y == Approx(1.7).margin(0.01));
+    CHECK(world->resetting(0));
+    for (int i = 0; i < 10; ++i) {
+        world->step();
+        reported += world->just_reached(0);
+    }
+    CHECK(reported == 1);
+}
+
+TEST_CASE("With rules, a trial ends after a time") {
+    const auto world = test::make_world(with_rules());
+    while (world->trials(0).empty()) world->step();
+    const Trial& trial = world->trials(0).front();
+    CHECK_FALSE(trial.reached_target);
+    CHECK_FALSE(world->just_reached(0));
+    CHECK(static_cast<double>(trial.cycles) * world->seconds_per_cycle() == Approx(6).margin(0.1));
+    while (world->resetting(0)) world->step();
+    CHECK(world->current_trial(0).cycles <= 1);
+}
+
+TEST_CASE("Rules say how much the headings of the starts differ") {
+    WorldDescription description = with_rules();
+    description.trials->heading = 3;
+    Diagnostics diagnostics;
+    const auto plan = find_reset(description, diagnostics);
+    REQUIRE(plan);
+    Reset reset(*plan, RandomStream(1, "r"));
+    double low = 10, high = -10;
+    for (int i = 0; i < 500; ++i) {
+        const double off = reset.start_pose().yaw - 1.57079;
+        low = std::min(low, off), high = std::max(high, off);
+    }
+    CHECK(low == Approx(-3).margin(0.05));
+    CHECK(high == Approx(3).margin(0.05));
+}
+
+TEST_CASE("Rules of trials without start poses are a warning") {
+    WorldDescription world = test::description("open_arena");
+    world.trials.emplace();
+    Diagnostics diagnostics;
+    CHECK_FALSE(find_reset(world, diagnostics));
+    REQUIRE(diagnostics.all().size() == 1);
+    CHECK(diagnostics.all().front().message == "there are rules of trials, but no start poses, so no trials");
+}

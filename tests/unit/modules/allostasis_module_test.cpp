@@ -1,7 +1,9 @@
 // moduleAllostasis: its needs, its drives and where it steers.
 #include <numbers>
+#include <set>
 
 #include "modules/allostasis/module.h"
+#include "modules/allostasis/walk_module.h"
 #include "tests/support/catch.h"
 #include "tests/support/module_bench.h"
 
@@ -15,6 +17,8 @@ struct Bench : ModuleBench {
     Bench() : ModuleBench(module_type<AllostasisModule>()) {
         in("gps", 3, 1).in("mate", 3, 1).in("predator", 3, 1).in("proximity", 32, 1);
         out("needs", 5, 1).out("forces", 5, 1).out("views", 4, 5).out("motor", 41, 41).out("time", 2, 1);
+        out("errors", 5, 1).out("balance", 3, 1);
+        set("View Interval", "0").set("View Delay", "0");
     }
     /// Places the robot at (x, y), in metres of the original arena, with a heading in rad; the mate is in the
     /// west and the predator in the east.
@@ -68,7 +72,7 @@ TEST_CASE("The robot turns towards what it needs, away from the predator, and fr
     b.at(-1, 0.2, std::numbers::pi / 4);  // looking north-east: the food lies on the left
     CHECK(mean_column(400) < -0.3);
     b.inputs[3].setZero();
-    b.inputs[3][16] = b.inputs[3][19] = 0.8;  // a wall on the right
+    b.inputs[3][17] = b.inputs[3][20] = 0.8;  // a wall on the right
     mean_column(13);
     CHECK(mean_column(60) < -3);
     CHECK(b.row() < 41);
@@ -96,6 +100,71 @@ TEST_CASE("A moduleAllostasis that is written and read back continues with the s
     CHECK(in.left().empty());
     two.outputs = one.outputs;
     CHECK(drive(one, 200) == drive(two, 200));
+}
+
+TEST_CASE("Errors and balance follow the needs") {
+    Bench b;
+    b.seed(4).start();
+    b.at(0.5, 0.5, 1);
+    for (int i = 0; i < 50; ++i) b.update();
+    const Eigen::ArrayXd x = b.outputs[0];
+    CHECK(((b.outputs[5] - (1 - x)).abs() < 1e-12).all());
+    CHECK(b.outputs[6][0] == Approx(x.mean()));
+    CHECK(b.outputs[6][1] == Approx(1 - (x.maxCoeff() - x.minCoeff())));
+    CHECK(b.outputs[6][2] == Approx(1 - (1 - x).square().mean()));
+}
+
+TEST_CASE("Views are taken at intervals, and used when they are old enough") {
+    Bench b;
+    b.seed(5).set("View Interval", "1").set("View Delay", "0.6").start();
+    const auto seen = [&] { return b.outputs[2].segment(8, 4).mean(); };  // of the food
+    b.at(-1.15, 1.05, 0);                                                 // at the food
+    for (int i = 0; i < 14; ++i) b.update();
+    CHECK(seen() == 0);
+    for (int i = 0; i < 3; ++i) b.update();  // the step after 0.6 s
+    CHECK(seen() > 0.98);
+    b.at(1.15, -1.05, 0);  // far from it; the next view is taken after 1 s, and used 0.6 s later
+    for (int i = 0; i < 20; ++i) b.update();
+    CHECK(seen() > 0.98);
+    for (int i = 0; i < 8; ++i) b.update();
+    CHECK(seen() == 0);
+}
+
+TEST_CASE("Without the offset, the food lies at its object") {
+    const auto seen_at_the_object = [](const char* offset) {
+        Bench b;
+        b.set("Field Offset", offset).start();
+        b.at(-1.1, 1.1, 0);
+        b.update();
+        return b.outputs[2].segment(8, 4).mean();
+    };
+    CHECK(seen_at_the_object("false") > seen_at_the_object("true"));
+}
+
+TEST_CASE("moduleRandomWalk stays within its speeds and turns away from a wall") {
+    ModuleBench b(module_type<allostasis::WalkModule>());
+    b.set("Lowest", "1").set("Highest", "4").set("Fastest Turn", "2.5");
+    b.in("proximity", 32, 1).out("motor", 41, 41);
+    b.seed(1).start();
+    const auto speeds = [&] {
+        Index best = 0;
+        CHECK(b.outputs[0].maxCoeff(&best) == 1);
+        const double forward = (20.0 - static_cast<double>(best / 41)) / 20 * 6.2,
+                     left = (20.0 - static_cast<double>(best % 41)) / 20 * 6.2;
+        return std::pair{forward + left, forward - left};  // of the right and the left wheel
+    };
+    std::set<double> seen;
+    for (int i = 0; i < 400; ++i) {
+        b.update();
+        const auto [right, left] = speeds();
+        CHECK((right > 0.6 && right < 4.4 && left > 0.6 && left < 4.4));  // within a cell of the motor group
+        seen.insert(right);
+    }
+    CHECK(seen.size() > 5);
+    for (const Index right : {17, 20, 23}) b.inputs[0][right] = 0.9;  // a wall on the right
+    for (int i = 0; i < 60; ++i) b.update();
+    const auto [right, left] = speeds();
+    CHECK(right > left + 0.5);
 }
 
 TEST_CASE("moduleAllostasis reports times that are not possible") {

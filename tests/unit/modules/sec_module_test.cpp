@@ -166,6 +166,26 @@ TEST_CASE("A moduleSEC that is written and read back continues with the same bit
     CHECK(drive(third, 100, 200) == expected);
 }
 
+TEST_CASE("Between episodes moduleSEC neither decides nor counts time, and keeps the last couplet") {
+    Bench b(3, 5);
+    b.start();
+    b.cycle(0, -1);
+    b.cycle(1, 1);
+    b.cycle(2, 2, 1, true);
+    for (int i = 0; i < 10; ++i) {
+        b.cycle(3, 2, 0, true);  // the reset lasts
+        CHECK(b.chosen() == -1);
+    }
+    b.cycle(0, 0);
+    b.cycle(1, 1);
+    b.cycle(2, 2, 1, true);
+    const auto& all = b.module<SequentialControlModule>().memory().sequences();
+    REQUIRE(all.size() == 2);
+    CHECK(all[0].reward == Approx(1 - 3 * 0.001));
+    CHECK(all[1].reward == Approx(1 - 3 * 0.001));
+    CHECK(all[1].actions[0] == 2);  // with which the first episode ended
+}
+
 TEST_CASE("moduleSEC reports options and sizes that it does not know") {
     Bench b(3, 4);
     b.set("Forgetting", "LRU").set("Choice", "best").set("Decision Interval", "0");
