@@ -7,6 +7,7 @@
 
 #include "core/run/input_error.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/installation.h"
 #include "tools/forage/stop.h"
 
 namespace forage::tool {
@@ -17,6 +18,7 @@ int studio(const StudioCommand& command) {
     options.plot_config = command.plot_config;
     options.recover = command.recover;
     options.port = static_cast<std::uint16_t>(command.port);
+    options.shipped = installation() / "share/forage/systems";
     note_signals("the studio");
     try {
         studio::serve(

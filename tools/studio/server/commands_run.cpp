@@ -68,8 +68,10 @@ json Commands::speed() {
 json Commands::open() {
     RunInput input = s.input_;
     input.more.clear(), input.settings.clear(), input.text.clear();
-    input.system = c.at("system").get<std::string>();
-    input.world = c.value("world", "");
+    const std::filesystem::path folder = c.value("shipped", false) ? s.shipped_ : "";
+    const std::string world = c.value("world", "");
+    input.system = folder / c.at("system").get<std::string>();
+    input.world = world.empty() ? world : (folder / world).string();
     s.open(std::move(input));
     s.sampler_waits_ = nullptr;
     s.changed_.clear(), s.undo_.clear(), s.redo_.clear();

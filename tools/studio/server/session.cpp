@@ -40,7 +40,8 @@ plot::Picture floor_picture(const bug::World& world) {
 
 }  // namespace
 
-Session::Session(RunInput input, Send send, const std::string& plot_config) : send_(std::move(send)) {
+Session::Session(RunInput input, Send send, const std::string& plot_config, std::string shipped)
+    : send_(std::move(send)), shipped_(std::move(shipped)) {
     if (!plot_config.empty()) layout_ = json::parse(read_file(plot_config), nullptr, false);
     if (layout_.is_discarded())
         throw InputError("'" + plot_config + "' is not a layout of the studio",

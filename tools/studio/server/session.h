@@ -32,8 +32,8 @@ class Session {
     /// Sends a message to a page: JSON, or a frame when `binary`.
     using Send = std::function<void(int client, bool binary, std::string data)>;
 
-    /// Opens the system. Throws InputError.
-    Session(RunInput input, Send send, const std::string& plot_config = {});
+    /// Opens the system. `shipped` is the folder of the systems that come with Forage. Throws InputError.
+    Session(RunInput input, Send send, const std::string& plot_config = {}, std::string shipped = {});
 
     /// Keeps the session in the user's folder of states from now on, so that a killed program loses at most
     /// half a minute. Throws std::runtime_error.
@@ -124,6 +124,7 @@ class Session {
 
     RunInput input_, begun_;  ///< as the system was opened; and with the parameters of the last stop
     Send send_;
+    std::string shipped_;
     json layout_;  ///< the layout that pages begin with; null for none
     json panels_;  ///< the arrangement that a page had last; null for none
     std::unique_ptr<Run> run_;

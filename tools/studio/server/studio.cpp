@@ -40,7 +40,7 @@ void serve(const StudioOptions& options,
         [&server](int client, bool binary, std::string data) {
             server->send(client, binary, std::move(data));
         },
-        options.plot_config);
+        options.plot_config, options.shipped);
     const std::string note = keep(session, options.recover);
     std::unique_ptr<EngineThread> engine;
     HttpServer::Options wanted;

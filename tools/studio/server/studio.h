@@ -15,6 +15,7 @@ struct StudioOptions {
     std::string plot_config;  ///< a layout that pages begin with (.layout.json); may be empty
     bool recover = false;     ///< whether to go on with the session that was killed
     std::string token;        ///< empty: a random one
+    std::string shipped;      ///< the folder of the systems that come with Forage; may be empty
 };
 
 /// Opens the system and serves it until `interrupted` returns true, which is called ten times a second. Calls
