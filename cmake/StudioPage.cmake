@@ -1,5 +1,5 @@
 # Builds the page of the studio with Node, and makes the source file that holds it: run by the build as
-#   cmake -DWEB=tools/studio/web -DBASIC=tools/studio/server/basic -DWORK=folder -DNPM=npm -DSTRICT=ON -DOUTPUT=assets.cpp -P StudioPage.cmake
+#   cmake -DWEB=tools/studio/web -DTUTORIAL=docs/tutorial -DBASIC=tools/studio/server/basic -DWORK=folder -DNPM=npm -DSTRICT=ON -DOUTPUT=assets.cpp -P StudioPage.cmake
 # Without NPM, or when npm fails and STRICT is off, only the hand-written page is in it.
 set(page "")
 if(NPM)
@@ -15,7 +15,7 @@ if(NPM)
   endif()
   if(status EQUAL 0)
     file(REMOVE_RECURSE ${WORK}/web/dist)
-    execute_process(COMMAND ${NPM} run build --silent WORKING_DIRECTORY ${WORK}/web RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE out)
+    execute_process(COMMAND ${CMAKE_COMMAND} -E env FORAGE_TUTORIAL=${TUTORIAL} ${NPM} run build --silent WORKING_DIRECTORY ${WORK}/web RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE out)
   endif()
   if(status EQUAL 0)
     set(page ${WORK}/web/dist)

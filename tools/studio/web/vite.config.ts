@@ -1,5 +1,7 @@
 import { svelte } from '@sveltejs/vite-plugin-svelte';
+import { resolve } from 'node:path';
 import { defineConfig } from 'vite';
+import { tutorial } from './tutorial/plugin';
 
 // `FORAGE_STUDIO_URL='http://127.0.0.1:PORT/?token=T' npm run dev` shows the page of these sources on a running `forage studio`.
 const server = process.env.FORAGE_STUDIO_URL ? new URL(process.env.FORAGE_STUDIO_URL) : null;
@@ -11,13 +13,16 @@ const forward = server && {
   rewrite: (path: string) => `${path}${path.includes('?') ? '&' : '?'}${server.searchParams}`,
 };
 
+// The text of the tutorial lives in docs/tutorial; the build of the program works on a copy of this folder, and names it.
+const tutorialFolder = resolve(process.env.FORAGE_TUTORIAL ?? '../../../docs/tutorial');
+
 // File names carry no hash: the program embeds the files, and a build gives the same bytes each time.
 export default defineConfig({
-  plugins: [svelte()],
+  plugins: [svelte(), tutorial(tutorialFolder)],
   base: './',
   // The only file of dockview-core that brings its style sheet.
   resolve: { alias: [{ find: /^dockview-core$/, replacement: 'dockview-core/dist/dockview-core.min.js' }] },
-  server: forward ? { proxy: { '/ws': forward, '/picture': forward } } : {},
+  server: { fs: { allow: ['.', tutorialFolder] }, ...(forward ? { proxy: { '/ws': forward, '/picture': forward } } : {}) },
   build: {
     outDir: process.env.FORAGE_STUDIO_OUT ?? 'dist',
     emptyOutDir: true,

@@ -1,5 +1,6 @@
 // Layouts that the studio brings: each is a list of panels with places, filled in where the system has the groups.
 import { dock } from './stores/dock.svelte';
+import { frame } from './stores/frame.svelte';
 import { model } from './stores/model.svelte';
 import type { LayoutContent } from './protocol/messages';
 import type { PanelState } from './panels/registry';
@@ -17,29 +18,46 @@ export const presets: Preset[] = [
 const find = (name: string) => model.groups.find((g) => (name.startsWith('/') ? `/${g.name}`.startsWith(name) : g.path === name));
 const narrow = () => matchMedia('(max-width: 720px)').matches;
 
-/** Closes everything and opens the panels of a preset. */
+/** Opens the panels of a preset, and closes others. */
 export function applyPreset(preset: Preset): void {
-  const api = dock.api;
-  if (!api) return;
-  api.clear();
   const spaces = preset.spaces.map(find).filter((g) => g !== undefined);
   if (spaces.length === 0) spaces.push(...model.groups.slice(0, 2));
   const times = preset.times.map(find).filter((g) => g !== undefined);
-  const plots: PanelState[] = [...spaces.map((g) => ({ kind: 'space', item: g.path })), ...times.map((g) => ({ kind: 'time', sources: [`mean(${g.path})`] }))];
+  arrange([...spaces.map((g) => ({ kind: 'space', item: g.path })), ...times.map((g) => ({ kind: 'time', sources: [`mean(${g.path})`] }))]);
+}
+
+/** Opens the tutorial at the left, or below on a small window. */
+export function openTutorial(): void {
+  // It takes the place of the tree, and on a middling window that of the inspector.
+  frame.tree = false;
+  if (innerWidth < 1500) frame.inspector = false;
+  dock.open({ kind: 'tutorial' }, narrow() ? { direction: 'below' } : { direction: 'left', width: tutorialWidth() });
+}
+const tutorialWidth = () => Math.round(Math.min(440, Math.max(300, (dock.api?.width ?? 0) * 0.36)));
+
+/** Arena, diagram and plots. Closes all other panels but the tutorial. */
+export function arrange(plots: PanelState[]): void {
+  const api = dock.api;
+  if (!api) return;
+  const kept = api.panels.find((p) => (p.params as PanelState).kind === 'tutorial');
+  for (const p of [...api.panels]) if (p !== kept) api.removePanel(p);
   const first: PanelState = model.world ? { kind: 'arena' } : { kind: 'diagram' };
-  const arena = dock.open(first)!;
+  const arena = dock.open(first, kept ? { beside: kept.id, direction: narrow() ? 'above' : 'right' } : {})!;
   if (narrow()) {
     if (model.world) dock.open({ kind: 'diagram' }, { beside: arena, inactive: true });
     for (const p of plots) dock.open(p, { beside: arena, inactive: true });
     return;
   }
-  const width = Math.max(220, Math.round(api.width * 0.3));
+  const width = Math.max(220, Math.round((api.width - (kept ? tutorialWidth() : 0)) * (kept ? 0.4 : 0.3)));
   let above: string | undefined;
   for (const p of plots) {
     const id = dock.open(p, above ? { beside: above, direction: 'below' } : { beside: arena, direction: 'right', width });
     above = id ?? above;
   }
   if (model.world) dock.open({ kind: 'diagram' }, { beside: arena, direction: 'below', height: Math.round(api.height * 0.42) });
+  if (!kept) return;
+  kept.api.setSize({ width: tutorialWidth() });
+  if (above) api.getPanel(above)?.api.setSize({ width });
 }
 
 /** Arranges the panels as a layout file says. Returns whether it says anything. */

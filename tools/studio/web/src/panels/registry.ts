@@ -37,5 +37,6 @@ export const kinds: Record<string, PanelKind> = {
   manipulate: { title: (p) => `Drive ${group(p)}`, load: () => import('./Manipulate.svelte') },
   sampler: { title: () => 'Record to a file', load: () => import('./Sampler.svelte') },
   chosen: { title: () => 'Chosen parameters', load: () => import('./Chosen.svelte') },
+  tutorial: { title: () => 'Tutorial', load: () => import('./Tutorial.svelte') },
   log: { title: () => 'Log', load: () => import('./Log.svelte') },
 };

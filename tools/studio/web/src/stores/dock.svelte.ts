@@ -3,11 +3,14 @@ import type { DockviewApi } from 'dockview-core';
 import { kinds, type PanelState } from '../panels/registry';
 
 type Direction = 'left' | 'right' | 'above' | 'below' | 'within';
+/** Beside a panel, or without one at an edge of all. */
 export interface Where { beside?: string; direction?: Direction; width?: number; height?: number; floating?: boolean; inactive?: boolean }
 
 class Dock {
   api: DockviewApi | null = null;
   active = $state<string | null>(null);
+  /** Whether panels are being arranged for a system that is opened; its kept layout does not come back then. */
+  arranging = false;
   private made = 0;
 
   /** A panel's identity: the same source opens once. */
@@ -32,14 +35,14 @@ class Dock {
       inactive: where.inactive,
       ...(where.width ? { initialWidth: where.width } : {}),
       ...(where.height ? { initialHeight: where.height } : {}),
-      ...(where.floating ? { floating: { width: 380, height: 300 } } : beside ? { position: { referencePanel: beside, direction: where.direction ?? 'within' } } : {}),
+      ...(where.floating ? { floating: { width: 380, height: 300 } } : beside ? { position: { referencePanel: beside, direction: where.direction ?? 'within' } } : where.direction && where.direction !== 'within' ? { position: { direction: where.direction } } : {}),
     });
     return id;
   }
 
   /** Opens a plot where the other plots are, or at the right side. */
   plot(panel: PanelState): string | null {
-    const others = this.api?.panels.filter((p) => !['arena', 'diagram', 'log'].includes((p.params as PanelState).kind)) ?? [];
+    const others = this.api?.panels.filter((p) => !['arena', 'diagram', 'log', 'tutorial'].includes((p.params as PanelState).kind)) ?? [];
     const last = others[others.length - 1];
     if (!last) return this.open(panel, {});
     const roomy = last.api.height > 420;

@@ -1,0 +1,57 @@
+// What a button of the tutorial does: it opens a system of those that come with Forage, sets parameters, and arranges panels.
+import { arrange } from '../presets';
+import type { PanelState } from '../panels/registry';
+import { dock } from '../stores/dock.svelte';
+import { model } from '../stores/model.svelte';
+import { command } from '../studio';
+
+export interface Setup {
+  /** Files below the folder of systems that come with Forage, and below its worlds. */
+  system: string;
+  world: string;
+  /** Assignments, as --set takes them. */
+  set: string[];
+  /** Cells that are held, as --clamp takes them: "Bug/Motor(5,1)=1". */
+  clamp: string[];
+  panels: { kind: string; item: string }[];
+  /** Values that one tries while it runs. */
+  choices: { assignment: string; values: string[] }[];
+  say: string;
+}
+
+/** The pattern of "Group(x,y)=value" for a group of this width and number of cells. */
+export function clampPattern(clamp: string, size: (group: string) => { width: number; cells: number } | undefined): { group: string; pattern: number[] } {
+  const [, group, x, y, value] = /^(.+)\((\d+),(\d+)\)=(.+)$/.exec(clamp) ?? [];
+  const found = group ? size(group) : undefined;
+  if (!group || !found) throw new Error(`'${clamp}' names no cell of this system`);
+  const pattern = new Array<number>(found.cells).fill(0);
+  pattern[(Number(y) - 1) * found.width + Number(x) - 1] = Number(value);
+  return { group, pattern };
+}
+
+function panelOf({ kind, item }: Setup['panels'][number]): PanelState {
+  if (kind === 'time') return { kind, sources: item.split(/, */).map((s) => (model.group(s) ? `mean(${s})` : s)) };
+  return kind === 'sampler' ? { kind, sources: [item] } : { kind, item };
+}
+
+/** Returns whether all could be done; what could not is told by `command`. */
+export async function setUp(setup: Setup): Promise<boolean> {
+  dock.arranging = true; // so that no layout of an earlier visit comes in between
+  try {
+    if (!(await command('open', { system: setup.system, world: `worlds/${setup.world}`, shipped: true }))) return false;
+    if (setup.set.length) {
+      // Some parameters are read at the start.
+      if (!(await command('set', { assignments: setup.set })) || !(await command('stop'))) return false;
+    }
+    const clamped = new Map<string, number[]>();
+    for (const clamp of setup.clamp) {
+      const { group, pattern } = clampPattern(clamp, (name) => model.group(name));
+      if (!(await command('manipulate', { group, mode: 'clamp', patterns: [pattern] }))) return false;
+      clamped.set(group, pattern);
+    }
+    arrange(setup.panels.map(panelOf).map((p) => (p.kind === 'manipulate' ? { ...p, cells: clamped.get(p.item!) } : p)));
+    return true;
+  } finally {
+    dock.arranging = false;
+  }
+}

@@ -1,0 +1,56 @@
+import { describe, expect, it, vi } from 'vitest';
+import { makePage, readSetup } from '../../tutorial/page';
+
+vi.stubGlobal('matchMedia', () => ({ matches: false }));
+vi.stubGlobal('location', { protocol: 'http:', host: 'x' });
+const { clampPattern } = await import('../../src/tutorial/setup');
+
+const page = (markdown: string) => makePage('1-first', markdown, ['1-first', '2-second']);
+
+describe('pages of the tutorial', () => {
+  it('have the title, the text, folded solutions and pictures', () => {
+    const made = page('# Title\n\nSome *text* & more.\n\n<details><summary>Solution</summary>\n\nIt **is**.\n![An arena](pictures/1.png)\n</details>\n');
+    expect(made.title).toBe('Title');
+    expect(made.pictures).toEqual(['1.png']);
+    expect(made.html).toContain('<h2>Title</h2>');
+    expect(made.html).toMatch(/<p>Some <em>text<\/em> &amp; more\.<\/p>\n<details><summary>Solution<\/summary>\n<p>It <strong>is<\/strong>/);
+    expect(made.html).toContain('<img src="picture:1.png" alt="An arena" loading="lazy">');
+    expect(made.html.trim().endsWith('</details>')).toBe(true);
+  });
+  it('link to other parts; links to other documents are plain text', () => {
+    expect(page('[two](2-second.md), [types](../types.md), [web](https://x.org/?a&b)').html.trim()).toBe(
+      '<p><a href="#2-second" data-part="2-second">two</a>, types, <a href="https://x.org/?a&#38;b" target="_blank" rel="noreferrer">web</a></p>',
+    );
+  });
+  it('do not pass on other HTML', () => {
+    for (const bad of ['<script>alert(1)</script>', 'a <b onclick="x()">b</b>', '<details open onclick="x()">', '<summary><img src=x onerror=y></summary>']) expect(() => page(bad)).toThrow('is not shown');
+    expect(page('[x](javascript:alert(1))').html).not.toContain('href');
+    expect(() => page('![x](https://evil/x.png)')).toThrow('not a picture');
+  });
+  it('have a button for each comment that sets something up', () => {
+    const made = page('<!-- studio\nsystem: a.iqr\nworld: b.world\nset: P.x=1\nchoose: P.y = 0 0.5\nspace: P/G\nsay: Press *Run* <now>.\n-->\n\n<!-- made by: x -->\n');
+    expect(made.setups).toEqual([{ system: 'a.iqr', world: 'b.world', set: ['P.x=1'], clamp: [], panels: [{ kind: 'space', item: 'P/G' }], choices: [{ assignment: 'P.y', values: ['0', '0.5'] }], say: 'Press *Run* <now>.' }]);
+    expect(made.html).toContain('data-open="0">Set it up</button>');
+    expect(made.html).toContain('data-set="P.y=0.5">0.5</button>');
+    expect(made.html).toContain('Press <em>Run</em> &#60;now&#62;.');
+    expect(made.html).not.toContain('<!--');
+  });
+  it.each([
+    ['system: a.iqr', 'a system and a world'],
+    ['system: a\nworld: b\nplot: x', "'plot' is not a key"],
+    ['system: a\nworld: b\nchoose: x', 'and values'],
+    ['hello', 'a key, a colon and a value'],
+  ])('refuse the set-up %j', (text, message) => expect(() => readSetup(text)).toThrow(message));
+  it('refuse a set-up that would be folded away', () =>
+    expect(() => page('<details><summary>S</summary>\n\n<!-- studio\nsystem: a\nworld: b\n-->\n\n</details>')).toThrow('outside'));
+});
+
+describe('a clamp', () => {
+  const size = () => ({ width: 9, cells: 81 });
+  it('is a pattern, row by row, counted from 1', () => {
+    const { group, pattern } = clampPattern('Bug/Motor(5,2)=0.5', size);
+    expect(group).toBe('Bug/Motor');
+    expect(pattern.flatMap((v, i) => (v ? [[i, v]] : []))).toEqual([[13, 0.5]]);
+  });
+  it('of an unknown group is an error', () => expect(() => clampPattern('X(1,1)=1', () => undefined)).toThrow('no cell'));
+});

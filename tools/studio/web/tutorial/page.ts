@@ -1,0 +1,91 @@
+// Makes a page of the panel Tutorial from a file of docs/tutorial. Runs in the build; the page of the studio gets the HTML.
+import { Marked } from 'marked';
+import type { Setup } from '../src/tutorial/setup';
+
+export interface TutorialPage {
+  id: string;
+  title: string;
+  html: string;
+  setups: Setup[];
+  /** Names of the pictures in the HTML, which stand there as src="picture:NAME". */
+  pictures: string[];
+}
+
+const escape = (text: string) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
+const panelKinds = ['space', 'time', 'raster', 'weights', 'wiring', 'camera', 'manipulate', 'sampler'];
+
+/** Reads what a comment `<!-- studio ... -->` says: lines of a key, a colon and a value. */
+export function readSetup(text: string): Setup {
+  const setup: Setup = { system: '', world: '', set: [], clamp: [], panels: [], choices: [], say: '' };
+  for (const line of text.split('\n').map((l) => l.trim()).filter(Boolean)) {
+    const [, key, value] = /^(\w+): *(.+)$/.exec(line) ?? [];
+    if (!key || !value) throw new Error(`'${line}' is not a key, a colon and a value`);
+    if (key === 'system' || key === 'world') setup[key] = value;
+    else if (key === 'set' || key === 'clamp') setup[key].push(value);
+    else if (key === 'say') setup.say = `${setup.say} ${value}`.trim();
+    else if (key === 'choose') {
+      const [, assignment, values] = /^(.+?) = (.+)$/.exec(value) ?? [];
+      if (!assignment || !values) throw new Error(`'${value}' is not a parameter, ' = ' and values`);
+      setup.choices.push({ assignment, values: values.split(/\s+/) });
+    } else if (panelKinds.includes(key)) setup.panels.push({ kind: key, item: value });
+    else throw new Error(`'${key}' is not a key of a set-up`);
+  }
+  if (!setup.system || !setup.world) throw new Error('a set-up names a system and a world');
+  return setup;
+}
+
+function setupHtml(setup: Setup, number: number): string {
+  const choices = setup.choices.map(
+    (c) => `<div class="choices" role="group" aria-label="${escape(c.assignment)}"><span>${escape(c.assignment)}</span> ${c.values.map((v) => `<button type="button" class="outlined" data-set="${escape(`${c.assignment}=${v}`)}">${escape(v)}</button>`).join('')}</div>`,
+  );
+  return `<section class="setup" data-setup="${number}" aria-label="Set-up ${number + 1}"><button type="button" class="primary" data-open="${number}">Set it up</button><small>${escape(setup.system)} in ${escape(setup.world)}</small><p>${inline(setup.say)}</p>${choices.join('')}</section>\n`;
+}
+const inline = (text: string) => new Marked({ renderer: { html: ({ text }) => escape(text) } }).parseInline(text) as string;
+
+/** `id` is the name of the file without `.md`, `ids` those of all pages. Throws when the text has HTML that is not known here. */
+export function makePage(id: string, markdown: string, ids: string[]): TutorialPage {
+  const page: TutorialPage = { id, title: '', html: '', setups: [], pictures: [] };
+  let folded = 0;
+  const marked = new Marked({
+    renderer: {
+      heading({ tokens, depth }) {
+        const text = this.parser.parseInline(tokens);
+        if (depth === 1) page.title = text;
+        return `<h${depth + 1}>${text}</h${depth + 1}>\n`;
+      },
+      html({ text }) {
+        const html = text.trim();
+        const setup = /^<!-- studio\n([\s\S]*)-->$/.exec(html);
+        if (setup) {
+          if (folded) throw new Error(`${id}: a set-up stands outside of what is folded`);
+          page.setups.push(readSetup(setup[1]!));
+          return setupHtml(page.setups[page.setups.length - 1]!, page.setups.length - 1);
+        }
+        if (/^<!--[\s\S]*-->$/.test(html)) return '';
+        if (!/^(<details>|<\/details>|<summary>[^<]*<\/summary>|\s)+$/.test(html)) throw new Error(`${id}: the HTML '${html}' is not shown in the studio`);
+        folded += (html.match(/<details>/g)?.length ?? 0) - (html.match(/<\/details>/g)?.length ?? 0);
+        return `${html}\n`;
+      },
+      image({ href, text }) {
+        const name = /^pictures\/([\w.-]+)$/.exec(href)?.[1];
+        if (!name) throw new Error(`${id}: '${href}' is not a picture of the tutorial`);
+        page.pictures.push(name);
+        return `<img src="picture:${name}" alt="${escape(text)}" loading="lazy">`;
+      },
+      link({ href, tokens }) {
+        const text = this.parser.parseInline(tokens);
+        const to = href.replace(/\.md$/, '');
+        if (ids.includes(to)) return `<a href="#${to}" data-part="${to}">${text}</a>`;
+        return /^https:\/\//.test(href) ? `<a href="${escape(href)}" target="_blank" rel="noreferrer">${text}</a>` : text;
+      },
+      code({ text, lang }) {
+        const code = `<pre tabindex="0"><code>${escape(text)}</code></pre>`;
+        if (lang !== 'sh') return `${code}\n`;
+        return `<details class="shell"><summary>In a shell: <code>${escape(text.split('\n')[0]!.replace('build/release/bin/', ''))}</code></summary>${code}</details>\n`;
+      },
+    },
+  });
+  const html = marked.parse(markdown) as string;
+  page.html = html.replace(/<table>/g, '<div class="table" tabindex="0"><table>').replace(/<\/table>/g, '</table></div>');
+  return page;
+}
