@@ -47,8 +47,13 @@ export class Streams {
 
   /** Subscribes anew to everything, after the connection was lost or another system was opened. */
   resume(): void {
+    // A server that opened another system still has the streams whose sources are in it, too.
+    for (const id of this.byId.keys()) this.request('unsubscribe', { stream: id }).catch(() => {});
     this.byId.clear();
-    for (const stream of this.byKey.values()) this.send(stream);
+    for (const stream of this.byKey.values()) {
+      delete stream.last;
+      this.send(stream);
+    }
   }
 
   /** Hands out the blocks of several frames: of newest-value streams only the last ones. */

@@ -30,7 +30,7 @@ export function clampPattern(clamp: string, size: (group: string) => { width: nu
 }
 
 function panelOf({ kind, item }: Setup['panels'][number]): PanelState {
-  if (kind === 'time') return { kind, sources: item.split(/, */).map((s) => (model.group(s) ? `mean(${s})` : s)) };
+  if (kind === 'time') return { kind, sources: item.split(', ').map((s) => (model.group(s) ? `mean(${s})` : s)) };
   return kind === 'sampler' ? { kind, sources: [item] } : { kind, item };
 }
 
@@ -39,9 +39,9 @@ export async function setUp(setup: Setup): Promise<boolean> {
   dock.arranging = true; // so that no layout of an earlier visit comes in between
   try {
     if (!(await command('open', { system: setup.system, world: `worlds/${setup.world}`, shipped: true }))) return false;
-    if (setup.set.length) {
-      // Some parameters are read at the start.
-      if (!(await command('set', { assignments: setup.set })) || !(await command('stop'))) return false;
+    for (const assignment of setup.set) {
+      // Some parameters are read at the start, and those of a module exist when it is enabled.
+      if (!(await command('set', { assignments: [assignment] })) || !(await command('stop'))) return false;
     }
     const clamped = new Map<string, number[]>();
     for (const clamp of setup.clamp) {

@@ -53,7 +53,10 @@ describe('Streams', () => {
     await settle();
     streams.resume();
     await settle();
-    expect(sent.filter((s) => s[0] === 'subscribe')).toHaveLength(2);
+    expect(sent.map((s) => s[0])).toEqual(['subscribe', 'unsubscribe', 'subscribe']);
+    const late = vi.fn();
+    streams.subscribe('A', 'latest', late);
+    expect(late).not.toHaveBeenCalled(); // what is known is of the earlier system
     streams.deliver([frame(1, 1, 9)]);
     expect(a).not.toHaveBeenCalled();
     streams.deliver([frame(2, 2, 9)]);

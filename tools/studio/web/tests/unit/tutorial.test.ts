@@ -31,7 +31,7 @@ describe('pages of the tutorial', () => {
     const made = page('<!-- studio\nsystem: a.iqr\nworld: b.world\nset: P.x=1\nchoose: P.y = 0 0.5\nspace: P/G\nsay: Press *Run* <now>.\n-->\n\n<!-- made by: x -->\n');
     expect(made.setups).toEqual([{ system: 'a.iqr', world: 'b.world', set: ['P.x=1'], clamp: [], panels: [{ kind: 'space', item: 'P/G' }], choices: [{ assignment: 'P.y', values: ['0', '0.5'] }], say: 'Press *Run* <now>.' }]);
     expect(made.html).toContain('data-open="0">Set it up</button>');
-    expect(made.html).toContain('data-set="P.y=0.5">0.5</button>');
+    expect(made.html).toContain('data-set="P.y=0.5" aria-label="P.y = 0.5">0.5</button>');
     expect(made.html).toContain('Press <em>Run</em> &#60;now&#62;.');
     expect(made.html).not.toContain('<!--');
   });

@@ -1,0 +1,85 @@
+// The tutorial in Chromium against the real program: node tutorial_test.mjs FORAGE SOURCES
+import assert from 'node:assert/strict';
+import { resolve } from 'node:path';
+import { inBrowser } from './support.mjs';
+
+const [forage, sources] = process.argv.slice(2).map((p) => resolve(p));
+const step = (text) => console.log(text);
+
+await inBrowser(sources, async ({ context, start, until }) => {
+  const page = await context.newPage();
+  page.setDefaultTimeout(10000);
+  const faults = [];
+  page.on('pageerror', (e) => faults.push(e.message));
+  page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
+  await page.goto(await start(forage).address);
+  await page.getByRole('group', { name: 'Arena' }).waitFor();
+
+  step('the text stands beside the arena, with its pictures');
+  await page.getByRole('button', { name: 'Tutorial', exact: true }).click();
+  const tutorial = page.getByRole('group', { name: 'Tutorial', exact: true });
+  await tutorial.getByRole('heading', { name: 'Tutorial 1: getting started' }).waitFor();
+  const picture = tutorial.getByAltText('Three starts, six patches of six colours, one target');
+  await picture.scrollIntoViewIfNeeded();
+  await until(page, 'the picture', () => document.querySelector('[aria-label="Tutorial"] img').naturalWidth > 100);
+
+  step('every exercise is set up: its system is opened, no command is refused, each of its plots gets numbers');
+  const refused = page.locator('.notice.error');
+  for (const part of ['1', '2', '3', '4']) {
+    await tutorial.getByRole('button', { name: part, exact: true }).click();
+    const count = await tutorial.locator('[data-open]').count();
+    assert.ok(count >= 3, `part ${part} has ${count} set-ups`);
+    for (let i = 0; i < count; i++) {
+      const button = tutorial.locator(`[data-open="${i}"]`);
+      await button.press('Enter');
+      await tutorial.locator(`.setup.active [data-open="${i}"]`).waitFor();
+      for (const choice of await tutorial.locator(`[data-setup="${i}"] .choices button:first-of-type`).all()) await choice.click();
+      await until(page, `${part}, set-up ${i + 1}: its plots`, () => {
+        const plots = [...document.querySelectorAll('[aria-label^="Space plot of"] canvas.heat')];
+        return plots.every((c) => c.width > 0 && c.getContext('2d').getImageData(0, 0, 1, 1).data[3] > 0);
+      });
+      assert.equal(await refused.count(), 0, `${part}, set-up ${i + 1}: ${await refused.allTextContents()}`);
+    }
+  }
+
+  step('the answer of 1.1 is seen: cell (5, 1) is held, and the robot has left its start');
+  await tutorial.getByRole('button', { name: '1', exact: true }).click();
+  await tutorial.locator('[data-open="0"]').click();
+  await page.getByText('Bug/Motor driven by hand').waitFor();
+  assert.ok(await page.getByRole('group', { name: 'Drive Bug/Motor' }).getByRole('button', { name: 'Cell (5, 1), 1' }).count());
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  await until(page, 'the held cell', () => {
+    const c = document.querySelector('[aria-label="Space plot of Bug/Motor"] canvas.heat');
+    return c?.width === 9 && c.getContext('2d').getImageData(4, 0, 1, 1).data[0] > 200;
+  });
+  await page.getByRole('button', { name: 'Pause', exact: true }).click();
+
+  step('a choice of the tutorial is a parameter of the run; changes of the user are not dropped without asking');
+  await tutorial.getByRole('button', { name: '3', exact: true }).click();
+  await tutorial.locator('[data-open="0"]').click();
+  await tutorial.locator('.setup.active [data-open="0"]').waitFor();
+  await tutorial.getByRole('button', { name: 'Adaptive.eta = 0.005' }).first().click();
+  await page.getByTitle(/^Undo: Adaptive.eta = 0.005/).waitFor();
+  await page.getByRole('button', { name: 'Undo' }).click();
+  await page.getByRole('button', { name: 'Redo' }).click();
+  await tutorial.locator('[data-open="1"]').click();
+  await tutorial.getByRole('button', { name: 'Drop the changes of this run, and set it up' }).click();
+  await tutorial.locator('.setup.active [data-open="1"]').waitFor();
+
+  step('links lead to other parts; after loading anew the same part is shown');
+  await page.reload();
+  await tutorial.getByRole('heading', { name: 'Tutorial 3: the adaptive layer' }).waitFor();
+
+  step('axe finds no serious fault of accessibility, light and dark');
+  const { createRequire } = await import('node:module');
+  const { readFileSync } = await import('node:fs');
+  await page.evaluate(readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8'));
+  for (const scheme of ['light', 'dark']) {
+    await page.emulateMedia({ colorScheme: scheme });
+    await page.waitForTimeout(100);
+    const serious = await page.evaluate(async () => (await window.axe.run({ exclude: ['.dv-tab'] }, { resultTypes: ['violations'] })).violations.filter((v) => ['serious', 'critical'].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 160)).join(' | ')}`));
+    assert.deepEqual(serious, [], scheme);
+  }
+  assert.deepEqual(faults, []);
+  console.log('all fine');
+});
