@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The studio over its sockets: what it refuses, its flow control, and that watching changes nothing."""
 import json
+import math
 import pathlib
 import subprocess
 import sys
@@ -208,6 +209,27 @@ class Watching(unittest.TestCase):
         self.page.do('step', cycles=300)
         self.assertEqual(read(), at_600)
 
+    def test_the_parts_of_a_robot_move_with_it(self):
+        def parts():
+            read = self.page.do('read', source='world:parts:Bug')
+            self.assertEqual(read['columns'], 11)
+            return [read['values'][11 * i:11 * i + 11] for i in range(read['rows'])]
+        before = parts()
+        self.page.do('move', robot='Bug', x=1.0, y=-1.0)
+        self.page.do('step')
+        x, y, _, yaw = self.page.do('read', source='world:poses')['values'][:4]
+        after = parts()
+        self.assertEqual([p[5:] for p in before], [p[5:] for p in after])  # sizes and colours
+        self.assertTrue(all(p[0] in (1, 2, 3) and min(p[5:8]) > 0 and 0 <= min(p[8:]) <= max(p[8:]) <= 1 for p in after))
+        self.assertTrue(all(math.hypot(p[1] - x, p[2] - y) < 0.5 for p in after))
+        self.assertTrue(any(abs(p[4] - yaw) < 1e-6 for p in after))
+
+    def test_a_system_that_comes_with_forage_is_opened(self):
+        self.page.do('open', system='tutorial/reflex.iqr', world='worlds/ambiguous_arena.world', shipped=True)
+        self.page.do('step')
+        self.assertFalse(self.page.ask('open', system='tutorial/none.iqr', shipped=True)['ok'])
+        self.assertEqual(self.page.do('digest')['cycle'], 1)  # what cannot be opened leaves the run as it is
+
     def test_the_sampler_writes_what_the_command_line_writes(self):
         with tempfile.TemporaryDirectory() as folder:
             file = f'{folder}/light.csv'
@@ -258,7 +280,7 @@ class Watching(unittest.TestCase):
             self.assertEqual(len(list(pathlib.Path(folder).iterdir())), 2)
 
     def test_watching_changes_no_bit(self):
-        for source in ('Bug/Light', 'world:poses', 'world:rays', 'world:camera'):
+        for source in ('Bug/Light', 'world:poses', 'world:rays', 'world:parts', 'world:camera'):
             self.page.do('subscribe', source=source)
         self.page.do('subscribe', source='mean(Bug/Light)', **{'class': 'append'})
         for _ in range(5):

@@ -91,6 +91,44 @@ class Rays final : public StreamSource {
     std::uint32_t rows_ = 0;
 };
 
+/// What a robot consists of, with the gripper as it is now.
+class Parts final : public StreamSource {
+  public:
+    Parts(const bug::World& world, std::size_t robot) : robot_(robot) {
+        for (const auto& v : world.moving_visuals()) rows_ += v.body == robot_;
+    }
+    std::uint32_t rows() const override { return rows_; }
+    std::uint32_t columns() const override { return 11; }
+    std::string label() const override { return "kind, x, y, z, yaw, size, red, green, blue"; }
+    void read(Run& run, std::span<double> out) const override {
+        const auto& world = static_cast<const bug::World&>(*run.environment());
+        std::size_t at = 0;
+        for (const auto& v : world.moving_visuals()) {
+            if (v.body != robot_) continue;
+            const auto pose = v.at(world.body_poses());
+            const Eigen::Vector3d p = pose.translation(), size = v.visual.solid.size;
+            const auto& colour = v.visual.material.diffuse;
+            const double row[] = {static_cast<double>(v.visual.solid.kind),
+                                  p.x(),
+                                  p.y(),
+                                  p.z(),
+                                  bug::yaw_of(pose),
+                                  size.x(),
+                                  size.y(),
+                                  size.z(),
+                                  colour[0],
+                                  colour[1],
+                                  colour[2]};
+            std::copy(std::begin(row), std::end(row), out.begin() + static_cast<std::ptrdiff_t>(at));
+            at += columns();
+        }
+    }
+
+  private:
+    std::size_t robot_;
+    std::uint32_t rows_ = 0;
+};
+
 class Picture final : public StreamSource {
   public:
     Picture(const bug::CameraSensor& camera, std::size_t robot)
@@ -139,14 +177,16 @@ std::unique_ptr<StreamSource> world_source(Run& run, std::string_view text) {
         throw InputError(fmt::format("'{}' names no robot of this world", text),
                          suggest(colon == text.npos ? "" : text.substr(colon + 1), world->robot_names()));
     if (kind == "world:rays") return std::make_unique<Rays>(*world, *robot);
+    if (kind == "world:parts") return std::make_unique<Parts>(*world, *robot);
     if (kind == "world:trail") return std::make_unique<Trail>(*robot);
     if (kind == "world:camera") {
         if (const auto& camera = world->robot(*robot).sensors.camera_sensor())
             return std::make_unique<Picture>(*camera, *robot);
         throw InputError(fmt::format("the robot of '{}' has no camera", text));
     }
-    throw InputError(fmt::format("'{}' is not a stream of a world", text),
-                     "world:poses, world:rays:ROBOT, world:camera:ROBOT or world:trail:ROBOT");
+    throw InputError(
+        fmt::format("'{}' is not a stream of a world", text),
+        "world:poses, world:rays:ROBOT, world:parts:ROBOT, world:camera:ROBOT or world:trail:ROBOT");
 }
 
 template <class T>
