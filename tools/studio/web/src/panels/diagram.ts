@@ -1,8 +1,8 @@
 // Nodes and edges of the diagram. Ids are those of the model; positions are those of the file.
 import { MarkerType, type Edge, type Node } from '@xyflow/svelte';
-import type { Connection, Process, SystemMessage } from '../protocol/messages';
+import type { Connection, Icon, Process, SystemMessage } from '../protocol/messages';
 
-const width = 104;
+const width = 104, height = 72;
 
 function endpoints(system: SystemMessage, process: Process | null) {
   const home = new Map<string, Process>();
@@ -30,14 +30,18 @@ function stretch(icons: { x: number; y: number }[]): number {
   return Math.min(needed, 4);
 }
 
+/** By what a place of the file is multiplied to be one of the page. */
+export const factorOf = (items: { icon: Icon | null }[]): number => stretch(items.flatMap((i) => (i.icon ? [i.icon] : [])));
+
 /** The boxes of a page of the diagram. Boxes without a place in the file are laid out by Dagre. */
 export async function nodesOf(system: SystemMessage, process: Process | null): Promise<Node[]> {
   const items = process ? process.groups : system.processes;
-  const factor = stretch(items.flatMap((i) => (i.icon ? [i.icon] : [])));
+  const factor = factorOf(items);
   const nodes: Node[] = items.map((item) => ({
     id: item.id,
     type: 'item',
-    position: item.icon ? { x: item.icon.x * factor, y: item.icon.y * factor } : { x: NaN, y: NaN },
+    // The middle of the box is the middle of the file's icon, so that the vertices of lines fit.
+    position: item.icon ? { x: (item.icon.x + item.icon.width / 2) * factor - width / 2, y: (item.icon.y + item.icon.height / 2) * factor - height / 2 } : { x: NaN, y: NaN },
     data: { item },
   }));
   if (nodes.some((n) => Number.isNaN(n.position.x))) await layOut(nodes, links(system, process));
@@ -81,14 +85,20 @@ export function edgesOf(system: SystemMessage, process: Process | null, selected
     if (known) known.count++, (known.chosen ||= chosen);
     else merged.set(key, { first: connection, source, target, count: 1, chosen });
   }
+  const factor = factorOf(process?.groups ?? system.processes);
+  const placed = process?.groups.every((g) => g.icon);
+  // The file draws the lines within a process; it draws none where Dagre places the boxes.
+  const drawn = (l: { first: Connection; source: string; target: string }) =>
+    placed && l.first.line && l.source === l.first.source && l.target === l.first.target
+      ? { type: 'line', data: { connection: l.first.id, anchors: [l.first.line.source_anchor, l.first.line.target_anchor], vertices: l.first.line.vertices.map(([x, y]) => ({ x: x * factor, y: y * factor })) } }
+      : { type: 'default', data: { connection: l.first.id } };
   return [...merged].map(([id, l]) => ({
     id,
     source: l.source,
     target: l.target,
-    type: 'default',
+    ...drawn(l),
     // A line that leads back leaves on the left side, so that it does not run behind the boxes.
     ...((x.get(l.target) ?? 0) >= (x.get(l.source) ?? 0) ? { sourceHandle: 'right', targetHandle: 'left' } : { sourceHandle: 'left', targetHandle: 'right' }),
-    data: { connection: l.first.id },
     ariaLabel: `${l.first.name}, ${l.first.kind}`,
     class: l.chosen ? 'chosen' : '',
     label: l.count > 1 ? String(l.count) : undefined,
