@@ -140,34 +140,39 @@ void remove(System& system, std::string_view id) {
     std::erase_if(system.processes, is_it);
 }
 
-std::string import_process(System& system, ProcessFile file) {
+std::string make_ids_unique(const System& system, std::span<Process> processes,
+                            std::span<Connection> connections) {
     const auto taken = all_ids(system);
-    const auto ids = [&file] {
-        std::vector<std::string*> out{&file.process.id};
-        for (auto& g : file.process.groups) out.push_back(&g.id);
-        for (auto& c : file.connections) out.push_back(&c.id);
-        return out;
-    }();
+    std::vector<std::string*> ids;
+    std::set<std::string, std::less<>> groups;
+    for (auto& p : processes) {
+        ids.push_back(&p.id);
+        for (auto& g : p.groups) ids.push_back(&g.id), groups.insert(g.id);
+    }
+    for (auto& c : connections) ids.push_back(&c.id);
     std::string prefix;
     const auto clashes = [&] {
         return std::any_of(ids.begin(), ids.end(),
                            [&](const auto* id) { return taken.contains(prefix + *id); });
     };
     for (int n = 1; prefix.empty() || clashes(); ++n) prefix = fmt::format("CB{}", n);
-
-    std::set<std::string, std::less<>> groups;
-    for (const auto& g : file.process.groups) groups.insert(g.id);
-    for (const auto& c : file.connections)
+    for (const auto& c : connections)
         if (!groups.contains(c.source) || !groups.contains(c.target))
             throw std::invalid_argument(fmt::format("connection '{}' leads out of the process", c.name));
     const auto follow = [&](std::string& reference) {
         reference = groups.contains(reference) ? prefix + reference : std::string();
     };
-    if (file.process.module)
-        for (auto* references : {&file.process.module->inputs, &file.process.module->outputs})
-            for (auto& r : *references) follow(r.target);
-    for (auto& c : file.connections) follow(c.source), follow(c.target), c.linked = false;
+    for (auto& p : processes)
+        if (p.module)
+            for (auto* references : {&p.module->inputs, &p.module->outputs})
+                for (auto& r : *references) follow(r.target);
+    for (auto& c : connections) follow(c.source), follow(c.target), c.linked = false;
     for (auto* id : ids) *id = prefix + *id;
+    return prefix;
+}
+
+std::string import_process(System& system, ProcessFile file) {
+    make_ids_unique(system, {&file.process, 1}, file.connections);
     file.process.path.clear();
     file.process.placeholder.clear();
     system.processes.push_back(std::move(file.process));

@@ -43,6 +43,12 @@ void remove(System& system, std::string_view id);
 /// Renames a process, group or connection. Throws std::invalid_argument when there is none with this id.
 void rename(System& system, std::string_view id, std::string name);
 
+/// Gives all ids a prefix CB<n>, as the original does, so that none of them is in `system`. References to
+/// groups that are not among `processes` become unset. Throws std::invalid_argument when a connection has no
+/// group there. Returns the prefix.
+std::string make_ids_unique(const System& system, std::span<Process> processes,
+                            std::span<Connection> connections);
+
 /// Adds a copy of a process with its connections. All its ids get a prefix CB<n> that makes them unique, as
 /// in the original. References to groups outside the process become unset. Returns the id of the new process.
 /// Throws std::invalid_argument when a connection leads out of the process.

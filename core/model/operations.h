@@ -1,0 +1,73 @@
+// The changes that an editor makes to a system. Each function throws std::invalid_argument and leaves the
+// system as it was when there is no such item, or when the item belongs to a linked process, whose content
+// has a file of its own. build.h has further ones: add_process(), add_group(), add_connection(), remove(),
+// rename().
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/model/system.h"
+#include "core/types/registry.h"
+
+namespace forage::model {
+
+/// Moves the icon of a process or group, in the diagram's units. An item without an icon gets one.
+void place(System& system, std::string_view id, int x, int y);
+
+/// What changes of the line of a connection. Anchors are numbers of the 16 points around an icon.
+struct LineChange {
+    std::optional<int> source_anchor = {}, target_anchor = {};
+    std::optional<std::vector<Point>> vertices = {};
+};
+void set_line(System& system, std::string_view id, LineChange change);
+
+/// Changes the groups that a connection connects; an empty id keeps the group.
+void reroute(System& system, std::string_view id, std::string_view source, std::string_view target);
+
+void set_color(System& system, std::string_view id, std::string color);  ///< of a process or group
+/// Sets the note of an item, or of the system when `id` is the system's. An empty note removes it.
+void set_note(System& system, std::string_view id, std::string note);
+void set_kind(System& system, std::string_view id, InputKind kind);
+void set_enabled(System& system, std::string_view id, bool enabled);  ///< the module of a process
+
+enum class Part { neuron, synapse, module };
+/// Sets the type of a group's neuron, a connection's synapse or a process's module. Parameters and cross
+/// references that the new type has, too, keep what they say; others are removed. An empty type removes the
+/// module of a process.
+void set_type(System& system, const Registry& registry, std::string_view id, Part part,
+              const std::string& type);
+
+/// Sets a parameter of the neuron, synapse or module of an item to a value as written in a file; without a
+/// value, the parameter gets its default and its element is removed.
+void set_parameter(System& system, std::string_view id, const std::string& name,
+                   const std::optional<std::string>& value);
+
+void set_topology(System& system, std::string_view id, Topology topology);
+void set_pattern(System& system, std::string_view id, Pattern pattern);
+void set_arborization(System& system, std::string_view id, Arborization arborization);
+void set_attenuation(System& system, std::string_view id, DistanceFunction function);
+void set_delay(System& system, std::string_view id, DistanceFunction function);
+
+/// Sets cross references of a module: names of ports, and ids of groups or nothing. Others are kept.
+void set_ports(System& system, std::string_view id, const std::map<std::string, std::string>& inputs,
+               const std::map<std::string, std::string>& outputs);
+/// Sets the states of the target that a connection's synapse reads.
+void set_feedback(System& system, std::string_view id, const std::map<std::string, std::string>& states);
+
+/// The processes and groups with these ids, with all connections among their groups and the connections with
+/// these ids among them, as a system of its own. Groups without their process are in a process whose id is
+/// clipboard_process.
+System copy(const System& system, std::span<const std::string> ids);
+inline constexpr std::string_view clipboard_process = "clipboard";
+/// Adds what copy() has made, or a whole system, with new ids (a prefix CB<n>, as in the original) and new
+/// names where names are taken. Groups of clipboard_process are added to the process `process`. The upper
+/// left corner of what is added is placed at (x, y). Returns the ids of the added processes, groups and
+/// connections.
+std::vector<std::string> paste(System& system, System content, std::string_view process, int x, int y);
+
+}  // namespace forage::model
