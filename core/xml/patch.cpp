@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "core/base/alignment.h"
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
 
@@ -31,41 +32,6 @@ std::string key_of(std::string_view text, const SourceElement& e) {
         return std::string(e.name) + " " + std::string(e.value("name"));
     if (e.name == "Point" || e.name == "Tuple") return std::string(e.whole.of(text));
     return place_of(e);
-}
-
-/// Pairs of equal keys in order: a longest common subsequence. -1 stands for none.
-std::vector<std::pair<int, int>> aligned(const std::vector<std::string>& a,
-                                         const std::vector<std::string>& b) {
-    std::size_t front = 0, back = 0;
-    while (front < std::min(a.size(), b.size()) && a[front] == b[front]) ++front;
-    while (back < std::min(a.size(), b.size()) - front && a[a.size() - 1 - back] == b[b.size() - 1 - back])
-        ++back;
-    const std::size_t n = a.size() - front - back, m = b.size() - front - back;
-    std::vector<std::pair<int, int>> out;
-    for (std::size_t i = 0; i < front; ++i) out.emplace_back(i, i);
-    constexpr std::size_t most = 4'000'000;  // larger differences are replaced as a whole
-    std::size_t i = 0, j = 0;
-    if (n > 0 && m > 0 && n * m <= most) {
-        std::vector<std::uint32_t> longest((n + 1) * (m + 1));  // of the rests from i and j
-        const auto at = [&](std::size_t x, std::size_t y) -> std::uint32_t& {
-            return longest[x * (m + 1) + y];
-        };
-        for (std::size_t x = n; x-- > 0;)
-            for (std::size_t y = m; y-- > 0;)
-                at(x, y) = a[front + x] == b[front + y] ? at(x + 1, y + 1) + 1
-                                                        : std::max(at(x + 1, y), at(x, y + 1));
-        while (i < n && j < m)
-            if (a[front + i] == b[front + j])
-                out.emplace_back(front + i++, front + j++);
-            else if (at(i + 1, j) >= at(i, j + 1))
-                out.emplace_back(front + i++, -1);
-            else
-                out.emplace_back(-1, front + j++);
-    }
-    for (; i < n; ++i) out.emplace_back(front + i, -1);
-    for (; j < m; ++j) out.emplace_back(-1, front + j);
-    for (std::size_t k = back; k-- > 0;) out.emplace_back(a.size() - 1 - k, b.size() - 1 - k);
-    return out;
 }
 
 /// Carries the difference of two texts of the writer over to the text of an author.

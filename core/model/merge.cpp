@@ -1,0 +1,161 @@
+#include "core/model/merge.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/model/lookup.h"
+
+namespace forage::model {
+namespace {
+
+class Merger {
+  public:
+    explicit Merger(std::vector<std::string>& conflicts) : conflicts_(conflicts) {}
+
+    /// The value that both changes give.
+    template <class T>
+    void member(const std::string& where, const char* what, const T& base, const T& mine, T& theirs) {
+        if (mine == base || mine == theirs) return;
+        if (!(theirs == base)) conflicts_.push_back(fmt::format("{} of {}", what, where));
+        theirs = mine;
+    }
+
+    void settings(const std::string& where, const TypeUse& base, const TypeUse& mine, TypeUse& theirs) {
+        const auto find = [](auto& use, const std::string& name) {
+            const auto it = std::ranges::find(use.settings, name, &Setting::name);
+            return it == use.settings.end() ? nullptr : &*it;
+        };
+        const auto value = [&](const TypeUse& use, const std::string& name) -> std::optional<std::string> {
+            const auto* s = find(use, name);
+            return s ? std::optional(s->value) : std::nullopt;
+        };
+        member(where, "the type", base.type, mine.type, theirs.type);
+        member(where, "the note of the type", base.note, mine.note, theirs.note);
+        std::vector<std::string> names;
+        for (const auto* use : {&base, &mine})
+            for (const auto& s : use->settings) names.push_back(s.name);
+        for (const auto& name : names) {
+            const auto was = value(base, name), is = value(mine, name), there = value(theirs, name);
+            if (is == was || is == there) continue;
+            if (there != was) conflicts_.push_back(fmt::format("the parameter '{}' of {}", name, where));
+            if (!is)
+                std::erase_if(theirs.settings, [&](const auto& s) { return s.name == name; });
+            else if (auto* s = find(theirs, name))
+                s->value = *is;
+            else
+                theirs.settings.push_back({name, *is, {}, {}});
+        }
+    }
+    /// A use of a type that may be absent.
+    template <class Use, class More>
+    void use(const std::string& where, const char* what, const std::optional<Use>& base,
+             const std::optional<Use>& mine, std::optional<Use>& theirs, More more) {
+        if (!base || !mine || !theirs) return member(where, what, base, mine, theirs);
+        settings(where, *base, *mine, *theirs);
+        more(*base, *mine, *theirs);
+    }
+
+    void item(const Group& base, const Group& mine, Group& theirs) {
+        const std::string where = fmt::format("group '{}'", trim(base.name));
+        member(where, "the name", base.name, mine.name, theirs.name);
+        member(where, "the colour", base.color, mine.color, theirs.color);
+        member(where, "the topology", base.topology, mine.topology, theirs.topology);
+        member(where, "the note", base.note, mine.note, theirs.note);
+        member(where, "the place", base.icon, mine.icon, theirs.icon);
+        settings(where, base.neuron, mine.neuron, theirs.neuron);
+    }
+    void item(const Process& base, const Process& mine, Process& theirs) {
+        const std::string where = fmt::format("process '{}'", trim(base.name));
+        if (base.linked() || mine.linked() || theirs.linked()) {
+            if (!(mine == base)) member(where, "the link", base, mine, theirs);
+            return;
+        }
+        member(where, "the name", base.name, mine.name, theirs.name);
+        member(where, "the colour", base.color, mine.color, theirs.color);
+        member(where, "the enabling of the module", base.module_enabled, mine.module_enabled,
+               theirs.module_enabled);
+        member(where, "the note", base.note, mine.note, theirs.note);
+        member(where, "the place", base.icon, mine.icon, theirs.icon);
+        use(where, "the module", base.module, mine.module, theirs.module,
+            [&](const ModuleUse& b, const ModuleUse& m, ModuleUse& t) {
+                member(where, "the inputs of the module", b.inputs, m.inputs, t.inputs);
+                member(where, "the outputs of the module", b.outputs, m.outputs, t.outputs);
+            });
+        items(base.groups, mine.groups, theirs.groups);
+    }
+    void item(const Connection& base, const Connection& mine, Connection& theirs) {
+        const std::string where = fmt::format("connection '{}'", trim(base.name));
+        member(where, "the name", base.name, mine.name, theirs.name);
+        member(where, "the source", base.source, mine.source, theirs.source);
+        member(where, "the target", base.target, mine.target, theirs.target);
+        member(where, "the kind", base.kind, mine.kind, theirs.kind);
+        member(where, "the pattern", base.pattern, mine.pattern, theirs.pattern);
+        member(where, "the arborization", base.arborization, mine.arborization, theirs.arborization);
+        member(where, "the attenuation", base.attenuation, mine.attenuation, theirs.attenuation);
+        member(where, "the delay", base.delay, mine.delay, theirs.delay);
+        member(where, "the note", base.note, mine.note, theirs.note);
+        member(where, "the line", base.line, mine.line, theirs.line);
+        use(where, "the synapse", base.synapse, mine.synapse, theirs.synapse,
+            [&](const SynapseUse& b, const SynapseUse& m, SynapseUse& t) {
+                member(where, "the feedback", b.feedback, m.feedback, t.feedback);
+            });
+    }
+
+    template <class Item>
+    void items(const std::vector<Item>& base, const std::vector<Item>& mine, std::vector<Item>& theirs) {
+        const auto find = [](auto& all, const std::string& id) {
+            const auto it = std::ranges::find(all, id, &Item::id);
+            return it == all.end() ? nullptr : &*it;
+        };
+        for (const Item& was : base) {
+            const Item* is = find(mine, was.id);
+            Item* there = find(theirs, was.id);
+            if (is && there) {
+                item(was, *is, *there);
+            } else if (is && !(*is == was)) {
+                conflicts_.push_back(
+                    fmt::format("'{}', which the file does not have any more", trim(was.name)));
+                theirs.push_back(*is);
+            } else if (!is && there) {
+                if (!(*there == was))
+                    conflicts_.push_back(fmt::format("'{}', which is removed here", trim(was.name)));
+                std::erase_if(theirs, [&](const Item& i) { return i.id == was.id; });
+            }
+        }
+        for (const Item& is : mine)
+            if (!find(base, is.id)) {
+                if (const Item* there = find(theirs, is.id); !there)
+                    theirs.push_back(is);
+                else if (!(*there == is))
+                    conflicts_.push_back(
+                        fmt::format("'{}', which has the id '{}' in both", trim(is.name), is.id));
+            }
+    }
+
+  private:
+    std::vector<std::string>& conflicts_;
+};
+
+}  // namespace
+
+Merge merge(const System& base, const System& mine, const System& theirs) {
+    Merge out{theirs, {}};
+    Merger merger(out.conflicts);
+    System& s = out.system;
+    merger.member("the system", "the name", base.name, mine.name, s.name);
+    merger.member("the system", "the author", base.author, mine.author, s.author);
+    merger.member("the system", "the date", base.date, mine.date, s.date);
+    merger.member("the system", "the cycles per second", base.cycles_per_second, mine.cycles_per_second,
+                  s.cycles_per_second);
+    merger.member("the system", "the note", base.note, mine.note, s.note);
+    merger.items(base.processes, mine.processes, s.processes);
+    merger.items(base.connections, mine.connections, s.connections);
+    const GroupIndex groups(s);
+    std::erase_if(s.connections, [&](const Connection& c) {  // a group of it was removed here, or there
+        return !groups.find(c.source).group || !groups.find(c.target).group;
+    });
+    return out;
+}
+
+}  // namespace forage::model

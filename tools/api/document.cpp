@@ -1,0 +1,240 @@
+#include "tools/api/document.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/named_file.h"
+#include "core/base/output_files.h"
+#include "core/base/text_difference.h"
+#include "core/base/text_file.h"
+#include "core/model/edit.h"
+#include "core/model/merge.h"
+#include "core/model/validate.h"
+#include "core/xml/patch.h"
+#include "core/xml/reader.h"
+#include "core/xml/writer.h"
+
+namespace forage {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_bytes = 64u << 20;  ///< of texts that can be undone
+
+std::string content_of(const std::string& path) {
+    try {
+        return read_file(path);
+    } catch (const FileError& e) {
+        Diagnostics diagnostics;
+        report(e, diagnostics);
+        throw InputError(std::move(diagnostics));
+    }
+}
+
+/// The name by which messages call a text without a file.
+std::string shown(const std::string& path) { return path.empty() ? "untitled.iqr" : path; }
+
+}  // namespace
+
+Document Document::open(const std::string& path, bool lenient) {
+    Document out = unsaved(path, content_of(path), lenient);
+    out.saved_ = out.text_;
+    out.stamp_ = stamp_of(path);
+    return out;
+}
+
+Document Document::unsaved(std::string path, std::string text, bool lenient) {
+    Document out;
+    out.path_ = std::move(path);
+    out.lenient_ = lenient;
+    out.read(std::move(text));
+    if (!out.path_.empty() && fs::exists(out.path_)) {
+        out.saved_ = content_of(out.path_);
+        out.stamp_ = stamp_of(out.path_);
+    }
+    return out;
+}
+
+Document Document::create(const std::string& name) {
+    model::System system;
+    system.id = "system", system.name = name;
+    Document out = unsaved({}, xml::write_system(system));
+    out.saved_ = out.text_;  // there is nothing to lose
+    return out;
+}
+
+Document::Stamp Document::stamp_of(const std::string& path) {
+    std::error_code failed;
+    const Stamp out{fs::last_write_time(path, failed), fs::file_size(path, failed)};
+    return failed ? Stamp() : out;
+}
+
+void Document::read(std::string text) {
+    Diagnostics diagnostics;
+    diagnostics.lenient = lenient_;
+    auto system = xml::parse_system(shown(path_), text, diagnostics);
+    if (!system) throw InputError(std::move(diagnostics));
+    system_ = *std::move(system);
+    diagnostics_ = std::move(diagnostics);
+    text_ = std::move(text);
+}
+
+std::vector<Document::Problem> Document::problems(const Registry& registry, Environment* environment) const {
+    Diagnostics all = diagnostics_;
+    model::validate(system_, registry, all, environment);
+    return located(all);
+}
+
+std::vector<Document::Problem> Document::located(const Diagnostics& diagnostics) const {
+    std::vector<Problem> out;
+    if (diagnostics.all().empty()) return out;
+    const auto root = xml::scan(text_);
+    std::vector<std::size_t> line_starts{0};
+    for (std::size_t i = 0; i < text_.size(); ++i)
+        if (text_[i] == '\n') line_starts.push_back(i + 1);
+    for (const Diagnostic& d : diagnostics.all()) {
+        const auto line = static_cast<std::size_t>(d.where.line);
+        const bool here =
+            d.where.file && d.where.file->path == shown(path_) && line >= 1 && line <= line_starts.size();
+        const auto column = static_cast<std::size_t>(std::max(d.where.column, 1)) - 1;
+        out.push_back({d, here ? xml::item_at(root, line_starts[line - 1] + column) : std::string()});
+    }
+    return out;
+}
+
+void Document::push(std::string before, const std::string& title, const std::string& merge) {
+    undo_.push_back({std::move(before), title, merge});
+    redo_.clear();
+    std::size_t bytes = 0;
+    for (const Step& s : undo_) bytes += s.text.size();
+    for (; bytes > most_bytes && undo_.size() > 1; undo_.pop_front()) bytes -= undo_.front().text.size();
+}
+
+bool Document::edit(const Edit& change, const std::string& title, const std::string& merge) {
+    model::System wanted = system_;
+    change(wanted);
+    auto patch = xml::patch(shown(path_), text_, system_, wanted, lenient_);
+    if (!patch.system) throw InputError(std::move(patch.diagnostics));
+    if (patch.text == text_) return false;
+    const bool joins = !merge.empty() && !undo_.empty() && undo_.back().merge == merge && redo_.empty();
+    if (!joins) push(std::move(text_), title, merge);
+    text_ = std::move(patch.text);
+    system_ = *std::move(patch.system);
+    diagnostics_ = std::move(patch.diagnostics);
+    return !joins;
+}
+
+bool Document::replace_text(std::string text, const std::string& title) {
+    if (text == text_) return false;
+    std::string before = text_;
+    read(std::move(text));
+    push(std::move(before), title, {});
+    return true;
+}
+
+std::string Document::item_text(std::string_view id) const {
+    if (id == system_.id) return text_;
+    const auto place = xml::find_item(xml::scan(text_), id);
+    if (!place) throw InputError(fmt::format("there is no item with the id '{}' in this file", id));
+    return std::string(place->of(text_));
+}
+
+bool Document::replace_item_text(std::string_view id, const std::string& text, const std::string& title) {
+    if (id == system_.id) return replace_text(text, title);
+    const auto place = xml::find_item(xml::scan(text_), id);
+    if (!place) throw InputError(fmt::format("there is no item with the id '{}' in this file", id));
+    return replace_text(text_.substr(0, place->begin) + text + text_.substr(place->end), title);
+}
+
+void Document::swap_step(std::deque<Step>& from, std::deque<Step>& to) {
+    Step step = std::move(from.back());
+    from.pop_back();
+    std::string now = text_;
+    read(std::move(step.text));
+    to.push_back({std::move(now), std::move(step.title), {}});
+}
+
+void Document::undo() {
+    if (undo_.empty()) throw InputError("there is nothing to undo");
+    swap_step(undo_, redo_);
+}
+
+void Document::redo() {
+    if (redo_.empty()) throw InputError("there is nothing to redo");
+    swap_step(redo_, undo_);
+}
+
+void Document::save(const std::string& path, const Registry& registry, bool overwrite) {
+    const std::string& to = path.empty() ? path_ : path;
+    if (to.empty()) throw InputError("the system has no file yet", "choose a name that ends with .iqr");
+    std::error_code ignored;
+    const bool same = !path_.empty() && (to == path_ || fs::equivalent(to, path_, ignored));
+    if (!overwrite && same && changed_outside())
+        throw InputError(fmt::format("'{}' was changed outside since it was read", to),
+                         "reload it, merge both changes, or overwrite it");
+    if (!overwrite && !same && fs::exists(to))
+        throw InputError(fmt::format("'{}' exists", to), "overwrite it, or choose another name");
+    if (!same && !path_.empty()) {
+        model::System moved = system_;
+        model::move_files(moved, path_, to, registry);
+        if (!xml::same_content(moved, system_)) {
+            const auto patch = xml::patch(to, text_, system_, moved, lenient_);
+            push(text_, "save as " + to, {});
+            text_ = patch.text;
+        }
+    }
+    // A name that is a link stays one.
+    const std::string file = fs::is_symlink(to) ? fs::weakly_canonical(to).string() : to;
+    write_file(file, text_);
+    const bool renamed = to != path_;
+    path_ = to;
+    saved_ = text_;
+    stamp_ = stamp_of(path_);
+    if (renamed) read(text_);  // messages name the file, and links begin in its folder
+}
+
+bool Document::changed_outside() const {
+    if (path_.empty()) return false;
+    const Stamp now = stamp_of(path_);
+    if (now == stamp_) return false;
+    try {
+        if (read_file(path_) != saved_) return true;
+    } catch (const FileError&) {
+        return true;
+    }
+    stamp_ = now;
+    return false;
+}
+
+bool Document::reload(Keep keep) {
+    if (path_.empty()) throw InputError("the system has no file yet", "save it first");
+    const Stamp now = stamp_of(path_);
+    std::string theirs = content_of(path_);
+    const bool changed = [&] {
+        if (keep == Keep::mine) return false;
+        if (keep == Keep::theirs) return replace_text(theirs, "the text of the file");
+        Diagnostics diagnostics;
+        diagnostics.lenient = lenient_;
+        const auto base = xml::parse_system(path_, saved_, diagnostics);
+        const auto there = xml::parse_system(path_, theirs, diagnostics);
+        if (!base || !there) throw InputError(std::move(diagnostics));
+        const auto merged = model::merge(*base, system_, *there);
+        if (!merged.conflicts.empty())
+            throw InputError(fmt::format("both have changed {}", fmt::join(merged.conflicts, ", ")),
+                             "keep yours, or take the text of the file");
+        auto patch = xml::patch(path_, theirs, *there, merged.system, lenient_);
+        if (!patch.system) throw InputError(std::move(patch.diagnostics));
+        return replace_text(std::move(patch.text), "merge with the file");
+    }();
+    saved_ = std::move(theirs);
+    stamp_ = now;
+    return changed;
+}
+
+std::string Document::difference() const {
+    return unified_difference(saved_, text_, shown(path_) + " (saved)", shown(path_));
+}
+
+}  // namespace forage

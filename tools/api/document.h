@@ -1,0 +1,108 @@
+// A system file that is edited: its text, the system that it says, and what can be undone.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/model/system.h"
+#include "core/run/input_error.h"
+#include "core/types/registry.h"
+
+namespace forage {
+
+/// The text of a system file in the hands of an editor. The text stays its author's: an edit replaces what
+/// differs and leaves comments, order, blanks and spellings of everything else (core/xml/patch.h).
+class Document {
+  public:
+    /// What is wrong, with the process, group or connection in which it is; empty for none of them.
+    struct Problem {
+        Diagnostic diagnostic;
+        std::string item;
+    };
+    using Edit = std::function<void(model::System&)>;
+
+    /// Reads the file `path`. Throws InputError when its text has no system; other mistakes are problems.
+    static Document open(const std::string& path, bool lenient = false);
+    /// A text that has not been saved, of a file that `path` names, or of none when it is empty. Throws
+    /// InputError.
+    static Document unsaved(std::string path, std::string text, bool lenient = false);
+    /// A system without content, which has no file yet.
+    static Document create(const std::string& name);
+
+    const std::string& path() const { return path_; }  ///< empty before the first save
+    const std::string& text() const { return text_; }
+    const model::System& system() const { return system_; }
+    bool dirty() const { return text_ != saved_; }  ///< whether the text differs from the file's
+
+    /// Everything that is wrong with the system, as `forage check` finds it before it compiles connections.
+    /// Modules check themselves against `environment`, which may be null.
+    std::vector<Problem> problems(const Registry& registry, Environment* environment = nullptr) const;
+    /// Names the items of diagnostics about this text.
+    std::vector<Problem> located(const Diagnostics& diagnostics) const;
+
+    /// Changes the system, as one step that can be undone. With the same `merge`, which is not empty, a step
+    /// joins the one before it. Returns whether there is a new step: not when it joins, or changes nothing.
+    /// Throws what `edit` throws, and InputError when the result cannot be read; the document then stays.
+    bool edit(const Edit& edit, const std::string& title, const std::string& merge = {});
+    /// Replaces the whole text, as one step. Throws InputError when the text has no system.
+    bool replace_text(std::string text, const std::string& title);
+    /// The text of the element of an item; of the whole system for its id. Throws InputError.
+    std::string item_text(std::string_view id) const;
+    /// Replaces the text of the element of an item, as one step.
+    bool replace_item_text(std::string_view id, const std::string& text, const std::string& title);
+
+    /// The titles of the steps that undo() and redo() would take; null when there is none.
+    const std::string* undo_title() const { return undo_.empty() ? nullptr : &undo_.back().title; }
+    const std::string* redo_title() const { return redo_.empty() ? nullptr : &redo_.back().title; }
+    void undo();  ///< throws InputError when there is nothing to undo
+    void redo();
+
+    /// Writes the file, and makes `path` its name unless it is empty: links and names of files in the system
+    /// then stay valid. Throws InputError when the file has changed outside, or exists under a new name,
+    /// unless `overwrite` is set, and std::runtime_error when it cannot be written.
+    void save(const std::string& path, const Registry& registry, bool overwrite = false);
+    /// Whether the file is not what it was when it was read or saved.
+    bool changed_outside() const;
+
+    enum class Keep { mine, theirs, merge };
+    /// Goes on after a change outside: with this text, with that of the file, or with the file's text and the
+    /// changes of this document in it. Throws InputError when the text of the file has no system, or when
+    /// both have changed the same thing.
+    bool reload(Keep keep);
+
+    /// The changes since the last save, as `diff -u` prints them.
+    std::string difference() const;
+
+  private:
+    struct Step {
+        std::string text, title, merge;  ///< the text before it, or after it
+    };
+    Document() = default;
+    void read(std::string text);  ///< throws InputError
+    void push(std::string before, const std::string& title, const std::string& merge);
+    void swap_step(std::deque<Step>& from, std::deque<Step>& to);
+
+    std::string path_, text_, saved_;
+    bool lenient_ = false;
+    struct Stamp {
+        std::filesystem::file_time_type time = {};
+        std::uintmax_t size = 0;
+        friend bool operator==(const Stamp&, const Stamp&) = default;
+    };
+    static Stamp stamp_of(const std::string& path);
+    mutable Stamp stamp_;  ///< of the file, when it was what `saved_` is
+    model::System system_;
+    Diagnostics diagnostics_;  ///< of the reader
+    std::deque<Step> undo_, redo_;
+};
+
+}  // namespace forage
