@@ -29,14 +29,14 @@ export function startStudio(forage, folder, args = ['systems/dac_foraging.iqr', 
   return { child, address };
 }
 
-/** Calls `test` with a folder that has the systems, a browser's context and what waits for a condition in a page. */
-export async function inBrowser(sources, test) {
+/** Calls `test` with a folder that has the systems, the context of a browser (with further options) and what waits for a condition in a page. */
+export async function inBrowser(sources, test, options = ['--disable-gpu']) {
   const folder = mkdtempSync(join(tmpdir(), 'forage-page-'));
   cpSync(join(sources, 'systems'), join(folder, 'systems'), { recursive: true });
   let browser;
   const studios = [];
   try {
-    browser = await chromium.launch({ executablePath: browserPath, args: ['--no-sandbox', '--disable-gpu', '--disable-background-networking', '--disable-dev-shm-usage'] });
+    browser = await chromium.launch({ executablePath: browserPath, args: ['--no-sandbox', ...options, '--disable-background-networking', '--disable-dev-shm-usage'] });
     const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, colorScheme: 'light' });
     const start = (forage, args) => {
       studios.push(startStudio(forage, folder, args));

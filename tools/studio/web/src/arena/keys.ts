@@ -1,0 +1,77 @@
+// What keys do in the arena.
+import type { Pose, Thing } from './live';
+
+export interface Step { x: number; y: number; turn: number }
+
+/** How far a key moves a thing: m, and rad to the left. Null for other keys. */
+export function stepOf(key: string, large: boolean): Step | null {
+  const far = large ? 0.5 : 0.05, turn = large ? Math.PI / 4 : Math.PI / 36;
+  switch (key) {
+    case 'ArrowLeft':
+      return { x: -far, y: 0, turn: 0 };
+    case 'ArrowRight':
+      return { x: far, y: 0, turn: 0 };
+    case 'ArrowUp':
+      return { x: 0, y: far, turn: 0 };
+    case 'ArrowDown':
+      return { x: 0, y: -far, turn: 0 };
+    case '[':
+    case '{':
+      return { x: 0, y: 0, turn };
+    case ']':
+    case '}':
+      return { x: 0, y: 0, turn: -turn };
+    default:
+      return null;
+  }
+}
+
+/** A pose in words. */
+export function placeText(name: string, pose: Pick<Pose, 'x' | 'y' | 'yaw'>): string {
+  const degrees = Math.round((((pose.yaw * 180) / Math.PI) % 360 + 360) % 360) % 360;
+  return `${name}: x ${pose.x.toFixed(2)} m, y ${pose.y.toFixed(2)} m, heading ${degrees}°`;
+}
+
+type Place = Pick<Pose, 'x' | 'y' | 'yaw'>;
+
+/** Moves things one step after the other: while a step is under way, further ones are summed. */
+export class Mover {
+  private target: { thing: Thing; place: Place } | null = null;
+  /** The last step: where the thing seemed to be, and where it went. */
+  private last: { thing: Thing; from: Place; place: Place } | null = null;
+  private busy = false;
+
+  /** `move` asks the server; it fails with the reason when the place is taken. */
+  constructor(
+    private readonly move: (thing: Thing, to: Place) => Promise<void>,
+    private readonly tell: (text: string) => void,
+  ) {}
+
+  async step(thing: Thing, from: Place, by: Step): Promise<void> {
+    const at = this.target?.thing.index === thing.index ? this.target.place : this.reached(thing, from);
+    this.target = { thing, place: { x: at.x + by.x, y: at.y + by.y, yaw: at.yaw + by.turn } };
+    this.last = { thing, from, place: this.target.place };
+    if (this.busy) return;
+    this.busy = true;
+    try {
+      for (let to: { thing: Thing; place: Place } | null = this.target; to; to = this.target) {
+        thing = to.thing;
+        await this.move(to.thing, to.place);
+        this.tell(placeText(to.thing.name, to.place));
+        if (this.target === to) this.target = null;
+      }
+    } catch (error) {
+      this.target = this.last = null;
+      this.tell(`${thing.name} stays: ${(error as Error).message.split('\n')[0]}`);
+    } finally {
+      this.busy = false;
+    }
+  }
+
+  /** The pose of a thing that was just moved may not have come from the server yet. */
+  private reached(thing: Thing, from: Place): Place {
+    const last = this.last;
+    const old = last?.thing.index === thing.index && last.from.x === from.x && last.from.y === from.y && last.from.yaw === from.yaw;
+    return old ? last.place : from;
+  }
+}

@@ -1,0 +1,96 @@
+// What the streams of the world say now. The views from above and in space draw from it.
+import type { WorldMessage } from '../protocol/messages';
+import type { Streams } from '../streams';
+import { Trail } from './trail';
+
+type Source = Pick<Streams, 'subscribe'>;
+
+export interface Pose { x: number; y: number; yaw: number; resetting: boolean }
+/** A robot or an object that can be moved. */
+export interface Thing { index: number; kind: 'robot' | 'object'; name: string; radius: number }
+
+/** Colours of the robots and of their trails. */
+export const robotColours = ['#4aa3ff', '#ffb14a', '#7ddc8a', '#e58be0'];
+export const robotColour = (i: number): string => robotColours[i % robotColours.length]!;
+
+export const thingsOf = (world: WorldMessage): Thing[] => [
+  ...world.robots.map((r, index) => ({ index, kind: 'robot' as const, name: r.name, radius: r.radius })),
+  ...world.objects.map((o, k) => ({
+    index: world.robots.length + k,
+    kind: 'object' as const,
+    name: o.name,
+    radius: Math.max(0.05, ...o.solids.map((s) => Math.max(s.size[0], s.size[1]) / 2)),
+  })),
+];
+
+export class LiveWorld {
+  /** Called when something is new. */
+  changed: () => void = () => {};
+  private poses: ArrayLike<number> = [];
+  private epoch = -1;
+  readonly scans = new Map<string, ArrayLike<number>>();
+  readonly parts = new Map<string, ArrayLike<number>>();
+  readonly trails = new Map<string, Trail>();
+
+  /** "reference:" for the run that this one is compared with. */
+  constructor(private readonly prefix = '') {}
+
+  /** The pose of a robot or object; null before it is known, and while it is absent. */
+  pose(index: number): Pose | null {
+    const at = 5 * index, state = this.poses[at + 4];
+    if (!state) return null;
+    return { x: this.poses[at]!, y: this.poses[at + 1]!, yaw: this.poses[at + 3]!, resetting: state === 2 };
+  }
+
+  /** Subscribes to poses and trails, and forgets them at the end. */
+  watchAll(streams: Source, world: WorldMessage): () => void {
+    const ends = [this.watchPoses(streams), this.watchTrails(streams, world)];
+    return () => {
+      for (const end of ends) end();
+      this.poses = [];
+      this.changed();
+    };
+  }
+  /** Subscribes to the poses. This and the next functions return the function that ends it. */
+  watchPoses(streams: Source): () => void {
+    return streams.subscribe(`${this.prefix}world:poses`, 'latest', (block, frame) => {
+      this.poses = block.values;
+      if (frame.epoch !== this.epoch) {
+        this.epoch = frame.epoch;
+        this.trails.clear();
+      }
+      this.changed();
+    });
+  }
+  watchRays(streams: Source, world: WorldMessage): () => void {
+    return this.each(world.robots.filter((r) => r.scans.length), this.scans, (name) => this.newest(streams, `${this.prefix}world:rays:${name}`, this.scans, name));
+  }
+  watchParts(streams: Source, world: WorldMessage): () => void {
+    return this.each(world.robots, this.parts, (name) => this.newest(streams, `${this.prefix}world:parts:${name}`, this.parts, name));
+  }
+  watchTrails(streams: Source, world: WorldMessage): () => void {
+    return this.each(world.robots, this.trails, (name) =>
+      streams.subscribe(`${this.prefix}world:trail:${name}`, 'append', (block) => {
+        let trail = this.trails.get(name);
+        if (!trail) this.trails.set(name, (trail = new Trail()));
+        trail.add(block.rows, block.columns, block.values);
+        this.changed();
+      }),
+    );
+  }
+
+  private newest(streams: Source, source: string, to: Map<string, ArrayLike<number>>, name: string): () => void {
+    return streams.subscribe(source, 'latest', (block) => {
+      to.set(name, block.values);
+      this.changed();
+    });
+  }
+  private each(robots: { name: string }[], kept: Map<string, unknown>, watch: (name: string) => () => void): () => void {
+    const ends = robots.map((r) => watch(r.name));
+    return () => {
+      for (const end of ends) end();
+      kept.clear();
+      this.changed();
+    };
+  }
+}

@@ -1,0 +1,30 @@
+// Where a robot has been. Points nearer than 2 cm to the last one are left out.
+const most = 12000, kept = 8000;
+
+export class Trail {
+  x: number[] = [];
+  y: number[] = [];
+  trial: number[] = [];
+
+  /** Rows of cycle, x, y and the number of the trial. */
+  add(rows: number, columns: number, values: ArrayLike<number>): void {
+    for (let r = 0; r < rows; r++) {
+      const x = values[r * columns + 1]!, y = values[r * columns + 2]!, trial = values[r * columns + 3]!;
+      const n = this.x.length - 1;
+      if (n >= 0 && this.trial[n] === trial && Math.hypot(this.x[n]! - x, this.y[n]! - y) < 0.02) continue;
+      this.x.push(x), this.y.push(y), this.trial.push(trial);
+    }
+    if (this.x.length > most) for (const a of [this.x, this.y, this.trial]) a.splice(0, a.length - kept);
+  }
+
+  /** Calls `line` with the first and the last index of each unbroken piece, and its opacity: older trials are fainter. */
+  pieces(line: (first: number, last: number, opacity: number) => void): void {
+    const newest = this.trial[this.trial.length - 1] ?? 0;
+    for (let i = 0; i < this.x.length; ) {
+      const first = i, trial = this.trial[i]!;
+      // A robot that is reset or moved jumps.
+      for (i++; i < this.x.length && this.trial[i] === trial && Math.hypot(this.x[i]! - this.x[i - 1]!, this.y[i]! - this.y[i - 1]!) < 0.5; ) i++;
+      line(first, i - 1, Math.max(0.12, 0.9 - 0.12 * (newest - trial)));
+    }
+  }
+}
