@@ -34,11 +34,13 @@ export function placeText(name: string, pose: Pick<Pose, 'x' | 'y' | 'yaw'>): st
 
 type Place = Pick<Pose, 'x' | 'y' | 'yaw'>;
 
+const near = (a: Place, b: Place): boolean => Math.hypot(a.x - b.x, a.y - b.y) < 1e-4 && Math.cos(a.yaw - b.yaw) > 1 - 1e-7;
+
 /** Moves things one step after the other: while a step is under way, further ones are summed. */
 export class Mover {
   private target: { thing: Thing; place: Place } | null = null;
-  /** The last step: where the thing seemed to be, and where it went. */
-  private last: { thing: Thing; from: Place; place: Place } | null = null;
+  /** The thing of the last steps, the places where they led it, and when the last one ended. */
+  private last: { thing: Thing; places: Place[]; at: number } | null = null;
   private busy = false;
 
   /** `move` asks the server; it fails with the reason when the place is taken. */
@@ -50,7 +52,7 @@ export class Mover {
   async step(thing: Thing, from: Place, by: Step): Promise<void> {
     const at = this.target?.thing.index === thing.index ? this.target.place : this.reached(thing, from);
     this.target = { thing, place: { x: at.x + by.x, y: at.y + by.y, yaw: at.yaw + by.turn } };
-    this.last = { thing, from, place: this.target.place };
+    this.last!.places.push(this.target.place);
     if (this.busy) return;
     this.busy = true;
     try {
@@ -58,6 +60,7 @@ export class Mover {
         thing = to.thing;
         await this.move(to.thing, to.place);
         this.tell(placeText(to.thing.name, to.place));
+        if (this.last) this.last.at = performance.now();
         if (this.target === to) this.target = null;
       }
     } catch (error) {
@@ -71,7 +74,8 @@ export class Mover {
   /** The pose of a thing that was just moved may not have come from the server yet. */
   private reached(thing: Thing, from: Place): Place {
     const last = this.last;
-    const old = last?.thing.index === thing.index && last.from.x === from.x && last.from.y === from.y && last.from.yaw === from.yaw;
-    return old ? last.place : from;
+    if (last?.thing.index === thing.index && performance.now() - last.at < 1000 && last.places.some((p) => near(p, from))) return last.places[last.places.length - 1]!;
+    this.last = { thing, places: [from], at: performance.now() };
+    return from;
   }
 }
