@@ -107,6 +107,17 @@ std::string free_name(const Items& taken, const std::string& name) {
 
 }  // namespace
 
+const TypeUse* find_use(const System& system, std::string_view id) {
+    for (const auto& p : system.processes) {
+        if (p.id == id) return p.module ? &*p.module : nullptr;
+        for (const auto& g : p.groups)
+            if (g.id == id) return &g.neuron;
+    }
+    for (const auto& c : system.connections)
+        if (c.id == id) return c.synapse ? &*c.synapse : nullptr;
+    return nullptr;
+}
+
 void place(System& system, std::string_view id, int x, int y) {
     if (Process* p = find_process(system, id)) {
         move(p->icon, x, y);

@@ -16,6 +16,9 @@
 
 namespace forage::model {
 
+/// The use of a type in the group, process or connection with this id; null when there is none.
+const TypeUse* find_use(const System& system, std::string_view id);
+
 /// Moves the icon of a process or group, in the diagram's units. An item without an icon gets one.
 void place(System& system, std::string_view id, int x, int y);
 

@@ -28,9 +28,10 @@ json places_of(const model::Topology& topology) {
     return out;
 }
 
-json states_of(const NeuronType& type) {
+json states_of(const NeuronType* type) {
     json out = json::array();
-    for (const auto& s : type.states)
+    if (!type) return out;
+    for (const auto& s : type->states)
         out.push_back({{"name", s.name}, {"label", s.label}, {"output", s.output}});
     constexpr std::pair<const char*, const char*> inputs[] = {
         {"excIn", "Excitatory input"}, {"inhIn", "Inhibitory input"}, {"modIn", "Modulatory input"}};
@@ -108,8 +109,24 @@ const std::vector<Parameter>* parameters_of(const Run& run, const model::Assignm
     return nullptr;
 }
 
-json parameter_of(Run& run, const model::Assignment& item, const Parameter& p, const std::string& owner) {
+/// A parameter of a type, without a value.
+json declared(const Parameter& p) {
     constexpr const char* kinds[] = {"boolean", "real", "integer", "text"};
+    json out = {{"name", p.name},
+                {"label", p.label},
+                {"doc", p.doc},
+                {"unit", p.unit},
+                {"kind", kinds[static_cast<int>(p.kind)]},
+                {"default", json_of(p.default_value)},
+                {"low", nullptr},
+                {"high", nullptr},
+                {"at_start", p.at_start},
+                {"path", p.is_path}};
+    if (p.range) out["low"] = p.range->low, out["high"] = p.range->high;
+    return out;
+}
+
+json parameter_of(Run& run, const model::Assignment& item, const Parameter& p, const std::string& owner) {
     model::Assignment which = item;
     which.parameter = &p;
     const ParameterValue loaded = model::value_of(run.system(), which);
@@ -118,48 +135,39 @@ json parameter_of(Run& run, const model::Assignment& item, const Parameter& p, c
         now = run.simulation().parameter(which);
     } catch (const engine::RunError&) {  // a module that is disabled has the values of its file
     }
-    json out = {{"name", p.name},
-                {"label", p.label},
-                {"doc", p.doc},
-                {"unit", p.unit},
-                {"kind", kinds[static_cast<int>(p.kind)]},
-                {"value", json_of(now)},
-                {"default", json_of(p.default_value)},
-                {"loaded", json_of(loaded)},
-                {"low", nullptr},
-                {"high", nullptr},
-                {"at_start", p.at_start},
-                {"path", p.is_path},
-                {"assignment", owner + "." + p.name}};
-    if (p.range) out["low"] = p.range->low, out["high"] = p.range->high;
+    json out = declared(p);
+    out["value"] = json_of(now), out["loaded"] = json_of(loaded), out["assignment"] = owner + "." + p.name;
     return out;
 }
 
 }  // namespace
 
-json describe_system(const Run& run) {
-    const auto& system = run.system();
-    const auto& layout = run.layout();
-    std::map<std::string_view, int> groups, connections;
-    for (int i = 0; i < std::ssize(layout.groups); ++i) groups[layout.groups[i].id] = i;
-    for (int i = 0; i < std::ssize(layout.connections); ++i) connections[layout.connections[i].id] = i;
+json describe_system(const Run& run) { return describe_system(run.system(), run.registry(), &run); }
+
+json describe_system(const model::System& system, const Registry& registry, const Run* run) {
+    std::map<std::string_view, int> connections;
+    if (run)
+        for (int i = 0; i < std::ssize(run->layout().connections); ++i)
+            connections[run->layout().connections[static_cast<std::size_t>(i)].id] = i;
     json processes = json::array(), links = json::array();
+    const auto paths = model::group_paths(system);
+    auto path = paths.begin();
     for (const auto& p : system.processes) {
         json inside = json::array();
         for (const auto& g : p.groups) {
-            const auto& laid = layout.groups[static_cast<std::size_t>(groups.at(g.id))];
+            const GroupShape shape = model::shape(g.topology);
             inside.push_back({{"id", g.id},
                               {"name", trimmed(g.name)},
-                              {"path", laid.path},
+                              {"path", *path++},
                               {"color", g.color},
                               {"note", g.note.value_or("")},
                               {"icon", icon_of(g.icon)},
                               {"type", g.neuron.type},
-                              {"width", laid.shape.width},
-                              {"height", laid.shape.height},
-                              {"cells", laid.shape.cells},
+                              {"width", shape.width},
+                              {"height", shape.height},
+                              {"cells", shape.cells},
                               {"places", places_of(g.topology)},
-                              {"states", states_of(laid.type)}});
+                              {"states", states_of(registry.neuron(g.neuron.type))}});
         }
         processes.push_back({{"id", p.id},
                              {"name", trimmed(p.name)},
@@ -173,10 +181,12 @@ json describe_system(const Run& run) {
     }
     constexpr const char* kinds[] = {"excitatory", "inhibitory", "modulatory"};
     for (const auto& c : system.connections) {
-        const int i = connections.at(c.id);
+        const auto compiled = connections.find(c.id);
+        const auto* type = c.synapse ? registry.synapse(c.synapse->type) : nullptr;
         json states = json::array();
-        for (const auto& s : layout.connections[static_cast<std::size_t>(i)].type.states)
+        for (const auto& s : type ? type->states : std::vector<SynapseStateInfo>())
             states.push_back({{"name", s.name}, {"label", s.label}});
+        const bool runs = compiled != connections.end();
         links.push_back({{"id", c.id},
                          {"name", trimmed(c.name)},
                          {"source", c.source},
@@ -184,16 +194,17 @@ json describe_system(const Run& run) {
                          {"kind", kinds[static_cast<int>(c.kind)]},
                          {"type", c.synapse ? c.synapse->type : ""},
                          {"note", c.note.value_or("")},
-                         {"synapses", run.simulation().synapses(i)},
-                         {"form", run.simulation().connection_form(i)},
+                         {"synapses", runs ? run->simulation().synapses(compiled->second) : 0},
+                         {"form", runs ? run->simulation().connection_form(compiled->second) : "not built"},
                          {"states", std::move(states)},
                          {"line", line_of(c.line)}});
     }
+    const double rate = system.cycles_per_second > 0 ? system.cycles_per_second : 25;
     return {{"type", "system"},
             {"name", trimmed(system.name)},
             {"note", system.note.value_or("")},
             {"cycles_per_second", system.cycles_per_second},
-            {"seconds_per_cycle", run.seconds_per_cycle()},
+            {"seconds_per_cycle", run ? run->seconds_per_cycle() : 1 / rate},
             {"processes", std::move(processes)},
             {"connections", std::move(links)}};
 }
@@ -264,6 +275,25 @@ json describe_parameters(Run& run, std::string_view item) {
             {"kind", owners[static_cast<int>(found->owner)]},
             {"type", type},
             {"parameters", std::move(list)}};
+}
+
+json describe_settings(const model::TypeUse& use, const model::TypeUse* saved,
+                       const std::vector<Parameter>& parameters, const std::string& owner) {
+    const auto value = [](const model::TypeUse& from, const Parameter& p) {
+        const auto it = std::ranges::find(from.settings, p.name, &model::Setting::name);
+        if (it == from.settings.end()) return json_of(p.default_value);
+        const auto parsed = parse_parameter(p.kind, it->value);
+        return parsed ? json_of(*parsed) : json(it->value);
+    };
+    json out = json::array();
+    for (const Parameter& p : parameters) {
+        json row = declared(p);
+        row["value"] = value(use, p);
+        row["loaded"] = saved && saved->type == use.type ? value(*saved, p) : row["value"];
+        row["assignment"] = owner + "." + p.name;
+        out.push_back(std::move(row));
+    }
+    return out;
 }
 
 }  // namespace forage

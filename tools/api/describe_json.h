@@ -14,10 +14,21 @@ namespace forage {
 
 /// The processes, groups and connections of a run that has started, with their places in the diagram.
 nlohmann::json describe_system(const Run& run);
+/// The same of a system that is edited, for which `run` may not stand: what is not in the run has no
+/// synapses.
+nlohmann::json describe_system(const model::System& system, const Registry& registry, const Run* run);
 /// The robots, objects and fixed solids of a world, with the part of the floor that a map shows.
 nlohmann::json describe_world(const bug::World& world);
 /// The parameters of a group, process or connection, by path, name or id, with their present values, ranges
 /// and meanings. Throws InputError.
 nlohmann::json describe_parameters(Run& run, std::string_view item);
+
+/// The types of neurons, synapses and modules, and the forms of arborizations and functions, with their
+/// parameters: everything that a form needs.
+nlohmann::json describe_types(const Registry& registry);
+/// The parameters of a type in a system that is edited, with the values of `use`. `saved` is the same use in
+/// the saved file, or null. `owner` begins the names of assignments.
+nlohmann::json describe_settings(const model::TypeUse& use, const model::TypeUse* saved,
+                                 const std::vector<Parameter>& parameters, const std::string& owner);
 
 }  // namespace forage

@@ -40,7 +40,7 @@ std::string shown(const std::string& path) { return path.empty() ? "untitled.iqr
 
 Document Document::open(const std::string& path, bool lenient) {
     Document out = unsaved(path, content_of(path), lenient);
-    out.saved_ = out.text_;
+    out.saved_ = out.text_, out.saved_system_ = out.system_;
     out.stamp_ = stamp_of(path);
     return out;
 }
@@ -50,6 +50,7 @@ Document Document::unsaved(std::string path, std::string text, bool lenient) {
     out.path_ = std::move(path);
     out.lenient_ = lenient;
     out.read(std::move(text));
+    out.saved_system_ = out.system_;
     if (!out.path_.empty() && fs::exists(out.path_)) {
         out.saved_ = content_of(out.path_);
         out.stamp_ = stamp_of(out.path_);
@@ -193,6 +194,7 @@ void Document::save(const std::string& path, const Registry& registry, bool over
     saved_ = text_;
     stamp_ = stamp_of(path_);
     if (renamed) read(text_);  // messages name the file, and links begin in its folder
+    saved_system_ = system_;
 }
 
 bool Document::changed_outside() const {
@@ -214,7 +216,11 @@ bool Document::reload(Keep keep) {
     std::string theirs = content_of(path_);
     const bool changed = [&] {
         if (keep == Keep::mine) return false;
-        if (keep == Keep::theirs) return replace_text(theirs, "the text of the file");
+        if (keep == Keep::theirs) {
+            const bool step = replace_text(theirs, "the text of the file");
+            saved_system_ = system_;
+            return step;
+        }
         Diagnostics diagnostics;
         diagnostics.lenient = lenient_;
         const auto base = xml::parse_system(path_, saved_, diagnostics);
@@ -226,6 +232,7 @@ bool Document::reload(Keep keep) {
                              "keep yours, or take the text of the file");
         auto patch = xml::patch(path_, theirs, *there, merged.system, lenient_);
         if (!patch.system) throw InputError(std::move(patch.diagnostics));
+        saved_system_ = *there;
         return replace_text(std::move(patch.text), "merge with the file");
     }();
     saved_ = std::move(theirs);

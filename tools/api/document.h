@@ -41,6 +41,9 @@ class Document {
     const std::string& path() const { return path_; }  ///< empty before the first save
     const std::string& text() const { return text_; }
     const model::System& system() const { return system_; }
+    const model::System& saved_system() const {
+        return saved_system_;
+    }                                               ///< that of the file, as last read or saved
     bool dirty() const { return text_ != saved_; }  ///< whether the text differs from the file's
 
     /// Everything that is wrong with the system, as `forage check` finds it before it compiles connections.
@@ -100,7 +103,7 @@ class Document {
     };
     static Stamp stamp_of(const std::string& path);
     mutable Stamp stamp_;  ///< of the file, when it was what `saved_` is
-    model::System system_;
+    model::System system_, saved_system_;
     Diagnostics diagnostics_;  ///< of the reader
     std::deque<Step> undo_, redo_;
 };

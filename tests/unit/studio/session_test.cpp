@@ -244,7 +244,7 @@ TEST_CASE("every command refuses members that are missing or wrong, and changes 
                   "stream", "item",    "assignments", "group",   "patterns",   "robot",  "x",
                   "file",   "sources", "name",        "content", "connection", "start"})
                 command[member] = wrong;
-            if (name == "step" || name == "restart" || name == "stop" || name == "run" ||
+            if (name == "step" || name == "restart" || name == "stop" || name == "run" || name == "new" ||
                 name.ends_with("_write"))
                 continue;
             const json reply = f.session.execute(-1, command);

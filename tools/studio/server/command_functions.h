@@ -103,6 +103,28 @@ struct Commands {
     json parameters_read();
     json parameters_write();
 
+    // ---- editing ----
+    Document& document();
+    json edit();
+    json item();
+    json item_text();
+    json copy();
+    json types();
+    json preview();
+
+    // ---- the document ----
+    json document_read();
+    json difference();
+    json new_system();
+    json save();
+    json reload();
+    json import_process();
+    json export_process();
+    json recent();
+    json files();
+    /// After a step of the document.
+    json edited(const std::string& title);
+
     // ---- the past ----
     json history();
     json digest();

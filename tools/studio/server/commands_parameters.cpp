@@ -8,6 +8,7 @@ namespace forage::studio {
 
 json Commands::parameters() {
     json out = describe_parameters(run(), c.at("item").get<std::string>());
+    if (s.saved_values(out)) return out;
     for (auto& p : out["parameters"])
         if (const auto it = s.changed_.find(p["assignment"].get<std::string>()); it != s.changed_.end()) {
             p["loaded"] = it->second.loaded;
@@ -48,9 +49,11 @@ json Commands::set(const std::vector<std::string>& assignments, const std::strin
     json values = json::object();
     for (const auto& a : assignments) values[a.substr(0, a.find('='))] = value_in(a);
     const auto same = of_assignments(assignments, run().cycle());
+    const bool step = undoable && s.set_in_document(assignments, title);
     s.act({{"command", "set"}, {"assignments", assignments}},
           undoable ? std::optional<json>({{"command", "set"}, {"assignments", back}}) : std::nullopt,
           {{"title", title}, {"values", values}, {"shell", same.shell}, {"python", same.python}});
+    if (step) s.undo_.back().document = true, s.tell_document();
     return {{"generation", s.generation_}};
 }
 
@@ -72,16 +75,23 @@ json Commands::back_or_forth(std::vector<Session::Undo>& from, std::vector<Sessi
     from.pop_back();
     json told = {{"title", (back ? "undo: " : "redo: ") + entry.title}};
     const json& command = back ? entry.undo : entry.redo;
-    if (command.at("command") == "set") {
-        const auto same =
-            of_assignments(command.at("assignments").get<std::vector<std::string>>(), run().cycle());
-        told["shell"] = same.shell, told["python"] = same.python;
-    }
+    if (entry.document) s.step_document(back);
     auto undone = std::move(s.undo_), redone = std::move(s.redo_);
     s.undo_.clear(), s.redo_.clear();
-    s.act(command, std::nullopt, told);
+    if (command.is_null()) {
+        s.follow_document(told["title"]);
+    } else {
+        if (command.at("command") == "set") {
+            const auto same =
+                of_assignments(command.at("assignments").get<std::vector<std::string>>(), run().cycle());
+            told["shell"] = same.shell, told["python"] = same.python;
+        }
+        s.act(command, std::nullopt, told);
+    }
     s.undo_ = std::move(undone), s.redo_ = std::move(redone);
+    const bool document = entry.document;
     to.push_back(std::move(entry));
+    if (document) s.tell_document();
     return {{"generation", s.generation_}};
 }
 

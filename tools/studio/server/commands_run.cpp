@@ -74,7 +74,7 @@ json Commands::open() {
     input.world = world.empty() ? world : (folder / world).string();
     s.open(std::move(input));
     s.sampler_waits_ = nullptr;
-    s.changed_.clear(), s.undo_.clear(), s.redo_.clear();
+    s.begin_document(s.input_);
     if (s.kept_) {
         s.kept_->forget_running();
         try {
@@ -85,7 +85,7 @@ json Commands::open() {
         }
     }
     s.rebind();
-    s.tell(s.system_message()), s.tell(s.world_message());
+    s.tell(s.system_message()), s.tell(s.world_message()), s.tell_document();
     return json::object();
 }
 

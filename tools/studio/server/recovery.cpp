@@ -15,6 +15,8 @@ namespace fs = std::filesystem;
 
 constexpr int most_studios = 8;  ///< of one system at a time
 
+}  // namespace
+
 std::string state_home() {
     const auto given = [](const char* name) {
         const char* value = std::getenv(name);
@@ -24,8 +26,6 @@ std::string state_home() {
     if (const auto home = given("HOME"); !home.empty()) return home + "/.local/state";
     throw std::runtime_error("neither XDG_STATE_HOME nor HOME names a folder");
 }
-
-}  // namespace
 
 RecoveryFiles::RecoveryFiles(const std::string& system) {
     const std::string whole = fs::weakly_canonical(system).string();

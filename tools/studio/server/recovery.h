@@ -11,6 +11,9 @@
 
 namespace forage::studio {
 
+/// The user's folder of states: $XDG_STATE_HOME, or ~/.local/state. Throws std::runtime_error without a home.
+std::string state_home();
+
 /// The folder of a system in the user's folder of states ($XDG_STATE_HOME, or ~/.local/state), with the file
 /// of the session that runs and that of one which was killed. Studios of one system have a folder each.
 class RecoveryFiles {

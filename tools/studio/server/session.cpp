@@ -25,6 +25,7 @@ double clock_now() {
 }
 
 constexpr double slice = 0.004;             ///< seconds of cycles between two looks for commands
+constexpr double look_interval = 1;         ///< s between two looks at the document's file
 constexpr double status_interval = 0.1;     ///< s
 constexpr double frame_interval = 1. / 30;  ///< s
 constexpr double save_interval = 20;        ///< s, while the run goes
@@ -47,6 +48,7 @@ Session::Session(RunInput input, Send send, const std::string& plot_config, std:
         throw InputError("'" + plot_config + "' is not a layout of the studio",
                          "its name ends with .layout.json");
     open(std::move(input));
+    begin_document(input_);
 }
 
 std::pair<std::unique_ptr<Run>, Touches*> Session::make_run(const RunInput& input, std::string* files) {
@@ -81,7 +83,12 @@ void Session::open(RunInput input) {
 void Session::reset() {
     const auto touched = touches_->groups();
     RunInput input = input_;
-    for (const auto& [name, change] : changed_) input.settings.push_back({change.assignment});
+    for (const auto& [name, change] : changed_) {
+        Diagnostics not_here;  // what the document has, it says itself
+        const auto where = name.substr(0, name.rfind('.'));
+        if (!model::find_item(document_->system(), where, "", not_here))
+            input.settings.push_back({change.assignment});
+    }
     const RunInput as_opened = input_;
     const std::uint64_t seed = input.seed;
     open(std::move(input));
@@ -110,11 +117,12 @@ void Session::connect(int client) {
           {"version", FORAGE_VERSION},
           {"capabilities",
            {"run", "streams", "parameters", "manipulations", "sampler", "move", "history", "layouts",
-            "panels", "pictures", "recovery", "compare"}},
+            "panels", "pictures", "recovery", "compare", "edit"}},
           {"layout", layout_},
           {"panels", panels_}});
     send(system_message());
     send(world_message());
+    send(document_message());
     send(status());
 }
 
@@ -124,7 +132,7 @@ void Session::tell(const json& message) {
 }
 
 json Session::system_message() {
-    json out = describe_system(*run_);
+    json out = describe_system(shown_system(), run_->registry(), run_.get());
     out["file"] = input_.system;
     return out;
 }
@@ -293,6 +301,7 @@ double Session::rate() const {
 }
 
 double Session::work(double now) {
+    if (!clients_.empty() && now - looked_at_ >= look_interval) look_outside(), looked_at_ = now;
     if (running_) {
         const double wanted = rate();
         if (rate_from_ < 0) rate_from_ = now, rate_cycle_ = run_->cycle();
@@ -334,8 +343,9 @@ double Session::work(double now) {
     if (sent) frames_at_ = now;
     if (!running_) {
         if (waits || status_due_) return frame_interval;
-        return kept_ && saved_version_ != version_ ? std::max(saved_at_ + save_rest - now, 0.001)
-                                                   : std::numeric_limits<double>::infinity();
+        const double idle = clients_.empty() ? std::numeric_limits<double>::infinity() : look_interval;
+        return kept_ && saved_version_ != version_ ? std::clamp(saved_at_ + save_rest - now, 0.001, idle)
+                                                   : idle;
     }
     const double wanted = rate();
     if (wanted <= 0) return 0;

@@ -16,6 +16,7 @@
 #include "core/observe/recorder.h"
 #include "core/run/run.h"
 #include "core/run/run_spec.h"
+#include "tools/api/document.h"
 #include "tools/studio/server/client.h"
 #include "tools/studio/server/history.h"
 #include "tools/studio/server/recovery.h"
@@ -69,8 +70,9 @@ class Session {
   private:
     friend struct Commands;
     struct Undo {
-        json undo, redo;  ///< commands
+        json undo, redo;  ///< commands that change the run; null when the document alone says what changes
         std::string title;
+        bool document = false;  ///< whether it is a step of the document, too
     };
     struct Change {
         std::string assignment;
@@ -119,6 +121,27 @@ class Session {
     json system_message();
     json world_message();
     void close_sampler();
+
+    // ---- the document (session_document.cpp) ----
+    /// Edits the system that `input` names; what was edited before is forgotten.
+    void begin_document(const RunInput& input);
+    /// Makes the run what the document says, as far as that can run, and tells the pages.
+    void follow_document(const std::string& title);
+    /// Builds the run anew; groups and connections that did not change keep their states. Returns false, with
+    /// the run as it was, when the system cannot run.
+    bool rebuild();
+    /// Changes parameters in the document, too, when its items have them. Returns whether that is a step.
+    bool set_in_document(const std::vector<std::string>& assignments, const std::string& title);
+    /// Takes a step of the document back, or forth.
+    void step_document(bool back);
+    void tell_document();
+    /// Gives a description of parameters the values of the saved file. Returns false for an item of another
+    /// file.
+    bool saved_values(json& described) const;
+    void look_outside();  ///< whether the file has changed
+    json document_message() const;
+    /// The system that pages see: that of the document, with those that run beside it.
+    model::System shown_system() const;
     void set_speed(const std::string& mode, double value);
     double rate() const;  ///< cycles per second that are wanted; 0: as many as possible
 
@@ -136,6 +159,13 @@ class Session {
     std::vector<Undo> undo_, redo_;
     Changes changed_;
     std::optional<Sampler> sampler_;
+    std::optional<Document> document_;
+    model::System built_;                      ///< the document's system that runs
+    std::vector<model::System> others_;        ///< systems that run beside it
+    std::vector<Document::Problem> problems_;  ///< of the document
+    bool current_ = true;                      ///< whether the run is that of the document
+    bool outside_ = false;                     ///< whether the file has changed outside
+    double looked_at_ = -1e9;
     json sampler_waits_;    ///< the command of a sampler that begins with the run; null for none
     bool sampled_ = false;  ///< whether it has begun in this run
     std::optional<RecoveryFiles> kept_;

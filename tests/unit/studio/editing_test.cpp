@@ -1,0 +1,276 @@
+// Editing a system in the studio, without sockets.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include <unistd.h>
+
+#include "core/base/text_file.h"
+#include "tests/support/catch.h"
+#include "tools/studio/server/session.h"
+
+namespace {
+
+using namespace forage;
+using namespace forage::studio;
+namespace fs = std::filesystem;
+
+/// A session that edits a copy of a system in a folder of its own.
+struct Editor {
+    fs::path folder = fs::temp_directory_path() / ("forage-editing-test-" + std::to_string(::getpid()));
+    std::string file = (folder / "mine.iqr").string();
+    std::map<std::string, json> last;  ///< the last message of each type
+    std::optional<Session> session;
+
+    explicit Editor(const std::string& system = "reactive_foraging.iqr", bool world = true) {
+        fs::create_directories(folder);
+        ::setenv("XDG_STATE_HOME", folder.c_str(), 1);
+        fs::copy_file(FORAGE_SOURCE_DIR "/systems/" + system, file, fs::copy_options::overwrite_existing);
+        RunInput input;
+        input.system = file;
+        if (world) input.world = FORAGE_SOURCE_DIR "/systems/worlds/basic_arena.world";
+        session.emplace(input, [this](int, bool binary, std::string data) {
+            if (binary) return;
+            json message = json::parse(data);
+            const auto type = message["type"].get<std::string>();
+            last[type] = std::move(message);
+        });
+        session->connect(1);
+    }
+    ~Editor() { fs::remove_all(folder); }
+
+    json ask(const json& command) { return session->execute(1, command); }
+    json result(const json& command) {
+        const json reply = ask(command);
+        INFO(command.dump() << "\n" << reply.dump(1));
+        REQUIRE(reply["ok"] == true);
+        return reply.value("result", json());
+    }
+    json edit(const json& operations) {
+        return result({{"command", "edit"}, {"operations", operations}})["ids"];
+    }
+    std::string text() { return result({{"command", "document"}})["text"]; }
+    std::string content() const { return read_file(file); }
+    json group(const std::string& id) {
+        for (const auto& p : last["system"]["processes"])
+            for (const auto& g : p["groups"])
+                if (g["id"] == id) return g;
+        return nullptr;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("a system is edited, undone and saved, and its text stays its author's") {
+    Editor e;
+    const std::string before = e.content();
+    CHECK(e.text() == before);
+    CHECK(e.last["document"]["dirty"] == false);
+    const auto process = e.last["system"]["processes"][0]["id"].get<std::string>();
+    const auto other = e.last["system"]["processes"][0]["groups"][0]["id"].get<std::string>();
+
+    const auto ids = e.edit({{{"do", "add_group"},
+                              {"process", process},
+                              {"name", "New"},
+                              {"x", 10},
+                              {"y", 20.4},
+                              {"width", 3},
+                              {"id", "new"}},
+                             {{"do", "add_connection"},
+                              {"source", "new"},
+                              {"target", other},
+                              {"kind", "inhibitory"},
+                              {"source_anchor", 3},
+                              {"vertices", {{1, 2}}}}});
+    CHECK(ids[0] == "new");
+    CHECK(e.group("new")["icon"]["y"] == 20);
+    CHECK(e.group("new")["cells"] == 3);
+    CHECK(e.last["document"]["dirty"] == true);
+    CHECK(e.last["document"]["running_is_current"] == true);
+    CHECK(e.last["action"]["title"] == "add New and 1 more");
+    CHECK(e.content() == before);  // not saved yet
+
+    e.edit({{{"do", "rename"}, {"id", "new"}, {"name", "Newer"}}});
+    e.edit({{{"do", "place"}, {"id", "new"}, {"x", 100}, {"y", 100}}});
+    CHECK(e.result({{"command", "read"}, {"source", e.group("new")["path"]}})["columns"] == 3);
+    e.result({{"command", "save"}});
+    CHECK(e.content() == e.text());
+    CHECK(e.last["document"]["dirty"] == false);
+
+    for (int i = 0; i < 3; ++i) e.result({{"command", "undo"}});
+    CHECK(e.text() == before);
+    CHECK(e.group("new").is_null());
+    CHECK(e.last["document"]["dirty"] == true);
+    CHECK(e.last["document"]["undo"].is_null());
+    e.result({{"command", "redo"}});
+    CHECK(e.group("new")["name"] == "New");
+    e.edit({{{"do", "remove"}, {"ids", {"new", ids[1]}}}});
+    CHECK(e.text() == before);
+}
+
+TEST_CASE("steps of a drag join to one, and operations are done all or not at all") {
+    Editor e;
+    const auto before = e.text();
+    const auto group = e.last["system"]["processes"][0]["groups"][0]["id"];
+    for (int x = 0; x < 5; ++x)
+        e.result({{"command", "edit"},
+                  {"merge", "drag 1"},
+                  {"operations", {{{"do", "place"}, {"id", group}, {"x", x}, {"y", 0}}}}});
+    e.result({{"command", "undo"}});
+    CHECK(e.text() == before);
+
+    const json reply = e.ask({{"command", "edit"},
+                              {"operations",
+                               {{{"do", "rename"}, {"id", group}, {"name", "A"}},
+                                {{"do", "rename"}, {"id", "nothing"}, {"name", "B"}}}}});
+    CHECK(reply["ok"] == false);
+    CHECK(reply["problems"][0]["message"] ==
+          "there is no process, group or connection with the id 'nothing'");
+    CHECK(e.text() == before);
+    const json wrong =
+        e.ask({{"command", "edit"},
+               {"operations", {{{"do", "topology"}, {"id", group}, {"width", 0}, {"height", 1}}}}});
+    CHECK(wrong["ok"] == false);
+    CHECK(e.text() == before);
+}
+
+TEST_CASE("a parameter changes the run and the file, however it is set, and is undone in both") {
+    Editor e;
+    const auto before = e.text();
+    const auto threshold = [&] {
+        const json all = e.result({{"command", "parameters"}, {"item", "Bug/Light"}});
+        for (const auto& p : all["parameters"])
+            if (p["name"] == "threshold") return p;
+        return json();
+    };
+    const double loaded = threshold()["value"];
+    const auto id = e.result({{"command", "parameters"}, {"item", "Bug/Light"}})["id"];
+    e.result({{"command", "set"}, {"assignments", {"Bug/Light.threshold=0.125"}}});
+    CHECK(e.text().find("value=\"0.125\"") != std::string::npos);
+    e.edit({{{"do", "parameter"}, {"id", id}, {"name", "threshold"}, {"value", "0.25"}}});
+    CHECK(threshold()["value"] == 0.25);
+    CHECK(threshold()["loaded"] == loaded);
+    CHECK(e.last["action"]["command"] == "set");
+    CHECK(e.last["action"]["values"]["Bug/Light.threshold"] == "0.25");
+    e.result({{"command", "undo"}});
+    CHECK(threshold()["value"] == 0.125);
+    e.result({{"command", "undo"}});
+    CHECK(threshold()["value"] == loaded);
+    CHECK(e.text() == before);
+    e.result({{"command", "redo"}}), e.result({{"command", "redo"}});
+    CHECK(threshold()["value"] == 0.25);
+    e.result({{"command", "stop"}});
+    CHECK(threshold()["value"] == 0.25);
+    e.result({{"command", "save"}});
+    CHECK(threshold()["loaded"] == 0.25);
+}
+
+TEST_CASE("a system that cannot run is edited on, and the last run that could goes on") {
+    Editor e;
+    const auto cells = e.last["system"]["processes"][0]["groups"][0];
+    e.edit({{{"do", "type"}, {"id", cells["id"]}, {"part", "neuron"}, {"type", "neuronRandomSpike"}},
+            {{"do", "parameter"}, {"id", cells["id"]}, {"name", "probabilty"}, {"value", "0.5"}}});
+    CHECK(e.last["document"]["running_is_current"] == false);
+    REQUIRE(e.last["document"]["problems"].size() >= 1);
+    const json problem = e.last["document"]["problems"][0];
+    CHECK(problem["item"] == cells["id"]);
+    CHECK(problem["severity"] == "error");
+    CHECK(problem["line"].get<int>() > 1);
+    e.result({{"command", "step"}});
+    e.edit({{{"do", "parameter"}, {"id", cells["id"]}, {"name", "probabilty"}, {"value", nullptr}}});
+    CHECK(e.last["document"]["running_is_current"] == true);
+}
+
+TEST_CASE("a new system is built from nothing, saved under a name, and opened again") {
+    Editor e;
+    e.result({{"command", "new"}, {"name", "Nothing yet"}});
+    CHECK(e.last["system"]["processes"].empty());
+    CHECK(e.last["document"]["file"] == "");
+    CHECK(e.ask({{"command", "save"}})["ok"] == false);
+    e.result({{"command", "step"}});
+    const auto p = e.edit({{{"do", "add_process"}, {"name", "P"}, {"x", 1}, {"y", 2}}})[0];
+    const auto g = e.edit({{{"do", "add_group"},
+                            {"process", p},
+                            {"name", "G"},
+                            {"x", 1},
+                            {"y", 2},
+                            {"neuron", "neuronRandomSpike"}}})[0];
+    const auto h = e.edit({{{"do", "add_group"}, {"process", p}, {"name", "H"}, {"x", 90}, {"y", 2}}})[0];
+    e.edit({{{"do", "add_connection"}, {"source", g}, {"target", h}, {"kind", "excitatory"}}});
+    CHECK(e.last["document"]["running_is_current"] == true);
+    CHECK(e.last["system"]["connections"][0]["synapses"] == 1);
+    const auto file = (e.folder / "new.iqr").string();
+    e.result({{"command", "save"}, {"file", file}});
+    CHECK(e.last["document"]["file"] == file);
+    CHECK(e.result({{"command", "recent"}})["files"][0] == fs::canonical(file).string());
+    e.result({{"command", "open"}, {"system", file}});
+    CHECK(e.last["system"]["connections"].size() == 1);
+    const auto listed = e.result({{"command", "files"}, {"folder", e.folder.string()}})["files"];
+    CHECK(std::ranges::count(listed, "new.iqr") == 1);
+}
+
+TEST_CASE("a file that changes outside is noticed, and both changes are merged") {
+    Editor e;
+    const auto group = e.last["system"]["processes"][0]["groups"][0]["id"];
+    e.edit({{{"do", "set"}, {"id", group}, {"property", "note"}, {"value", "mine"}}});
+    std::string theirs = e.content();
+    theirs.insert(theirs.find("<Process"), "<!-- theirs -->\n    ");
+    std::ofstream(e.file) << theirs;
+    e.session->work(1000);
+    CHECK(e.last["document"]["outside"] == "changed");
+    const json refused = e.ask({{"command", "save"}});
+    CHECK(refused["ok"] == false);
+    CHECK(e.content() == theirs);
+    e.result({{"command", "reload"}, {"keep", "merge"}});
+    CHECK(e.last["document"]["outside"].is_null());
+    CHECK(e.text().find("<!-- theirs -->") != std::string::npos);
+    CHECK(e.text().find("<Note>mine</Note>") != std::string::npos);
+    e.result({{"command", "save"}});
+    CHECK(e.content() == e.text());
+}
+
+TEST_CASE("items tell what their forms show, and the synapses of a pattern are told before it is set") {
+    Editor e;
+    const auto connection = e.last["system"]["connections"][0];
+    const json item = e.result({{"command", "item"}, {"id", connection["id"]}});
+    CHECK(item["kind"] == "connection");
+    CHECK(item["synapses"] == connection["synapses"]);
+    CHECK(item["text"].get<std::string>().starts_with("<Connection"));
+    const json all = {{"form", "foreach"}};
+    const json made = e.result({{"command", "preview"},
+                                {"connection", connection["id"]},
+                                {"pattern", all},
+                                {"arborization", nullptr}});
+    const auto n =
+        e.group(connection["source"])["cells"].get<int>() * e.group(connection["target"])["cells"].get<int>();
+    CHECK(made["synapses"] == n);
+    CHECK(e.last["document"]["dirty"] == false);
+    e.edit({{{"do", "pattern"}, {"id", connection["id"]}, {"pattern", all}}});
+    CHECK(e.result({{"command", "item"}, {"id", connection["id"]}})["pattern"]["form"] == "foreach");
+
+    const json types = e.result({{"command", "types"}});
+    CHECK(types["neurons"].size() > 3);
+    CHECK(types["arborizations"].size() == 6);
+    CHECK(types["arborizations"][0]["parameters"][0]["name"] == "width");
+    CHECK(e.result({{"command", "item"}, {"id", "system"}})["kind"] == "system");
+    for (const auto& p : e.last["system"]["processes"]) {
+        CHECK(e.result({{"command", "item"}, {"id", p["id"]}})["kind"] == "process");
+        for (const auto& g : p["groups"])
+            CHECK(e.result({{"command", "item"}, {"id", g["id"]}})["kind"] == "group");
+    }
+    const json copied =
+        e.result({{"command", "copy"}, {"ids", {connection["source"], connection["target"]}}});
+    const auto count = e.last["system"]["connections"].size();
+    const auto ids = e.edit({{{"do", "paste"},
+                              {"text", copied["text"]},
+                              {"process", e.last["system"]["processes"][0]["id"]},
+                              {"x", 0},
+                              {"y", 0}}})[0];
+    CHECK(ids.size() >= 3);
+    CHECK(e.last["system"]["connections"].size() > count);
+    CHECK(e.result({{"command", "difference"}})["text"].get<std::string>().find("\n+") != std::string::npos);
+    const auto text = e.result({{"command", "item"}, {"id", connection["id"]}})["text"].get<std::string>();
+    CHECK(e.ask({{"command", "item_text"}, {"id", connection["id"]}, {"text", text + "<"}})["ok"] == false);
+}

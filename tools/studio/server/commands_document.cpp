@@ -1,0 +1,147 @@
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/model/build.h"
+#include "core/xml/reader.h"
+#include "core/xml/writer.h"
+#include "tools/studio/server/command_functions.h"
+#include "tools/studio/server/recent.h"
+
+namespace forage::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a page opens or writes: systems, worlds, and what is beside them.
+bool is_shown(const fs::path& file) {
+    constexpr std::string_view endings[] = {".iqr",  ".iqrProcess", ".world", ".sdf",  ".xml",
+                                            ".conf", ".hconf",      ".pconf", ".json", ".csv",
+                                            ".dat",  ".h5",         ".npy"};
+    return std::ranges::find(endings, file.extension().string()) != std::end(endings);
+}
+
+model::ProcessFile process_file(const std::string& path) {
+    Diagnostics diagnostics;
+    auto file = xml::read_process(path, diagnostics);
+    if (!file) throw InputError(std::move(diagnostics));
+    return *std::move(file);
+}
+
+}  // namespace
+
+json Commands::document_read() {
+    s.look_outside();
+    json out = s.document_message();
+    out["text"] = document().text();
+    out.erase("type");
+    return out;
+}
+
+json Commands::difference() { return {{"text", document().difference()}}; }
+
+json Commands::new_system() {
+    RunInput input = s.input_;
+    input.more.clear(), input.settings.clear(), input.robots.clear(), input.replay.clear();
+    const Document made = Document::create(c.at("name").get<std::string>());
+    input.text = made.text();
+    input.system = "untitled.iqr";
+    input.world = c.value("world", "");
+    s.open(input);
+    s.begin_document(s.input_);
+    s.document_ = made;
+    s.rebind();
+    s.tell(s.system_message()), s.tell(s.world_message()), s.tell_document();
+    return json::object();
+}
+
+json Commands::save() {
+    const auto file = c.value("file", "");
+    if (!file.empty() && fs::path(file).extension() != ".iqr")
+        throw InputError(fmt::format("'{}' is not a name of a system", file), "it ends with .iqr");
+    document().save(file, run().registry(), c.value("overwrite", false));
+    s.input_.system = document().path();
+    s.outside_ = false;
+    if (s.current_) s.built_ = document().system();
+    note_recent(document().path());
+    s.tell(s.system_message()), s.tell_document();
+    return {{"file", document().path()}};
+}
+
+json Commands::reload() {
+    const auto keep = c.at("keep").get<std::string>();
+    if (keep != "mine" && keep != "theirs" && keep != "merge")
+        throw InputError(fmt::format("'{}' cannot be kept", keep), "mine, theirs or merge");
+    const bool step = document().reload(keep == "mine"     ? Document::Keep::mine
+                                        : keep == "theirs" ? Document::Keep::theirs
+                                                           : Document::Keep::merge);
+    s.outside_ = false;
+    if (step) return edited(keep == "theirs" ? "the text of the file" : "merge with the file");
+    s.tell_document();
+    return {{"generation", s.generation_}};
+}
+
+json Commands::import_process() {
+    const auto path = c.at("file").get<std::string>();
+    auto file = process_file(path);
+    const std::string title = "import " + fs::path(path).filename().string();
+    std::string made;
+    document().edit(
+        [&](model::System& system) {
+            if (!c.value("link", false)) {
+                made = model::import_process(system, std::move(file));
+                return;
+            }
+            // A link is an empty process whose content is in the file.
+            made = model::add_process(system, file.process.name);
+            auto& process = *model::find_process(system, made);
+            const auto from = fs::absolute(document().path()).parent_path();
+            process.path = document().path().empty()
+                               ? fs::absolute(path).string()
+                               : fs::relative(fs::absolute(path), from).generic_string();
+        },
+        title);
+    json out = edited(title);
+    out["id"] = made;
+    return out;
+}
+
+json Commands::export_process() {
+    const auto path = c.at("file").get<std::string>();
+    if (fs::path(path).extension() != ".iqrProcess")
+        throw InputError(fmt::format("'{}' is not a name of a process", path), "it ends with .iqrProcess");
+    if (!c.value("overwrite", false) && fs::exists(path))
+        throw InputError(fmt::format("'{}' exists", path), "overwrite it, or choose another name");
+    write_file(path, xml::write_process(
+                         model::extract_process(document().system(), c.at("process").get<std::string>())));
+    return {{"file", path}};
+}
+
+json Commands::recent() { return {{"files", recent_files()}}; }
+
+json Commands::files() {
+    const auto wanted = c.value("folder", "");
+    const fs::path here = wanted.empty() ? folder() : fs::path(wanted);
+    std::error_code failed;
+    const fs::path where = fs::canonical(here, failed);
+    if (failed || !fs::is_directory(where))
+        throw InputError(fmt::format("'{}' is not a folder", here.string()));
+    std::vector<std::string> folders, files;
+    for (const auto& entry : fs::directory_iterator(where, fs::directory_options::skip_permission_denied)) {
+        const std::string name = entry.path().filename().string();
+        std::error_code ignored;
+        if (name.starts_with(".")) continue;
+        if (entry.is_directory(ignored))
+            folders.push_back(name);
+        else if (is_shown(entry.path()))
+            files.push_back(name);
+    }
+    std::ranges::sort(folders), std::ranges::sort(files);
+    return {{"folder", where.string()},
+            {"parent", where.parent_path().string()},
+            {"folders", folders},
+            {"files", files}};
+}
+
+}  // namespace forage::studio

@@ -1,0 +1,19 @@
+// The operations of the command `edit`.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "core/model/system.h"
+#include "core/types/registry.h"
+
+namespace forage::studio {
+
+using nlohmann::json;
+
+/// Carries out an operation. Returns the id that it made, a list of them, or null. Throws what the functions
+/// of core/model/operations.h throw, InputError, and json::exception for members that are missing.
+json carry_out(const json& operation, model::System& system, const Registry& registry);
+/// What an operation does, in a few words.
+std::string title_of(const json& operation, const model::System& system);
+
+}  // namespace forage::studio

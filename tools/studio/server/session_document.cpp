@@ -1,0 +1,205 @@
+// The document of a session, and the run that follows it.
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/model/build.h"
+#include "core/model/changes.h"
+#include "core/model/operations.h"
+#include "core/xml/writer.h"
+#include "tools/api/describe_json.h"
+#include "tools/api/sources.h"
+#include "tools/studio/server/equivalents.h"
+#include "tools/studio/server/problems.h"
+#include "tools/studio/server/session.h"
+
+namespace forage::studio {
+namespace {
+
+bool has_errors(const std::vector<Document::Problem>& problems) {
+    return std::ranges::any_of(problems,
+                               [](const auto& p) { return p.diagnostic.severity == Severity::error; });
+}
+
+json json_of(const std::vector<Document::Problem>& problems) {
+    json out = json::array();
+    for (const auto& p : problems) {
+        Diagnostics one;
+        one.add(p.diagnostic);
+        json row = problems_of(one).front();
+        row["item"] = p.item.empty() ? json(nullptr) : json(p.item);
+        out.push_back(std::move(row));
+    }
+    return out;
+}
+
+}  // namespace
+
+void Session::begin_document(const RunInput& input) {
+    if (std::filesystem::path(input.system).extension() == ".iqrProcess")
+        document_ = Document::unsaved({}, xml::write_system(run_->system()), input.lenient);
+    else if (!input.text.empty())
+        document_ = Document::unsaved(input.system, input.text, input.lenient);
+    else
+        document_ = Document::open(input.system, input.lenient);
+    others_.clear();
+    if (!input.more.empty()) {
+        Diagnostics known;  // they have been read before
+        others_ = read_sources(input, known).more;
+    }
+    built_ = document_->system();
+    current_ = true, outside_ = false;
+    problems_ = document_->problems(run_->registry(), run_->environment());
+    changed_.clear(), undo_.clear(), redo_.clear();
+}
+
+model::System Session::shown_system() const {
+    model::System out = document_->system();
+    for (const auto& other : others_) model::join(out, other);
+    return out;
+}
+
+json Session::document_message() const {
+    const auto title = [](const std::vector<Undo>& steps) {
+        return steps.empty() ? json(nullptr) : json(steps.back().title);
+    };
+    return {{"type", "document"},
+            {"file", document_->path()},
+            {"name", document_->system().name},
+            {"dirty", document_->dirty()},
+            {"problems", json_of(problems_)},
+            {"outside", outside_ ? json("changed") : json(nullptr)},
+            {"undo", title(undo_)},
+            {"redo", title(redo_)},
+            {"running_is_current", current_}};
+}
+
+void Session::tell_document() {
+    status_due_ = true;
+    tell(document_message());
+}
+
+void Session::look_outside() {
+    const bool outside = document_->changed_outside();
+    if (outside == outside_) return;
+    outside_ = outside;
+    tell_document();
+}
+
+bool Session::set_in_document(const std::vector<std::string>& assignments, const std::string& title) {
+    const auto in = [&](const model::System& system) {
+        std::vector<model::Assignment> out;
+        for (const auto& text : assignments) {
+            Diagnostics ignored;  // other systems that run have other items
+            if (auto a = model::parse_assignment(system, run_->registry(), text, "set", ignored))
+                out.push_back(std::move(*a));
+        }
+        return out;
+    };
+    const auto changes = in(document_->system());
+    const bool step = document_->edit(
+        [&](model::System& system) {
+            for (const auto& a : changes) model::set(system, a);
+        },
+        title);
+    for (const auto& a : in(built_)) model::set(built_, a);
+    if (current_) input_.text = document_->text(), built_ = document_->system();
+    return step;
+}
+
+void Session::step_document(bool back) { back ? document_->undo() : document_->redo(); }
+
+void Session::follow_document(const std::string& title) {
+    const auto& now = document_->system();
+    const auto changes = model::parameter_changes(built_, now, run_->registry());
+    const auto before = generation_;
+    if (changes) {
+        problems_ = document_->problems(run_->registry(), run_->environment());
+        current_ = !has_errors(problems_);
+        if (current_) {
+            built_ = now;
+            std::vector<std::string> assignments;
+            json values = json::object();
+            for (const auto& a : *changes) {
+                assignments.push_back(a.text);
+                values[a.text.substr(0, a.text.find('='))] = a.text.substr(a.text.find('=') + 1);
+            }
+            if (!assignments.empty()) {
+                const auto same = of_assignments(assignments, run_->cycle());
+                act({{"command", "set"}, {"assignments", assignments}}, std::nullopt,
+                    {{"title", title}, {"values", values}, {"shell", same.shell}, {"python", same.python}});
+            }
+        }
+    } else {
+        current_ = rebuild();
+        if (current_) built_ = now;
+    }
+    if (current_) input_.text = document_->text();
+    if (generation_ == before) {
+        ++generation_, ++version_;
+        tell({{"type", "action"},
+              {"generation", generation_},
+              {"cycle", run_->cycle()},
+              {"command", "edit"},
+              {"title", title},
+              {"shell", ""},
+              {"python", ""},
+              {"undoable", true}});
+    }
+    status_due_ = true;
+    tell(system_message());
+}
+
+bool Session::rebuild() {
+    RunInput input = input_;
+    input.text = document_->text();
+    Diagnostics diagnostics;
+    auto loaded = load(input, diagnostics);
+    std::optional<Run> run;
+    if (loaded)
+        run = Run::make(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world),
+                        {.seed = run_->seed()}, diagnostics);
+    Touches* touches = nullptr;
+    if (run) {
+        touches = &run->add(std::make_unique<Touches>());
+        try {
+            if (!run->start(diagnostics)) run.reset();
+        } catch (const engine::RunError& e) {
+            diagnostics.error({}, e.what());
+            run.reset();
+        }
+    }
+    problems_ = document_->located(diagnostics);
+    if (!run) return false;
+    close_sampler();
+    end_reference();
+    run->title = run_->title;
+    run_ = std::make_unique<Run>(std::move(*run));
+    touches_ = touches;
+    failed_.clear();
+    history_.begin(*run_);
+    rebind();
+    return true;
+}
+
+bool Session::saved_values(json& described) const {
+    const auto id = described.at("id").get<std::string>();
+    const auto* here = model::find_use(document_->system(), id);
+    if (!here) return false;
+    const auto* saved = model::find_use(document_->saved_system(), id);
+    const auto value = [](const model::TypeUse& use, const json& p) {
+        const auto it = std::ranges::find(use.settings, p["name"].get<std::string>(), &model::Setting::name);
+        if (it == use.settings.end()) return p["default"];
+        if (p["kind"] == "text") return json(it->value);
+        const json parsed = json::parse(it->value, nullptr, false);
+        return parsed.is_discarded() ? json(it->value) : parsed;
+    };
+    for (auto& p : described["parameters"]) {
+        if (saved && saved->type == here->type) p["loaded"] = value(*saved, p);
+        if (p["at_start"]) p["value"] = value(*here, p);
+    }
+    return true;
+}
+
+}  // namespace forage::studio
