@@ -234,7 +234,7 @@ TEST_CASE("a file that changes outside is noticed, and both changes are merged")
 TEST_CASE("items tell what their forms show, and the synapses of a pattern are told before it is set") {
     Editor e;
     const auto connection = e.last["system"]["connections"][0];
-    const json item = e.result({{"command", "item"}, {"id", connection["id"]}});
+    const json item = e.result({{"command", "item"}, {"item", connection["id"]}});
     CHECK(item["kind"] == "connection");
     CHECK(item["synapses"] == connection["synapses"]);
     CHECK(item["text"].get<std::string>().starts_with("<Connection"));
@@ -248,17 +248,17 @@ TEST_CASE("items tell what their forms show, and the synapses of a pattern are t
     CHECK(made["synapses"] == n);
     CHECK(e.last["document"]["dirty"] == false);
     e.edit({{{"do", "pattern"}, {"id", connection["id"]}, {"pattern", all}}});
-    CHECK(e.result({{"command", "item"}, {"id", connection["id"]}})["pattern"]["form"] == "foreach");
+    CHECK(e.result({{"command", "item"}, {"item", connection["id"]}})["pattern"]["form"] == "foreach");
 
     const json types = e.result({{"command", "types"}});
     CHECK(types["neurons"].size() > 3);
     CHECK(types["arborizations"].size() == 6);
     CHECK(types["arborizations"][0]["parameters"][0]["name"] == "width");
-    CHECK(e.result({{"command", "item"}, {"id", "system"}})["kind"] == "system");
+    CHECK(e.result({{"command", "item"}, {"item", "system"}})["kind"] == "system");
     for (const auto& p : e.last["system"]["processes"]) {
-        CHECK(e.result({{"command", "item"}, {"id", p["id"]}})["kind"] == "process");
+        CHECK(e.result({{"command", "item"}, {"item", p["id"]}})["kind"] == "process");
         for (const auto& g : p["groups"])
-            CHECK(e.result({{"command", "item"}, {"id", g["id"]}})["kind"] == "group");
+            CHECK(e.result({{"command", "item"}, {"item", g["id"]}})["kind"] == "group");
     }
     const json copied =
         e.result({{"command", "copy"}, {"ids", {connection["source"], connection["target"]}}});
@@ -271,6 +271,6 @@ TEST_CASE("items tell what their forms show, and the synapses of a pattern are t
     CHECK(ids.size() >= 3);
     CHECK(e.last["system"]["connections"].size() > count);
     CHECK(e.result({{"command", "difference"}})["text"].get<std::string>().find("\n+") != std::string::npos);
-    const auto text = e.result({{"command", "item"}, {"id", connection["id"]}})["text"].get<std::string>();
-    CHECK(e.ask({{"command", "item_text"}, {"id", connection["id"]}, {"text", text + "<"}})["ok"] == false);
+    const auto text = e.result({{"command", "item"}, {"item", connection["id"]}})["text"].get<std::string>();
+    CHECK(e.ask({{"command", "item_text"}, {"item", connection["id"]}, {"text", text + "<"}})["ok"] == false);
 }

@@ -180,7 +180,7 @@ json Commands::edit() {
 }
 
 json Commands::item() {
-    const auto id = c.at("id").get<std::string>();
+    const auto id = c.at("item").get<std::string>();
     const auto& system = document().system();
     Description description{system, document().saved_system(), run().registry()};
     json out;
@@ -210,7 +210,7 @@ json Commands::item() {
 }
 
 json Commands::item_text() {
-    const auto id = c.at("id").get<std::string>();
+    const auto id = c.at("item").get<std::string>();
     const auto title = "edit the text of " + (id == "system" ? "the system" : id);
     if (!document().replace_item_text(id == "system" ? document().system().id : id,
                                       c.at("text").get<std::string>(), title))
