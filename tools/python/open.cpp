@@ -9,6 +9,7 @@
 
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
+#include "tools/api/moves.h"
 #include "tools/python/group.h"
 #include "tools/python/picture.h"
 #include "tools/python/probe.h"
@@ -262,6 +263,27 @@ Positions are in m, angles in rad, counter-clockwise from the x axis. `reached_t
 
 The keyword is one of success, duration, distance ("all" or "last 100"), first, trials, cycles (a condition), final, mean, minimum, maximum (a
 quantity) and robot ("path length" and others, with of="NAME" of a robot that is not the first one); docs/reference/experiment.md explains them.)")
+        .def(
+            "move",
+            [](PythonRun& self, const std::string& name, double x, double y, Seconds heading) {
+                move(self.use(), name, x, y, heading);
+            },
+            "name"_a, "x"_a, "y"_a, "heading"_a = none,
+            R"(Moves a robot or a movable object between two cycles to a place, in m, where it is at rest; a trial goes on.
+
+heading: in rad, counter-clockwise from the x axis; as it is without it.
+Raises InputError without a world, for a name that it does not have, when something is at the place, and while the robot is being reset.)")
+        .def(
+            "begin_trial",
+            [](PythonRun& self, std::optional<std::size_t> start, const std::string& robot) {
+                begin_trial(self.use(), robot, start);
+            },
+            "start"_a = none, "robot"_a = "",
+            R"(Ends the trial of a robot between two cycles, and begins the next one.
+
+start: the number of a start pose of the world, from 0; the next one without it.
+robot: its name; the first one without it.
+Raises InputError.)")
         .def(
             "probe", &probe, "source"_a, "every"_a = 1,
             R"_(Records a source in memory, from the next cycle on, in each cycle whose number is a multiple of `every`. Returns a Probe.

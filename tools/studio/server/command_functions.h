@@ -12,6 +12,7 @@
 #include "core/model/edit.h"
 #include "core/observe/manipulation.h"
 #include "core/xml/panel.h"
+#include "tools/studio/server/equivalents.h"
 #include "tools/studio/server/session.h"
 
 namespace forage::studio {
@@ -64,6 +65,10 @@ struct Commands {
 
     // ---- manipulations ----
     json describe(int number);
+    /// What does the same as a command that has not been applied yet.
+    Equivalent same(const json& command);
+    /// What is told of a command: its title, and what does the same.
+    json told(const json& command, const std::string& title, const std::string& item = {});
     json manipulate();
     json revoke();
     json manipulations();
@@ -72,7 +77,7 @@ struct Commands {
 
     // ---- the world ----
     json move();
-    std::size_t find_object(const std::string& name);
+    double heading_of(const std::string& name);
     json begin_trial();
     /// Changes the run as a noted action says.
     void apply();

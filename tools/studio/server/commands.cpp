@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "tools/api/moves.h"
 #include "tools/studio/server/command_functions.h"
 
 namespace forage::studio {
@@ -26,11 +27,7 @@ double finite(const json& command, const char* member) {
     return value;
 }
 
-bug::World& Commands::world() {
-    auto* world = dynamic_cast<bug::World*>(run().environment());
-    if (!world) throw InputError("the system has no world", "open it with --world");
-    return *world;
-}
+bug::World& Commands::world() { return world_of(run()); }
 
 int Commands::group(const std::string& name) {
     Diagnostics diagnostics;

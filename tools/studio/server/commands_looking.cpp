@@ -5,6 +5,7 @@
 #include <forage/system.h>
 
 #include "core/model/lookup.h"
+#include "tools/api/moves.h"
 #include "tools/studio/server/command_functions.h"
 
 namespace forage::studio {
@@ -91,12 +92,6 @@ json Commands::trials() {
     return {{"trials", std::move(out)}};
 }
 
-std::size_t Commands::find_robot() {
-    const auto name = c.value("robot", "");
-    const auto found = name.empty() && world().bugs() > 0 ? 0 : world().find(name);
-    if (!found)
-        throw InputError(fmt::format("there is no robot '{}'", name), suggest(name, world().robot_names()));
-    return *found;
-}
+std::size_t Commands::find_robot() { return forage::find_robot(run(), c.value("robot", "")); }
 
 }  // namespace forage::studio

@@ -48,11 +48,12 @@ json Commands::set(const std::vector<std::string>& assignments, const std::strin
     const auto back = inverse(assignments);
     json values = json::object();
     for (const auto& a : assignments) values[a.substr(0, a.find('='))] = value_in(a);
-    const auto same = of_assignments(assignments, run().cycle());
+    const json command = {{"command", "set"}, {"assignments", assignments}};
+    json told = this->told(command, title);
+    told["values"] = values;
     const bool step = undoable && s.set_in_document(assignments, title);
-    s.act({{"command", "set"}, {"assignments", assignments}},
-          undoable ? std::optional<json>({{"command", "set"}, {"assignments", back}}) : std::nullopt,
-          {{"title", title}, {"values", values}, {"shell", same.shell}, {"python", same.python}});
+    s.act(command, undoable ? std::optional<json>({{"command", "set"}, {"assignments", back}}) : std::nullopt,
+          told);
     if (step) s.undo_.back().document = true, s.tell_document();
     return {{"generation", s.generation_}};
 }
@@ -73,21 +74,15 @@ json Commands::back_or_forth(std::vector<Session::Undo>& from, std::vector<Sessi
     if (from.empty()) throw InputError(back ? "there is nothing to undo" : "there is nothing to redo");
     Session::Undo entry = std::move(from.back());
     from.pop_back();
-    json told = {{"title", (back ? "undo: " : "redo: ") + entry.title}};
     const json& command = back ? entry.undo : entry.redo;
+    const std::string title = (back ? "undo: " : "redo: ") + entry.title;
     if (entry.document) s.step_document(back);
     auto undone = std::move(s.undo_), redone = std::move(s.redo_);
     s.undo_.clear(), s.redo_.clear();
-    if (command.is_null()) {
-        s.follow_document(told["title"]);
-    } else {
-        if (command.at("command") == "set") {
-            const auto same =
-                of_assignments(command.at("assignments").get<std::vector<std::string>>(), run().cycle());
-            told["shell"] = same.shell, told["python"] = same.python;
-        }
-        s.act(command, std::nullopt, told);
-    }
+    if (command.is_null())
+        s.follow_document(title);
+    else
+        s.act(command, std::nullopt, told(command, title));
     s.undo_ = std::move(undone), s.redo_ = std::move(redone);
     const bool document = entry.document;
     to.push_back(std::move(entry));

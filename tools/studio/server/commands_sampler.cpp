@@ -88,6 +88,15 @@ void Commands::begin_sampling(const json& how) {
                              observe::Sampling{every, 0, std::nullopt, false});
     s.sampler_ = std::move(sampler);
     s.status_due_ = true;
+    const auto forms = of_sampling(sources, file, every);
+    s.tell({{"type", "action"},
+            {"generation", s.generation_},
+            {"cycle", run().cycle()},
+            {"command", "sample"},
+            {"title", "record into " + file},
+            {"shell", forms.shell},
+            {"python", forms.python},
+            {"undoable", false}});
 }
 
 void Commands::begin_waiting_sampler() {

@@ -1,9 +1,10 @@
-#include <cmath>
+#include <algorithm>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "core/observe/pattern_file.h"
+#include "tools/api/moves.h"
 #include "tools/studio/server/command_functions.h"
 #include "tools/studio/server/equivalents.h"
 
@@ -38,34 +39,59 @@ json Commands::describe(int number) {
             {"backwards", m.backwards}};
 }
 
+Equivalent Commands::same(const json& command) {
+    const auto what = command.at("command").get<std::string>();
+    const auto driven = [&](const json& manipulation) {
+        const auto settings = settings_of(manipulation);
+        const auto& g = laid(settings.group);
+        return DrivenGroup{g.path, name_of(settings.mode), settings.patterns,
+                           g.shape.cells == g.shape.width * g.shape.height ? g.shape.width : g.shape.cells,
+                           settings.every};
+    };
+    if (what == "set")
+        return of_assignments(command.at("assignments").get<std::vector<std::string>>(), run().cycle());
+    if (what == "manipulate") return of_manipulation(driven(command), run().cycle());
+    if (what == "move")
+        return of_move(command.at(command.contains("robot") ? "robot" : "object").get<std::string>(),
+                       command.at("x"), command.at("y"), command.at("heading"));
+    if (what == "begin_trial") return of_trial(command.at("robot").get<std::string>(), command.at("start"));
+    if (what == "revoke") {
+        const auto now = describe(group(command.at("group").get<std::string>()));
+        const auto& actions = s.history_.actions();
+        const auto begun = std::find_if(actions.rbegin(), actions.rend(), [&](const auto& a) {
+            return a.command.at("command") == "manipulate" && a.command.at("group") == now.at("group");
+        });
+        if (now.at("command") == "manipulate")
+            return of_end(driven(now), begun == actions.rend() ? 0 : begun->cycle, run().cycle());
+    }
+    return {};
+}
+
 json Commands::manipulate() {
-    const int number = group(c.at("group").get<std::string>());
     json command = c;
     command.erase("id"), command.erase("generation");
     const auto settings = settings_of(command);  // also checks
-    const auto& g = laid(number);
-    const auto mode = name_of(settings.mode);
-    const auto same =
-        of_manipulation(g.path, mode, settings.patterns,
-                        g.shape.cells == g.shape.width * g.shape.height ? g.shape.width : g.shape.cells,
-                        settings.every, run().cycle());
-    s.act(command, describe(number),
-          {{"title", fmt::format("{} {}", mode, g.path)},
-           {"item", g.path},
-           {"shell", same.shell},
-           {"python", same.python}});
+    const auto& path = laid(settings.group).path;
+    command["group"] = path;
+    s.act(command, describe(settings.group),
+          told(command, fmt::format("{} {}", name_of(settings.mode), path), path));
     return {{"generation", s.generation_}};
+}
+
+json Commands::told(const json& command, const std::string& title, const std::string& item) {
+    const auto forms = same(command);
+    json out = {{"title", title}, {"shell", forms.shell}, {"python", forms.python}};
+    if (!item.empty()) out["item"] = item;
+    return out;
 }
 
 json Commands::revoke() {
     const int number = group(c.at("group").get<std::string>());
+    const auto& path = laid(number).path;
     if (!s.touches_->groups().contains(number))
-        throw InputError(fmt::format("'{}' is not manipulated", laid(number).path));
-    s.act({{"command", "revoke"}, {"group", laid(number).path}}, describe(number),
-          {{"title", "revoke " + laid(number).path},
-           {"item", laid(number).path},
-           {"shell", fmt::format("; until cycle {}", run().cycle())},
-           {"python", "manipulation.remove()"}});
+        throw InputError(fmt::format("'{}' is not manipulated", path));
+    const json command = {{"command", "revoke"}, {"group", path}};
+    s.act(command, describe(number), told(command, "revoke " + path, path));
     return {{"generation", s.generation_}};
 }
 
@@ -110,37 +136,31 @@ observe::Manipulation::Settings Commands::settings_of(const json& command) {
 json Commands::move() {
     const bool robot = c.contains("robot");
     const auto name = c.at(robot ? "robot" : "object").get<std::string>();
-    const auto which = robot ? find_robot() : find_object(name);
-    const Pose2 now = robot ? world().pose(which) : world().movable_object_pose(which).value_or(Pose2{});
     const double x = finite(c, "x"), y = finite(c, "y");
-    const double heading = c.contains("heading") && !c["heading"].is_null() ? finite(c, "heading") : now.yaw;
-    if (std::abs(x) > 1e4 || std::abs(y) > 1e4) throw InputError("a place is within 10 km");
-    s.act({{"command", "move"}, {robot ? "robot" : "object", name}, {"x", x}, {"y", y}, {"heading", heading}},
-          std::nullopt,
-          {{"title", fmt::format("move {} to ({:.2f}, {:.2f})", name, x, y)}, {"shell", ""}, {"python", ""}});
+    const double heading =
+        c.contains("heading") && !c["heading"].is_null() ? finite(c, "heading") : heading_of(name);
+    const json command = {
+        {"command", "move"}, {robot ? "robot" : "object", name}, {"x", x}, {"y", y}, {"heading", heading}};
+    s.act(command, std::nullopt, told(command, fmt::format("move {} to ({:.2f}, {:.2f})", name, x, y)));
     return {{"generation", s.generation_}};
 }
 
-std::size_t Commands::find_object(const std::string& name) {
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < world().movable_objects(); ++i) {
-        if (world().movable_object(i).name == name) return i;
-        names.push_back(world().movable_object(i).name);
-    }
-    throw InputError(fmt::format("there is no movable object '{}'", name), suggest(name, names));
+/// The heading of a robot or a movable object; 0 when there is none of this name.
+double Commands::heading_of(const std::string& name) {
+    const auto& w = world();
+    if (const auto robot = w.find(name)) return w.pose(*robot).yaw;
+    for (std::size_t i = 0; i < w.movable_objects(); ++i)
+        if (w.movable_object(i).name == name) return w.movable_object_pose(i).value_or(Pose2{}).yaw;
+    return 0;
 }
 
 json Commands::begin_trial() {
     const auto robot = find_robot();
     const int start = c.value("start", -1);
-    const auto starts = world().start_poses();
-    if (start >= static_cast<int>(starts.size()))
-        throw InputError(fmt::format("there are {} start poses", starts.size()));
-    s.act({{"command", "begin_trial"}, {"robot", world().robot_names()[robot]}, {"start", start}},
-          std::nullopt,
-          {{"title", start < 0 ? "next trial" : fmt::format("next trial from start {}", start + 1)},
-           {"shell", ""},
-           {"python", ""}});
+    const json command = {
+        {"command", "begin_trial"}, {"robot", world().robot_names()[robot]}, {"start", start}};
+    s.act(command, std::nullopt,
+          told(command, start < 0 ? "next trial" : fmt::format("next trial from start {}", start + 1)));
     return {{"generation", s.generation_}};
 }
 
@@ -164,17 +184,11 @@ void Commands::apply() {
         s.touches_->remove(group(c.at("group").get<std::string>()));
     } else if (what == "begin_trial") {
         const int start = c.value("start", -1);
-        const auto starts = world().start_poses();
-        world().begin_trial(
-            find_robot(), start < 0 ? std::nullopt : std::optional(starts[static_cast<std::size_t>(start)]));
+        forage::begin_trial(run(), c.at("robot").get<std::string>(),
+                            start < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(start)));
     } else if (what == "move") {
-        const bool robot = c.contains("robot");
-        const Pose2 pose{c.at("x").get<double>(), c.at("y").get<double>(), c.at("heading").get<double>()};
-        const bool moved = robot ? world().move_robot(find_robot(), pose)
-                                 : world().move_object(find_object(c.at("object").get<std::string>()), pose);
-        if (!moved)
-            throw InputError("something is there already",
-                             "choose another place; a robot that is being reset cannot be moved");
+        forage::move(run(), c.at(c.contains("robot") ? "robot" : "object").get<std::string>(), c.at("x"),
+                     c.at("y"), c.at("heading").get<double>());
     }
 }
 

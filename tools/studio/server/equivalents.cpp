@@ -1,6 +1,7 @@
 #include "tools/studio/server/equivalents.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -48,41 +49,85 @@ Equivalent of_assignments(const std::vector<std::string>& assignments, std::uint
     return out;
 }
 
-Equivalent of_manipulation(const std::string& group, const std::string& mode,
-                           const std::vector<std::vector<double>>& patterns, int width, std::uint64_t every,
-                           std::uint64_t cycle) {
-    const std::string from = cycle > 0 ? fmt::format("; from cycle {}", cycle) : "";
-    const std::string pace = every > 1 ? fmt::format("; every {}", every) : "";
-    std::string what = group + "=patterns.txt";
-    const double neutral = mode == "multiply" ? 1 : 0;
-    if (patterns.size() == 1) {
-        const auto& p = patterns.front();
+namespace {
+
+/// The option of `forage run` for a manipulation, between two cycles.
+std::string manipulation_option(const DrivenGroup& driven, const std::string& when) {
+    const std::string pace = driven.every > 1 ? fmt::format("; every {}", driven.every) : "";
+    std::string what = driven.group + "=patterns.txt";
+    const double neutral = driven.mode == "multiply" ? 1 : 0;
+    if (driven.patterns.size() == 1) {
+        const auto& p = driven.patterns.front();
+        const auto width = static_cast<std::size_t>(driven.width);
         std::string cells;
         for (std::size_t i = 0; i < p.size(); ++i)
             if (p[i] != neutral)
-                cells += fmt::format("{}({},{})={}", cells.empty() ? "" : " ",
-                                     i % static_cast<std::size_t>(width) + 1,
-                                     i / static_cast<std::size_t>(width) + 1, p[i]);
+                cells +=
+                    fmt::format("{}({},{})={}", cells.empty() ? "" : " ", i % width + 1, i / width + 1, p[i]);
         if (std::ranges::all_of(p, [&](double v) { return v == p.front(); }))
-            what = fmt::format("{}={}", group, p.front());
+            what = fmt::format("{}={}", driven.group, p.front());
         else if (cells.size() < 200)
-            what = group + cells;
+            what = driven.group + cells;
     }
+    return fmt::format("--{} {}", driven.mode, quoted(what + pace + when));
+}
+
+/// A name of Python for what drives a group.
+std::string variable(const std::string& group) {
+    std::string out;
+    for (const char c : group)
+        out += std::isalnum(static_cast<unsigned char>(c))
+                   ? static_cast<char>(std::tolower(static_cast<unsigned char>(c)))
+                   : '_';
+    return "driven_" + out;
+}
+
+std::string from(std::uint64_t cycle) { return cycle > 0 ? fmt::format("; from cycle {}", cycle) : ""; }
+
+}  // namespace
+
+Equivalent of_manipulation(const DrivenGroup& driven, std::uint64_t cycle) {
     std::vector<std::string> rows;
-    for (const auto& p : patterns) {
+    const auto width = static_cast<std::size_t>(driven.width);
+    for (const auto& p : driven.patterns) {
         std::vector<std::string> lines;
-        for (std::size_t i = 0; i < p.size(); i += static_cast<std::size_t>(width))
-            lines.push_back(
-                fmt::format("[{}]", fmt::join(p.begin() + static_cast<std::ptrdiff_t>(i),
-                                              p.begin() + static_cast<std::ptrdiff_t>(std::min(
-                                                              p.size(), i + static_cast<std::size_t>(width))),
-                                              ", ")));
+        for (std::size_t i = 0; i < p.size(); i += width)
+            lines.push_back(fmt::format(
+                "[{}]",
+                fmt::join(p.begin() + static_cast<std::ptrdiff_t>(i),
+                          p.begin() + static_cast<std::ptrdiff_t>(std::min(p.size(), i + width)), ", ")));
         rows.push_back(fmt::format("[{}]", fmt::join(lines, ", ")));
     }
     const std::string values = rows.size() == 1 ? rows[0] : fmt::format("[{}]", fmt::join(rows, ", "));
-    return {fmt::format("--{} {}", mode, quoted(what + pace + from)),
-            fmt::format("run[{}].{}({}{})", literal(group), mode, values,
-                        every > 1 ? fmt::format(", every={}", every) : "")};
+    return {manipulation_option(driven, from(cycle)),
+            fmt::format("{} = run[{}].{}({}{})", variable(driven.group), literal(driven.group), driven.mode,
+                        values, driven.every > 1 ? fmt::format(", every={}", driven.every) : "")};
+}
+
+Equivalent of_end(const DrivenGroup& driven, std::uint64_t begun, std::uint64_t cycle) {
+    return {manipulation_option(driven, from(begun) + fmt::format("; until cycle {}", cycle)),
+            variable(driven.group) + ".remove()"};
+}
+
+Equivalent of_move(const std::string& name, double x, double y, double heading) {
+    return {"", fmt::format("run.move({}, x={}, y={}, heading={})", literal(name), x, y, heading)};
+}
+
+Equivalent of_trial(const std::string& robot, int start) {
+    const std::string where = start < 0 ? "" : fmt::format("start={}, ", start);
+    return {"", fmt::format("run.begin_trial({}robot={})", where, literal(robot))};
+}
+
+Equivalent of_sampling(const std::vector<std::string>& sources, const std::string& file,
+                       std::uint64_t every) {
+    Equivalent out;
+    for (const auto& source : sources) {
+        out.shell += fmt::format("{}--record {}", out.shell.empty() ? "" : " ", quoted(source + "=" + file));
+        out.python += fmt::format("{}run.probe({}{})", out.python.empty() ? "" : "\n", literal(source),
+                                  every > 1 ? fmt::format(", every={}", every) : "");
+    }
+    if (every > 1) out.shell += fmt::format(" --every {}", every);
+    return out;
 }
 
 }  // namespace forage::studio

@@ -13,9 +13,22 @@ struct Equivalent {
 
 /// A change of parameters before the cycle with this number.
 Equivalent of_assignments(const std::vector<std::string>& assignments, std::uint64_t cycle);
-/// A manipulation of a group with one pattern or several, each a number per cell in rows of `width`.
-Equivalent of_manipulation(const std::string& group, const std::string& mode,
-                           const std::vector<std::vector<double>>& patterns, int width, std::uint64_t every,
-                           std::uint64_t cycle);
+/// A manipulation of a group with one pattern or several, each a number per cell in rows of `width`, before
+/// the cycle with this number.
+struct DrivenGroup {
+    std::string group, mode;
+    std::vector<std::vector<double>> patterns;
+    int width = 1;
+    std::uint64_t every = 1;
+};
+/// Its begin, and its end when it began before the cycle `from`.
+Equivalent of_manipulation(const DrivenGroup& driven, std::uint64_t cycle);
+Equivalent of_end(const DrivenGroup& driven, std::uint64_t from, std::uint64_t cycle);
+/// A robot or an object that is moved. `forage run` has no option for it.
+Equivalent of_move(const std::string& name, double x, double y, double heading);
+/// A new trial; `start` is -1 for the next start pose.
+Equivalent of_trial(const std::string& robot, int start);
+/// A recording into a file.
+Equivalent of_sampling(const std::vector<std::string>& sources, const std::string& file, std::uint64_t every);
 
 }  // namespace forage::studio

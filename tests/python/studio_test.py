@@ -1,0 +1,83 @@
+"""The studio says of each action how to do it in Python: it gives the same run."""
+import os
+import sys
+
+import pytest
+
+import forage
+from conftest import PROJECT, SYSTEMS, WORLD, open_dac
+
+sys.path.insert(0, str(PROJECT / "tests/support"))
+from studio_client import Page, Studio  # noqa: E402
+
+
+def test_what_a_page_does_is_repeated_in_python(dac):
+    with Studio(os.environ["FORAGE"], str(SYSTEMS / "dac_foraging.iqr"), "--world", str(WORLD)) as studio:
+        page = Page(studio)
+        page.do("pause")
+        robot = page.last("world")["robots"][0]["name"]
+        motor = [0.0] * 81
+        motor[36] = 1.0
+        for command, members in (
+            ("set", {"assignments": ["Bug/Light.threshold=0.25", "Bug/Motor.excGain=0.5"]}),
+            ("manipulate", {"group": "Bug/Motor", "mode": "add", "patterns": [motor], "every": 2}),
+            ("manipulate", {"group": "Bug/Light", "patterns": [[0.5] * 32]}),
+            ("undo", {}),
+            ("move", {"robot": robot, "x": 0.5, "y": -0.5}),
+            ("begin_trial", {}),
+            ("revoke", {"group": "Bug/Motor"}),
+            ("begin_trial", {"start": 0}),
+        ):
+            page.do("step", cycles=30)
+            page.do(command, **members)
+        page.do("step", cycles=30)
+        page.do("pause")
+        wanted = page.do("digest")
+        actions = [m for m in page.messages if m["type"] == "action"]
+        page.close()
+    assert len(actions) == 8
+    names = {"run": dac}
+    for action in actions:
+        dac.run(cycles=action["cycle"] - dac.cycle) if action["cycle"] > dac.cycle else None
+        exec(action["python"], names)
+    dac.run(cycles=wanted["cycle"] - dac.cycle)
+    assert dac.digest() == wanted["digest"]
+
+
+def test_robots_are_moved_and_begin_trials(dac):
+    name = "Bug"
+    with pytest.raises(forage.InputError, match="no robot and no movable object"):
+        dac.move("nothing", 0, 0)
+    with pytest.raises(forage.InputError, match="within 10 km"):
+        dac.move(name, 1e6, 0)
+    dac.move(name, 0.5, -0.5, heading=1.0)
+    dac.run(cycles=5)
+    dac.begin_trial()
+    dac.step()
+    assert dac.trial == 2
+    with pytest.raises(forage.InputError, match="no start pose 99"):
+        dac.begin_trial(start=99)
+    with pytest.raises(forage.InputError, match="no robot .Bgu'"):
+        dac.begin_trial(robot="Bgu")
+    with forage.open(SYSTEMS / "cookbook/oscillator.iqr") as without, pytest.raises(forage.InputError, match="no world"):
+        without.move(name, 0, 0)
+
+
+def test_the_options_of_a_manipulation_are_those_of_the_page(command):
+    with Studio(os.environ["FORAGE"], str(SYSTEMS / "dac_foraging.iqr"), "--world", str(WORLD)) as studio:
+        page = Page(studio)
+        page.do("step", cycles=50)
+        page.do("manipulate", group="Bug/Motor", patterns=[[0.25] * 81])
+        page.do("step", cycles=50)
+        page.do("revoke", group="Bug/Motor")
+        option = page.last("action")["shell"] if page.do("pause") == {} else None
+        page.do("step", cycles=50)
+        wanted = page.do("digest")["digest"]
+        page.close()
+    assert option == "--clamp 'Bug/Motor=0.25; from cycle 50; until cycle 100'"
+    name, value = option.split(" ", 1)
+    printed = command("run", SYSTEMS / "dac_foraging.iqr", "--world", WORLD, name, value.strip("'"), "--cycles", 150, "--hash", "-o", "")
+    assert wanted in printed
+    with open_dac() as run:
+        run.run(cycles=150)
+        assert run.digest() != wanted
