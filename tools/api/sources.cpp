@@ -16,6 +16,7 @@
 #include "core/model/validate.h"
 #include "core/plugin/search.h"
 #include "core/xml/reader.h"
+#include "devices/devices.h"
 #include "modules/modules.h"
 #include "modules/replay/replay.h"
 #include "neurons/neurons.h"
@@ -183,6 +184,7 @@ Registry forage_types() {
     add_neurons(registry);
     add_synapses(registry);
     add_modules(registry);
+    add_devices(registry);
     registry.add(module_type<replay::Replay>());
     registry.add(bug::gazebo_bug_type());
     return registry;
