@@ -1,5 +1,5 @@
 # The packages that `cpack` makes: forage (the program and its systems), forage-dev (to write plugins and programs), forage-doc and, where
-# it can be built, python3-forage.
+# they can be built, forage-mpi and python3-forage.
 # `./tools/package` builds them so that they are the same byte for byte wherever they are built.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "The Forage authors <forage@forage.invalid>")
@@ -44,6 +44,16 @@ set(CPACK_DEBIAN_DOC_DESCRIPTION
 in html/, as a site with search and the reference of the interface for
 programs.")
 
+if(TARGET forage-mpi)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
+  set(CPACK_DEBIAN_MPI_PACKAGE_NAME forage-mpi)
+  set(CPACK_DEBIAN_MPI_PACKAGE_SECTION science)
+  set(CPACK_DEBIAN_MPI_DESCRIPTION
+"This package contains the program forage-mpi, with which the ranks of an MPI
+job execute the runs of an experiment.")
+  set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "forage ${same}, openmpi-bin")
+endif()
+
 if(FORAGE_HAS_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
   math(EXPR next "${Python3_VERSION_MINOR} + 1")
@@ -70,6 +80,11 @@ add_custom_target(package_files ALL COMMAND ${GZIP} -9nk -f changelog COMMAND ${
                                     COMMAND forage man > forage.1 COMMAND ${GZIP} -9n -f forage.1
                   WORKING_DIRECTORY ${PROJECT_BINARY_DIR}/package VERBATIM)
 install(FILES ${PROJECT_BINARY_DIR}/package/forage.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+if(TARGET forage-mpi)
+  add_custom_command(TARGET package_files POST_BUILD VERBATIM WORKING_DIRECTORY ${PROJECT_BINARY_DIR}/package
+                     COMMAND ${GZIP} -9nc ${PROJECT_SOURCE_DIR}/tools/cluster/forage-mpi.1 > forage-mpi.1.gz)
+  install(FILES ${PROJECT_BINARY_DIR}/package/forage-mpi.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT mpi)
+endif()
 foreach(component ${CPACK_COMPONENTS_ALL})
   string(TOUPPER ${component} name)
   set(folder ${CMAKE_INSTALL_DATAROOTDIR}/doc/${CPACK_DEBIAN_${name}_PACKAGE_NAME})

@@ -11,7 +11,7 @@ import xml.etree.ElementTree as tree
 
 import slurm_cluster
 from slurm_cluster import said, wait_for
-from support import FORAGE, MPI, MPIRUN, PROJECT, PYTHON, ExperimentTest
+from support import FORAGE, MPI, MPI_ENVIRONMENT, PROJECT, PYTHON, ExperimentTest
 
 NAMES = ("basic", "ambiguous", "contextual_alone")
 SCRIPT = """import concurrent.futures, sys
@@ -77,7 +77,8 @@ class Learning(ExperimentTest):
     @unittest.skipUnless(MPI and shutil.which("mpirun"), "forage-mpi is not built: apt-get install libopenmpi-dev openmpi-bin")
     def test_mpi(self):
         for name in NAMES:
-            subprocess.run([*MPIRUN, "-n", "3", MPI, f"{name}.xml", "-o", f"mpi_{name}", "-q"], cwd=self.folder, check=True)
+            subprocess.run(["mpirun", "-n", "3", MPI, f"{name}.xml", "-o", f"mpi_{name}", "-q"], cwd=self.folder, check=True,
+                           env={**os.environ, **MPI_ENVIRONMENT})
         self.same("mpi")
 
     @unittest.skipUnless(PYTHON, "the Python package is not built")

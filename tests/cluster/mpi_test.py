@@ -1,12 +1,14 @@
 """Experiments with MPI: the same tables as without it, after ranks were killed. The arguments are those of support.py."""
+import os
 import random
+import re
 import shutil
 import subprocess
 import sys
 import time
 import unittest
 
-from support import FORAGE, KILLS, MPI, MPIRUN, ExperimentTest, kill
+from support import FORAGE, KILLS, MPI, MPI_ENVIRONMENT, PROJECT, ExperimentTest, kill
 
 
 @unittest.skipUnless(shutil.which("mpirun"), "mpirun is not installed: apt-get install openmpi-bin")
@@ -18,7 +20,7 @@ class Mpi(ExperimentTest):
         self.write(seeds=100, trials=4)
 
     def start(self, ranks, *arguments):
-        return subprocess.Popen([*MPIRUN, "-n", str(ranks), MPI, *arguments], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        return subprocess.Popen(["mpirun", "-n", str(ranks), MPI, *arguments], cwd=self.folder, env={**os.environ, **MPI_ENVIRONMENT}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                 start_new_session=True)
 
     def ranks_of(self, mpirun):
@@ -67,6 +69,17 @@ class Mpi(ExperimentTest):
         output, errors = job.communicate()
         self.assertEqual(job.returncode, 2)
         self.assertEqual(errors.count("error:"), 1)
+        _, errors = self.start(2, "x.xml", "--shard", "1/2").communicate()
+        self.assertIn("hint: forage-mpi --help", errors)
+        self.assertEqual(errors.count("error:"), 1)
+
+    def test_the_manual_has_all_options(self):
+        manual = (PROJECT / "tools" / "cluster" / "forage-mpi.1").read_text().replace("\\-", "-")
+        output, _ = self.start(1, "--help").communicate()
+        options = re.findall(r"^  (-[-\w,]+)", output, re.MULTILINE)
+        self.assertEqual(sorted(options), ["--plugin", "--version", "-h,--help", "-o,--output", "-q,--quiet"])
+        for option in options:
+            self.assertIn("\\fB" + option.replace(",", ", ") + "\\fR", manual)
 
     def test_the_command_line_does_not_link_mpi(self):
         libraries = subprocess.run(["ldd", FORAGE], capture_output=True, text=True).stdout

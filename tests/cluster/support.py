@@ -16,7 +16,9 @@ FORAGE = str(pathlib.Path(sys.argv[1]).resolve())
 PROJECT = pathlib.Path(sys.argv[2]).resolve()
 MPI = str(pathlib.Path(sys.argv[3]).resolve()) if len(sys.argv) > 3 and sys.argv[3] else ""
 PYTHON = sys.argv[4:6]
-MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe", "--mca", "plm_rsh_agent", "false"]
+# Open MPI starts more ranks than there are cores, also for root, and without ssh.
+MPI_ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
+                   "OMPI_MCA_plm_rsh_agent": "false"}
 KILLS = int(os.environ.get("FORAGE_KILLS", "0"))  # as many kills as wanted; without it, a few
 
 EXPERIMENT = f"""<experiment>

@@ -1,11 +1,14 @@
 #!/bin/sh
-# What a new user does with the installed packages forage, forage-dev and python3-forage, in an empty folder.
+# What a new user does with the installed packages, in an empty folder.
 set -e
 cp -r /usr/share/forage/systems .
 forage run systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world --trials 30 -o forage-out | tee said
 grep -q "30 of 30" said
 test -s forage-out/trajectory.png
 forage tutorial 1.1
+OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -n 2 forage-mpi systems/light_threshold.xml -o mpi
+forage experiment systems/light_threshold.xml -o whole
+cmp mpi/results.csv whole/results.csv
 forage new neuron leaky
 python3 -c 'import forage
 with forage.open("systems/dac_foraging.iqr", world="systems/worlds/basic_arena.world") as run:

@@ -154,11 +154,16 @@ FORAGE_PLUGIN(Wrong);
         self.assertIn("1.1 ", run("forage tutorial", self.folder, self.environment))
 
     def test_the_packages_depend_on_what_they_need_and_hold_no_path_of_the_build(self):
-        self.assertEqual(sorted(set(self.packages) - {"python3-forage"}), ["forage", "forage-dev", "forage-doc"])
+        self.assertEqual(sorted(set(self.packages) - {"forage-mpi", "python3-forage"}), ["forage", "forage-dev", "forage-doc"])
         depends = {name: run(["dpkg-deb", "-f", file, "Depends"], self.folder) for name, file in self.packages.items()}
         for library in ("libtinyxml2", "libopencv-core", "libbullet"):
             self.assertIn(library, depends["forage"])
         self.assertRegex(depends["forage-dev"], r"forage \(= .*libeigen3-dev")
+        self.assertNotIn("mpi", depends["forage"])
+        if "forage-mpi" in depends:
+            self.assertRegex(depends["forage-mpi"], r"forage \(= .*openmpi-bin")
+            files = run(["dpkg-deb", "-c", self.packages["forage-mpi"]], self.folder)
+            self.assertRegex(files, r"\./usr/bin/forage-mpi\n(.|\n)*\./usr/share/man/man1/forage-mpi.1.gz")
         for file in [*(self.folder / "root/usr/lib").rglob("*.cmake"), self.folder / "root/usr/bin/forage"]:
             self.assertNotIn(str(BUILD).encode(), file.read_bytes(), file.name)
         self.assertIn("/usr/share/doc/forage/docs/tutorial/README.md", run(["dpkg-deb", "-c", self.packages["forage-doc"]], self.folder))

@@ -188,6 +188,23 @@ def test_executors_give_the_same_table(tmp_path):
     assert ours.dtype == whole.dtype and len(ours) == len(whole)
 
 
+@pytest.mark.parametrize("kept", [False, True])
+def test_sweeps_with_executors_give_the_same_table(tmp_path, kept, monkeypatch):
+    monkeypatch.chdir(SYSTEMS)
+    options = {"measure": MEASURES, "settings": iter(["Bug.transSpeed=0.9"]), "directory": tmp_path / "out" if kept else None, **WHOLE}
+    with concurrent.futures.ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn")) as executor:
+        ours = forage.sweep(REACTIVE.name, WORLD, {name: iter(values) for name, values in THRESHOLD.items()}, executor=executor, parts=3, **options)
+    whole = forage.sweep(REACTIVE, WORLD, THRESHOLD, **{**options, "settings": ["Bug.transSpeed=0.9"], "directory": None})
+    assert ours.dtype == whole.dtype
+    for name in ours.dtype.names:
+        numpy.testing.assert_array_equal(ours[name], whole[name], name)
+    if kept:
+        assert len(list((tmp_path / "out/parts").iterdir())) == 3
+        assert (tmp_path / "out/results.csv").exists() and (tmp_path / "out/trials.csv").exists()
+    with pytest.raises(ValueError, match="executor: functions are called in this process"):
+        forage.sweep(REACTIVE, WORLD, THRESHOLD, cycles=1, measure=lambda run: run.cycle, executor=executor)
+
+
 def test_an_executor_tells_mistakes(tmp_path):
     (tmp_path / "x.xml").write_text("<experiment/>")
     with concurrent.futures.ThreadPoolExecutor(1) as executor, pytest.raises(forage.InputError, match="length"):

@@ -154,7 +154,13 @@ std::optional<PreparedExperiment> prepare_part(const std::string& file, std::str
                                                Diagnostics& diagnostics) {
     auto wanted = xml::read_experiment(file, diagnostics);
     if (!wanted) return std::nullopt;
-    auto out = plan_experiment(std::move(*wanted), directory_of(file, directory), plugins, diagnostics);
+    return prepare_part(std::move(*wanted), directory_of(file, directory), plugins, diagnostics);
+}
+
+std::optional<PreparedExperiment> prepare_part(model::Experiment wanted, std::string directory,
+                                               const std::vector<std::string>& plugins,
+                                               Diagnostics& diagnostics) {
+    auto out = plan_experiment(std::move(wanted), std::move(directory), plugins, diagnostics);
     if (!out) return out;
     try {
         make_directory(out->directory);

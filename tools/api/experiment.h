@@ -54,6 +54,9 @@ std::optional<PreparedExperiment> prepare_experiment(const std::string& file, st
                                                      const std::string& system = {});
 /// Does the same for a part of an experiment, or to read what parts have left. Locks nothing, because other
 /// parts work in the directory at the same time.
+std::optional<PreparedExperiment> prepare_part(model::Experiment experiment, std::string directory,
+                                               const std::vector<std::string>& plugins,
+                                               Diagnostics& diagnostics);
 std::optional<PreparedExperiment> prepare_part(const std::string& file, std::string directory,
                                                const std::vector<std::string>& plugins,
                                                Diagnostics& diagnostics);

@@ -114,15 +114,22 @@ int parse_and_execute(int argc, char** argv, int rank, int ranks) {
     CLI::App app(
         "Executes an experiment with MPI, one run per rank at a time. Rank 0 hands out the runs and "
         "needs no core.\nExample:\n  mpirun -n 65 forage-mpi systems/light_threshold.xml");
-    app.add_option("FILE", o.file, "Experiment file (.xml)")->required();
-    app.add_option("-o,--output", o.directory, "Directory for results [forage-out/ and FILE's name]");
-    app.add_option("--plugin", o.plugins, "Plugin with more types (.so), or a folder of plugins");
+    app.set_version_flag("--version", "forage " FORAGE_VERSION, "Print the version");
+    app.add_option("FILE", o.file, "Experiment file (.xml)")->required()->option_text(" ");
+    app.add_option("-o,--output", o.directory, "Directory for results [forage-out/ and FILE's name]")
+        ->option_text("DIR");
+    app.add_option("--plugin", o.plugins,
+                   "Plugin with more types (.so), or a folder of plugins; may be repeated")
+        ->allow_extra_args(false)
+        ->option_text("PATH");
     app.add_flag("-q,--quiet", o.quiet, "Print errors only");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        if (rank == 0) app.exit(error);
-        return error.get_exit_code() == 0 ? 0 : 2;
+        const bool fine = error.get_exit_code() == 0;  // a call for help
+        if (rank == 0 && fine) app.exit(error);
+        if (rank == 0 && !fine) fmt::print(stderr, "error: {}\n  hint: forage-mpi --help\n", error.what());
+        return fine ? 0 : 2;
     }
     return execute(o, rank, ranks);
 }

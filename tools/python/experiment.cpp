@@ -117,13 +117,14 @@ py::list run_all(const What& what, const std::string& directory, const std::vect
     return columns_of(outcome);
 }
 
-/// Executes one part of an experiment file, as `forage experiment --shard` does, in a worker of an executor.
-void run_shard(const std::string& file, const std::string& directory, const std::vector<std::string>& plugins,
-               std::size_t number, std::size_t of, bool fresh) {
+/// Executes one part of an experiment, as `forage experiment --shard` does, in a worker of an executor.
+template <class What>
+void run_shard(const What& what, const std::string& directory, const std::vector<std::string>& plugins,
+               bool fresh, std::size_t number, std::size_t of) {
     Watch watch{py::none()};
     const py::gil_scoped_release others;
     Diagnostics diagnostics;
-    const auto prepared = prepare_part(file, directory, plugins, diagnostics);
+    const auto prepared = prepare_part(what, directory, plugins, diagnostics);
     throw_errors(diagnostics);
     run_part(*prepared, Shard{number, of}, 1, fresh, watch.callbacks());
     watch.rethrow();
@@ -220,15 +221,20 @@ py::list planned(const PythonSweep& self) {
 void add_experiments(py::module_& module) {
     const auto none = py::none();
     module.def("_experiment", &run_all<std::string>);
-    module.def("_experiment_part", &run_shard);
+    module.def("_experiment_part", &run_shard<std::string>);
     py::class_<PythonSweep>(module, "_Sweep")
         .def(py::init(&make_sweep), py::kw_only(), "system"_a, "world"_a, "values"_a, "seeds"_a, "settings"_a,
              "plugins"_a, "noise"_a, "real_time_factor"_a, "cycles"_a, "seconds"_a, "trials"_a,
              "trial_timeout"_a, "until"_a, "measures"_a)
         .def("plan", &planned)
-        .def("run", [](const PythonSweep& self, const std::string& directory, int jobs, py::object progress) {
-            return run_all(self.experiment, directory, self.plugins, jobs, false, std::move(progress));
-        });
+        .def("run",
+             [](const PythonSweep& self, const std::string& directory, int jobs, py::object progress) {
+                 return run_all(self.experiment, directory, self.plugins, jobs, false, std::move(progress));
+             })
+        .def("part",
+             [](const PythonSweep& self, const std::string& directory, std::size_t number, std::size_t of) {
+                 run_shard(self.experiment, directory, self.plugins, false, number, of);
+             });
     module.def("_cores", &cores);
 }
 

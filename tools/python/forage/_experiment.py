@@ -84,23 +84,28 @@ def experiment(file: Path, *, directory: Path | None = None, plugins: typing.Ite
     """
     folder = os.fspath(directory) if directory is not None else f"forage-out/{pathlib.Path(file).stem}"
     if executor is not None:
-        _execute(executor, operator.index(parts), _reporter(progress), os.path.abspath(file), os.path.abspath(folder), [os.path.abspath(p) for p in plugins],
-                 fresh)
+        _execute(executor, operator.index(parts), _reporter(progress), _part, os.path.abspath(file), os.path.abspath(folder),
+                 [os.path.abspath(p) for p in plugins], fresh)
         file, fresh = os.path.abspath(file), False
     return _table(_forage._experiment(os.fspath(file), folder, [os.fspath(p) for p in plugins], jobs, fresh, _reporter(progress)), folder)
 
 
-def _part(file: str, folder: str, plugins: list[str], number: int, of: int, fresh: bool) -> None:
+def _part(file: str, folder: str, plugins: list[str], fresh: bool, number: int, of: int) -> None:
     """Executes one part of an experiment in a worker; functions of C++ cannot be sent to one."""
-    _forage._experiment_part(file, folder, plugins, number, of, fresh)
+    _forage._experiment_part(file, folder, plugins, fresh, number, of)
 
 
-def _execute(executor: typing.Any, parts: int, report: typing.Callable[[float, str], object] | None, file: str, folder: str, plugins: list[str],
-             fresh: bool) -> None:
+def _part_of_sweep(description: dict[str, typing.Any], folder: str, number: int, of: int) -> None:
+    """Executes one part of a sweep in a worker."""
+    _forage._Sweep(**description).part(folder, number, of)
+
+
+def _execute(executor: typing.Any, parts: int, report: typing.Callable[[float, str], object] | None, task: typing.Callable[..., None],
+             *arguments: typing.Any) -> None:
     """Executes all parts of an experiment with an executor."""
     if hasattr(executor, "get_executor"):  # a client of Dask; its results must not be those of an earlier call
         executor = executor.get_executor(pure=False)
-    waiting = [executor.submit(_part, file, folder, plugins, i, parts, fresh) for i in range(1, parts + 1)]
+    waiting = [executor.submit(task, *arguments, i, parts) for i in range(1, parts + 1)]
     try:
         for done, future in enumerate(waiting, 1):
             future.result()
@@ -115,7 +120,8 @@ def sweep(system: Path | _forage.System, world: Path | None = None, values: Valu
           measure: Function | typing.Mapping[str, Measure] | None = None, cycles: int | None = None, seconds: float | None = None,
           trials: int | None = None, until: str = "", trial_timeout: float = 300.0,
           settings: typing.Mapping[str, typing.Any] | typing.Iterable[str] | None = None, plugins: typing.Iterable[Path] = (), noise: bool = True,
-          real_time_factor: float | None = None, directory: Path | None = None, jobs: int = 0, progress: Progress = None) -> Table:
+          real_time_factor: float | None = None, directory: Path | None = None, jobs: int = 0, progress: Progress = None,
+          executor: typing.Any = None, parts: int = 64) -> Table:
     """Runs a system with every combination of values and seeds, on all cores, and returns the Table of the runs.
 
         forage.sweep("reactive.iqr", "basic.world", {"Reactive/US.threshold": [0.2, 0.4]}, seeds=5, trials=10, measure={"success": {"success": "all"}})
@@ -129,7 +135,7 @@ def sweep(system: Path | _forage.System, world: Path | None = None, values: Valu
         runs the run itself.
     settings, plugins, noise, real_time_factor: as for open(). trial_timeout: seconds of the world after which a trial ends its run, which is then "stopped".
     directory: keeps the results, which `forage view` shows and which are not computed again; only without functions.
-    jobs, progress: as for experiment().
+    jobs, progress, executor, parts: as for experiment(). Workers on other machines need a `directory` that they share, and measures of experiment files.
 
     The numbers are those of `forage experiment` and do not depend on the number of jobs. Raises InputError with all mistakes, before the first run, and
     what a function raises.
@@ -137,6 +143,8 @@ def sweep(system: Path | _forage.System, world: Path | None = None, values: Valu
     functions, declared = _measures(measure)
     if functions and directory is not None:
         raise ValueError("directory: results of functions are not kept in files")
+    if functions and executor is not None:
+        raise ValueError("executor: functions are called in this process; workers take measures such as {'success': 'all'}")
     if sum(n is not None for n in (cycles, seconds, trials)) > 1:
         raise ValueError("cycles, seconds, trials: a run has only one length")
     length = {"cycles": cycles, "seconds": seconds, "trials": trials, "trial_timeout": trial_timeout}
@@ -150,8 +158,15 @@ def sweep(system: Path | _forage.System, world: Path | None = None, values: Valu
             system.copy().save(file)
         else:
             file = system
-        planned = _forage._Sweep(system=file, world=world, values=dict(values or {}), seeds=_seeds(seeds), settings=settings, measures=declared,
-                                 until=until, **length, **setup)
+        listed = {key: v if isinstance(v, str) or not hasattr(v, "__iter__") else list(v) for key, v in (values or {}).items()}
+        if executor is not None:
+            file, world, folder = os.path.abspath(file), world and os.path.abspath(world), os.path.abspath(folder)
+            setup["plugins"] = [os.path.abspath(p) for p in setup["plugins"]]
+        description = dict(system=file, world=world, values=listed, seeds=_seeds(seeds), settings=_settings(settings), measures=declared, until=until,
+                           **length, **setup)
+        planned = _forage._Sweep(**description)
+        if executor is not None:
+            _execute(executor, operator.index(parts), _reporter(progress), _part_of_sweep, description, folder)
         if not functions:
             return _table(planned.run(folder, jobs, _reporter(progress)), None if directory is None else folder)
         names = [name for key in values or {} for name in (key if isinstance(key, tuple) else [key])]
@@ -180,6 +195,11 @@ def _measures(measure: typing.Any) -> tuple[dict[str, Function], dict[str, dict[
 
 def _seeds(seeds: typing.Any) -> list[int]:
     return list(range(1, operator.index(seeds) + 1)) if hasattr(seeds, "__index__") else list(seeds)
+
+
+def _settings(settings: typing.Any) -> typing.Any:
+    """Settings that can be sent to another process."""
+    return dict(settings) if isinstance(settings, typing.Mapping) else settings if settings is None or isinstance(settings, str) else list(settings)
 
 
 class _Stopped(Exception):
