@@ -22,7 +22,7 @@ System, Process, Group and Connection, and runs them much faster than real
 time, with the same result in every run. It contains the robot and the arenas
 of the tutorial of Distributed Adaptive Control.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS fonts-dejavu-core)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "forage-dev, forage-doc")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "forage-dev, forage-doc, ffmpeg")
 set(CPACK_STRIP_FILES ON)
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME forage-dev)

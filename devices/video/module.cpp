@@ -62,11 +62,11 @@ void VideoModule::describe(ModuleSpec<VideoModule>& s) {
         .doc("The clock decides which picture is shown, instead of the number of the cycle.");
     s.param("Cycles Per Picture", &T::cycles_per_picture)
         .label("Cycles per picture")
-        .range(1, 100000)
+        .range(1, 10000)
         .doc("How long a picture is shown, unless it is real time.");
     s.param("Step", &T::step)
         .label("Step")
-        .range(1, 100000)
+        .range(1, 10000)
         .doc("Every n-th picture of a film or folder is shown.");
     s.param("Loop", &T::loop)
         .label("Loop")

@@ -32,7 +32,7 @@ void RecorderModule::describe(ModuleSpec<RecorderModule>& s) {
         .doc("Rate of the film.");
     s.param("Cycles Per Picture", &T::every)
         .label("Cycles per picture")
-        .range(1, 100000)
+        .range(1, 10000)
         .doc("Every n-th cycle becomes a picture.");
     s.param("Scale", &T::scale)
         .label("Scale")

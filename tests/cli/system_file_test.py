@@ -34,6 +34,7 @@ SETTINGS = {
     "neuronNumeric": {},
     "neuronPyramidApicalShunt": {"vmPrs": 0.5, "threshold": 0.6, "vmReset": 0.4},
     "neuronSigmoid": {**MEMBRANE, "midpoint": 0.3, "slope": 0.7},
+    "neuronTanH": {**MEMBRANE, "midpoint": 0.2, "slope": 1.7},
 }
 PROCESS = re.compile(r"<!-- process: (\w+) -->\n```xml\n(.*?)```\n", re.DOTALL)
 SPARSE = [(1, 1), (2, 1), (4, 1), (1, 2), (4, 3)]
