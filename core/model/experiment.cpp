@@ -1,6 +1,9 @@
 #include "core/model/experiment.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/number.h"
 #include "core/model/lookup.h"
@@ -19,6 +22,36 @@ void read_trials(Measure& m, Diagnostics& diagnostics) {
                           fmt::format("{} = '{}' does not name any trials",
                                       measure_kinds[static_cast<std::size_t>(m.kind)], m.what.text),
                           "'all', or for example 'last 100'");
+}
+
+void check_adaptation(const Experiment& e, Diagnostics& diagnostics) {
+    if (!e.adaptation) return;
+    const Adaptation& a = *e.adaptation;
+    const auto named = [&](const Measure& m) { return m.name == a.measure.text; };
+    if (!a.measure.empty() && std::none_of(e.measures.begin(), e.measures.end(), named)) {
+        std::vector<std::string> names;
+        for (const auto& m : e.measures) names.push_back(m.name);
+        diagnostics.error(a.measure.at, fmt::format("there is no measure '{}'", a.measure.text),
+                          names.empty() ? "the experiment measures nothing yet"
+                                        : fmt::format("there are '{}'", fmt::join(names, "', '")));
+    }
+    if (a.kind == Adaptation::Kind::halving) {
+        if (e.sweeps.empty())
+            diagnostics.error(a.at, "halving has nothing to choose from, because nothing is swept",
+                              "sweep a parameter, or several systems");
+        return;
+    }
+    if (!a.width == !a.relative_width)
+        diagnostics.error(a.at, "the interval needs one width to reach",
+                          "give it either 'width' or 'relative-width'");
+    if (e.seeds.size() < 2)
+        diagnostics.error(a.at, "an interval needs at least two seeds to begin with",
+                          "for example <seeds count=\"5\"/>, or seeds=5 in Python");
+    if (a.most > 0 && a.most < e.seeds.size())
+        diagnostics.error(a.at,
+                          fmt::format("at most {} seeds are allowed, but there are {} to begin with", a.most,
+                                      e.seeds.size()),
+                          "raise 'most', or begin with fewer seeds");
 }
 
 }  // namespace forage::model

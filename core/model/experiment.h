@@ -77,6 +77,20 @@ struct Exercise {
     std::vector<Requirement> requirements;
 };
 
+/// How an experiment adds seeds to its combinations of values, in rounds, while it sees their results.
+struct Adaptation {
+    enum class Kind {
+        confidence,  ///< until the 95 % interval of each combination's mean is narrow enough
+        halving,     ///< the better half of the combinations goes on with twice as many seeds
+    };
+    Kind kind = Kind::confidence;
+    Expression measure;                                     ///< the name of the measure that decides
+    std::optional<double> width = {}, relative_width = {};  ///< of the interval; as a share of the mean
+    std::uint64_t most = 100;                               ///< seeds of a combination, for confidence
+    bool highest = true;                                    ///< whether high numbers are good, for halving
+    Location at;
+};
+
 struct Experiment {
     std::string path;
     std::string note;                 ///< a remark for readers
@@ -103,7 +117,12 @@ struct Experiment {
     std::vector<Measure> measures;
     /// Every combination of their values is run with every seed. A swept system runs together with `systems`.
     std::vector<Sweep> sweeps;
+    std::optional<Adaptation> adaptation;
     std::optional<Exercise> exercise;
 };
+
+/// Reports what an experiment's adaptation lacks: its measure, a width, seeds to begin with, something to
+/// choose from.
+void check_adaptation(const Experiment& experiment, Diagnostics& diagnostics);
 
 }  // namespace forage::model

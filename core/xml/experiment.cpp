@@ -47,6 +47,9 @@ class ExperimentReader {
         if (experiment_.systems.empty() && !sweeps_systems() && !has_unknown(root))
             out_.error(root.where(), "<experiment> has no <system>",
                        "name one in <system file=\"...\"/>, or several in <sweep systems=\"...\"/>");
+        if (const Element e = root.child("confidence")) confidence(e);
+        if (const Element e = root.child("halving")) halving(e);
+        model::check_adaptation(experiment_, out_);
         if (const Element e = root.child("exercise")) exercise(e);
         if (count_runs() > most_runs)
             out_.error(root.where(), fmt::format("these sweeps and seeds make more than {} runs", most_runs),
@@ -226,6 +229,22 @@ class ExperimentReader {
         experiment_.exercise = std::move(exercise);
     }
 
+    void confidence(const Element& e) {
+        model::Adaptation a{.measure = written(e["measure"]), .at = e.where()};
+        a.width = e["width"].number(), a.relative_width = e["relative-width"].number();
+        a.most = whole(e["most"]).value_or(a.most);
+        experiment_.adaptation = std::move(a);
+    }
+
+    void halving(const Element& e) {
+        if (experiment_.adaptation)
+            out_.error(e.where(), "<halving> and <confidence> exclude each other", "remove one of them");
+        experiment_.adaptation = {.kind = model::Adaptation::Kind::halving,
+                                  .measure = written(e["measure"]),
+                                  .highest = e["keep"].text() != "lowest",
+                                  .at = e.where()};
+    }
+
     /// Reads a sweep of the current axis.
     void sweep(const Element& e) {
         static constexpr std::array kinds = {"parameter", "systems"}, lists = {"values", "systems"};
@@ -284,6 +303,8 @@ class ExperimentReader {
     /// The number of runs, at most `most_runs` + 1.
     std::uint64_t count_runs() const {
         std::uint64_t out = experiment_.seeds.size();
+        const auto& a = experiment_.adaptation;
+        if (a && a->kind == model::Adaptation::Kind::confidence) out = std::max(out, a->most);
         for (std::size_t axis = 0; const auto& s : experiment_.sweeps)
             if (s.axis == axis) out = std::min(out * s.values.size(), most_runs + 1), ++axis;
         return out;

@@ -9,6 +9,7 @@
 
 #include "core/base/cores.h"
 #include "core/base/named_file.h"
+#include "core/run/experiment/rounds.h"
 #include "core/run/experiment/tables.h"
 #include "core/run/experiment/trials_table.h"
 #include "core/xml/experiment.h"
@@ -38,7 +39,7 @@ std::map<std::string, Sources> read_all(RunPlan& plan, Diagnostics& diagnostics)
     std::map<std::string, std::string> digests;
     for (std::size_t c = 0; c < plan.combinations(); ++c) {
         if (out.contains(plan.system(c))) continue;
-        const RunInput input = plan[c * plan.seeds()].spec.input;
+        const RunInput input = plan[plan.first(c)].spec.input;
         Sources sources = out.empty() ? read_sources(input, diagnostics)
                                       : with_first_system(out.begin()->second, input, diagnostics);
         if (sources.system) digests[input.system] = source_digests(input, sources);
@@ -100,7 +101,7 @@ std::optional<PreparedExperiment> plan_experiment(model::Experiment wanted, std:
                                                   const std::vector<std::string>& plugins,
                                                   Diagnostics& diagnostics, bool exercise) {
     if (!files_are_there(wanted, diagnostics)) return std::nullopt;
-    PreparedExperiment out{std::move(wanted), std::move(directory), {}, {}, {}};
+    PreparedExperiment out{std::move(wanted), std::move(directory), {}, 1, {}, {}};
     out.runs = RunPlan(out.experiment, out.directory, plugins);
     out.sources = read_all(out.runs, diagnostics);
     if (exercise && out.experiment.exercise) {
@@ -131,7 +132,10 @@ std::optional<PreparedExperiment> prepare_experiment(model::Experiment wanted, s
             check_regular_file(table);
         hint = held_hint;
         out->hold = DirectoryHold(out->directory);
+        const RunPlan first = out->runs;
+        if (out->experiment.adaptation) read_results(*out);  // folders of later rounds belong to it, too
         report_leftovers(*out, diagnostics);
+        out->runs = first, out->round = 1;
     } catch (const std::exception& e) {
         diagnostics.error({}, e.what(), hint);
         return std::nullopt;
@@ -173,7 +177,10 @@ std::optional<PreparedExperiment> prepare_part(model::Experiment wanted, std::st
     return out;
 }
 
-PartResults read_results(const PreparedExperiment& e, const std::optional<Shard>& only) {
+namespace {
+
+/// The results of the runs that are planned.
+PartResults read_planned(const PreparedExperiment& e, const std::optional<Shard>& only) {
     PartResults out = read_parts(e.directory, e.runs, e.experiment, only);
     if (!has_runs(e.directory)) return out;
     for (std::size_t i = only ? only->number - 1 : 0; i < e.runs.size(); i += only ? only->of : 1) {
@@ -185,6 +192,26 @@ PartResults read_results(const PreparedExperiment& e, const std::optional<Shard>
     return out;
 }
 
+/// Plans the next round if there is one.
+bool add_round(PreparedExperiment& e, std::vector<std::optional<RunResult>>& results) {
+    const auto seeds = next_round(e.experiment, e.runs, results);
+    if (!seeds) return false;
+    RunPlan later = e.runs.with_seeds(*seeds);
+    results = carry_over(e.runs, std::move(results), later);
+    e.runs = std::move(later), ++e.round;
+    return true;
+}
+
+}  // namespace
+
+PartResults read_results(PreparedExperiment& e, const std::optional<Shard>& only) {
+    // What the next round is depends on the results of all parts.
+    const auto wanted = e.experiment.adaptation ? std::nullopt : only;
+    PartResults out = read_planned(e, wanted);
+    while (add_round(e, out.results)) out = read_planned(e, wanted);
+    return out;
+}
+
 std::vector<std::size_t> open_runs(const PartResults& found) {
     std::vector<std::size_t> out;
     for (std::size_t i = 0; i < found.results.size(); ++i)
@@ -192,25 +219,35 @@ std::vector<std::size_t> open_runs(const PartResults& found) {
     return out;
 }
 
-std::optional<std::vector<RunResult>> run_experiment(const PreparedExperiment& e, int jobs, bool fresh,
+std::optional<std::vector<RunResult>> run_experiment(PreparedExperiment& e, int jobs, bool fresh,
                                                      const ExperimentCallbacks& callbacks) {
     for (const auto& table : {e.results_file(), e.summary_file()})  // an existing table is complete
         std::remove(table.c_str());
     if (fresh) forget_parts(e.directory);
-    PartResults found;
-    found.results.resize(e.runs.size()), found.lines.resize(e.runs.size());
-    if (!fresh) found = read_results(e);
     const PrepareRun prepare = [&](const RunSpec& spec, Diagnostics& d) { return e.prepare(spec, d); };
-    RunBlock block{e.experiment, prepare, e.runs, open_runs(found)};
-    block.earlier = e.runs.size() - block.open.size();
-    if (!execute_runs(
-            block, jobs > 0 ? jobs : cores(),
-            [&](std::size_t run, RunResult&& result, const std::string&) {
-                found.results[run] = std::move(result), found.lines[run] = {};
-            },
-            callbacks))
-        return std::nullopt;
-    auto results = all_of(found.results);
+    std::vector<std::optional<RunResult>> made(e.runs.size());
+    PartResults found;
+    do {
+        found = {};
+        found.results.resize(e.runs.size()), found.lines.resize(e.runs.size());
+        if (!fresh) found = read_planned(e, {});
+        for (std::size_t i = 0; i < made.size(); ++i)
+            if (!made[i] && found.results[i] && found.results[i]->failure.empty())
+                made[i] = std::move(found.results[i]);
+        RunBlock block{e.experiment, prepare, e.runs, {}};
+        for (std::size_t i = 0; i < made.size(); ++i)
+            if (!made[i]) block.open.push_back(i);
+        block.earlier = e.runs.size() - block.open.size();
+        if (e.experiment.adaptation) block.round = e.round;
+        if (!execute_runs(
+                block, jobs > 0 ? jobs : cores(),
+                [&](std::size_t run, RunResult&& result, const std::string&) {
+                    made[run] = std::move(result), found.lines[run] = {};
+                },
+                callbacks))
+            return std::nullopt;
+    } while (add_round(e, made));
+    auto results = all_of(made);
     write_tables(e, *results, found);
     return results;
 }
@@ -234,7 +271,7 @@ PartOutcome run_part(const PreparedExperiment& e, PartFile& file, std::vector<st
     return out;
 }
 
-PartOutcome run_part(const PreparedExperiment& e, const Shard& shard, int jobs, bool fresh,
+PartOutcome run_part(PreparedExperiment& e, const Shard& shard, int jobs, bool fresh,
                      const ExperimentCallbacks& callbacks) {
     if (fresh) forget_parts(e.directory, shard);
     PartResults found;
@@ -247,7 +284,7 @@ PartOutcome run_part(const PreparedExperiment& e, const Shard& shard, int jobs, 
     return run_part(e, file, std::move(wanted), jobs, callbacks);
 }
 
-std::optional<std::vector<RunResult>> merge(const PreparedExperiment& e, Diagnostics& diagnostics) {
+std::optional<std::vector<RunResult>> merge(PreparedExperiment& e, Diagnostics& diagnostics) {
     PartResults found = read_results(e);
     if (found.damaged > 0)
         diagnostics.warning({},
@@ -260,9 +297,11 @@ std::optional<std::vector<RunResult>> merge(const PreparedExperiment& e, Diagnos
             std::find_if(found.results.begin(), found.results.end(), [](const auto& r) { return !r; });
         diagnostics.error(
             {},
-            fmt::format("{} of {} runs have no result yet, such as '{}'", missing, e.runs.size(),
-                        e.runs.name(static_cast<std::size_t>(first - found.results.begin()))),
-            "start the missing parts again; without --merge, the runs are executed here");
+            fmt::format("{}{} of {} runs have no result yet, such as '{}'",
+                        e.experiment.adaptation ? fmt::format("round {}: ", e.round) : "", missing,
+                        e.runs.size(), e.runs.name(static_cast<std::size_t>(first - found.results.begin()))),
+            fmt::format("start the {}parts again; without --merge, the runs are executed here",
+                        e.experiment.adaptation ? "" : "missing "));
         return std::nullopt;
     }
     auto results = all_of(found.results);

@@ -16,11 +16,13 @@
 
 namespace forage {
 
-/// An experiment that is checked, with its directory made and locked.
+/// An experiment that is checked, with its directory made and locked. If it adapts itself, its runs are those
+/// of the rounds that are known, and functions that read or execute results add rounds.
 struct PreparedExperiment {
     model::Experiment experiment;
     std::string directory;
     RunPlan runs;
+    std::size_t round = 1;
     std::map<std::string, Sources> sources;  ///< by the path of the first system of the runs
     DirectoryHold hold;
     std::vector<observe::TableFormat> formats = {};  ///< in which results.csv is written, too
@@ -64,11 +66,12 @@ std::optional<PreparedExperiment> prepare_part(const std::string& file, std::str
 /// Executes the runs that are not finished yet (with `fresh`, all of them), `jobs` at a time (0: one per
 /// core), and writes the tables of results. Returns the results in the order of the runs; empty when it was
 /// interrupted.
-std::optional<std::vector<RunResult>> run_experiment(const PreparedExperiment& experiment, int jobs,
-                                                     bool fresh, const ExperimentCallbacks& callbacks);
+std::optional<std::vector<RunResult>> run_experiment(PreparedExperiment& experiment, int jobs, bool fresh,
+                                                     const ExperimentCallbacks& callbacks);
 
-/// The results that the runs have: those of parts, and those in the directories of runs.
-PartResults read_results(const PreparedExperiment& experiment, const std::optional<Shard>& only = {});
+/// The results that the runs have: those of parts, and those in the directories of runs. The runs become
+/// those of all rounds that these results decide.
+PartResults read_results(PreparedExperiment& experiment, const std::optional<Shard>& only = {});
 
 /// How a part of an experiment ended.
 struct PartOutcome {
@@ -80,8 +83,9 @@ struct PartOutcome {
 /// written.
 PartOutcome run_part(const PreparedExperiment& experiment, PartFile& file, std::vector<std::size_t> wanted,
                      int jobs, const ExperimentCallbacks& callbacks);
-/// Executes the runs of one part that have no numbers yet; with `fresh`, all of them.
-PartOutcome run_part(const PreparedExperiment& experiment, const Shard& shard, int jobs, bool fresh,
+/// Executes the runs of one part that have no numbers yet; with `fresh`, all of them. Of an experiment that
+/// adapts itself, these are runs of the rounds that are known when the part begins.
+PartOutcome run_part(PreparedExperiment& experiment, const Shard& shard, int jobs, bool fresh,
                      const ExperimentCallbacks& callbacks);
 /// The runs without numbers.
 std::vector<std::size_t> open_runs(const PartResults& results);
@@ -89,7 +93,7 @@ std::vector<std::size_t> open_runs(const PartResults& results);
 /// Writes the tables of an experiment whose parts have results of all runs, byte for byte those of
 /// run_experiment(), and returns the results. When runs have no result, reports an error, writes nothing and
 /// returns nothing.
-std::optional<std::vector<RunResult>> merge(const PreparedExperiment& experiment, Diagnostics& diagnostics);
+std::optional<std::vector<RunResult>> merge(PreparedExperiment& experiment, Diagnostics& diagnostics);
 
 /// What became of the requirements of the file's exercise, in order; `results` are those of all runs.
 std::vector<Finding> findings(const PreparedExperiment& experiment, std::span<const RunResult> results,

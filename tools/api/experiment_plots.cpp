@@ -58,7 +58,7 @@ std::size_t index_of(const std::vector<std::string>& values, const std::string& 
 
 /// "threshold = 0.2; means of 2 to 3 runs", from the part of the table and the estimates in a picture.
 std::string subtitle_of(const std::string& part,
-                        const std::vector<std::optional<plot::Estimate>>& estimates) {
+                        const std::vector<std::optional<Estimate>>& estimates) {
     std::size_t fewest = std::numeric_limits<std::size_t>::max(), most = 0;
     for (const auto& e : estimates)
         if (e) fewest = std::min(fewest, e->count), most = std::max(most, e->count);
@@ -87,14 +87,14 @@ plot::Picture curve(const RunTable& table, const std::vector<Axis>& axes, std::s
         title, {},        x.name + (places.logarithmic ? " (logarithmic)" : ""), table.measures[measure], {},
         {},    places.gap};
     for (std::size_t i = 0; i < x.values.size(); ++i) out.x_ticks.emplace_back(places.at[i], x.values[i]);
-    std::vector<std::optional<plot::Estimate>> estimates;
+    std::vector<std::optional<Estimate>> estimates;
     const std::vector<Axis> others(axes.begin() + 1, axes.end());
     std::unordered_map<std::string, std::size_t> lines;
     for (const auto& c : conditions_of(table)) {
         const std::string name = name_of(c, others, table);
         const auto [line, added] = lines.try_emplace(name, out.lines.size());
         if (added) out.lines.push_back({name, {}});
-        estimates.push_back(plot::estimate(c.numbers(measure)));
+        estimates.push_back(estimate(c.numbers(measure)));
         out.lines[line->second].points.push_back({places.at[x.value_of(c)], estimates.back()});
     }
     for (auto& line : out.lines)
@@ -111,7 +111,7 @@ plot::Picture heat(const RunTable& table, const std::vector<Axis>& axes, std::si
     plot::HeatMap out{title, {}, table.measures[measure], x.name, y.name, x.values, y.values, {}};
     out.cells.resize(x.values.size() * y.values.size());
     for (const auto& c : conditions_of(table))
-        out.cells[y.value_of(c) * x.values.size() + x.value_of(c)] = plot::estimate(c.numbers(measure));
+        out.cells[y.value_of(c) * x.values.size() + x.value_of(c)] = estimate(c.numbers(measure));
     out.subtitle = subtitle_of(table.part, out.cells);
     return plot::heat_map(out);
 }
@@ -249,7 +249,7 @@ std::optional<plot::Picture> draw_learning(const PlotSpec& spec, const std::vect
     const std::size_t block = (longest + most_blocks - 1) / most_blocks;
     plot::LinesPlot out{title, {}, "trial", spec.what.empty() ? "share of trials at the target" : spec.what,
                         {},    {}, {}};
-    std::vector<std::optional<plot::Estimate>> estimates;
+    std::vector<std::optional<Estimate>> estimates;
     for (std::size_t s = 0; s < series.size(); ++s) {
         auto& line = out.lines.emplace_back();
         line.name = series[s].name;
@@ -261,10 +261,10 @@ std::optional<plot::Picture> draw_learning(const PlotSpec& spec, const std::vect
                 std::vector<double> numbers;
                 for (std::size_t t = first; t < std::min(first + block, run.size()); ++t)
                     if (run[t]) numbers.push_back(*run[t]);
-                if (const auto mean = plot::estimate(numbers)) means.push_back(mean->mean);
+                if (const auto mean = estimate(numbers)) means.push_back(mean->mean);
             }
             const auto last = std::min(first + block, longest);
-            auto y = plot::estimate(means);
+            auto y = estimate(means);
             if (y && spec.what.empty())
                 y->low = std::max(y->low, 0.0), y->high = std::min(y->high, 1.0);  // a share
             line.points.push_back({static_cast<double>(first + last + 1) / 2, y});

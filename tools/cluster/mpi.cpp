@@ -76,7 +76,7 @@ void work(const PreparedExperiment& e, int rank) {
 
 int execute(const Options& o, int rank, int ranks) {
     Diagnostics diagnostics;
-    const auto e = prepare_part(o.file, o.directory, o.plugins, diagnostics);
+    auto e = prepare_part(o.file, o.directory, o.plugins, diagnostics);
     if (rank == 0 && (diagnostics.failed() || !o.quiet)) fmt::print(stderr, "{}", format(diagnostics));
     // All ranks stop when one of them cannot read the files.
     int fine = e.has_value(), all_fine = 0;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/number.h"
+#include "core/run/experiment/rounds.h"
 #include "core/run/experiment/tables.h"
 #include "tools/cluster/slurm.h"
 #include "tools/forage/commands.h"
@@ -17,9 +18,12 @@
 namespace forage::tool {
 namespace {
 
+/// "round 2: "; empty for an experiment without rounds.
+std::string round_text(std::size_t round) { return round > 0 ? fmt::format("round {}: ", round) : ""; }
+
 /// "12/30 runs, 1 failed, 3 min left".
 std::string progress_text(const ExperimentCallbacks::Progress& p) {
-    std::string text = fmt::format("{}/{} runs", p.finished, p.all);
+    std::string text = round_text(p.round) + fmt::format("{}/{} runs", p.finished, p.all);
     if (p.failed > 0) text += fmt::format(", {} failed", p.failed);
     if (p.seconds_left) text += fmt::format(", {} left", duration_text(*p.seconds_left));
     return text;
@@ -72,6 +76,8 @@ int print_results(const ExperimentOptions& o, const PreparedExperiment& e,
     if (!o.quiet) fmt::print(stderr, "{}", format(warnings_of(runs, results)));
     if (!o.quiet)
         for (const auto& note : event_notes(results)) fmt::print(stderr, "note: {}\n", note);
+    if (const auto note = adaptation_note(e.experiment, runs, results); !note.empty() && !o.quiet)
+        fmt::print(stderr, "note: {}\n", note);
     std::size_t failures = 0;
     for (std::size_t i = 0; i < runs.size(); ++i)
         if (!results[i].failure.empty()) {
@@ -92,22 +98,26 @@ std::vector<observe::TableFormat> formats_of(const ExperimentOptions& o) {
     return out;
 }
 
+std::string round_of(const PreparedExperiment& e) {
+    return round_text(e.experiment.adaptation ? e.round : 0);
+}
+
 /// Executes one part.
-int execute_shard(const ExperimentOptions& o, const PreparedExperiment& e) {
+int execute_shard(const ExperimentOptions& o, PreparedExperiment& e) {
     begin(e);
     Progress progress(!o.quiet);
     const auto out = run_part(e, *parse_shard(o.shard), o.jobs, o.fresh, callbacks_of(progress));
     progress.clear();
     for (const auto& [run, reason] : out.failures) fmt::print(stderr, "error: run '{}': {}\n", run, reason);
     if (!out.finished) return print_stopped();
-    if (!o.quiet) fmt::print("{}: part {}: {} runs executed now\n", o.file, o.shard, out.runs);
+    if (!o.quiet) fmt::print("{}: part {}: {}{} runs executed now\n", o.file, o.shard, round_of(e), out.runs);
     return out.failures.empty() ? fine : run_failed;
 }
 
-int print_status(const PreparedExperiment& e) {
+int print_status(PreparedExperiment& e) {
     const PartResults found = read_results(e);
     const std::size_t done = found.finished(), failed = found.failed(), left = e.runs.size() - done - failed;
-    fmt::print("{}/{} runs", done + failed, e.runs.size());
+    fmt::print("{}{}/{} runs", round_of(e), done + failed, e.runs.size());
     if (failed > 0) fmt::print(", {} failed", failed);
     if (found.rate > 0) {
         fmt::print(", {} runs/s", plain_number(found.rate, 3));

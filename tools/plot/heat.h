@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/estimate.h"
 #include "tools/plot/canvas.h"
-#include "tools/plot/estimate.h"
 
 namespace forage::plot {
 

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/estimate.h"
 #include "tools/plot/canvas.h"
-#include "tools/plot/estimate.h"
 
 namespace forage::plot {
 

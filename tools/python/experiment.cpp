@@ -76,7 +76,7 @@ py::list columns_of(const ExperimentOutcome& outcome) {
     const auto& experiment = outcome.experiment;
     for (std::size_t i = 0; i < experiment.sweeps.size(); ++i)
         add(experiment.sweeps[i].parameter.text, [&, i](std::size_t run, const RunResult&) {
-            return outcome.runs.values(run / outcome.runs.seeds())[i];
+            return outcome.runs.values(outcome.runs.combination(run))[i];
         });
     add("seed", [&](std::size_t run, const RunResult&) { return outcome.runs.seed(run); });
     add("status", [](std::size_t, const RunResult& r) {

@@ -146,7 +146,7 @@ void warn_of_changes(const model::System& start, const model::System& own, Diagn
 model::Experiment with_system(model::Experiment e, const std::string& system) {
     if (e.systems.empty()) e.systems.emplace_back();
     e.systems.front() = {system};
-    e.sweeps.clear();
+    e.sweeps.clear(), e.adaptation.reset();
     if (e.exercise)
         for (const auto& r : e.exercise->requirements)
             if (r.measure) e.measures.push_back(*r.measure);

@@ -73,7 +73,7 @@ RunKeys::RunKeys(const RunPlan& plan, const model::Experiment& experiment) : pla
 }
 
 std::uint64_t RunKeys::operator[](std::size_t run) const {
-    const std::size_t combination = run / plan_.seeds();
+    const std::size_t combination = plan_.combination(run);
     std::uint64_t h = hash(0xcbf29ce484222325U, digest(shared_));
     h = hash(h, plan_.files(combination));
     for (const auto& setting : plan_.settings(combination)) h = hash(hash(h, "\n"), setting.text);

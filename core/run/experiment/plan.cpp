@@ -54,6 +54,21 @@ RunPlan::RunPlan(const model::Experiment& e, std::string directory, const std::v
         if (const std::size_t earlier = names[combination_name(c)]++; earlier > 0) repeated_[c] = earlier;
 }
 
+RunPlan RunPlan::with_seeds(const std::vector<std::size_t>& counts) const {
+    RunPlan out = *this;
+    out.first_.assign(1, 0);
+    for (const std::size_t count : counts) out.first_.push_back(out.first_.back() + count);
+    const std::size_t most = counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
+    std::uint64_t last = seeds_.empty() ? 0 : *std::max_element(seeds_.begin(), seeds_.end());
+    while (out.seeds_.size() < most) out.seeds_.push_back(++last);
+    return out;
+}
+
+std::size_t RunPlan::combination(std::size_t run) const {
+    if (first_.empty()) return run / seeds_.size();
+    return static_cast<std::size_t>(std::upper_bound(first_.begin(), first_.end(), run) - first_.begin()) - 1;
+}
+
 std::size_t RunPlan::chosen(const model::Sweep& sweep, std::size_t combination) const {
     return combination / strides_[sweep.axis] % sizes_[sweep.axis];
 }
@@ -75,8 +90,8 @@ std::string RunPlan::combination_name(std::size_t combination) const {
 }
 
 std::string RunPlan::name(std::size_t run) const {
-    const std::size_t combination = run / seeds_.size();
-    const auto own = seeds_.begin() + static_cast<std::ptrdiff_t>(run % seeds_.size());
+    const std::size_t combination = this->combination(run);
+    const auto own = seeds_.begin() + static_cast<std::ptrdiff_t>(run - first(combination));
     std::string out = fmt::format("{}seed-{}", combination_name(combination), *own);
     auto earlier = static_cast<std::size_t>(std::count(seeds_.begin(), own, *own));
     if (const auto found = repeated_.find(combination); found != repeated_.end())
@@ -108,7 +123,7 @@ const std::string& RunPlan::files(std::size_t combination) const {
 }
 
 PlannedRun RunPlan::operator[](std::size_t run) const {
-    const std::size_t combination = run / seeds_.size();
+    const std::size_t combination = this->combination(run);
     PlannedRun out{name(run), values(combination), files(combination), common_};
     RunInput& input = out.spec.input;
     input.system = system(combination);

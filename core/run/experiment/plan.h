@@ -19,7 +19,8 @@ struct PlannedRun {
 };
 
 /// The runs of every combination of the swept values with every seed; the last sweep changes fastest, and
-/// seeds faster still. A plan of a million runs takes little memory, as each run is made when it is needed.
+/// seeds faster still. In a later round of an adaptive experiment, combinations have different numbers of
+/// seeds. A plan of a million runs takes little memory, as each run is made when it is needed.
 class RunPlan {
   public:
     RunPlan() = default;
@@ -27,14 +28,23 @@ class RunPlan {
     RunPlan(const model::Experiment& experiment, std::string directory,
             const std::vector<std::string>& plugins = {});
 
-    std::size_t size() const { return combinations_ * seeds_.size(); }
+    /// The same combinations with more seeds, as many as `counts` has for each of them. Seeds beyond those of
+    /// the experiment follow its largest one.
+    RunPlan with_seeds(const std::vector<std::size_t>& counts) const;
+
+    std::size_t size() const { return first(combinations_); }
     std::size_t combinations() const { return combinations_; }
-    /// Runs of one combination of values stand one after the other.
-    std::size_t seeds() const { return seeds_.size(); }
+    /// The first run of a combination, whose runs stand one after the other; size() behind the last one.
+    std::size_t first(std::size_t combination) const {
+        return first_.empty() ? combination * seeds_.size() : first_[combination];
+    }
+    std::size_t combination(std::size_t run) const;
+    /// The number of a combination's seeds.
+    std::size_t seeds(std::size_t combination) const { return first(combination + 1) - first(combination); }
 
     PlannedRun operator[](std::size_t run) const;
     std::string name(std::size_t run) const;
-    std::uint64_t seed(std::size_t run) const { return seeds_[run % seeds_.size()]; }
+    std::uint64_t seed(std::size_t run) const { return seeds_[run - first(combination(run))]; }
     /// The swept values of a combination.
     std::vector<std::string> values(std::size_t combination) const;
     /// The path of the first system of a combination.
@@ -54,7 +64,8 @@ class RunPlan {
     std::string directory_;
     RunSpec common_;  ///< what all runs share
     std::vector<model::Sweep> sweeps_;
-    std::vector<std::uint64_t> seeds_ = {};
+    std::vector<std::uint64_t> seeds_ = {};     ///< of the combination that has most of them
+    std::vector<std::size_t> first_;            ///< by combination; empty when all have the same seeds
     std::vector<std::size_t> strides_, sizes_;  ///< of the axes
     std::size_t combinations_ = 0;
     /// How many earlier combinations have the same name; without an entry, none.

@@ -77,7 +77,7 @@ class Work {
         ExperimentCallbacks::Progress out;
         const double made = static_cast<double>(done_ + failed_) + parts;
         out.finished = block_.earlier + done_ + failed_, out.failed = failed_;
-        out.all = block_.earlier + block_.open.size();
+        out.all = block_.earlier + block_.open.size(), out.round = block_.round;
         out.done = (static_cast<double>(block_.earlier) + made) / static_cast<double>(out.all);
         if (made > 0.02 && elapsed > 1)
             out.seconds_left = elapsed * (static_cast<double>(block_.open.size()) - made) / made;
@@ -171,7 +171,7 @@ class Work {
 /// have.
 void check_runs(const model::Experiment& e, const PrepareRun& prepare, const RunPlan& plan, std::size_t first,
                 Diagnostics& diagnostics) {
-    RunSpec spec = plan[first * plan.seeds()].spec;
+    RunSpec spec = plan[plan.first(first)].spec;
     spec.directory.clear();  // nothing is written
     auto prepared = prepare(spec, diagnostics);
     if (!prepared) {  // the swept values are checked nevertheless

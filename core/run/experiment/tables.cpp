@@ -66,9 +66,8 @@ struct Combination {
 
 std::vector<Combination> combinations(const RunPlan& plan, std::span<const RunResult> results) {
     std::vector<Combination> out;
-    const std::size_t n = plan.seeds();
     for (std::size_t c = 0; c < plan.combinations(); ++c)
-        out.push_back({plan.values(c), results.subspan(c * n, n)});
+        out.push_back({plan.values(c), results.subspan(plan.first(c), plan.seeds(c))});
     return out;
 }
 
@@ -95,11 +94,11 @@ TableColumn swept_column(const model::Experiment& e, const RunPlan& plan, std::s
         if (const auto n = parse_number<double>(texts.back())) numbers.push_back(*n);
     }
     const auto& name = e.sweeps[sweep].parameter.text;
-    const std::size_t seeds = plan.seeds();
     if (numbers.size() == texts.size())
-        return {name,
-                TableColumn::Numbers([numbers, seeds](std::size_t run) { return numbers[run / seeds]; })};
-    return {name, TableColumn::Texts([texts, seeds](std::size_t run) { return texts[run / seeds]; })};
+        return {name, TableColumn::Numbers(
+                          [numbers, &plan](std::size_t run) { return numbers[plan.combination(run)]; })};
+    return {name,
+            TableColumn::Texts([texts, &plan](std::size_t run) { return texts[plan.combination(run)]; })};
 }
 
 }  // namespace
@@ -147,7 +146,7 @@ std::string results_csv(const model::Experiment& e, const RunPlan& plan, std::sp
         const RunResult& r = results[i];
         const bool failed = !r.failure.empty();
         std::vector<std::string> fields = {plan.name(i)};
-        for (const auto& value : plan.values(i / plan.seeds())) fields.push_back(field(value));
+        for (const auto& value : plan.values(plan.combination(i))) fields.push_back(field(value));
         fields.push_back(fmt::format("{}", plan.seed(i)));
         fields.push_back(status_of(r));
         fields.push_back(failed ? "" : fmt::format("{}", r.cycles));

@@ -12,6 +12,7 @@
 #include "tools/plot/space.h"
 #include "tools/plot/time.h"
 
+using forage::Estimate;
 using namespace forage::plot;
 
 namespace {
@@ -190,21 +191,6 @@ TEST_CASE("A connection of large groups is drawn in a picture of bounded size") 
     CHECK(picture.width < 1600);  // two matrices, as there is a delay
     CHECK(picture.height < 800);
     CHECK(render(picture, Format::png).size() > 1000);
-}
-
-TEST_CASE("An estimate is a mean with the 95 % interval of Student's t") {
-    CHECK_FALSE(estimate({}));
-    CHECK(estimate({3})->low == 3);
-    const auto three = *estimate({1, 2, 3});  // 2 +- 4.303 / sqrt(3)
-    CHECK(three.mean == 2);
-    CHECK(three.high - 2 == Approx(4.303 / std::sqrt(3)));
-    CHECK(2 - three.low == Approx(three.high - 2));
-    std::vector<double> many(31);  // t = 2.0423 for 30 degrees of freedom
-    for (std::size_t i = 0; i < many.size(); ++i) many[i] = i % 2 == 0 ? 1 : -1;
-    const auto e = *estimate(many);
-    double squares = 0;
-    for (const double v : many) squares += (v - e.mean) * (v - e.mean);
-    CHECK(e.high - e.mean == Approx(2.0423 * std::sqrt(squares / 30 / 31)).epsilon(2e-4));
 }
 
 TEST_CASE("Where a line has no number there is a gap, and a line without any number is not drawn") {

@@ -1,9 +1,9 @@
-#include "tools/plot/estimate.h"
+#include "core/base/estimate.h"
 
 #include <array>
 #include <cmath>
 
-namespace forage::plot {
+namespace forage {
 namespace {
 
 /// The 97.5 % quantile of Student's t distribution.
@@ -12,13 +12,18 @@ double student(std::size_t degrees) {
                                          2.447,  2.365, 2.306, 2.262, 2.228};
     if (degrees <= table.size()) return table[degrees - 1];
     // The first terms of its expansion around the normal quantile (Abramowitz and Stegun, 26.7.5); exact to 3
-    // digits.
-    constexpr double z = 1.959964, z3 = z * z * z;
+    // decimals.
+    constexpr double z = 1.959964, z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
     const double n = static_cast<double>(degrees);
-    return z + (z3 + z) / (4 * n) + (5 * z3 * z * z + 16 * z3 + 3 * z) / (96 * n * n);
+    return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n) +
+           (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * n * n * n);
 }
 
 }  // namespace
+
+double half_width(double variance, std::size_t count) {
+    return student(count - 1) * std::sqrt(variance / static_cast<double>(count));
+}
 
 std::optional<Estimate> estimate(const std::vector<double>& numbers) {
     if (numbers.empty()) return std::nullopt;
@@ -27,8 +32,8 @@ std::optional<Estimate> estimate(const std::vector<double>& numbers) {
     for (const double v : numbers) mean += v / n;
     for (const double v : numbers) squares += (v - mean) * (v - mean);
     if (numbers.size() == 1) return Estimate{mean, mean, mean};
-    const double half = student(numbers.size() - 1) * std::sqrt(squares / (n - 1) / n);
+    const double half = half_width(squares / (n - 1), numbers.size());
     return Estimate{mean, mean - half, mean + half, numbers.size()};
 }
 
-}  // namespace forage::plot
+}  // namespace forage

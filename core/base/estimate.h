@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-namespace forage::plot {
+namespace forage {
 
 /// A mean, and the interval that holds the true one with 95 % confidence (Student's t).
 struct Estimate {
@@ -15,4 +15,8 @@ struct Estimate {
 /// The estimate from independent numbers; empty when there are none. That of one number has no width.
 std::optional<Estimate> estimate(const std::vector<double>& numbers);
 
-}  // namespace forage::plot
+/// Half the width of such an interval, from the variance (n - 1) of `count` numbers, at least 2. Its bits do
+/// not depend on the mathematical library, because it uses square roots only.
+double half_width(double variance, std::size_t count);
+
+}  // namespace forage
