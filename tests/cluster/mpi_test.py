@@ -63,6 +63,20 @@ class Mpi(ExperimentTest):
         self.assertEqual(job.communicate(), ("", ""))
         self.same_as_one_machine()
 
+    def test_rounds(self):
+        text = (self.folder / "x.xml").read_text()
+        text = text.replace('trials="4"', 'trials="2"').replace('count="100"', 'count="3"').replace('values="0.2 0.8"', 'values="0.2 0.5 0.8 0.9 0.95"')
+        (self.folder / "x.xml").write_text(text.replace("</experiment>", '<halving measure="success"/></experiment>'))
+        job = self.start(3, "x.xml", "-o", "mpi")
+        output, errors = job.communicate()
+        self.assertEqual(job.returncode, 0, errors)
+        self.assertIn("x.xml: 36 runs\n", output)
+        self.same_as_one_machine()
+        shutil.rmtree(self.folder / "mpi")
+        job = self.start(1, "x.xml", "-o", "mpi", "-q")
+        self.assertEqual(job.communicate(), ("", ""))
+        self.same_as_one_machine()
+
     def test_mistakes(self):
         (self.folder / "x.xml").write_text("<experiment><length cycles='1'/></experiment>")
         job = self.start(2, "x.xml")

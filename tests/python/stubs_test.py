@@ -66,7 +66,7 @@ print(table["act"], table.to_pandas(), where)
 def test_programs_and_the_package_itself_are_checked_strictly(tmp_path):
     (tmp_path / "program.py").write_text(PROGRAM)
     (tmp_path / "mypy.ini").write_text(CONFIGURATION)
-    modules = [str(PROJECT / f"tools/python/forage/{name}.py") for name in ("_errors", "_experiment", "_picture", "_recording", "_types")]
+    modules = [str(PROJECT / f"tools/python/forage/{name}.py") for name in ("_errors", "_experiment", "_optimise", "_picture", "_recording", "_types")]
     check("mypy", "--strict", "--config-file", "mypy.ini", "--cache-dir", str(tmp_path / "cache"), "program.py", *modules, folder=tmp_path)
     # Its fallback for gymnasium is not annotated.
     gym = str(PROJECT / "tools/python/forage/gym.py")

@@ -132,10 +132,8 @@ std::optional<PreparedExperiment> prepare_experiment(model::Experiment wanted, s
             check_regular_file(table);
         hint = held_hint;
         out->hold = DirectoryHold(out->directory);
-        const RunPlan first = out->runs;
         if (out->experiment.adaptation) read_results(*out);  // folders of later rounds belong to it, too
         report_leftovers(*out, diagnostics);
-        out->runs = first, out->round = 1;
     } catch (const std::exception& e) {
         diagnostics.error({}, e.what(), hint);
         return std::nullopt;
@@ -192,6 +190,14 @@ PartResults read_planned(const PreparedExperiment& e, const std::optional<Shard>
     return out;
 }
 
+/// Leaves the runs of the first round. What follows is decided anew, because failed runs may have got
+/// numbers.
+void begin_rounds(PreparedExperiment& e) {
+    if (!e.experiment.adaptation) return;
+    e.runs = e.runs.with_seeds(std::vector(e.runs.combinations(), e.experiment.seeds.size()));
+    e.round = 1;
+}
+
 /// Plans the next round if there is one.
 bool add_round(PreparedExperiment& e, std::vector<std::optional<RunResult>>& results) {
     const auto seeds = next_round(e.experiment, e.runs, results);
@@ -207,6 +213,7 @@ bool add_round(PreparedExperiment& e, std::vector<std::optional<RunResult>>& res
 PartResults read_results(PreparedExperiment& e, const std::optional<Shard>& only) {
     // What the next round is depends on the results of all parts.
     const auto wanted = e.experiment.adaptation ? std::nullopt : only;
+    begin_rounds(e);
     PartResults out = read_planned(e, wanted);
     while (add_round(e, out.results)) out = read_planned(e, wanted);
     return out;
@@ -225,6 +232,7 @@ std::optional<std::vector<RunResult>> run_experiment(PreparedExperiment& e, int 
         std::remove(table.c_str());
     if (fresh) forget_parts(e.directory);
     const PrepareRun prepare = [&](const RunSpec& spec, Diagnostics& d) { return e.prepare(spec, d); };
+    begin_rounds(e);
     std::vector<std::optional<RunResult>> made(e.runs.size());
     PartResults found;
     do {

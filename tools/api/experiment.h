@@ -54,11 +54,12 @@ std::optional<PreparedExperiment> prepare_experiment(const std::string& file, st
                                                      const std::vector<std::string>& plugins,
                                                      Diagnostics& diagnostics,
                                                      const std::string& system = {});
-/// Does the same for a part of an experiment, or to read what parts have left. Locks nothing, because other
-/// parts work in the directory at the same time.
+/// Prepares a part of an experiment, or to read what parts have left: makes the directory, but locks nothing,
+/// because other parts work in it at the same time.
 std::optional<PreparedExperiment> prepare_part(model::Experiment experiment, std::string directory,
                                                const std::vector<std::string>& plugins,
                                                Diagnostics& diagnostics);
+/// Does the same with an experiment file.
 std::optional<PreparedExperiment> prepare_part(const std::string& file, std::string directory,
                                                const std::vector<std::string>& plugins,
                                                Diagnostics& diagnostics);

@@ -58,9 +58,17 @@ void hand_out(const std::vector<std::size_t>& open, int workers, bool quiet) {
     }
 }
 
+/// Tells all ranks from rank 0 which runs the round has. Returns false after the last round.
+bool begin_round(PreparedExperiment& e, bool last, int rank) {
+    std::vector<std::uint64_t> seeds(e.runs.combinations());
+    for (std::size_t c = 0; c < seeds.size(); ++c) seeds[c] = last ? 0 : e.runs.seeds(c);
+    MPI_Bcast(seeds.data(), static_cast<int>(seeds.size()), MPI_UINT64_T, 0, MPI_COMM_WORLD);
+    if (rank != 0) e.runs = e.runs.with_seeds({seeds.begin(), seeds.end()});
+    return seeds.front() > 0;
+}
+
 /// Executes blocks of rank 0 until it gives an empty one.
-void work(const PreparedExperiment& e, int rank) {
-    PartFile file(e.directory, fmt::format("mpi-{}", rank));
+void work(const PreparedExperiment& e, PartFile& file) {
     for (;;) {
         MPI_Send(nullptr, 0, MPI_BYTE, 0, ask, MPI_COMM_WORLD);
         MPI_Status from;
@@ -74,6 +82,13 @@ void work(const PreparedExperiment& e, int rank) {
     }
 }
 
+std::vector<std::size_t> runs_without_results(const PartResults& found) {
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < found.results.size(); ++i)
+        if (!found.results[i]) out.push_back(i);
+    return out;
+}
+
 int execute(const Options& o, int rank, int ranks) {
     Diagnostics diagnostics;
     auto e = prepare_part(o.file, o.directory, o.plugins, diagnostics);
@@ -85,17 +100,24 @@ int execute(const Options& o, int rank, int ranks) {
         if (rank != 0 && !fine) fmt::print(stderr, "rank {} cannot read the experiment\n", rank);
         return 2;
     }
+    PartFile file(e->directory, fmt::format("mpi-{}", rank));
     if (rank != 0) {
-        work(*e, rank);
+        while (begin_round(*e, false, rank)) {
+            work(*e, file);
+            MPI_Barrier(MPI_COMM_WORLD);  // all results of the round are written
+        }
         return 0;
     }
-    const auto open = open_runs(read_results(*e));
-    if (ranks > 1)
-        hand_out(open, ranks - 1, o.quiet);
-    else {
-        PartFile file(e->directory, "mpi-0");
-        print_failures(run_part(*e, file, open, 1, {}));
+    for (auto open = open_runs(read_results(*e)); !open.empty();
+         open = runs_without_results(read_results(*e))) {
+        begin_round(*e, false, rank);
+        if (ranks > 1)
+            hand_out(open, ranks - 1, o.quiet);
+        else
+            print_failures(run_part(*e, file, open, 1, {}));
+        MPI_Barrier(MPI_COMM_WORLD);
     }
+    begin_round(*e, true, rank);
     const auto results = merge(*e, diagnostics);
     if (!results) {
         fmt::print(stderr, "{}", format(diagnostics));

@@ -124,10 +124,22 @@ void run_shard(const What& what, const std::string& directory, const std::vector
     Watch watch{py::none()};
     const py::gil_scoped_release others;
     Diagnostics diagnostics;
-    const auto prepared = prepare_part(what, directory, plugins, diagnostics);
+    auto prepared = prepare_part(what, directory, plugins, diagnostics);
     throw_errors(diagnostics);
     run_part(*prepared, Shard{number, of}, 1, fresh, watch.callbacks());
     watch.rethrow();
+}
+
+/// The round of an experiment that parts work on, and how many of its runs have no result yet.
+template <class What>
+std::pair<std::size_t, std::size_t> missing_runs(const What& what, const std::string& directory,
+                                                 const std::vector<std::string>& plugins) {
+    const py::gil_scoped_release others;
+    Diagnostics diagnostics;
+    auto prepared = prepare_part(what, directory, plugins, diagnostics);
+    throw_errors(diagnostics);
+    const PartResults found = read_results(*prepared);
+    return {prepared->round, found.results.size() - found.finished() - found.failed()};
 }
 
 /// A sweep, as Python describes it.
@@ -177,7 +189,8 @@ PythonSweep make_sweep(const ExperimentPath& system, const std::optional<Experim
                        const py::object& settings, const std::vector<ExperimentPath>& plugins, bool noise,
                        std::optional<double> real_time_factor, std::optional<std::uint64_t> cycles,
                        std::optional<double> seconds, std::optional<std::uint64_t> trials,
-                       double trial_timeout, const std::string& until, const py::dict& measures) {
+                       double trial_timeout, const std::string& until, const py::dict& measures,
+                       const std::map<std::string, py::dict>& adaptations) {
     PythonSweep out;
     auto& e = out.experiment;
     e.path = system.string(), e.systems = {{system.string()}};
@@ -190,6 +203,12 @@ PythonSweep make_sweep(const ExperimentPath& system, const std::optional<Experim
     Diagnostics diagnostics;
     for (const auto& [name, kind] : measures)
         e.measures.push_back(measure_of(name.cast<std::string>(), kind.cast<py::dict>(), diagnostics));
+    for (const auto& [kind, options] : adaptations) {
+        if (e.adaptation)
+            diagnostics.error({}, "halving and confidence exclude each other", "leave out one of them");
+        e.adaptation = adaptation_of(kind, options, diagnostics);
+    }
+    model::check_adaptation(e, diagnostics);
     if (seeds.empty())
         diagnostics.error({}, "sweep: there is no seed", "seeds=5 stands for the seeds 1 to 5");
     throw_errors(diagnostics);
@@ -222,19 +241,23 @@ void add_experiments(py::module_& module) {
     const auto none = py::none();
     module.def("_experiment", &run_all<std::string>);
     module.def("_experiment_part", &run_shard<std::string>);
+    module.def("_experiment_missing", &missing_runs<std::string>);
     py::class_<PythonSweep>(module, "_Sweep")
         .def(py::init(&make_sweep), py::kw_only(), "system"_a, "world"_a, "values"_a, "seeds"_a, "settings"_a,
              "plugins"_a, "noise"_a, "real_time_factor"_a, "cycles"_a, "seconds"_a, "trials"_a,
-             "trial_timeout"_a, "until"_a, "measures"_a)
+             "trial_timeout"_a, "until"_a, "measures"_a, "adaptations"_a)
         .def("plan", &planned)
-        .def("run",
-             [](const PythonSweep& self, const std::string& directory, int jobs, py::object progress) {
-                 return run_all(self.experiment, directory, self.plugins, jobs, false, std::move(progress));
-             })
         .def("part",
              [](const PythonSweep& self, const std::string& directory, std::size_t number, std::size_t of) {
                  run_shard(self.experiment, directory, self.plugins, false, number, of);
-             });
+             })
+        .def("missing",
+             [](const PythonSweep& self, const std::string& directory) {
+                 return missing_runs(self.experiment, directory, self.plugins);
+             })
+        .def("run", [](const PythonSweep& self, const std::string& directory, int jobs, py::object progress) {
+            return run_all(self.experiment, directory, self.plugins, jobs, false, std::move(progress));
+        });
     module.def("_cores", &cores);
 }
 

@@ -95,6 +95,34 @@ model::Measure measure_of(const std::string& name, const py::dict& kind, Diagnos
     return m;
 }
 
+model::Adaptation adaptation_of(const std::string& kind, const py::dict& options, Diagnostics& diagnostics) {
+    const bool halving = kind == "halving";
+    const std::vector<std::string> names =
+        halving ? std::vector<std::string>{"measure", "keep"}
+                : std::vector<std::string>{"measure", "width", "relative_width", "most"};
+    model::Adaptation out;
+    out.kind = halving ? model::Adaptation::Kind::halving : model::Adaptation::Kind::confidence;
+    for (const auto& [key, value] : options) {
+        const auto name = key.cast<std::string>();
+        if (std::ranges::find(names, name) == names.end())
+            diagnostics.error({}, fmt::format("{}: there is no '{}'", kind, name), suggest(name, names));
+        if (name == "measure") out.measure = {value.cast<std::string>()};
+        if (name == "width") out.width = value.cast<double>();
+        if (name == "relative_width") out.relative_width = value.cast<double>();
+        if (name == "most") out.most = value.cast<std::uint64_t>();
+        if (name == "keep") {
+            const auto keep = value.cast<std::string>();
+            if (keep != "highest" && keep != "lowest")
+                diagnostics.error({}, fmt::format("halving: keep = '{}' is not possible", keep),
+                                  "'highest' or 'lowest'");
+            out.highest = keep != "lowest";
+        }
+    }
+    if (out.measure.empty())
+        diagnostics.error({}, kind + ": no measure is named", "for example {'measure': 'success', ...}");
+    return out;
+}
+
 void add_measure(PythonRun& run, const std::string& name, const py::kwargs& kind) {
     Run& r = run.use();
     Diagnostics diagnostics;

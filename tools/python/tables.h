@@ -18,6 +18,9 @@ py::array trials(PythonRun& run, std::size_t robot);
 
 /// A measure: `kind` is one pair such as "success": "all", and possibly "of", the name of a robot.
 model::Measure measure_of(const std::string& name, const py::dict& kind, Diagnostics& diagnostics);
+/// How an experiment adapts itself: `kind` is "confidence" or "halving", and `options` are the attributes of
+/// this element of experiment files, with _ for -.
+model::Adaptation adaptation_of(const std::string& kind, const py::dict& options, Diagnostics& diagnostics);
 /// Takes a measure from now on, as an experiment does: `kind` is one keyword such as success="all".
 void add_measure(PythonRun& run, const std::string& name, const py::kwargs& kind);
 /// The present values of all measures: a structured array of one row, NaN where there is nothing to measure.

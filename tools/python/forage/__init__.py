@@ -16,17 +16,19 @@ from ._recording import Recording
 
 # Imported when they are used, as they need NumPy, so that the import of the package takes little time.
 _EXPERIMENT = ("Table", "experiment", "sweep")
+_OPTIMISE = ("Optimum", "optimise")
 _TYPES = ("Cells", "Plugin", "Ports", "Synapses", "TypeInfo", "build_plugin", "feedback", "input", "module", "neuron", "output", "parameter", "state",
           "synapse", "types")
 
-__all__ = ["Arborization", "Cells", "Diagnostic", "DistanceFunction", "Film", "Group", "InputError", "InputWarning", "Manipulation", "Parameters",
+__all__ = ["Arborization", "Cells", "Diagnostic", "DistanceFunction", "Film", "Group", "InputError", "InputWarning", "Manipulation", "Optimum", "Parameters",
            "Pattern", "Picture", "Plugin", "Ports", "Probe", "Recording", "Run", "RunError", "Synapses", "System", "Table", "TypeInfo",
-           "build_plugin", "experiment", "feedback", "input", "module", "neuron", "open", "output", "parameter", "resume", "state", "sweep",
+           "build_plugin", "experiment", "feedback", "input", "module", "neuron", "open", "optimise", "output", "parameter", "resume", "state", "sweep",
            "synapse", "types"]
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from ._experiment import Table, experiment, sweep
+    from ._optimise import Optimum, optimise
     from ._types import (Cells, Plugin, Ports, Synapses, TypeInfo, build_plugin, feedback, input, module, neuron, output, parameter, state, synapse,
                          types)
 
@@ -35,6 +37,8 @@ def __getattr__(name):
     """Imports what needs NumPy when it is used."""
     if name in _EXPERIMENT:
         from . import _experiment as place
+    elif name in _OPTIMISE:
+        from . import _optimise as place
     elif name in _TYPES:
         from . import _types as place
     else:

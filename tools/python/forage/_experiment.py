@@ -22,6 +22,7 @@ Path = typing.Union[str, "os.PathLike[str]"]
 Progress = typing.Union[bool, typing.Callable[[float, str], object], None]
 Function = typing.Callable[[_forage.Run], typing.Any]
 Measure = typing.Union[typing.Mapping[str, str], Function]
+Options = typing.Mapping[str, typing.Any]
 Values = typing.Mapping[typing.Any, typing.Iterable[typing.Any]]
 
 _COLUMNS = ("run", "seed", "status", "cycles", "seconds", "trials", "reached", "remark")
@@ -77,51 +78,80 @@ def experiment(file: Path, *, directory: Path | None = None, plugins: typing.Ite
 
     executor: a concurrent.futures.Executor or a dask.distributed.Client whose workers execute the runs, one at a time each. They need the same files and the
         same folder at the same paths. Runs that fail there are tried again here.
-    parts: with an executor, the number of tasks that it gets.
+    parts: with an executor, the number of tasks that it gets; for an experiment that adapts itself, in each round.
 
     Raises InputError with all mistakes in the file, and what a task of the executor raises. Ctrl-C ends all runs; the same call continues with those that
     are not finished.
     """
     folder = os.fspath(directory) if directory is not None else f"forage-out/{pathlib.Path(file).stem}"
     if executor is not None:
-        _execute(executor, operator.index(parts), _reporter(progress), _part, os.path.abspath(file), os.path.abspath(folder),
-                 [os.path.abspath(p) for p in plugins], fresh)
+        work = _FileParts(os.path.abspath(file), os.path.abspath(folder), [os.path.abspath(p) for p in plugins], fresh)
+        _execute(executor, operator.index(parts), _reporter(progress), work)
         file, fresh = os.path.abspath(file), False
     return _table(_forage._experiment(os.fspath(file), folder, [os.fspath(p) for p in plugins], jobs, fresh, _reporter(progress)), folder)
 
 
-def _part(file: str, folder: str, plugins: list[str], fresh: bool, number: int, of: int) -> None:
-    """Executes one part of an experiment in a worker; functions of C++ cannot be sent to one."""
-    _forage._experiment_part(file, folder, plugins, fresh, number, of)
+class _FileParts(typing.NamedTuple):
+    """The parts of an experiment file. It can be sent to workers, as functions of C++ cannot."""
+
+    file: str
+    folder: str
+    plugins: list[str]
+    fresh: bool
+
+    def part(self, number: int, of: int) -> None:
+        _forage._experiment_part(self.file, self.folder, self.plugins, self.fresh, number, of)
+
+    def missing(self) -> tuple[int, int]:
+        return _forage._experiment_missing(self.file, self.folder, self.plugins)
+
+    def next_round(self) -> _FileParts:
+        return self._replace(fresh=False)
 
 
-def _part_of_sweep(description: dict[str, typing.Any], folder: str, number: int, of: int) -> None:
-    """Executes one part of a sweep in a worker."""
-    _forage._Sweep(**description).part(folder, number, of)
+class _SweepParts(typing.NamedTuple):
+    """The parts of a sweep, of which only its description can be sent to workers."""
+
+    description: dict[str, typing.Any]
+    folder: str
+
+    def part(self, number: int, of: int) -> None:
+        _forage._Sweep(**self.description).part(self.folder, number, of)
+
+    def missing(self) -> tuple[int, int]:
+        return _forage._Sweep(**self.description).missing(self.folder)
+
+    def next_round(self) -> _SweepParts:
+        return self
 
 
-def _execute(executor: typing.Any, parts: int, report: typing.Callable[[float, str], object] | None, task: typing.Callable[..., None],
-             *arguments: typing.Any) -> None:
-    """Executes all parts of an experiment with an executor."""
+def _execute(executor: typing.Any, parts: int, report: typing.Callable[[float, str], object] | None, work: _FileParts | _SweepParts) -> None:
+    """Executes all parts of an experiment with an executor, round by round."""
     if hasattr(executor, "get_executor"):  # a client of Dask; its results must not be those of an earlier call
         executor = executor.get_executor(pure=False)
-    waiting = [executor.submit(task, *arguments, i, parts) for i in range(1, parts + 1)]
-    try:
-        for done, future in enumerate(waiting, 1):
-            future.result()
-            if report:
-                report(done / parts, f"{done}/{parts} parts")
-    finally:  # after a failure, and after Ctrl-C
-        for future in waiting:
-            future.cancel()
+    before: tuple[int, int] | None = None
+    while True:
+        waiting = [executor.submit(work.part, i, parts) for i in range(1, parts + 1)]
+        try:
+            for done, future in enumerate(waiting, 1):
+                future.result()
+                if report:
+                    report(done / parts, f"{done}/{parts} parts" if before is None else f"round {before[0]}: {done}/{parts} parts")
+        finally:  # after a failure, and after Ctrl-C
+            for future in waiting:
+                future.cancel()
+        left = work.missing()
+        if left[1] == 0 or left == before:  # what workers do not leave in the folder is executed here
+            return
+        before, parts, work = left, min(parts, left[1]), work.next_round()
 
 
 def sweep(system: Path | _forage.System, world: Path | None = None, values: Values | None = None, *, seeds: int | typing.Iterable[int] = 1,
           measure: Function | typing.Mapping[str, Measure] | None = None, cycles: int | None = None, seconds: float | None = None,
           trials: int | None = None, until: str = "", trial_timeout: float = 300.0,
           settings: typing.Mapping[str, typing.Any] | typing.Iterable[str] | None = None, plugins: typing.Iterable[Path] = (), noise: bool = True,
-          real_time_factor: float | None = None, directory: Path | None = None, jobs: int = 0, progress: Progress = None,
-          executor: typing.Any = None, parts: int = 64) -> Table:
+          real_time_factor: float | None = None, confidence: Options | None = None, halving: Options | None = None, directory: Path | None = None,
+          jobs: int = 0, progress: Progress = None, executor: typing.Any = None, parts: int = 64) -> Table:
     """Runs a system with every combination of values and seeds, on all cores, and returns the Table of the runs.
 
         forage.sweep("reactive.iqr", "basic.world", {"Reactive/US.threshold": [0.2, 0.4]}, seeds=5, trials=10, measure={"success": {"success": "all"}})
@@ -134,6 +164,10 @@ def sweep(system: Path | _forage.System, world: Path | None = None, values: Valu
         its name. Functions are called with each Run at its end and return a number, or a dictionary of numbers by name. Without a length, the function
         runs the run itself.
     settings, plugins, noise, real_time_factor: as for open(). trial_timeout: seconds of the world after which a trial ends its run, which is then "stopped".
+    confidence: adds seeds to each combination of values until the 95 % interval of the mean of a measure is narrow enough: {"measure": "success",
+        "width": 0.1}, or "relative_width", a share of the mean; "most" is the largest number of seeds [100].
+    halving: searches the best combination in rounds; in each, the better half gets twice as many seeds: {"measure": "success", "keep": "highest"}, or
+        "lowest". Both begin with `seeds`, and both need a measure that is no function.
     directory: keeps the results, which `forage view` shows and which are not computed again; only without functions.
     jobs, progress, executor, parts: as for experiment(). Workers on other machines need a `directory` that they share, and measures of experiment files.
 
@@ -143,6 +177,9 @@ def sweep(system: Path | _forage.System, world: Path | None = None, values: Valu
     functions, declared = _measures(measure)
     if functions and directory is not None:
         raise ValueError("directory: results of functions are not kept in files")
+    adaptations = {kind: dict(options) for kind, options in (("confidence", confidence), ("halving", halving)) if options is not None}
+    if functions and adaptations:
+        raise ValueError("confidence, halving: the measures cannot be functions")
     if functions and executor is not None:
         raise ValueError("executor: functions are called in this process; workers take measures such as {'success': 'all'}")
     if sum(n is not None for n in (cycles, seconds, trials)) > 1:
@@ -163,10 +200,11 @@ def sweep(system: Path | _forage.System, world: Path | None = None, values: Valu
             file, world, folder = os.path.abspath(file), world and os.path.abspath(world), os.path.abspath(folder)
             setup["plugins"] = [os.path.abspath(p) for p in setup["plugins"]]
         description = dict(system=file, world=world, values=listed, seeds=_seeds(seeds), settings=_settings(settings), measures=declared, until=until,
-                           **length, **setup)
+                           adaptations=adaptations, **length, **setup)
         planned = _forage._Sweep(**description)
         if executor is not None:
-            _execute(executor, operator.index(parts), _reporter(progress), _part_of_sweep, description, folder)
+            planned.missing(folder)  # tells all mistakes before anything is sent
+            _execute(executor, operator.index(parts), _reporter(progress), _SweepParts(description, folder))
         if not functions:
             return _table(planned.run(folder, jobs, _reporter(progress)), None if directory is None else folder)
         names = [name for key in values or {} for name in (key if isinstance(key, tuple) else [key])]
