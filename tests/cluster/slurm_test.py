@@ -47,6 +47,29 @@ class Slurm(ExperimentTest):
         self.assertGreater(len(list(parts.iterdir())), 6)  # parts that were killed have started again
         self.same_as_one_machine()
 
+    def test_rounds_submit_the_next_one(self):
+        (self.folder / "x.xml").write_text(f"""<experiment>
+  <system file="{PROJECT}/systems/reactive_foraging.iqr"/>
+  <world file="{PROJECT}/systems/worlds/basic_arena.world"/>
+  <length trials="2" longest-trial="60"/>
+  <seeds count="3"/>
+  <sweep parameter="Reactive Layer/US.threshold" values="0.2 0.5 0.8 0.9 0.95"/>
+  <measure name="length" duration="all"/>
+  <halving measure="length" keep="lowest"/>
+</experiment>
+""")
+        results = self.folder / "it's here"
+        submitted = self.forage("--slurm", "--array-size", "3")
+        self.assertRegex(submitted.stdout, r"Slurm jobs \d+ \(3 parts\) and \d+ \(merge\)")
+        wait_for((results / "results.csv").exists)
+        wait_for(lambda: not said("squeue", "-h"))
+        jobs = (results / "slurm" / "jobs").read_text().splitlines()
+        self.assertEqual([line.split("(")[1].split(")")[0] for line in jobs], ["3 parts", "round 2", "round 3"])
+        self.assertIn("36 runs\n", (results / "slurm" / "merge.log").read_text())
+        self.assertEqual(self.forage(directory="whole").returncode, 0)
+        for name in ("results.csv", "summary.csv"):
+            self.assertEqual((results / name).read_bytes(), (self.folder / "whole" / name).read_bytes())
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

@@ -26,7 +26,7 @@ std::string quoted(const std::string& text) {
 constexpr const char* parts_script = R"(#!/bin/sh
 # Executes one part of an experiment per task. `forage experiment --slurm` has written and submitted this file.
 # You may change it and submit it yourself:
-#   parts=$(sbatch --parsable {parts}) && sbatch --dependency=afterany:$parts {merge}
+#   parts=$(sbatch --parsable {parts}) && sbatch --dependency=afterany:$parts {merge}{round}
 #SBATCH --job-name={name}
 #SBATCH --array=1-{tasks}
 #SBATCH --requeue
@@ -45,13 +45,14 @@ exit $status
 )";
 
 constexpr const char* merge_script = R"(#!/bin/sh
-# Writes the tables of an experiment when all parts have ended.
+# Writes the tables of an experiment when all parts have ended. Its argument is the number of the round, if the experiment
+# adapts itself: when another round follows, both scripts are submitted again.
 #SBATCH --job-name={name}-merge
 #SBATCH --requeue
 #SBATCH --output="{logs}/merge.log"
 {options}
 cd {here} || exit 1
-{command} --merge
+{command} --merge ${{1:+--after-round "$1"}}
 )";
 
 struct Said {
@@ -79,11 +80,30 @@ std::string sbatch(const std::string& arguments, Diagnostics& diagnostics) {
     return {};
 }
 
+/// Submits both scripts. Returns a line about `what`, which it adds to the list of jobs.
+std::string submit_scripts(const std::string& logs, const std::string& what, const std::string& round,
+                           Diagnostics& diagnostics) {
+    const std::string array = sbatch(quoted(logs + "/parts.sh"), diagnostics);
+    if (array.empty()) return {};
+    const std::string last = sbatch(
+        fmt::format("--dependency=afterany:{} {}{}", array, quoted(logs + "/merge.sh"), round), diagnostics);
+    const std::string line = fmt::format("Slurm jobs {} ({}) and {} (merge)", array, what, last);
+    std::ofstream(logs + "/jobs", std::ios::app) << line << '\n';
+    return line + "\n";
+}
+
+std::string logs_of(const std::string& directory) {
+    return fs::absolute(directory + "/slurm").lexically_normal().string();
+}
+
+/// The argument of merge.sh.
+std::string argument_of(std::size_t round) { return round > 0 ? fmt::format(" {}", round) : ""; }
+
 }  // namespace
 
 std::string submit(const SlurmJob& job, std::size_t runs, bool dry_run, Diagnostics& diagnostics) {
     const std::size_t tasks = std::min<std::size_t>(job.tasks > 0 ? job.tasks : 100, runs);
-    const std::string logs = fs::absolute(job.directory + "/slurm").lexically_normal().string();
+    const std::string logs = logs_of(job.directory), round = argument_of(job.round);
     const std::string parts = logs + "/parts.sh", merge = logs + "/merge.sh";
     std::string command = fmt::format("{} experiment {} -o {}", quoted(fs::read_symlink("/proc/self/exe")),
                                       quoted(job.file), quoted(job.directory));
@@ -92,11 +112,12 @@ std::string submit(const SlurmJob& job, std::size_t runs, bool dry_run, Diagnost
     for (const auto& option : job.sbatch) options += "#SBATCH " + option + "\n";
     const auto written = [&](const std::string& path, const char* text) {
         write_file(path,
-                   fmt::format(
-                       fmt::runtime(text), fmt::arg("parts", quoted(parts)), fmt::arg("merge", quoted(merge)),
-                       fmt::arg("name", file_name("forage-" + fs::path(job.file).stem().string())),
-                       fmt::arg("tasks", tasks), fmt::arg("logs", logs), fmt::arg("options", options),
-                       fmt::arg("command", command), fmt::arg("here", quoted(fs::current_path().string()))));
+                   fmt::format(fmt::runtime(text), fmt::arg("parts", quoted(parts)),
+                               fmt::arg("merge", quoted(merge)),
+                               fmt::arg("name", file_name("forage-" + fs::path(job.file).stem().string())),
+                               fmt::arg("tasks", tasks), fmt::arg("logs", logs), fmt::arg("options", options),
+                               fmt::arg("command", command), fmt::arg("round", round),
+                               fmt::arg("here", quoted(fs::current_path().string()))));
     };
     try {
         make_directory(logs);
@@ -108,15 +129,15 @@ std::string submit(const SlurmJob& job, std::size_t runs, bool dry_run, Diagnost
     }
     if (dry_run)
         return fmt::format(
-            "written: {0}, {1}\nparts=$(sbatch --parsable {2}) && sbatch --dependency=afterany:$parts {3}\n",
-            parts, merge, quoted(parts), quoted(merge));
-    const std::string array = sbatch(quoted(parts), diagnostics);
-    if (array.empty()) return {};
-    const std::string last =
-        sbatch(fmt::format("--dependency=afterany:{} {}", array, quoted(merge)), diagnostics);
-    const std::string line = fmt::format("Slurm jobs {} ({} parts) and {} (merge)", array, tasks, last);
-    std::ofstream(logs + "/jobs", std::ios::app) << line << '\n';
-    return line + "\n";
+            "written: {0}, {1}\nparts=$(sbatch --parsable {2}) && sbatch --dependency=afterany:$parts "
+            "{3}{4}\n",
+            parts, merge, quoted(parts), quoted(merge), round);
+    return submit_scripts(logs, fmt::format("{} parts", tasks), round, diagnostics);
+}
+
+std::string submit_round(const std::string& directory, std::size_t round, Diagnostics& diagnostics) {
+    return submit_scripts(logs_of(directory), fmt::format("round {}", round), argument_of(round),
+                          diagnostics);
 }
 
 std::vector<std::string> submitted_jobs(const std::string& directory) {

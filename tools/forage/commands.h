@@ -63,6 +63,7 @@ struct ExperimentOptions {
     std::vector<std::string> formats = {};  ///< of further tables: "npy", "hdf5"
     std::string shard = {};                 ///< "3/10": executes this part only
     bool merge = false, status = false;
+    std::size_t after_round = 0;  ///< with merge: Slurm gets the next round when a later one is planned
     bool slurm = false, dry_run = false;   ///< submits to Slurm, or only writes the scripts
     int tasks = 0;                         ///< of Slurm's array; 0: at most 100
     std::vector<std::string> sbatch = {};  ///< further options of sbatch, such as "--partition=short"

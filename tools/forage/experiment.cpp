@@ -129,8 +129,9 @@ int print_status(PreparedExperiment& e) {
     return fine;
 }
 
-int submit(const ExperimentOptions& o, const PreparedExperiment& e) {
+int submit(const ExperimentOptions& o, PreparedExperiment& e) {
     cluster::SlurmJob job{o.file, e.directory, o.plugins, o.sbatch, o.tasks};
+    if (e.experiment.adaptation) read_results(e), job.round = e.round;
     Diagnostics diagnostics;
     const auto text = cluster::submit(job, e.runs.size(), o.dry_run, diagnostics);
     fmt::print(stderr, "{}", format(diagnostics));
@@ -150,6 +151,12 @@ int experiment_in_parts(const ExperimentOptions& o) {
     e->formats = formats_of(o);
     Diagnostics merging;
     const auto results = merge(*e, merging);
+    if (!results && o.after_round > 0 && e->round > o.after_round) {
+        Diagnostics submitting;
+        fmt::print("{}", cluster::submit_round(e->directory, e->round, submitting));
+        fmt::print(stderr, "{}", format(submitting));
+        return submitting.failed() ? run_failed : fine;
+    }
     fmt::print(stderr, "{}", format(merging));
     return results ? print_results(o, *e, *results) : run_failed;
 }

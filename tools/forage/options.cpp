@@ -188,6 +188,13 @@ void add_experiment(CLI::App& app, ExperimentOptions& o) {
         experiment.add_flag("--slurm", o.slurm, "Submit all parts to Slurm, and a merge behind them");
     for (auto* flag : {merge, status, slurm}) flag->group(cluster)->excludes(shard);
     merge->excludes(status)->excludes(slurm), status->excludes(slurm);
+    experiment
+        .add_option("--after-round", o.after_round,
+                    "With --merge, in the script of --slurm: when round N is complete and another one "
+                    "follows, submit it")
+        ->needs(merge)
+        ->option_text("N")
+        ->group(cluster);
     experiment.add_flag("--dry-run", o.dry_run, "With --slurm: only write the scripts")
         ->needs(slurm)
         ->group(cluster);
