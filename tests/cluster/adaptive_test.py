@@ -4,8 +4,10 @@
 """
 import csv
 import math
+import os
 import pathlib
 import random
+import re
 import shutil
 import signal
 import statistics
@@ -93,7 +95,7 @@ class Adaptive(unittest.TestCase):
             self.assertTrue(len(numbers) == 3 or width[0] > 0.5)
             counts.append(len(numbers))
         self.assertGreater(len(set(counts)), 2, "combinations differ")
-        self.assertIn(f"note: the interval of length is narrow enough in {narrow} of 5 combinations", said)
+        self.assertIn(f"note: the interval of 'length' is narrow enough in {narrow} of 5 combinations", said)
 
     def test_halving(self):
         self.write(HALVING)
@@ -106,7 +108,7 @@ class Adaptive(unittest.TestCase):
         self.assertEqual({value for value, n in found.items() if len(n) == 12}, second)
         self.assertEqual(sorted(len(n) for n in found.values()), [3, 3, 6, 12, 12])
         best = min(second, key=lambda value: statistics.fmean(found[value]))
-        self.assertRegex(said, f"note: the lowest length, [0-9.]+, is that of Reactive Layer/US.threshold = {best}\n")
+        self.assertRegex(said, f"note: the lowest 'length', [0-9.]+, is that of Reactive Layer/US.threshold = {best}\n")
 
     def test_the_number_of_workers_changes_nothing(self):
         for adapt in (CONFIDENCE, HALVING):
@@ -181,6 +183,21 @@ class Adaptive(unittest.TestCase):
                 self.assertEqual(self.tables(directory), self.tables("whole"))
                 shutil.rmtree(self.folder / directory)
             shutil.rmtree(self.folder / "whole")
+
+    def test_the_how_to(self):
+        """Its files and commands, and what they print."""
+        text = (PROJECT / "docs" / "how-to" / "adaptive.md").read_text()
+        (self.folder / "systems").symlink_to(PROJECT / "systems")
+        for name, content in re.findall(r"Save this as `(\S+)`:\n\n```xml\n(.*?)^```", text, re.MULTILINE | re.DOTALL):
+            (self.folder / name).write_text(content)
+        path = f"{pathlib.Path(FORAGE).parent}:{os.environ['PATH']}"
+        blocks = re.findall(r"^```sh\n(.*?)^```\n(?:\n```\n(.*?)^```)?", text, re.MULTILINE | re.DOTALL)
+        self.assertEqual(len(blocks), 3)
+        for commands, printed in blocks:
+            done = subprocess.run(["sh", "-c", commands], cwd=self.folder, capture_output=True, text=True, env={**os.environ, "PATH": path})
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(done.stdout, printed or done.stdout)
+        self.assertEqual(self.tables("results"), self.tables("forage-out/best"))
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ from conftest import PROJECT, SYSTEMS
 BLOCK = re.compile(r"^```(python|text)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
-@pytest.mark.parametrize("page, needed", [("python", []), ("python-learning", []), ("python-models", ["pandas", "scipy"]), ("python-types", []), ("from-other-tools", [])])
+@pytest.mark.parametrize("page, needed", [("adaptive", ["pandas", "scipy"]), ("python", []), ("python-learning", []), ("python-models", ["pandas", "scipy"]), ("python-types", []), ("from-other-tools", [])])
 def test_a_page_is_followed_to_its_end(page, needed, tmp_path, monkeypatch):
     for package in needed:
         pytest.importorskip(package)
@@ -28,7 +28,7 @@ def test_a_page_is_followed_to_its_end(page, needed, tmp_path, monkeypatch):
             with contextlib.redirect_stdout(io.StringIO()) as out:
                 exec(compile(content, f"{page}.md", "exec"), names)
             printed = out.getvalue()
-    assert printed == "" and len(blocks) > (2 if page == "from-other-tools" else 5)  # that page has one model
+    assert printed == "" and len(blocks) > {"from-other-tools": 2, "adaptive": 3}.get(page, 5)  # that page has one model
 
 
 def test_brian2_counts_the_same_spikes(tmp_path, monkeypatch):

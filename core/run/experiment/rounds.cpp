@@ -117,14 +117,14 @@ std::string adaptation_note(const model::Experiment& e, const RunPlan& plan,
         for (std::size_t i = 0; i < e.sweeps.size(); ++i)
             values.push_back(fmt::format("{} = {}", e.sweeps[i].parameter.text, plan.values(best)[i]));
         const auto found = estimate(numbers_of(e, plan, results, best));
-        return fmt::format("the {} {}, {}, is that of {}", a.highest ? "highest" : "lowest", a.measure.text,
+        return fmt::format("the {} '{}', {}, is that of {}", a.highest ? "highest" : "lowest", a.measure.text,
                            found ? plain_number(found->mean, 4) : "none", fmt::join(values, ", "));
     }
     std::size_t enough = 0;
     for (std::size_t c = 0; c < plan.combinations(); ++c)
         enough += narrow(a, numbers_of(e, plan, results, c));
-    return fmt::format("the interval of {} is narrow enough in {} of {} combinations", a.measure.text, enough,
-                       plan.combinations());
+    return fmt::format("the interval of '{}' is narrow enough in {} of {} combinations", a.measure.text,
+                       enough, plan.combinations());
 }
 
 }  // namespace forage

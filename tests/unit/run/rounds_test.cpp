@@ -1,8 +1,10 @@
 // The rounds of adaptive experiments: which runs follow from which results.
 #include "core/run/experiment/rounds.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <random>
 
 #include "core/base/estimate.h"
 #include "tests/support/catch.h"
@@ -186,15 +188,39 @@ TEST_CASE("No round is decided before all results of the last one are there") {
     CHECK(next_round(e, plan, results));
 }
 
+TEST_CASE("The interval of an experiment that stops when it is narrow holds the mean a little less often") {
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal;
+    const auto coverage = [&](std::size_t begin) {
+        const std::size_t experiments = 4000;
+        std::vector<double> numbers(300);
+        const auto e = experiment_of(until_width(1, numbers.size()), experiments, begin);
+        std::vector<std::vector<double>> all(experiments, numbers);
+        for (auto& each : all) std::generate(each.begin(), each.end(), [&] { return normal(random); });
+        const auto seeds = rounds_of(e, [&](std::size_t c, std::uint64_t s) { return all[c][s - 1]; }).back();
+        int held = 0;
+        for (std::size_t c = 0; c < experiments; ++c) {
+            all[c].resize(seeds[c]);
+            const auto found = *estimate(all[c]);
+            held += found.low <= 0 && 0 <= found.high;
+        }
+        return static_cast<double>(held) / experiments;
+    };
+    // docs/how-to/adaptive.md says so
+    CHECK(coverage(2) == Approx(0.89).margin(0.011));
+    CHECK(coverage(5) == Approx(0.92).margin(0.011));
+    CHECK(coverage(10) == Approx(0.94).margin(0.011));
+}
+
 TEST_CASE("What the rounds have found is said in a sentence") {
     auto e = experiment_of(halving(), 2, 2);
     const RunPlan plan(e, "out");
     std::vector<RunResult> results;
     for (const double score : {1.0, 2.0, 2.5, 3.5}) results.push_back(*result_of(score));
-    CHECK(adaptation_note(e, plan, results) == "the highest score, 3, is that of P/A.eta = 1");
+    CHECK(adaptation_note(e, plan, results) == "the highest 'score', 3, is that of P/A.eta = 1");
     e = experiment_of(until_width(14), 2, 2);  // 2 * 12.706 * 0.5 = 12.7
     CHECK(adaptation_note(e, plan, results) ==
-          "the interval of score is narrow enough in 2 of 2 combinations");
+          "the interval of 'score' is narrow enough in 2 of 2 combinations");
     e.adaptation.reset();
     CHECK(adaptation_note(e, plan, results).empty());
 }
