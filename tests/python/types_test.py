@@ -52,7 +52,24 @@ class Echo:
         ports.said = self.gain * ports.heard
 
 
+@forage.module
+class Trace:
+    """What was heard fades, and is said with noise."""
+
+    decay = forage.parameter(0.9)
+    gain = forage.parameter(0.05)
+    heard = forage.input()
+    said = forage.output()
+    trace = forage.state(numpy.zeros((10, 20)))
+
+    def update(self, ports):
+        self.trace = self.decay * self.trace + ports.heard
+        ports.said = self.gain * self.trace * (1 + ports.random(200).reshape(10, 20))
+
+
 TWINS = r"""
+#include <vector>
+
 #include <forage/plugin.h>
 struct Leaky {
     double threshold = 0.3, noise = 0.1;
@@ -81,7 +98,36 @@ struct Oja {
     void update(Synapse& s, double pre, const Target& t) const { s.weight += rate * t.post * (pre - t.post * s.weight); }
     double output(const Synapse& s, double pre) const { return s.weight * pre; }
 };
-FORAGE_PLUGIN(Leaky, Oja);
+class Trace {
+  public:
+    double decay = 0.9, gain = 0.05;
+    static void describe(forage::ModuleSpec<Trace>& s) {
+        s.name("moduleTraceTwin", "Trace");
+        s.param("decay", &Trace::decay);
+        s.param("gain", &Trace::gain);
+        s.input("heard", "Heard");
+        s.output("said", "Said");
+    }
+    void start(const forage::ModulePorts& ports) {
+        random_ = ports.random;
+        trace_.assign(static_cast<std::size_t>(ports.inputs[0].shape.cells), 0);
+        drawn_ = trace_;
+    }
+    void update(forage::ModuleFrame& frame) {
+        random_.uniform(frame.cycle(), drawn_);
+        auto said = frame.output(0);
+        for (std::size_t i = 0; i < trace_.size(); ++i) {
+            trace_[i] = decay * trace_[i] + frame.input(0)[static_cast<forage::Index>(i)];
+            said[static_cast<forage::Index>(i)] = gain * trace_[i] * (1 + drawn_[i]);
+        }
+    }
+    void checkpoint(forage::Archive& archive) { archive(trace_); }
+
+  private:
+    forage::RandomStream random_;
+    std::vector<double> trace_, drawn_;
+};
+FORAGE_PLUGIN(Leaky, Oja, Trace);
 """
 
 
@@ -115,6 +161,25 @@ def test_a_twin_in_cpp_gives_the_same_bits(twins, seed, threads):
             assert (runs[0].read(what) == runs[1].read(what)).all()
         assert runs[0].digest() == runs[1].digest()
     assert runs[0]["P/B"].act.any() and numpy.array_equal(runs[0].read("Link:weight"), runs[1].read("Link:weight"), equal_nan=True)
+
+
+@pytest.mark.parametrize("seed", [1, 7])
+def test_a_module_and_its_twin_in_cpp_write_the_same_bits(twins, seed):
+    runs = [forage.open(system_of(module=Trace), seed=seed), forage.open(system_of(module="moduleTraceTwin", plugins=[twins]), seed=seed)]
+    silent = forage.open(system_of(), seed=seed)
+    for cycle in range(200):
+        for run in runs:
+            if cycle == 100:
+                run.params["P.decay"] = 0.5
+            run.step()
+        for what in ("P/A", "P/B", "P/B:vm"):
+            assert (runs[0].read(what) == runs[1].read(what)).all()
+        silent.step()
+    assert (runs[0].read("P/B") != silent.read("P/B")).any()
+    resumed = [forage.resume(run.save_state()) for run in runs]
+    for run in resumed:
+        run.run(cycles=50)
+    assert (resumed[0].read("P/B") == resumed[1].read("P/B")).all()
 
 
 def test_types_are_described_and_validated():
