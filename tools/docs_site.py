@@ -1,5 +1,9 @@
-"""Makes README.md, CHANGELOG.md and CONTRIBUTING.md pages of the site (a hook of mkdocs), and links to other files of the project plain text."""
+"""Makes README.md, CHANGELOG.md, CONTRIBUTING.md and the notebooks pages of the site (a hook of mkdocs), and links to other files of the project plain text.
 
+FORAGE_NOTEBOOKS is the folder that notebook_pages.py has filled; without it, the pages of notebooks show no outputs.
+"""
+
+import json
 import os
 import pathlib
 import re
@@ -11,7 +15,24 @@ PAGES = {"README.md": "index.md", "CHANGELOG.md": "changelog.md", "CONTRIBUTING.
 LINK = re.compile(r"(!?)\[([^\]]*)\]\((?!https?:|#)([^)#\s]+)(#[^)\s]*)?\)")
 
 
+def notebook_page(file):
+    """The texts and the code of a notebook."""
+    cells = json.loads(file.read_text())["cells"]
+    return "\n\n".join(f"```python\n{text}\n```" if kind == "code" else text for kind, text in ((c["cell_type"], "".join(c["source"])) for c in cells))
+
+
+def add_notebooks(files, config):
+    made = os.environ.get("FORAGE_NOTEBOOKS")
+    for file in sorted(pathlib.Path(config["docs_dir"], "notebooks").glob("*.ipynb")):
+        pictures = sorted(pathlib.Path(made, f"{file.stem}_files").glob("*")) if made else []
+        for name in [f"{file.stem}.md"] + [f"{file.stem}_files/{picture.name}" for picture in pictures]:
+            page = File(f"notebooks/{name}", config["docs_dir"], config["site_dir"], config["use_directory_urls"])
+            page.abs_src_path = f"{made}/{name}" if made else str(file)
+            files.append(page)
+
+
 def on_files(files, config):
+    add_notebooks(files, config)
     for page in PAGES.values():
         files.append(File(page, config["docs_dir"], config["site_dir"], config["use_directory_urls"]))
     return files
@@ -21,6 +42,10 @@ def on_page_read_source(page, config):
     for name, made in PAGES.items():
         if page.file.src_path == made:
             return (PROJECT / name).read_text()
+    source = pathlib.Path(page.file.abs_src_path)
+    if page.file.src_path.startswith("notebooks/"):
+        text = notebook_page(source) if source.suffix == ".ipynb" else source.read_text()
+        return f"{text}\n\n---\n\n[Download this page as a notebook]({pathlib.Path(page.file.src_path).stem}.ipynb)\n"
     return None
 
 
@@ -30,6 +55,8 @@ def on_page_markdown(markdown, page, config, files):
 
     def moved(match):
         picture, text, path, part = match.groups()
+        if source.startswith("docs/notebooks/") and "_files/" in path:  # a picture that the notebook has drawn
+            return match.group(0)
         target = os.path.normpath(os.path.join(os.path.dirname(source), path))
         if not (PROJECT / target).exists():
             raise SystemExit(f"{source}: there is no {target}")
@@ -40,7 +67,8 @@ def on_page_markdown(markdown, page, config, files):
         return f"{picture}[{text}]({os.path.relpath(on_site, here or '.')}{part or ''})"
 
     # Blocks of code are left as they are.
-    # What is folded is Markdown, too.
-    markdown = markdown.replace("<details><summary>", '<details markdown="1">\n<summary markdown="span">')
+    # What is folded is Markdown, too, but not in the outputs of notebooks.
+    if not source.startswith("docs/notebooks/"):
+        markdown = markdown.replace("<details><summary>", '<details markdown="1">\n<summary markdown="span">')
     pieces = re.split(r"(```.*?```)", markdown, flags=re.DOTALL)
     return "".join(p if i % 2 else LINK.sub(moved, p) for i, p in enumerate(pieces))
