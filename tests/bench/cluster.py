@@ -13,8 +13,8 @@ import xml.etree.ElementTree as tree
 
 from command_line import SYSTEMS, result, run
 
-TURNS = 3
-SEEDS = 40
+TURNS = 2
+SEEDS = 20
 
 
 def write_experiment(path):

@@ -1,6 +1,5 @@
 """Experiments in parts: the same tables as in one piece, after kills at any moment. The arguments are those of support.py."""
 import random
-import signal
 import subprocess
 import sys
 import time
@@ -100,24 +99,32 @@ class Parts(ExperimentTest):
 
     def test_kills(self):
         """Parts and merges are killed at random moments; each kill loses at most the current run."""
-        self.write(200, trials=2)
+        self.write(max(100, 10 * KILLS), trials=2)
         chance = random.Random(1)
 
-        def killed(after, *arguments):
+        def killed(when, *arguments):
             process = subprocess.Popen([FORAGE, "experiment", "x.xml", "-o", "parts", "-q", "-j", "1", *arguments], cwd=self.folder)
-            time.sleep(chance.uniform(0, after))
-            process.send_signal(signal.SIGKILL)
+            while process.poll() is None and not when():
+                time.sleep(0.001)
+            time.sleep(chance.uniform(0, 0.02))
+            process.kill()
             return process.wait() != 0
 
         parts = merges = 0
-        for number in range(KILLS or 30):
-            parts += killed(0.25, "--shard", f"{number % 2 + 1}/2")
+        for number in range(KILLS or 20):
+            wanted = len(self.lines()) + chance.randrange(10)  # by progress; 0 is during the start
+            parts += killed(lambda: len(self.lines()) >= wanted, "--shard", f"{number % 2 + 1}/2")
         for part in ("1/2", "2/2"):
             self.part(part)
         self.nothing_twice()
+        begin = time.monotonic()
+        self.assertEqual(self.forage("--merge").returncode, 0)
+        duration = time.monotonic() - begin
         for _ in range(KILLS or 5):
-            merges += killed(0.1, "--merge")
+            end = time.monotonic() + chance.uniform(0, duration)
+            merges += killed(lambda: time.monotonic() > end, "--merge")
         print(f"{parts} parts and {merges} merges were killed")
+        self.assertGreater(parts, 10)
         self.same_as_one_machine()
 
 
