@@ -11,7 +11,7 @@ import unittest
 from support import FORAGE, KILLS, MPI, MPI_ENVIRONMENT, PROJECT, ExperimentTest, kill
 
 
-@unittest.skipUnless(shutil.which("mpirun"), "mpirun is not installed: apt-get install openmpi-bin")
+@unittest.skipUnless(MPI and shutil.which("mpirun"), "forage-mpi is not built: apt-get install libopenmpi-dev openmpi-bin")
 class Mpi(ExperimentTest):
     results = "mpi"
 

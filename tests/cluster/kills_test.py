@@ -1,0 +1,11 @@
+"""The tests with kills alone, for every night. The arguments are those of support.py."""
+import sys
+import unittest
+
+from mpi_test import Mpi
+from parts_test import Parts
+from slurm_test import Slurm
+
+if __name__ == "__main__":
+    suite = unittest.TestSuite([Parts("test_kills"), Mpi("test_ranks_are_killed"), Slurm("test_tasks_and_a_node_are_killed")])
+    sys.exit(not unittest.TextTestRunner(verbosity=2).run(suite).wasSuccessful())
