@@ -1,21 +1,28 @@
-// The picture of the docs: node screenshot.mjs FORAGE SOURCES OUTPUT [WIDTH HEIGHT light|dark]
+// The pictures of the docs: node screenshot.mjs FORAGE SOURCES OUTPUT [WIDTH HEIGHT light|dark [tutorial]]
 import { spawn } from 'node:child_process';
 import { resolve } from 'node:path';
 import { chromium } from 'playwright-core';
 
 const [forage, sources, output] = process.argv.slice(2, 5).map((p) => resolve(p));
-const [width = 1400, height = 900, colorScheme = 'light'] = process.argv.slice(5);
+const [width = 1400, height = 900, colorScheme = 'light', tutorial] = process.argv.slice(5);
 const studio = spawn(forage, ['studio', 'systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world'], { cwd: sources });
 const address = await new Promise((found) => studio.stdout.on('data', (text) => found(/http:\/\/\S+/.exec(text)[0])));
-const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu', '--disable-background-networking'] });
+const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-background-networking'] });
 try {
   const page = await browser.newPage({ viewport: { width: Number(width), height: Number(height) }, colorScheme });
   await page.goto(address);
   await page.getByRole('group', { name: 'Arena' }).waitFor();
-  await page.getByRole('navigation').getByText('Motor', { exact: true }).click({ timeout: 2000 }).catch(() => {});
+  if (tutorial) {
+    await page.getByRole('button', { name: 'Tutorial', exact: true }).click();
+    const text = page.getByRole('group', { name: 'Tutorial', exact: true });
+    await text.getByTitle('Tutorial 3: the adaptive layer').click();
+    await text.locator('[data-open="1"]').click();
+    await text.locator('.setup.active').waitFor();
+    await page.getByRole('group', { name: 'Arena' }).getByRole('button', { name: '3-D' }).click();
+  } else await page.getByRole('navigation').getByText('Motor', { exact: true }).click({ timeout: 2000 }).catch(() => {});
   await page.getByRole('button', { name: '20×', exact: true }).click();
   await page.getByRole('button', { name: 'Run', exact: true }).click();
-  await page.waitForFunction(() => Number(document.querySelector('[aria-label="Moment of the run"]')?.value) > 1560, undefined, { polling: 20 });
+  await page.waitForFunction((least) => Number(document.querySelector('[aria-label="Moment of the run"]')?.value) > least, tutorial ? 3480 : 1560, { polling: 20 });
   await page.getByRole('button', { name: 'Pause', exact: true }).click();
   await page.waitForTimeout(500);
   await page.screenshot({ path: output });
