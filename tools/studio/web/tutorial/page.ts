@@ -16,13 +16,16 @@ const panelKinds = ['space', 'time', 'raster', 'weights', 'wiring', 'camera', 'm
 
 /** Reads what a comment `<!-- studio ... -->` says: lines of a key, a colon and a value. */
 export function readSetup(text: string): Setup {
-  const setup: Setup = { system: '', world: '', set: [], clamp: [], panels: [], choices: [], say: '' };
+  const setup: Setup = { system: '', world: '', set: [], clamp: [], speed: 1, panels: [], choices: [], say: '' };
   for (const line of text.split('\n').map((l) => l.trim()).filter(Boolean)) {
     const [, key, value] = /^(\w+): *(.+)$/.exec(line) ?? [];
     if (!key || !value) throw new Error(`'${line}' is not a key, a colon and a value`);
     if (key === 'system' || key === 'world') setup[key] = value;
     else if (key === 'set' || key === 'clamp') setup[key].push(value);
-    else if (key === 'say') setup.say = `${setup.say} ${value}`.trim();
+    else if (key === 'speed') {
+      setup.speed = value === 'max' ? 0 : Number(value);
+      if (!(setup.speed >= 0)) throw new Error(`'${value}' is not a speed: a number, or max`);
+    } else if (key === 'say') setup.say = `${setup.say} ${value}`.trim();
     else if (key === 'choose') {
       const [, assignment, values] = /^(.+?) = (.+)$/.exec(value) ?? [];
       if (!assignment || !values) throw new Error(`'${value}' is not a parameter, ' = ' and values`);

@@ -13,6 +13,8 @@ export interface Setup {
   set: string[];
   /** Cells that are held, as --clamp takes them: "Bug/Motor(5,1)=1". */
   clamp: string[];
+  /** Seconds of the world per second; 0: as fast as it goes. */
+  speed: number;
   panels: { kind: string; item: string }[];
   /** Values that one tries while it runs. */
   choices: { assignment: string; values: string[] }[];
@@ -43,6 +45,7 @@ export async function setUp(setup: Setup): Promise<boolean> {
       // Some parameters are read at the start, and those of a module exist when it is enabled.
       if (!(await command('set', { assignments: [assignment] })) || !(await command('stop'))) return false;
     }
+    if (!(await command('speed', setup.speed === 0 ? { mode: 'free' } : setup.speed === 1 ? { mode: 'real' } : { mode: 'times', value: setup.speed }))) return false;
     const clamped = new Map<string, number[]>();
     for (const clamp of setup.clamp) {
       const { group, pattern } = clampPattern(clamp, (name) => model.group(name));

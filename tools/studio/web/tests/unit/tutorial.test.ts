@@ -28,8 +28,8 @@ describe('pages of the tutorial', () => {
     expect(() => page('![x](https://evil/x.png)')).toThrow('not a picture');
   });
   it('have a button for each comment that sets something up', () => {
-    const made = page('<!-- studio\nsystem: a.iqr\nworld: b.world\nset: P.x=1\nchoose: P.y = 0 0.5\nspace: P/G\nsay: Press *Run* <now>.\n-->\n\n<!-- made by: x -->\n');
-    expect(made.setups).toEqual([{ system: 'a.iqr', world: 'b.world', set: ['P.x=1'], clamp: [], panels: [{ kind: 'space', item: 'P/G' }], choices: [{ assignment: 'P.y', values: ['0', '0.5'] }], say: 'Press *Run* <now>.' }]);
+    const made = page('<!-- studio\nsystem: a.iqr\nworld: b.world\nset: P.x=1\nspeed: max\nchoose: P.y = 0 0.5\nspace: P/G\nsay: Press *Run* <now>.\n-->\n\n<!-- made by: x -->\n');
+    expect(made.setups).toEqual([{ system: 'a.iqr', world: 'b.world', set: ['P.x=1'], clamp: [], speed: 0, panels: [{ kind: 'space', item: 'P/G' }], choices: [{ assignment: 'P.y', values: ['0', '0.5'] }], say: 'Press *Run* <now>.' }]);
     expect(made.html).toContain('data-open="0">Set it up</button>');
     expect(made.html).toContain('data-set="P.y=0.5" aria-label="P.y = 0.5">0.5</button>');
     expect(made.html).toContain('Press <em>Run</em> &#60;now&#62;.');
@@ -39,6 +39,7 @@ describe('pages of the tutorial', () => {
     ['system: a.iqr', 'a system and a world'],
     ['system: a\nworld: b\nplot: x', "'plot' is not a key"],
     ['system: a\nworld: b\nchoose: x', 'and values'],
+    ['system: a\nworld: b\nspeed: fast', 'not a speed'],
     ['hello', 'a key, a colon and a value'],
   ])('refuse the set-up %j', (text, message) => expect(() => readSetup(text)).toThrow(message));
   it('refuse a set-up that would be folded away', () =>
