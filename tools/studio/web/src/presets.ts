@@ -35,11 +35,18 @@ export function openTutorial(): void {
 }
 const tutorialWidth = () => Math.round(Math.min(440, Math.max(300, (dock.api?.width ?? 0) * 0.36)));
 
+const kindOf = (panel: { params?: unknown }) => (panel.params as PanelState).kind;
+
+/** Closes the panels that show a part of the system. */
+export function closePlots(): void {
+  for (const p of [...(dock.api?.panels ?? [])]) if (!['arena', 'diagram', 'tutorial', 'log'].includes(kindOf(p))) dock.api!.removePanel(p);
+}
+
 /** Arena, diagram and plots. Closes all other panels but the tutorial. */
 export function arrange(plots: PanelState[]): void {
   const api = dock.api;
   if (!api) return;
-  const kept = api.panels.find((p) => (p.params as PanelState).kind === 'tutorial');
+  const kept = api.panels.find((p) => kindOf(p) === 'tutorial');
   for (const p of [...api.panels]) if (p !== kept) api.removePanel(p);
   const first: PanelState = model.world ? { kind: 'arena' } : { kind: 'diagram' };
   const arena = dock.open(first, kept ? { beside: kept.id, direction: narrow() ? 'above' : 'right' } : {})!;

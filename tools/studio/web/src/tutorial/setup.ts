@@ -1,5 +1,5 @@
 // What a button of the tutorial does: it opens a system of those that come with Forage, sets parameters, and arranges panels.
-import { arrange } from '../presets';
+import { arrange, closePlots } from '../presets';
 import type { PanelState } from '../panels/registry';
 import { dock } from '../stores/dock.svelte';
 import { model } from '../stores/model.svelte';
@@ -40,6 +40,7 @@ function panelOf({ kind, item }: Setup['panels'][number]): PanelState {
 export async function setUp(setup: Setup): Promise<boolean> {
   dock.arranging = true; // so that no layout of an earlier visit comes in between
   try {
+    closePlots(); // the groups that they show may not be in the other system
     if (!(await command('open', { system: setup.system, world: `worlds/${setup.world}`, shipped: true }))) return false;
     for (const assignment of setup.set) {
       // Some parameters are read at the start, and those of a module exist when it is enabled.

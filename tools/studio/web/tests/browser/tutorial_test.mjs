@@ -46,6 +46,7 @@ await inBrowser(sources, async ({ context, start, until }) => {
   await tutorial.getByRole('button', { name: '1', exact: true }).click();
   await tutorial.locator('[data-open="0"]').click();
   await page.getByText('Bug/Motor driven by hand').waitFor();
+  assert.equal(await refused.count(), 0, 'plots of the larger system are closed');
   assert.ok(await page.getByRole('group', { name: 'Drive Bug/Motor' }).getByRole('button', { name: 'Cell (5, 1), 1' }).count());
   await page.getByRole('button', { name: 'Run', exact: true }).click();
   await until(page, 'the held cell', () => {
