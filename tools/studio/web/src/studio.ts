@@ -1,7 +1,9 @@
 // Connects the server with the stores. Everything that changes a run goes through `command`.
 import { Connection } from './connection';
 import { protocolVersion, type ServerMessage } from './protocol/messages';
+import type { TypesResult } from './protocol/editing';
 import type { Frame } from './protocol/frame';
+import { editing } from './edit/document.svelte';
 import { actions } from './stores/actions.svelte';
 import { model } from './stores/model.svelte';
 import { selection } from './stores/selection.svelte';
@@ -48,13 +50,19 @@ function receive(message: ServerMessage): void {
         connection.close();
       }
       break;
-    case 'system':
+    case 'system': {
+      const other = model.system?.file !== message.file || model.system.name !== message.name;
       model.system = message;
       // The diagram begins with the process that is the robot, whose groups show their activity.
-      if (!model.find(selection.process)) selection.process = (message.processes.find((p) => p.module) ?? message.processes[0])?.id ?? null;
-      if (!model.find(selection.id)) selection.id = null;
+      if (other && !model.find(selection.process)) selection.process = (message.processes.find((p) => p.module) ?? message.processes[0])?.id ?? null;
+      else if (!model.find(selection.process)) selection.process = null;
+      selection.set(selection.ids.filter((id) => model.find(id)));
       streams.resume();
-      document.title = `${message.name} · Forage studio`;
+      break;
+    }
+    case 'document':
+      editing.message = message;
+      if (!editing.types) void request<TypesResult>('types').then((t) => (editing.types = t), () => {});
       break;
     case 'world':
       model.world = message.file === null ? null : message;

@@ -1,108 +1,221 @@
-// Nodes and edges of the diagram. Ids are those of the model; positions are those of the file.
-import { MarkerType, type Edge, type Node } from '@xyflow/svelte';
-import type { Connection, Icon, Process, SystemMessage } from '../protocol/messages';
+// A page of the diagram: boxes and lines. Ids are those of the model, places those of the file, stretched by a fixed factor.
+import type { Connection, Group, Icon, Process, SystemMessage } from '../protocol/messages';
+import { anchor, type Box, type Point } from './line';
 
-const width = 104, height = 72;
+/** What a unit of the file is on a page: an icon of 50 x 50 is a box of 100 x 100. */
+export const scale = 2;
+export const boxSize = 100;
+const phantomSize = { width: 96, height: 30 };
 
-function endpoints(system: SystemMessage, process: Process | null) {
-  const home = new Map<string, Process>();
-  for (const p of system.processes) for (const g of p.groups) home.set(g.id, p);
-  // On the system's page, and for groups of other processes, a connection ends at the process.
-  return (group: string) => (process && home.get(group) === process ? group : (home.get(group)?.id ?? group));
+export interface PageBox {
+  id: string;
+  item: Group | Process;
+  /** It stands for a group of another process. */
+  phantom: boolean;
+  /** The file has no place for it. */
+  placed: boolean;
+  box: Box;
 }
 
-function links(system: SystemMessage, process: Process | null): { connection: Connection; source: string; target: string }[] {
-  const end = endpoints(system, process);
-  return system.connections
-    .map((connection) => ({ connection, source: end(connection.source), target: end(connection.target) }))
-    .filter((l) => (process ? process.groups.some((g) => g.id === l.source || g.id === l.target) : l.source !== l.target));
+export interface PageLine {
+  id: string;
+  connection: Connection;
+  source: string;
+  target: string;
+  /** The connections that it stands for. */
+  members: Connection[];
+  /** Whether the file says how it is drawn on this page. */
+  drawn: boolean;
+  /** Its number among the lines between the same boxes. */
+  lane: number;
+  vertices: Point[];
 }
 
-/** How much the places of the file are stretched so that boxes with names and heat maps do not overlap. */
-function stretch(icons: { x: number; y: number }[]): number {
-  let needed = 0.5;
-  icons.forEach((a, i) =>
-    icons.slice(i + 1).forEach((b) => {
-      const fits = Math.min(150 / Math.max(1, Math.abs(a.x - b.x)), 100 / Math.max(1, Math.abs(a.y - b.y)));
-      needed = Math.max(needed, fits);
-    }),
-  );
-  return Math.min(needed, 4);
-}
+export interface Page { boxes: PageBox[]; lines: PageLine[] }
 
-/** By what a place of the file is multiplied to be one of the page. */
-export const factorOf = (items: { icon: Icon | null }[]): number => stretch(items.flatMap((i) => (i.icon ? [i.icon] : [])));
+const toBox = (icon: Icon): Box => ({ x: icon.x * scale, y: icon.y * scale, width: icon.width * scale, height: icon.height * scale });
 
-/** The boxes of a page of the diagram. Boxes without a place in the file are laid out by Dagre. */
-export async function nodesOf(system: SystemMessage, process: Process | null): Promise<Node[]> {
-  const items = process ? process.groups : system.processes;
-  const factor = factorOf(items);
-  const nodes: Node[] = items.map((item) => ({
-    id: item.id,
-    type: 'item',
-    // The middle of the box is the middle of the file's icon, so that the vertices of lines fit.
-    position: item.icon ? { x: (item.icon.x + item.icon.width / 2) * factor - width / 2, y: (item.icon.y + item.icon.height / 2) * factor - height / 2 } : { x: NaN, y: NaN },
-    data: { item },
-  }));
-  if (nodes.some((n) => Number.isNaN(n.position.x))) await layOut(nodes, links(system, process));
-  if (!process) return nodes;
-  // Processes at the other end of a connection stand in a row above.
-  const far = [...new Set(links(system, process).flatMap((l) => [l.source, l.target]))].filter((id) => !items.some((i) => i.id === id));
-  const top = Math.min(...nodes.map((n) => n.position.y)) - 110;
-  const left = Math.min(...nodes.map((n) => n.position.x));
-  far.forEach((id, i) => {
-    const p = system.processes.find((q) => q.id === id);
-    if (p) nodes.push({ id, type: 'item', position: { x: left + i * 130, y: top }, data: { item: p, phantom: true } });
+/** Where a place of the page is in the file. */
+export const toFile = (p: Point): [number, number] => [Math.round(p.x / scale), Math.round(p.y / scale)];
+
+/** The connections of a page, with the boxes at which they end there. */
+function linksOf(system: SystemMessage, process: Process | null): { connection: Connection; source: string; target: string }[] {
+  if (process) {
+    const own = new Set(process.groups.map((g) => g.id));
+    return system.connections.filter((c) => own.has(c.source) || own.has(c.target)).map((connection) => ({ connection, source: connection.source, target: connection.target }));
+  }
+  const home = new Map(system.processes.flatMap((p) => p.groups.map((g) => [g.id, p.id] as const)));
+  return system.connections.flatMap((connection) => {
+    const source = home.get(connection.source), target = home.get(connection.target);
+    return source && target && source !== target ? [{ connection, source, target }] : [];
   });
-  return nodes;
 }
 
-async function layOut(nodes: Node[], connected: { source: string; target: string }[]): Promise<void> {
+/** The boxes and lines of the page of a process, or of the system's page. */
+export async function pageOf(system: SystemMessage, process: Process | null): Promise<Page> {
+  const items: (Group | Process)[] = process ? process.groups : system.processes;
+  const links = linksOf(system, process);
+  const boxes: PageBox[] = items.map((item) => ({
+    id: item.id,
+    item,
+    phantom: false,
+    placed: item.icon !== null,
+    box: item.icon ? toBox(item.icon) : { x: 0, y: 0, width: boxSize, height: boxSize },
+  }));
+  await placeOthers(boxes, links);
+  if (process) boxes.push(...phantoms(system, process, boxes, links));
+  return { boxes, lines: linesOf(process, boxes, links) };
+}
+
+/** Boxes without a place in the file: laid out by Dagre when none has one, otherwise in rows below the others. */
+async function placeOthers(boxes: PageBox[], links: { source: string; target: string }[]): Promise<void> {
+  const without = boxes.filter((b) => !b.placed);
+  if (without.length === 0) return;
+  if (without.length === boxes.length) {
+    const places = await layOut(boxes, links);
+    for (const b of boxes) Object.assign(b.box, places.get(b.id));
+    return;
+  }
+  const bottom = Math.max(...boxes.filter((b) => b.placed).map((b) => b.box.y + b.box.height));
+  without.forEach((b, i) => Object.assign(b.box, { x: (i % 6) * (boxSize + 40), y: bottom + 60 + Math.floor(i / 6) * (boxSize + 40) }));
+}
+
+/** Places from left to right along the connections. */
+export async function layOut(boxes: { id: string; box: Box }[], links: { source: string; target: string }[]): Promise<Map<string, Point>> {
   const { Graph, layout } = await import('@dagrejs/dagre').then((m) => ({ Graph: m.graphlib.Graph, layout: m.layout }));
   const graph = new Graph();
-  graph.setGraph({ rankdir: 'LR', nodesep: 30, ranksep: 70 });
+  graph.setGraph({ rankdir: 'LR', nodesep: 40, ranksep: 80, marginx: 40, marginy: 40 });
   graph.setDefaultEdgeLabel(() => ({}));
-  for (const n of nodes) graph.setNode(n.id, { width, height: 80 });
-  for (const l of connected) if (graph.hasNode(l.source) && graph.hasNode(l.target)) graph.setEdge(l.source, l.target);
+  for (const b of boxes) graph.setNode(b.id, { width: b.box.width, height: b.box.height });
+  for (const l of links) if (l.source !== l.target && graph.hasNode(l.source) && graph.hasNode(l.target)) graph.setEdge(l.source, l.target);
   layout(graph);
-  for (const n of nodes) {
-    const p = graph.node(n.id);
-    n.position = { x: p.x - width / 2, y: p.y - 40 };
-  }
+  return new Map(boxes.map((b) => [b.id, { x: Math.round(graph.node(b.id).x - b.box.width / 2), y: Math.round(graph.node(b.id).y - b.box.height / 2) }]));
 }
 
-const colours = { excitatory: 'var(--excite)', inhibitory: 'var(--inhibit)', modulatory: 'var(--modulate)' };
+/** The groups of other processes stand in a row above, each above the groups that it is connected with. */
+function phantoms(system: SystemMessage, process: Process, boxes: PageBox[], links: { source: string; target: string }[]): PageBox[] {
+  const at = new Map(boxes.map((b) => [b.id, b.box]));
+  const partners = new Map<string, number[]>();
+  for (const l of links) {
+    const [far, near] = at.has(l.source) ? [l.target, l.source] : [l.source, l.target];
+    if (at.has(far)) continue;
+    const box = at.get(near)!;
+    partners.set(far, [...(partners.get(far) ?? []), box.x + box.width / 2]);
+  }
+  const groups = new Map(system.processes.filter((p) => p !== process).flatMap((p) => p.groups.map((g) => [g.id, g] as const)));
+  const wanted = [...partners].flatMap(([id, xs]) => {
+    const item = groups.get(id);
+    return item ? [{ item, x: xs.reduce((a, b) => a + b, 0) / xs.length - phantomSize.width / 2 }] : [];
+  });
+  wanted.sort((a, b) => a.x - b.x);
+  const y = Math.min(...boxes.map((b) => b.box.y), 0) - 90;
+  let free = -Infinity;
+  return wanted.map(({ item, x }) => {
+    const left = Math.max(x, free);
+    free = left + phantomSize.width + 14;
+    return { id: item.id, item, phantom: true, placed: true, box: { x: left, y, ...phantomSize } };
+  });
+}
 
-/** The lines. On the system's page, connections of one kind between two processes are one line with their number. */
-export function edgesOf(system: SystemMessage, process: Process | null, selected: string | null, nodes: Node[]): Edge[] {
-  const x = new Map(nodes.map((n) => [n.id, n.position.x]));
-  const merged = new Map<string, { first: Connection; source: string; target: string; count: number; chosen: boolean }>();
-  for (const { connection, source, target } of links(system, process)) {
-    const inside = process && process.groups.some((g) => g.id === source) && process.groups.some((g) => g.id === target);
-    const key = inside ? connection.id : `${source} ${target} ${connection.kind}`;
+function linesOf(process: Process | null, boxes: PageBox[], links: { connection: Connection; source: string; target: string }[]): PageLine[] {
+  const byId = new Map(boxes.map((b) => [b.id, b]));
+  const merged = new Map<string, PageLine>();
+  const lanes = new Map<string, number>();
+  for (const { connection, source, target } of links) {
+    const from = byId.get(source), to = byId.get(target);
+    if (!from || !to) continue;
+    const key = process ? connection.id : `${source} ${target} ${connection.kind}`;
     const known = merged.get(key);
-    const chosen = connection.id === selected || connection.source === selected || connection.target === selected;
-    if (known) known.count++, (known.chosen ||= chosen);
-    else merged.set(key, { first: connection, source, target, count: 1, chosen });
+    if (known) {
+      known.members.push(connection);
+      continue;
+    }
+    const pair = [source, target].sort().join(' ');
+    const lane = lanes.get(pair) ?? 0;
+    lanes.set(pair, lane + 1);
+    const within = process !== null && !from.phantom && !to.phantom;
+    merged.set(key, {
+      id: key,
+      connection,
+      source,
+      target,
+      members: [connection],
+      drawn: process !== null && connection.line !== null && from.placed && to.placed,
+      lane,
+      vertices: within ? (connection.line?.vertices ?? []).map(([x, y]) => ({ x: x * scale, y: y * scale })) : [],
+    });
   }
-  const factor = factorOf(process?.groups ?? system.processes);
-  const placed = process?.groups.every((g) => g.icon);
-  // The file draws the lines within a process; it draws none where Dagre places the boxes.
-  const drawn = (l: { first: Connection; source: string; target: string }) =>
-    placed && l.first.line && l.source === l.first.source && l.target === l.first.target
-      ? { type: 'line', data: { connection: l.first.id, anchors: [l.first.line.source_anchor, l.first.line.target_anchor], vertices: l.first.line.vertices.map(([x, y]) => ({ x: x * factor, y: y * factor })) } }
-      : { type: 'default', data: { connection: l.first.id } };
-  return [...merged].map(([id, l]) => ({
-    id,
-    source: l.source,
-    target: l.target,
-    ...drawn(l),
-    // A line that leads back leaves on the left side, so that it does not run behind the boxes.
-    ...((x.get(l.target) ?? 0) >= (x.get(l.source) ?? 0) ? { sourceHandle: 'right', targetHandle: 'left' } : { sourceHandle: 'left', targetHandle: 'right' }),
-    ariaLabel: `${l.first.name}, ${l.first.kind}`,
-    class: l.chosen ? 'chosen' : '',
-    label: l.count > 1 ? String(l.count) : undefined,
-    style: `stroke: ${colours[l.first.kind]}; stroke-width: 1.5;${selected && !l.chosen ? ' opacity: 0.45;' : ''}`,
-    markerEnd: { type: MarkerType.ArrowClosed, color: colours[l.first.kind], width: 14, height: 14 },
-  }));
+  return [...merged.values()];
 }
+
+const centre = (b: Box): Point => ({ x: b.x + b.width / 2, y: b.y + b.height / 2 });
+
+/** Where the line from the middle of a box to `p` leaves the box. */
+function border(b: Box, p: Point): Point {
+  const c = centre(b);
+  const dx = p.x - c.x, dy = p.y - c.y;
+  const f = Math.min(dx === 0 ? 1e9 : b.width / 2 / Math.abs(dx), dy === 0 ? 1e9 : b.height / 2 / Math.abs(dy), 1);
+  return { x: c.x + f * dx, y: c.y + f * dy };
+}
+
+/** The points of a line between the present places of its boxes. */
+export function pointsOf(line: PageLine, from: PageBox, to: PageBox): Point[] {
+  const { connection, vertices } = line;
+  const [a, b] = [from.box, to.box];
+  if (from.phantom !== to.phantom) {
+    // A phantom is met at its lower edge, straight above the other end if it reaches there.
+    const [outer, box, number] = from.phantom ? [a, b, connection.line?.target_anchor ?? 1] : [b, a, connection.line?.source_anchor ?? 1];
+    const inner = anchor(box, number);
+    const end = { x: Math.min(Math.max(inner.x, outer.x + 10), outer.x + outer.width - 10), y: outer.y + outer.height };
+    return from.phantom ? [end, inner] : [inner, end];
+  }
+  if (line.source === line.target && vertices.length === 0) {
+    const r = 18 + 8 * line.lane;
+    return [{ x: a.x + a.width, y: a.y + 20 }, { x: a.x + a.width + r, y: a.y + 20 }, { x: a.x + a.width + r, y: a.y - r }, { x: a.x + a.width - 20, y: a.y - r }, { x: a.x + a.width - 20, y: a.y }];
+  }
+  if (line.drawn) return [anchor(a, connection.line!.source_anchor), ...vertices, anchor(b, connection.line!.target_anchor)];
+  // Lines between the same boxes stand side by side.
+  const shift = (line.lane % 2 ? 1 : -1) * Math.ceil(line.lane / 2) * 12;
+  const [ca, cb] = [centre(a), centre(b)];
+  const length = Math.hypot(cb.x - ca.x, cb.y - ca.y) || 1;
+  const flip = line.source < line.target ? 1 : -1;
+  const side = { x: (-(cb.y - ca.y) / length) * shift * flip, y: ((cb.x - ca.x) / length) * shift * flip };
+  const move = (p: Point) => ({ x: p.x + side.x, y: p.y + side.y });
+  return [move(border(a, cb)), move(border(b, ca))];
+}
+
+
+/** The nearest of the 16 points around a box. */
+export function nearestAnchor(box: Box, p: Point): number {
+  let best = 0, least = Infinity;
+  for (let n = 0; n < 16; n++) {
+    const a = anchor(box, n);
+    const d = Math.hypot(a.x - p.x, a.y - p.y);
+    if (d < least) [best, least] = [n, d];
+  }
+  return best;
+}
+
+/** The point of the 16 around a box that faces another box, for connections that are made without the mouse. */
+export function facingAnchor(box: Box, other: Box): number {
+  const [a, b] = [centre(box), centre(other)];
+  const dx = b.x - a.x, dy = b.y - a.y;
+  if (Math.abs(dx) >= Math.abs(dy)) return dx >= 0 ? 4 : 12;
+  return dy >= 0 ? 8 : 0;
+}
+
+/** Between which vertices a point on a line lies: the index at which a new vertex is inserted. */
+export function segmentAt(points: Point[], p: Point): number {
+  let best = 0, least = Infinity;
+  for (let i = 0; i + 1 < points.length; i++) {
+    const [a, b] = [points[i]!, points[i + 1]!];
+    const [dx, dy] = [b.x - a.x, b.y - a.y];
+    const t = Math.max(0, Math.min(1, ((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy || 1)));
+    const d = Math.hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
+    if (d < least) [best, least] = [i, d];
+  }
+  return best;
+}
+
+export const inside = (b: Box, p: Point, margin = 0): boolean =>
+  p.x >= b.x - margin && p.x <= b.x + b.width + margin && p.y >= b.y - margin && p.y <= b.y + b.height + margin;

@@ -1,5 +1,7 @@
 // Control messages: JSON in both directions, as docs/design/studio-protocol.md describes them.
 
+import type { DocumentMessage } from './editing';
+
 export const protocolVersion = 1;
 
 export interface Icon { x: number; y: number; width: number; height: number }
@@ -147,7 +149,7 @@ export interface Problem { severity?: string; file?: string; line?: number; colu
 
 export interface ReplyMessage { type: 'reply'; id: number; ok: boolean; result?: unknown; problems?: Problem[] }
 
-export type ServerMessage = HelloMessage | SystemMessage | WorldMessage | StatusMessage | ActionMessage | ReplyMessage;
+export type ServerMessage = HelloMessage | SystemMessage | WorldMessage | StatusMessage | ActionMessage | DocumentMessage | ReplyMessage;
 
 export type ParameterValue = boolean | number | string;
 

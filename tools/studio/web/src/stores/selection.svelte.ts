@@ -1,12 +1,26 @@
 // What is selected. The tree, the diagram, the plots and the inspector show the same selection.
 class Selection {
-  id = $state<string | null>(null);
+  /** All selected items; the inspector shows the last one. */
+  ids = $state.raw<string[]>([]);
   hovered = $state<string | null>(null);
   /** The process whose groups the diagram shows; null for the whole system. */
   process = $state<string | null>(null);
 
+  id = $derived<string | null>(this.ids[this.ids.length - 1] ?? null);
+
+  has(id: string): boolean {
+    return this.ids.includes(id);
+  }
   select(id: string | null): void {
-    this.id = id;
+    this.set(id ? [id] : []);
+  }
+  /** Adds an item, or takes it away. */
+  toggle(id: string): void {
+    this.set(this.has(id) ? this.ids.filter((i) => i !== id) : [...this.ids, id]);
+  }
+  set(ids: string[]): void {
+    if (ids.length === this.ids.length && ids.every((id, i) => id === this.ids[i])) return;
+    this.ids = ids;
   }
 }
 

@@ -1,0 +1,29 @@
+// The document that is edited: whether it is saved, what is wrong with it, and which types there are. The server holds its content.
+import type { DocumentMessage, DocumentProblem, TypesResult } from '../protocol/editing';
+
+class DocumentState {
+  message = $state.raw<DocumentMessage | null>(null);
+  /** The types for forms; null until they arrived. */
+  types = $state.raw<TypesResult | null>(null);
+
+  file = $derived(this.message?.file ?? '');
+  dirty = $derived(this.message?.dirty ?? false);
+  problems = $derived<DocumentProblem[]>(this.message?.problems ?? []);
+  /** Whether the server can edit. */
+  editable = $derived(this.message !== null);
+  errors = $derived(this.problems.filter((p) => p.severity !== 'warning').length);
+  /** Problems by the item that they are about. */
+  private byItem = $derived.by(() => {
+    const all = new Map<string, DocumentProblem[]>();
+    for (const p of this.problems) if (p.item) all.set(p.item, [...(all.get(p.item) ?? []), p]);
+    return all;
+  });
+  of(item: string): DocumentProblem[] {
+    return this.byItem.get(item) ?? [];
+  }
+}
+
+export const editing = new DocumentState();
+
+/** The name of a file without its folders. */
+export const baseName = (file: string): string => file.split('/').pop() ?? file;

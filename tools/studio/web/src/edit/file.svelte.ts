@@ -1,0 +1,75 @@
+// New, open, save and the others: what they do, and which dialog is open.
+import type { FilesResult } from '../protocol/editing';
+import { actions } from '../stores/actions.svelte';
+import { model } from '../stores/model.svelte';
+import { command, request } from '../studio';
+import { CommandError } from '../connection';
+import { editing } from './document.svelte';
+
+export type FileAction = 'open' | 'save as' | 'import' | 'link' | 'export' | 'new';
+
+class FileDialog {
+  action = $state<FileAction | null>(null);
+  /** The process that is exported. */
+  process = $state<string | null>(null);
+  listing = $state.raw<FilesResult | null>(null);
+  recent = $state.raw<string[]>([]);
+  name = $state('');
+  error = $state('');
+
+  open(action: FileAction, process: string | null = null): void {
+    this.action = action;
+    this.process = process;
+    this.error = '';
+    const item = model.find(process);
+    this.name = action === 'export' && item?.kind === 'process' ? `${item.process.name}.iqrProcess` : action === 'save as' ? editing.file.split('/').pop() || `${model.system?.name || 'system'}.iqr` : '';
+    if (action !== 'new') void this.list('');
+    if (action === 'open') void request<{ files: string[] }>('recent').then((r) => (this.recent = r.files), () => {});
+  }
+  async list(folder: string): Promise<void> {
+    try {
+      this.listing = await request<FilesResult>('files', { folder });
+      this.error = '';
+    } catch (e) {
+      this.error = (e as Error).message;
+    }
+  }
+  path(name: string): string {
+    return name.startsWith('/') || !this.listing ? name : `${this.listing.folder.replace(/\/$/, '')}/${name}`;
+  }
+  /** Does what the dialog is for. Stays open, with the reason, when that is refused. */
+  async act(overwrite = false): Promise<void> {
+    const file = this.path(this.name.trim());
+    const steps: Record<FileAction, () => Promise<unknown>> = {
+      open: () => request('open', { system: file }),
+      'save as': () => request('save', { file: /\.iqr$|\.xml$/.test(file) ? file : `${file}.iqr`, overwrite }),
+      import: () => request('import', { file, link: false }),
+      link: () => request('import', { file, link: true }),
+      export: () => request('export', { process: this.process, file }),
+      new: () => request('new', { name: this.name.trim() || 'New system' }),
+    };
+    try {
+      await steps[this.action!]();
+      this.action = null;
+    } catch (e) {
+      this.error = e instanceof CommandError ? e.message : String(e);
+    }
+  }
+}
+
+export const fileDialog = new FileDialog();
+
+/** Whether the present document may be left: it is saved, or the user agrees to lose what changed. */
+export const mayLeave = () => !editing.dirty || confirm('The system has changes that are not saved. Leave them?');
+
+export async function save(): Promise<void> {
+  if (!editing.file) return fileDialog.open('save as');
+  if (await command('save')) actions.tell('info', 'Saved.');
+}
+
+export async function openFile(file: string): Promise<void> {
+  if (mayLeave()) await command('open', { system: file });
+}
+
+/** What to do when another program wrote the file. */
+export const reload = (keep: 'mine' | 'theirs' | 'merge') => command('reload', { keep });

@@ -1,0 +1,43 @@
+// Cells of groups and how patterns name them: columns and rows from 1, as in the file.
+import type { Group } from '../../protocol/messages';
+import type { Pattern, Place, Region, Tuple } from '../../protocol/editing';
+
+export const keyOf = ([x, y]: Place): string => `${x},${y}`;
+
+/** The places of the cells of a group, by their number. */
+export function cellsOf(group: Group): Place[] {
+  if (group.places) return group.places.map(([x, y]) => [x + 1, y + 1]);
+  return Array.from({ length: group.width * group.height }, (_, i) => [(i % group.width) + 1, Math.floor(i / group.width) + 1]);
+}
+
+/** Whether a region holds a place. */
+export function holds(region: Region, [x, y]: Place): boolean {
+  if (region.form === 'all') return true;
+  if (region.form === 'list') return region.points.some(([a, b]) => a === x && b === y);
+  return x >= region.x && x < region.x + region.width && y >= region.y && y < region.y + region.height;
+}
+
+/** The region between two corners. */
+export function spanned([ax, ay]: Place, [bx, by]: Place): Region {
+  return { form: 'region', x: Math.min(ax, bx), y: Math.min(ay, by), width: Math.abs(ax - bx) + 1, height: Math.abs(ay - by) + 1 };
+}
+
+/** Tuples of a text as the original imports it: "1,1|2,1:3,1 4,1:5,1". */
+export function parseTuples(text: string): Tuple[] {
+  return text.split(/\s+/).filter(Boolean).map((token) => {
+    const sides = token.split(':').map((side) => side.split('|').map((p) => p.split(',').map(Number) as Place));
+    if (sides.length !== 2 || sides.flat().some((p) => p.length !== 2 || p.some((n) => !Number.isInteger(n)))) throw new Error(`"${token}" is not of the form 1,1|2,1:3,1`);
+    return { source: sides[0]!, target: sides[1]! };
+  });
+}
+
+export const tupleText = (t: Tuple): string => `${t.source.map(keyOf).join(' ')} → ${t.target.map(keyOf).join(' ')}`;
+
+const everything: Region = { form: 'all' };
+
+/** A pattern of another form, which keeps what the forms have in common. */
+export function reform(pattern: Pattern | null, form: Pattern['form']): Pattern {
+  const sides = pattern && pattern.form !== 'tuples' ? { source: pattern.source, target: pattern.target } : { source: everything, target: everything };
+  if (form === 'tuples') return { form, tuples: [] };
+  return form === 'foreach' ? { form, ...sides } : { form, mapping: 'center', ...sides };
+}

@@ -1,0 +1,31 @@
+// The menu that is open at a place of the window, or none.
+export interface Entry {
+  label: string;
+  keys?: string;
+  /** Why it cannot be chosen now. */
+  disabled?: boolean;
+  act(): unknown;
+}
+/** A null is a dividing line. */
+export type Entries = (Entry | null)[];
+
+class Menu {
+  shown = $state.raw<{ x: number; y: number; entries: Entries; from: HTMLElement | null } | null>(null);
+
+  /** Opens at the pointer, or below the element that was activated. */
+  show(e: MouseEvent | KeyboardEvent, entries: Entries): void {
+    e.preventDefault();
+    e.stopPropagation();
+    const from = document.activeElement as HTMLElement | null;
+    const box = (e.currentTarget as Element).getBoundingClientRect();
+    const mouse = e instanceof MouseEvent && e.type === 'contextmenu' && e.clientX > 0;
+    this.shown = { ...(mouse ? { x: e.clientX, y: e.clientY } : { x: box.left, y: box.bottom + 2 }), entries, from };
+  }
+  close(): void {
+    const from = this.shown?.from;
+    this.shown = null;
+    from?.focus();
+  }
+}
+
+export const menu = new Menu();

@@ -1,0 +1,67 @@
+// The menus of items, the same in the diagram and in the tree.
+import type { PageLine } from '../panels/diagram';
+import type { ConnectionKind } from '../protocol/messages';
+import { dock } from '../stores/dock.svelte';
+import { frame } from '../stores/frame.svelte';
+import { model } from '../stores/model.svelte';
+import { selection } from '../stores/selection.svelte';
+import { copy, cut } from './clipboard';
+import { editing } from './document.svelte';
+import { fileDialog } from './file.svelte';
+import type { Entries } from './menu.svelte';
+import { edit } from './operations';
+import { tools } from './tool.svelte';
+
+export const removeItems = (ids: string[]) => edit({ do: 'remove', ids });
+
+/** Opens the inspector on an item and puts the cursor into its first field. */
+export function properties(id: string): void {
+  selection.select(id);
+  frame.inspector = true;
+  tools.asked += 1;
+}
+
+/** Begins to write the name of an item: in its box, or in the inspector if no box shows it. */
+export function rename(id: string): void {
+  selection.select(id);
+  if (document.querySelector(`.svelte-flow__node[data-id="${CSS.escape(id)}"]`)) tools.renaming = id;
+  else properties(id);
+}
+
+/** What can be done with one item, or with all selected ones if it is among them. */
+export function itemMenu(id: string): Entries {
+  const ids = selection.has(id) ? selection.ids : [id];
+  const item = model.find(id);
+  if (!item) return [];
+  const editEntries: Entries = editing.editable
+    ? [null, { label: 'Copy', keys: 'Ctrl C', act: () => copy(ids) }, { label: 'Cut', keys: 'Ctrl X', act: () => cut(ids) }, { label: ids.length > 1 ? `Delete ${ids.length} items` : 'Delete', keys: 'Del', act: () => removeItems(ids) }]
+    : [];
+  if (ids.length > 1) {
+    const groups = ids.flatMap((i) => model.group(i)?.path ?? []);
+    return [
+      { label: 'Space plots', disabled: !groups.length, act: () => groups.forEach((g) => dock.plot({ kind: 'space', item: g })) },
+      { label: 'Time plot', disabled: !groups.length, act: () => dock.plot({ kind: 'time', sources: groups.map((g) => `mean(${g})`) }) },
+      ...editEntries,
+    ];
+  }
+  const first: Entries = [{ label: 'Properties', keys: 'Enter', act: () => properties(id) }];
+  if (editing.editable) first.push({ label: 'Rename', keys: 'F2', act: () => rename(id) });
+  if (item.kind === 'group') {
+    const path = item.group.path;
+    if (editing.editable) first.push({ label: 'Connect…', act: () => (tools.dialog = { source: id, kind: 'excitatory' as ConnectionKind }) });
+    first.push(null, { label: 'Space plot', act: () => dock.plot({ kind: 'space', item: path }) }, { label: 'Time plot', act: () => dock.plot({ kind: 'time', sources: [`mean(${path})`] }) }, { label: 'Drive by hand', act: () => dock.plot({ kind: 'manipulate', item: path }) });
+  } else if (item.kind === 'process') {
+    first.push({ label: 'Show its groups', act: () => (selection.process = id) });
+    if (editing.editable) first.push({ label: 'Export…', act: () => fileDialog.open('export', id) });
+  } else {
+    first.push(null, { label: 'Wiring', act: () => dock.plot({ kind: 'wiring', item: item.connection.name }) });
+    for (const s of item.connection.states) first.push({ label: s.label, act: () => dock.plot({ kind: 'weights', item: item.connection.name, state: s.name }) });
+  }
+  return [...first, ...editEntries];
+}
+
+/** The menu of a line: of its connection, or a choice of the several that it stands for. */
+export function lineMenu(line: PageLine): Entries {
+  if (line.members.length === 1) return itemMenu(line.connection.id);
+  return line.members.map((c) => ({ label: c.name, act: () => properties(c.id) }));
+}

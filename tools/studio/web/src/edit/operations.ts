@@ -1,0 +1,30 @@
+// Changes of the document. Each call is one step of undo.
+import type { Operation } from '../protocol/editing';
+import type { ConnectionKind, ParameterInfo, ParameterValue } from '../protocol/messages';
+import { command } from '../studio';
+import { editing } from './document.svelte';
+
+/** Sends operations, all of them or none. Resolves with the ids that were made, or undefined when they were refused. */
+export async function edit(operations: Operation | Operation[], title?: string, merge?: string): Promise<(string | null)[] | undefined> {
+  const result = await command<{ ids: (string | null)[] }>('edit', { operations: [operations].flat(), ...(title ? { title } : {}), ...(merge ? { merge } : {}) });
+  return result?.ids;
+}
+
+/** Sets a parameter of an item, in the document and in the run. */
+export function setParameter(id: string, p: ParameterInfo, value: ParameterValue): void {
+  if (!editing.editable) void command('set', { assignments: [`${p.assignment}=${value}`] });
+  else void edit({ do: 'parameter', id, name: p.name, value: String(value) }, undefined, `${id}.${p.name}`);
+}
+
+export interface NewConnection {
+  source: string;
+  target: string;
+  kind: ConnectionKind;
+  source_anchor: number;
+  target_anchor: number;
+  vertices: [number, number][];
+}
+
+export async function connect(c: NewConnection): Promise<string | null> {
+  return (await edit({ do: 'add_connection', ...c }))?.[0] ?? null;
+}

@@ -1,0 +1,35 @@
+// Places and names of new or moved boxes.
+
+export type Edge = 'left' | 'right' | 'top' | 'bottom' | 'column' | 'row';
+export interface Placed { id: string; x: number; y: number; width: number; height: number }
+
+/** New places of boxes, so that an edge or the middle of all is on one line. */
+export function aligned(boxes: Placed[], side: Edge): Placed[] {
+  const least = (f: (b: Placed) => number) => Math.min(...boxes.map(f));
+  const most = (f: (b: Placed) => number) => Math.max(...boxes.map(f));
+  const mean = (f: (b: Placed) => number) => boxes.reduce((a, b) => a + f(b), 0) / boxes.length;
+  const move: Record<Edge, (b: Placed) => Placed> = {
+    left: (b) => ({ ...b, x: least((o) => o.x) }),
+    right: (b) => ({ ...b, x: most((o) => o.x + o.width) - b.width }),
+    top: (b) => ({ ...b, y: least((o) => o.y) }),
+    bottom: (b) => ({ ...b, y: most((o) => o.y + o.height) - b.height }),
+    column: (b) => ({ ...b, x: Math.round(mean((o) => o.x + o.width / 2) - b.width / 2) }),
+    row: (b) => ({ ...b, y: Math.round(mean((o) => o.y + o.height / 2) - b.height / 2) }),
+  };
+  return boxes.map(move[side]);
+}
+
+/** New places of boxes with equal steps between the outermost ones. */
+export function distributed(boxes: Placed[], axis: 'x' | 'y'): Placed[] {
+  const sorted = [...boxes].sort((a, b) => a[axis] - b[axis]);
+  const first = sorted[0]![axis], last = sorted[sorted.length - 1]![axis];
+  return sorted.map((b, i) => ({ ...b, [axis]: Math.round(first + ((last - first) * i) / (sorted.length - 1)) }));
+}
+
+/** A name that none of the others has: "Group 3". */
+export function freshName(stem: string, names: string[]): string {
+  const taken = new Set(names);
+  let n = 1;
+  while (taken.has(`${stem} ${n}`)) n++;
+  return `${stem} ${n}`;
+}

@@ -1,0 +1,42 @@
+// What a click in the diagram does, and the connection that is being drawn. All panes share it, so that a connection may begin in one and end in another.
+import type { ConnectionKind } from '../protocol/messages';
+import type { Point } from '../panels/line';
+
+export type Tool = 'select' | 'add' | ConnectionKind;
+
+export interface Pending {
+  source: string;
+  anchor: number;
+  /** The process on whose page it began. */
+  page: string;
+  /** Places on the page. */
+  vertices: Point[];
+}
+
+class Tools {
+  current = $state<Tool>('select');
+  pending = $state.raw<Pending | null>(null);
+  /** The item whose name is written in its box. */
+  renaming = $state<string | null>(null);
+  /** Groups between which the dialog connects; null when it is closed. */
+  dialog = $state.raw<{ source: string | null; kind: ConnectionKind } | null>(null);
+
+  /** How often the properties of an item were asked for. */
+  asked = $state(0);
+
+  connecting = $derived(this.current !== 'select' && this.current !== 'add');
+
+  use(tool: Tool): void {
+    this.current = this.current === tool ? 'select' : tool;
+    this.pending = null;
+  }
+  /** Takes back the last step: the pending line, then the tool. Returns whether there was one. */
+  cancel(): boolean {
+    if (this.pending) this.pending = null;
+    else if (this.current !== 'select') this.current = 'select';
+    else return false;
+    return true;
+  }
+}
+
+export const tools = new Tools();

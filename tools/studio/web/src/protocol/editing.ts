@@ -1,0 +1,73 @@
+// What the editor and the server say to each other: the document, its items, the types there are, and the operations.
+import type { ConnectionKind, ParameterInfo, ParameterValue, Problem, State } from './messages';
+
+export interface DocumentProblem extends Problem { item?: string | null }
+
+/** The document as it is now. The server sends it after each change. */
+export interface DocumentMessage {
+  type: 'document';
+  /** Empty for a system that has no file yet. */
+  file: string;
+  dirty: boolean;
+  problems: DocumentProblem[];
+  /** "changed" when another program wrote the file. */
+  outside: string | null;
+  undo: string | null;
+  redo: string | null;
+  running_is_current?: boolean;
+}
+
+export type Place = [number, number];
+
+/** Cells of a group; columns and rows from 1, as in the file. */
+export type Region = { form: 'all' } | { form: 'region'; x: number; y: number; width: number; height: number } | { form: 'list'; points: Place[] };
+export interface Tuple { source: Place[]; target: Place[] }
+export type Pattern =
+  | { form: 'foreach'; source: Region; target: Region }
+  | { form: 'mapped'; mapping: 'center' | 'all'; source: Region; target: Region }
+  | { form: 'tuples'; tuples: Tuple[] };
+
+/** A type with values of its parameters: an arborization or a function of distance. */
+export interface Typed { type: string; values: Record<string, ParameterValue> }
+
+export interface Topology { form: 'rect' | 'sparse'; width?: number; height?: number; wrap_x?: boolean; wrap_y?: boolean; points?: Place[] }
+export interface Port { name: string; label?: string; doc?: string; group: string }
+
+interface Common { id: string; name: string; color?: string; note?: string; text: string; parameters: ParameterInfo[] }
+export interface GroupItem extends Common { kind: 'group'; process: string; path: string; neuron: string; topology: Topology }
+export interface ConnectionItem extends Common {
+  kind: 'connection';
+  source: string;
+  target: string;
+  sign: ConnectionKind;
+  synapse: string | null;
+  pattern: Pattern | null;
+  arborization: Typed | null;
+  attenuation: Typed | null;
+  delay: Typed | null;
+  synapses: number;
+}
+export interface ProcessItem extends Common { kind: 'process'; enabled: boolean; linked: boolean; module: string | null; inputs: Port[]; outputs: Port[] }
+export interface SystemItem extends Common { kind: 'system'; author: string; date: string; cycles_per_second: number }
+export type EditItem = GroupItem | ConnectionItem | ProcessItem | SystemItem;
+
+export interface FormParameter {
+  name: string;
+  label?: string;
+  doc?: string;
+  unit?: string;
+  kind: ParameterInfo['kind'];
+  default: ParameterValue;
+  low?: number | null;
+  high?: number | null;
+  options?: string[];
+  category?: string;
+}
+export interface TypeInfo { type: string; label?: string; doc?: string; parameters: FormParameter[]; states?: State[]; inputs?: { name: string }[]; outputs?: { name: string }[] }
+export interface TypesResult { neurons: TypeInfo[]; synapses: TypeInfo[]; modules: TypeInfo[]; arborizations: TypeInfo[]; functions: TypeInfo[] }
+
+export interface PreviewResult { synapses: number; source: number[]; target: number[] }
+export interface FilesResult { folder: string; parent?: string | null; folders: string[]; files: string[] }
+
+/** One change of the document; `do` says which. */
+export type Operation = { do: string } & Record<string, unknown>;

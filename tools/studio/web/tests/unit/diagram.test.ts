@@ -1,0 +1,85 @@
+import { describe, expect, it } from 'vitest';
+import { nearestAnchor, pageOf, pointsOf, segmentAt, toFile } from '../../src/panels/diagram';
+import { aligned, distributed, freshName } from '../../src/edit/places';
+import { holds, parseTuples, spanned, tupleText } from '../../src/edit/forms/cells';
+import { anchor, roundedPath } from '../../src/panels/line';
+import type { Connection, Group, SystemMessage } from '../../src/protocol/messages';
+
+const group = (id: string, x: number | null, y = 0): Group => ({ id, name: id, path: `P/${id}`, color: '', note: '', icon: x === null ? null : { x, y, width: 50, height: 50 }, type: '', width: 1, height: 1, cells: 1, places: null, states: [] });
+const connection = (id: string, source: string, target: string, line: Connection['line'] = null): Connection => ({ id, name: id, source, target, kind: 'excitatory', type: '', note: '', synapses: 1, form: '', states: [], line });
+const system = (groups: Group[][], connections: Connection[]): SystemMessage => ({
+  type: 'system', name: 's', file: '', note: '', cycles_per_second: 25, seconds_per_cycle: 0.04,
+  processes: groups.map((g, i) => ({ id: `p${i}`, name: `P${i}`, color: '', note: '', icon: { x: 100 * i, y: 0, width: 50, height: 50 }, linked: false, enabled: true, module: null, groups: g })),
+  connections,
+});
+
+describe('a page of the diagram', () => {
+  it('puts a box where the file has its icon, and its lines at the points and vertices of the file', async () => {
+    const s = system([[group('a', 10, 20), group('b', 200, 20)]], [connection('c', 'a', 'b', { source_anchor: 4, target_anchor: 12, vertices: [[120, 90]] })]);
+    const page = await pageOf(s, s.processes[0]!);
+    expect(page.boxes.map((b) => b.box)).toEqual([{ x: 20, y: 40, width: 100, height: 100 }, { x: 400, y: 40, width: 100, height: 100 }]);
+    expect(pointsOf(page.lines[0]!, page.boxes[0]!, page.boxes[1]!)).toEqual([{ x: 120, y: 52.5 }, { x: 240, y: 180 }, { x: 400, y: 52.5 }]);
+  });
+  it('shows groups of other processes as phantoms above, which the line meets from below', async () => {
+    const s = system([[group('a', 10, 20)], [group('z', 0, 0)]], [connection('c', 'z', 'a', { source_anchor: 1, target_anchor: 1, vertices: [[5, 5]] })]);
+    const page = await pageOf(s, s.processes[0]!);
+    const [a, z] = page.boxes;
+    expect([z!.id, z!.phantom]).toEqual(['z', true]);
+    expect(z!.box.y + z!.box.height).toBeLessThan(a!.box.y);
+    const points = pointsOf(page.lines[0]!, z!, a!);
+    expect(points).toHaveLength(2);
+    expect(points[0]!.y).toBe(z!.box.y + z!.box.height);
+    expect(points[1]).toEqual(anchor(a!.box, 1));
+  });
+  it('joins the connections of a kind between two processes on the page of the system', async () => {
+    const s = system([[group('a', 0), group('b', 100)], [group('z', 0)]], [connection('c', 'a', 'z'), connection('d', 'b', 'z'), connection('e', 'a', 'b')]);
+    const page = await pageOf(s, null);
+    expect(page.lines.map((l) => l.members.map((m) => m.id))).toEqual([['c', 'd']]);
+  });
+  it('places boxes that the file does not place, without moving the others', async () => {
+    const s = system([[group('a', 10, 20), group('b', null)]], []);
+    const [a, b] = (await pageOf(s, s.processes[0]!)).boxes;
+    expect(a!.box.x).toBe(20);
+    expect(b!.box.y).toBeGreaterThan(140);
+    const none = system([[group('a', null), group('b', null)]], [connection('c', 'a', 'b')]);
+    const [c, d] = (await pageOf(none, none.processes[0]!)).boxes;
+    expect(d!.box.x).toBeGreaterThan(c!.box.x + 100);
+  });
+});
+
+describe('geometry', () => {
+  const box = { x: 0, y: 0, width: 100, height: 100 };
+  it('numbers the points around a box to the right and downwards', () => {
+    expect(anchor(box, 0)).toEqual({ x: 12.5, y: 0 });
+    expect(anchor(box, 7)).toEqual({ x: 100, y: 87.5 });
+    expect(anchor(box, 8)).toEqual({ x: 12.5, y: 100 });
+    expect(anchor(box, 12)).toEqual({ x: 0, y: 12.5 });
+  });
+  it('finds the nearest point, and the part of a line at a place', () => {
+    for (let n = 0; n < 16; n++) expect(nearestAnchor(box, anchor(box, n))).toBe(n);
+    const line = [{ x: 0, y: 0 }, { x: 100, y: 0 }, { x: 100, y: 100 }];
+    expect([segmentAt(line, { x: 50, y: 3 }), segmentAt(line, { x: 97, y: 60 })]).toEqual([0, 1]);
+  });
+  it('gives places of the file as whole numbers', () => expect(toFile({ x: 21, y: -9 })).toEqual([11, -4]));
+  it('rounds the corners of a path', () => expect(roundedPath([{ x: 0, y: 0 }, { x: 20, y: 0 }, { x: 20, y: 20 }])).toBe('M0 0L12 0Q20 0 20 8L20 20'));
+  it('aligns and distributes boxes', () => {
+    const boxes = [{ id: 'a', x: 0, y: 0, width: 50, height: 50 }, { id: 'b', x: 130, y: 10, width: 50, height: 50 }, { id: 'c', x: 300, y: 20, width: 50, height: 50 }];
+    expect(aligned(boxes, 'right').map((b) => b.x)).toEqual([300, 300, 300]);
+    expect(aligned(boxes, 'row').map((b) => b.y)).toEqual([10, 10, 10]);
+    expect(distributed(boxes, 'x').map((b) => b.x)).toEqual([0, 150, 300]);
+  });
+});
+
+describe('cells and names', () => {
+  it('spans a region between two corners, and knows its cells', () => {
+    const region = spanned([3, 1], [2, 4]);
+    expect(region).toEqual({ form: 'region', x: 2, y: 1, width: 2, height: 4 });
+    expect([holds(region, [3, 4]), holds(region, [4, 4]), holds({ form: 'list', points: [[1, 1]] }, [1, 1])]).toEqual([true, false, true]);
+  });
+  it('reads tuples as the original writes them, and refuses other text', () => {
+    expect(parseTuples('1,1|2,1:3,1 4,1:5,1')).toEqual([{ source: [[1, 1], [2, 1]], target: [[3, 1]] }, { source: [[4, 1]], target: [[5, 1]] }]);
+    expect(() => parseTuples('1,1')).toThrow(/1,1/);
+    expect(tupleText({ source: [[1, 2]], target: [[3, 4]] })).toBe('1,2 → 3,4');
+  });
+  it('finds a name that is free', () => expect(freshName('Group', ['Group 1', 'Group 3'])).toBe('Group 2'));
+});
