@@ -5,10 +5,11 @@ import { model } from './stores/model.svelte';
 import type { LayoutContent } from './protocol/messages';
 import type { PanelState } from './panels/registry';
 
-export interface Preset { name: string; hint: string; spaces: string[]; times: string[]; raster?: string[]; weights?: boolean }
+export interface Preset { name: string; hint: string; spaces: string[]; times: string[]; raster?: string[]; weights?: boolean; diagram?: boolean }
 
 export const presets: Preset[] = [
   { name: 'Overview', hint: 'arena, diagram, sensors and motor', spaces: ['/Light', '/Motor'], times: [] },
+  { name: 'Build', hint: 'the diagram in the middle', spaces: [], times: [], diagram: true },
   { name: 'Part 1: getting started', hint: 'what the robot senses and does', spaces: ['/Red', '/Light', '/Sensor', '/Motor'], times: [] },
   { name: 'Part 2: reactive layer', hint: 'reflexes and selection', spaces: ['/US (light)', '/Approach', '/Motor'], times: ['/Approach'] },
   { name: 'Part 3: learning', hint: 'display, CS, prototype, discrepancy', spaces: ['/Weights Display', '/CS', 'Adaptive/prototype'], times: ['Adaptive/discrepancy'] },
@@ -20,6 +21,7 @@ const narrow = () => matchMedia('(max-width: 720px)').matches;
 
 /** Opens the panels of a preset, and closes others. */
 export function applyPreset(preset: Preset): void {
+  if (preset.diagram || model.groups.length === 0) return build();
   const spaces = preset.spaces.map(find).filter((g) => g !== undefined);
   if (spaces.length === 0) spaces.push(...model.groups.slice(0, 2));
   const times = preset.times.map(find).filter((g) => g !== undefined);
@@ -42,12 +44,27 @@ export function closePlots(): void {
   for (const p of [...(dock.api?.panels ?? [])]) if (!['arena', 'diagram', 'tutorial', 'log'].includes(kindOf(p))) dock.api!.removePanel(p);
 }
 
+/** Closes all panels but the tutorial, which it returns. */
+function clear() {
+  const api = dock.api!;
+  const kept = api.panels.find((p) => kindOf(p) === 'tutorial');
+  for (const p of [...api.panels]) if (p !== kept) api.removePanel(p);
+  return kept;
+}
+
+/** The diagram, with the arena behind it. */
+function build(): void {
+  if (!dock.api) return;
+  const kept = clear();
+  const diagram = dock.open({ kind: 'diagram' }, kept ? { beside: kept.id, direction: narrow() ? 'above' : 'right' } : {})!;
+  if (model.world) dock.open({ kind: 'arena' }, { beside: diagram, inactive: true });
+}
+
 /** Arena, diagram and plots. Closes all other panels but the tutorial. */
 export function arrange(plots: PanelState[]): void {
   const api = dock.api;
   if (!api) return;
-  const kept = api.panels.find((p) => kindOf(p) === 'tutorial');
-  for (const p of [...api.panels]) if (p !== kept) api.removePanel(p);
+  const kept = clear();
   const first: PanelState = model.world ? { kind: 'arena' } : { kind: 'diagram' };
   const arena = dock.open(first, kept ? { beside: kept.id, direction: narrow() ? 'above' : 'right' } : {})!;
   if (narrow()) {

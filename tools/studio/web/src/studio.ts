@@ -23,7 +23,8 @@ const connection = new Connection(socketUrl, {
 
 export const streams = new Streams(
   (command, details) => connection.request(command, details),
-  (source, error) => run.link === 'open' && actions.tell('error', `${source}: ${error.message}`),
+  // A group that was just drawn has no activity until the system can run.
+  (source, error) => run.link === 'open' && editing.message?.running_is_current !== false && actions.tell('error', `${source}: ${error.message}`),
 );
 
 /** Sends a command and shows the server's message when it is refused. Undefined then. */

@@ -108,7 +108,7 @@ function phantoms(system: SystemMessage, process: Process, boxes: PageBox[], lin
     return item ? [{ item, x: xs.reduce((a, b) => a + b, 0) / xs.length - phantomSize.width / 2 }] : [];
   });
   wanted.sort((a, b) => a.x - b.x);
-  const y = Math.min(...boxes.map((b) => b.box.y), 0) - 90;
+  const y = Math.min(...boxes.map((b) => b.box.y)) - 90;
   let free = -Infinity;
   return wanted.map(({ item, x }) => {
     const left = Math.max(x, free);

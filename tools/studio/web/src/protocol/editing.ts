@@ -33,7 +33,8 @@ export interface Typed { type: string; values: Record<string, ParameterValue> }
 export interface Topology { form: 'rect' | 'sparse'; width?: number; height?: number; wrap_x?: boolean; wrap_y?: boolean; points?: Place[] }
 export interface Port { name: string; label?: string; doc?: string; group: string }
 
-interface Common { id: string; name: string; color?: string; note?: string; text: string; parameters: ParameterInfo[] }
+interface Common { id: string; name: string; color?: string; note?: string; linked?: boolean; text: string; parameters: ParameterInfo[] }
+export interface Feedback { name: string; label: string; required: boolean; state: string }
 export interface GroupItem extends Common { kind: 'group'; process: string; path: string; neuron: string; topology: Topology }
 export interface ConnectionItem extends Common {
   kind: 'connection';
@@ -45,9 +46,12 @@ export interface ConnectionItem extends Common {
   arborization: Typed | null;
   attenuation: Typed | null;
   delay: Typed | null;
+  feedback?: Feedback[];
+  /** States of the target's cells, for the feedback. */
+  states?: string[];
   synapses: number;
 }
-export interface ProcessItem extends Common { kind: 'process'; enabled: boolean; linked: boolean; module: string | null; inputs: Port[]; outputs: Port[] }
+export interface ProcessItem extends Common { kind: 'process'; enabled: boolean; module: string | null; inputs: Port[]; outputs: Port[] }
 export interface SystemItem extends Common { kind: 'system'; author: string; date: string; cycles_per_second: number }
 export type EditItem = GroupItem | ConnectionItem | ProcessItem | SystemItem;
 
