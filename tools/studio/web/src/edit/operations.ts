@@ -10,10 +10,10 @@ export async function edit(operations: Operation | Operation[], title?: string, 
   return result?.ids;
 }
 
-/** Sets a parameter of an item, in the document and in the run. */
-export function setParameter(id: string, p: ParameterInfo, value: ParameterValue): void {
+/** Sets a parameter of items, in the document and in the run. */
+export function setParameter(ids: string[], p: ParameterInfo, value: ParameterValue): void {
   if (!editing.editable) void command('set', { assignments: [`${p.assignment}=${value}`] });
-  else void edit({ do: 'parameter', id, name: p.name, value: String(value) }, undefined, `${id}.${p.name}`);
+  else void edit(ids.map((id) => ({ do: 'parameter', id, name: p.name, value: String(value) })), undefined, `${ids.join()}.${p.name}`);
 }
 
 export interface NewConnection {

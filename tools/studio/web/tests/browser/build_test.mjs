@@ -1,0 +1,205 @@
+// From nothing to a foraging robot, by mouse and keyboard alone: the reactive layer of the tutorial is built from an empty system, saved, checked and
+// run by the command line, and its groups and connections are those of the shipped one. node build_test.mjs FORAGE SOURCES [SCREENSHOT]
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { readFileSync } from 'node:fs';
+import { join, resolve } from 'node:path';
+import { inBrowser } from './support.mjs';
+
+const [forage, sources, screenshot] = process.argv.slice(2).map((p) => resolve(p));
+const step = (text) => console.log(text);
+const run = (folder, ...args) => execFileSync(forage, args, { cwd: folder, encoding: 'utf8' });
+
+// What the tutorial says of the groups: place on the page, size, and the parameters that differ from the defaults.
+const relay = {};
+const clipped = { clipVm: true, vmMin: 0, vmMax: 1 };
+const reactive = {
+  US: { at: [120, 160], size: [7, 1], set: { excGain: 5, inhGain: 1, ...clipped, threshold: 0.01 } },
+  Approach: { at: [480, 160], size: [9, 1], set: { excGain: 1, inhGain: 1, threshold: 0.7 } },
+};
+const selection = {
+  Approach: { at: [120, 120], size: [9, 1], set: { excGain: 1, inhGain: 1.5, ...clipped, threshold: 0 } },
+  UR: { at: [400, 120], size: [9, 1], set: relay },
+  'Motor In': { at: [680, 120], size: [9, 1], set: relay },
+  'Approach Inhibition': { at: [120, 320], size: [1, 1], set: { excGain: 10, inhGain: 1, ...clipped, threshold: 0 } },
+  Explore: { at: [400, 320], size: [9, 1], set: { excGain: 1, inhGain: 1.5, threshold: 0 } },
+  'Const Speed': { at: [400, 520], size: [1, 1], type: 'neuronRandomSpike', set: { probability: 1, spkAmpl: 1 } },
+};
+
+await inBrowser(sources, async ({ folder, context, start, until }) => {
+  const faults = [];
+  const studio = start(forage, ['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
+  const page = await context.newPage();
+  page.setDefaultTimeout(6000);
+  page.on('pageerror', (e) => faults.push(e.message));
+  page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
+  await page.goto(await studio.address);
+  const diagram = page.getByRole('group', { name: 'Diagram' });
+  const inspector = page.getByRole('region', { name: 'Inspector' });
+  const canvas = diagram.getByRole('application', { name: 'Canvas' });
+  const box = (name) => diagram.locator('.svelte-flow__node').filter({ hasText: name });
+  const tab = (name) => diagram.getByRole('group', { name: 'Processes' }).first().getByRole('button', { name, exact: true }).click();
+  const heading = (name) => inspector.getByRole('heading', { name, exact: true }).waitFor();
+  const field = (label) => inspector.getByLabel(label, { exact: true });
+  const write = async (input, value) => {
+    if (typeof value === 'boolean') return input.setChecked(value);
+    await input.fill(String(value));
+    await input.press('Enter');
+  };
+  const called = async (path, name) => {
+    await page.keyboard.type(name);
+    await page.keyboard.press('Enter');
+    await heading(path);
+  };
+
+  step('a new system, in the layout for building');
+  await page.getByRole('button', { name: /Reactive foraging/ }).first().click();
+  await page.getByRole('menuitem', { name: 'New' }).click();
+  await page.getByRole('dialog', { name: 'New system' }).getByLabel('Name').fill('Mine');
+  await page.keyboard.press('Enter');
+  await page.getByText('The system has no processes yet').waitFor();
+  await page.keyboard.press('Control+k');
+  await page.keyboard.type('layout: build');
+  await page.keyboard.press('Enter');
+
+  step('three processes, placed by the mouse');
+  for (const [name, x, y] of [['Bug', 150, 400], ['Reactive Layer', 400, 150], ['Selection', 650, 400]]) {
+    await diagram.getByRole('button', { name: 'Process', exact: true }).click();
+    await canvas.click({ position: { x, y } });
+    await page.getByLabel('Name', { exact: true }).first().waitFor();
+    await called(name, name);
+  }
+
+  step('the groups of the robot, by the keyboard; its module and what it is wired to');
+  await box('Bug').focus();
+  await page.keyboard.press('Enter');
+  await page.keyboard.press('Enter');
+  for (const [name, columns, rows] of [['Motor', 9, 9], ['Light', 32, 1], ['Sensor', 32, 1]]) {
+    await canvas.press('g');
+    await called(`Bug/${name}`, name);
+    await write(field('Columns'), columns);
+    await write(field('Rows'), rows);
+  }
+  await page.getByRole('navigation').getByRole('button', { name: /^Bug/ }).last().click();
+  await heading('Bug');
+  await field('Type').selectOption('moduleGazeboBug');
+  for (const [port, group] of [['_motor', 'Motor'], ['_target', 'Light'], ['_proximity', 'Sensor']]) await inspector.locator(`[data-port="${port}"] select`).selectOption({ label: group });
+
+  const groups = async (process, table) => {
+    await tab(process);
+    for (const [name, g] of Object.entries(table)) {
+      await diagram.getByRole('button', { name: 'Group', exact: true }).click();
+      await canvas.click({ position: { x: g.at[0], y: g.at[1] } });
+      await called(`${process}/${name}`, name);
+      if (g.type) await field('Neuron').selectOption(g.type);
+      if (g.size[0] > 1) await write(field('Columns'), g.size[0]);
+      for (const [parameter, value] of Object.entries(g.set)) await write(page.locator(`[id="${process}/${name}.${parameter}"]`), value);
+    }
+  };
+  step('the groups of the reactive layer and of the selection');
+  await groups('Reactive Layer', reactive);
+  await groups('Selection', selection);
+
+  const named = async (name) => {
+    await field('Kind').waitFor();
+    await write(field('Name'), name);
+    await heading(name);
+  };
+  // From one side of a box to a side of another, and over corners.
+  const draw = async (kind, from, to, corners = []) => {
+    await diagram.getByRole('button', { name: `Connect ${kind}` }).click();
+    await box(from).click();
+    for (const [x, y] of corners) await canvas.click({ position: { x, y } });
+    await box(to).click();
+    await page.keyboard.press('Escape');
+  };
+  const exact = (name) => new RegExp(`^\\s*${name}\\s*$`);
+  step('connections within a page: by clicks');
+  await draw('excitatory', exact('Approach'), exact('UR'));
+  await named('Approach to UR');
+  await draw('excitatory', exact('UR'), 'Motor In');
+  await named('UR to Motor In');
+  await draw('excitatory', 'Const Speed', exact('Explore'));
+  await named('Const Speed to Explore');
+  await draw('excitatory', exact('Explore'), 'Motor In', [[730, 380]]);
+  await named('Explore to Motor In');
+  await draw('excitatory', exact('Approach'), 'Approach Inhibition');
+  await named('Approach to Approach Inhibition');
+  await field('Mapping').selectOption('all');
+  await draw('inhibitory', 'Approach Inhibition', exact('Explore'));
+  await named('Approach Inhibition to Explore');
+  await field('Mapping').selectOption('all');
+  await tab('Reactive Layer');
+  await draw('excitatory', 'US', exact('Approach'));
+  await named('US to Approach');
+  await field('Pattern').selectOption('tuples');
+  for (const [s, t] of [[3, 1], [4, 5], [5, 9]]) {
+    await inspector.getByRole('checkbox', { name: `Source cell (${s}, 1)` }).click();
+    await inspector.getByRole('checkbox', { name: `Target cell (${t}, 1)` }).click();
+    await inspector.getByRole('button', { name: 'Add tuple' }).click();
+    await inspector.getByRole('list', { name: 'Tuples' }).getByText(`${s},1 → ${t},1`).waitFor();
+  }
+  await inspector.getByText('3 synapses', { exact: false }).waitFor();
+
+  step('a connection across processes: two panes');
+  await diagram.getByRole('button', { name: 'View' }).click();
+  await page.getByRole('menuitem', { name: 'Two panes side by side' }).click();
+  const panes = diagram.locator('.pane');
+  await panes.nth(1).getByRole('button', { name: 'Bug', exact: true }).click();
+  await diagram.getByRole('button', { name: 'Connect excitatory' }).click();
+  await panes.nth(1).locator('.svelte-flow__node').filter({ hasText: exact('Light') }).click();
+  await panes.nth(0).locator('.svelte-flow__node').filter({ hasText: exact('US') }).click();
+  await page.keyboard.press('Escape');
+  await named('Light to US');
+  await field('Arborization').selectOption('ArbRect');
+  await write(field('width'), 10);
+  await field('Attenuation').selectOption('FunGaussian');
+  await write(field('sigma'), 5);
+
+  step('the others by the dialog, without the mouse');
+  const dialog = async (from, to, name) => {
+    await diagram.getByRole('button', { name: 'Connect excitatory' }).focus();
+    await page.keyboard.press('Enter');
+    const connect = page.getByRole('dialog', { name: 'Connect' });
+    await connect.getByLabel('From').selectOption({ label: from });
+    await connect.getByLabel('To').selectOption({ label: to });
+    await connect.getByLabel('To').press('Enter');
+    await connect.getByRole('button', { name: 'Connect', exact: true }).press('Enter');
+    await named(name);
+  };
+  await dialog('Reactive Layer/Approach', 'Selection/Approach', 'Reactive Approach to Approach');
+  await dialog('Selection/Motor In', 'Bug/Motor', 'Motor In to Motor');
+  await field('Pattern').selectOption('tuples');
+  await inspector.getByText('From text').click();
+  await inspector.getByLabel('Tuples as text').fill('1,1:1,4 2,1:1,1|2,1 3,1:3,1 4,1:4,1 5,1:5,1 6,1:6,1 7,1:7,1 8,1:8,1|9,1 9,1:9,4');
+  await inspector.getByRole('button', { name: 'Add these' }).click();
+  await inspector.getByText('11 synapses', { exact: false }).waitFor();
+  if (screenshot) await page.screenshot({ path: screenshot });
+
+  step('no problems are left; it is saved');
+  await page.keyboard.press('Escape');
+  assert.equal(await page.getByRole('button', { name: /problem/ }).count(), 0);
+  await page.keyboard.press('Control+s');
+  const save = page.getByRole('dialog', { name: 'Save as' });
+  await save.getByLabel('Name').fill('mine.iqr');
+  await save.getByLabel('Name').press('Enter');
+  await until(page, 'the file', () => !document.title.startsWith('●'));
+
+  step('the command line checks it, describes the same connections, and runs it');
+  const described = (file) => JSON.parse(run(folder, 'describe', file, '--format', 'json'));
+  const mine = join('systems', 'mine.iqr');
+  run(folder, 'check', mine, '--world', 'systems/worlds/basic_arena.world');
+  const [built, shipped] = [mine, 'systems/reactive_foraging.iqr'].map(described);
+  const plain = (system) => system.connections.map(({ id, notes, ...c }) => c).sort((a, b) => a.name.localeCompare(b.name));
+  assert.deepEqual(plain(built), plain(shipped));
+  // describe counts tuples: their cells are compared in the files.
+  const patterns = (file) => page.evaluate((text) => {
+    const system = new DOMParser().parseFromString(text, 'text/xml');
+    const places = (e) => [...e.querySelectorAll('Point')].map((p) => `${p.getAttribute('x')},${p.getAttribute('y')}`).join(' ');
+    return [...system.querySelectorAll('Connection')].map((c) => [c.getAttribute('name'), [...c.querySelectorAll('Tuple')].map((t) => `${places(t.querySelector('SourceList'))}:${places(t.querySelector('TargetList'))}`)]).sort();
+  }, readFileSync(join(folder, file), 'utf8'));
+  assert.deepEqual(await patterns(mine), await patterns('systems/reactive_foraging.iqr'));
+  run(folder, 'run', mine, '--world', 'systems/worlds/basic_arena.world', '--cycles', '200');
+  assert.deepEqual(faults, []);
+  console.log('all fine');
+});
