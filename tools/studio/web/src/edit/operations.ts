@@ -6,8 +6,8 @@ import { editing } from './document.svelte';
 
 /** Sends operations, all of them or none. Resolves with the ids that were made, or undefined when they were refused. */
 export async function edit(operations: Operation | Operation[], title?: string, merge?: string): Promise<(string | null)[] | undefined> {
-  const result = await command<{ ids: (string | null)[] }>('edit', { operations: [operations].flat(), ...(title ? { title } : {}), ...(merge ? { merge } : {}) });
-  return result?.ids;
+  const result = await command<{ ids: (string | string[] | null)[] }>('edit', { operations: [operations].flat(), ...(title ? { title } : {}), ...(merge ? { merge } : {}) });
+  return result?.ids.flat();
 }
 
 /** Sets a parameter of items, in the document and in the run. */

@@ -1,0 +1,93 @@
+// What the page asks of the server when something is edited, against a server that only writes it down.
+import { beforeEach, describe, expect, it, vi } from 'vitest';
+
+const sent: { name: string; [member: string]: unknown }[] = [];
+const answers: Record<string, unknown> = { copy: { text: '<clip/>' }, edit: { ids: [] } };
+vi.mock('../../src/studio', () => {
+  const command = (name: string, details: object) => {
+    sent.push({ name, ...details });
+    return Promise.resolve(answers[name]);
+  };
+  return { command, request: command, streams: {} };
+});
+
+vi.stubGlobal('navigator', {});
+
+const { editing } = await import('../../src/edit/document.svelte');
+const { connect, setParameter } = await import('../../src/edit/operations');
+const { copy, cut, paste, withConnections } = await import('../../src/edit/clipboard');
+const { tools } = await import('../../src/edit/tool.svelte');
+const { model } = await import('../../src/stores/model.svelte');
+const { selection } = await import('../../src/stores/selection.svelte');
+type ParameterInfo = import('../../src/protocol/messages').ParameterInfo;
+
+const group = (id: string) => ({ id, name: id, path: `P/${id}`, color: '', note: '', icon: null, type: '', width: 1, height: 1, cells: 1, places: null, states: [] });
+const line = (id: string, source: string, target: string) => ({ id, name: id, source, target, kind: 'excitatory' as const, type: '', note: '', synapses: 1, form: '', states: [], line: null });
+const threshold = { name: 'threshold', assignment: 'P/a.threshold' } as ParameterInfo;
+
+beforeEach(() => {
+  sent.length = 0;
+  editing.message = { type: 'document', file: '/a.iqr', dirty: false, problems: [], outside: null, undo: null, redo: null };
+  model.system = {
+    type: 'system', name: 's', file: '/a.iqr', note: '', cycles_per_second: 25, seconds_per_cycle: 0.04,
+    processes: [{ id: 'p', name: 'P', color: '', note: '', icon: null, linked: false, enabled: true, module: null, groups: ['a', 'b', 'c'].map(group) }],
+    connections: [line('ab', 'a', 'b'), line('bc', 'b', 'c')],
+  };
+  selection.set([]);
+  selection.process = 'p';
+});
+
+describe('edits', () => {
+  it('sets a parameter of several items in one step, which joins with the next turn of the same slider', () => {
+    setParameter(['a', 'b'], threshold, 0.5);
+    expect(sent).toEqual([{ name: 'edit', merge: 'a,b.threshold', operations: ['a', 'b'].map((id) => ({ do: 'parameter', id, name: 'threshold', value: '0.5' })) }]);
+  });
+  it('sets it in the run where the server does not edit', () => {
+    editing.message = null;
+    setParameter(['a'], threshold, 0.5);
+    expect(sent).toEqual([{ name: 'set', assignments: ['P/a.threshold=0.5'] }]);
+  });
+  it('gives the id of a new connection', async () => {
+    answers.edit = { ids: ['new'] };
+    expect(await connect({ source: 'a', target: 'b', kind: 'inhibitory', source_anchor: 4, target_anchor: 12, vertices: [] })).toBe('new');
+  });
+  it('finds problems by their item', () => {
+    editing.message = { ...editing.message!, problems: [{ message: 'x', item: 'a' }, { message: 'y', item: null }, { message: 'z', item: 'a', severity: 'warning' }] };
+    expect([editing.of('a').length, editing.of('b').length, editing.errors]).toEqual([2, 0, 2]);
+  });
+});
+
+describe('the clipboard', () => {
+  it('takes the connections between copied groups along', () => {
+    expect(withConnections(['a', 'b'])).toEqual(['a', 'b', 'ab']);
+    expect(withConnections(['p'])).toEqual(['p', 'ab', 'bc']);
+  });
+  it('cuts what was copied, and pastes into the page that is shown', async () => {
+    answers.edit = { ids: [['new', 'newer']] };
+    await cut(['a']);
+    await paste([10, 20]);
+    expect(sent.map((s) => s.name)).toEqual(['copy', 'edit', 'edit']);
+    expect(sent[2]!.operations).toEqual([{ do: 'paste', text: '<clip/>', process: 'p', x: 10, y: 20 }]);
+    expect(selection.ids).toEqual(['new', 'newer']);
+    expect(await copy([])).toBe(false);
+  });
+});
+
+describe('the tool', () => {
+  it('gives up the line first, then the tool', () => {
+    tools.use('inhibitory');
+    tools.pending = { source: 'a', anchor: 0, page: 'p', vertices: [] };
+    expect([tools.cancel(), tools.pending, tools.current]).toEqual([true, null, 'inhibitory']);
+    expect([tools.cancel(), tools.current, tools.cancel()]).toEqual([true, 'select', false]);
+  });
+});
+
+describe('the selection', () => {
+  it('shows the item that was added last', () => {
+    selection.select('a');
+    selection.toggle('b');
+    expect([selection.id, selection.ids]).toEqual(['b', ['a', 'b']]);
+    selection.toggle('b');
+    expect(selection.id).toBe('a');
+  });
+});
