@@ -12,6 +12,7 @@ interface Stream {
   delivery: Delivery;
   every: number;
   listeners: Set<Listener>;
+  refused?: boolean;
   last?: { block: Block; frame: Frame };
 }
 
@@ -52,8 +53,14 @@ export class Streams {
     this.byId.clear();
     for (const stream of this.byKey.values()) {
       delete stream.last;
-      this.send(stream);
+      // What another system does not have stays silent.
+      this.send(stream, () => {});
     }
+  }
+
+  /** Subscribes to what the run did not have until now, as the system was edited. The other streams go on. */
+  retry(): void {
+    for (const stream of this.byKey.values()) if (stream.refused) this.send(stream, () => {});
   }
 
   /** Hands out the blocks of several frames: of newest-value streams only the last ones. */
@@ -70,16 +77,20 @@ export class Streams {
     });
   }
 
-  private send(stream: Stream): void {
+  private send(stream: Stream, failed = this.failed): void {
     const { source, delivery, every } = stream;
     stream.id = null;
+    stream.refused = false;
     this.request('subscribe', { source, class: delivery, every }).then(
       (info) => {
         stream.id = (info as StreamInfo).stream;
         this.byId.set(stream.id, stream);
         if (stream.listeners.size === 0) this.end(stream);
       },
-      (error: Error) => this.failed(source, error),
+      (error: Error) => {
+        stream.refused = true;
+        failed(source, error);
+      },
     );
   }
 

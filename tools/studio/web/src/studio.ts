@@ -12,9 +12,12 @@ import { Streams } from './streams';
 
 const socketUrl = `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/ws`;
 
+// Whether the connection was lost since the last message of the system.
+let lost = false;
 const connection = new Connection(socketUrl, {
   link(state) {
     run.link = state;
+    if (state !== 'open') lost = true;
   },
   message: receive,
   frames: draw,
@@ -52,13 +55,17 @@ function receive(message: ServerMessage): void {
       }
       break;
     case 'system': {
-      const other = model.system?.file !== message.file || model.system.name !== message.name;
+      // An edited system keeps some of its processes, also when it is saved under another name.
+      const named = model.system?.file === message.file && model.system.name === message.name;
+      const other = !named && !model.processes.some((p) => message.processes.some((q) => q.id === p.id));
       model.system = message;
       // The diagram begins with the process that is the robot, whose groups show their activity.
       if (other && !model.find(selection.process)) selection.process = (message.processes.find((p) => p.module) ?? message.processes[0])?.id ?? null;
       else if (!model.find(selection.process)) selection.process = null;
       selection.set(selection.ids.filter((id) => model.find(id)));
-      streams.resume();
+      if (other || lost) streams.resume();
+      else streams.retry();
+      lost = false;
       break;
     }
     case 'document':

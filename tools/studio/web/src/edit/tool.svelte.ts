@@ -6,7 +6,8 @@ export type Tool = 'select' | 'add' | ConnectionKind;
 
 export interface Pending {
   source: string;
-  anchor: number;
+  /** The point of the box that was clicked; null in its middle: the one that faces the other end. */
+  anchor: number | null;
   /** The process on whose page it began. */
   page: string;
   /** Places on the page. */

@@ -185,6 +185,12 @@ export function pointsOf(line: PageLine, from: PageBox, to: PageBox): Point[] {
 }
 
 
+/** The point of the 16 around a box that a click means; null in its middle. */
+export function clickedAnchor(box: Box, p: Point): number | null {
+  const middle = Math.min(p.x - box.x, box.x + box.width - p.x, p.y - box.y, box.y + box.height - p.y) > box.width * 0.3;
+  return middle ? null : nearestAnchor(box, p);
+}
+
 /** The nearest of the 16 points around a box. */
 export function nearestAnchor(box: Box, p: Point): number {
   let best = 0, least = Infinity;
@@ -197,8 +203,8 @@ export function nearestAnchor(box: Box, p: Point): number {
 }
 
 /** The point of the 16 around a box that faces another box, for connections that are made without the mouse. */
-export function facingAnchor(box: Box, other: Box): number {
-  const [a, b] = [centre(box), centre(other)];
+export function facingAnchor(box: Box, other: Box | Point): number {
+  const [a, b] = [centre(box), 'width' in other ? centre(other) : other];
   const dx = b.x - a.x, dy = b.y - a.y;
   if (Math.abs(dx) >= Math.abs(dy)) return dx >= 0 ? 4 : 12;
   return dy >= 0 ? 8 : 0;

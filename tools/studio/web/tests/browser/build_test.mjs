@@ -30,7 +30,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   const faults = [];
   const studio = start(forage, ['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
   const page = await context.newPage();
-  page.setDefaultTimeout(6000);
+  page.setDefaultTimeout(30000);
   page.on('pageerror', (e) => faults.push(e.message));
   page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
   await page.goto(await studio.address);
@@ -47,26 +47,23 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
     await input.press('Enter');
   };
   const called = async (path, name) => {
+    await diagram.locator('.svelte-flow__node input').waitFor();
     await page.keyboard.type(name);
     await page.keyboard.press('Enter');
     await heading(path);
   };
 
-  step('a new system, in the layout for building');
+  step('a new system');
   await page.getByRole('button', { name: /Reactive foraging/ }).first().click();
   await page.getByRole('menuitem', { name: 'New' }).click();
   await page.getByRole('dialog', { name: 'New system' }).getByLabel('Name').fill('Mine');
   await page.keyboard.press('Enter');
   await page.getByText('The system has no processes yet').waitFor();
-  await page.keyboard.press('Control+k');
-  await page.keyboard.type('layout: build');
-  await page.keyboard.press('Enter');
 
   step('three processes, placed by the mouse');
   for (const [name, x, y] of [['Bug', 150, 400], ['Reactive Layer', 400, 150], ['Selection', 650, 400]]) {
     await diagram.getByRole('button', { name: 'Process', exact: true }).click();
     await canvas.click({ position: { x, y } });
-    await page.getByLabel('Name', { exact: true }).first().waitFor();
     await called(name, name);
   }
 
