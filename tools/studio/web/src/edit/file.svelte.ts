@@ -15,12 +15,15 @@ class FileDialog {
   listing = $state.raw<FilesResult | null>(null);
   recent = $state.raw<string[]>([]);
   name = $state('');
+  /** The world of a system that is opened or begun; empty for none. */
+  world = $state('');
   error = $state('');
 
   open(action: FileAction, process: string | null = null): void {
     this.action = action;
     this.process = process;
     this.error = '';
+    this.world = model.world?.file ?? '';
     const item = model.find(process);
     this.name = action === 'export' && item?.kind === 'process' ? `${item.process.name}.iqrProcess` : action === 'save as' ? editing.file.split('/').pop() || `${model.system?.name || 'system'}.iqr` : '';
     if (action !== 'new') void this.list('');
@@ -41,12 +44,12 @@ class FileDialog {
   async act(overwrite = false): Promise<void> {
     const file = this.path(this.name.trim());
     const steps: Record<FileAction, () => Promise<unknown>> = {
-      open: () => request('open', { system: file }),
+      open: () => request('open', { system: file, world: this.world.trim() }),
       'save as': () => request('save', { file: /\.iqr$|\.xml$/.test(file) ? file : `${file}.iqr`, overwrite }),
       import: () => request('import', { file, link: false }),
       link: () => request('import', { file, link: true }),
       export: () => request('export', { process: this.process, file }),
-      new: () => request('new', { name: this.name.trim() || 'New system' }),
+      new: () => request('new', { name: this.name.trim() || 'New system', world: this.world.trim() }),
     };
     try {
       await steps[this.action!]();
