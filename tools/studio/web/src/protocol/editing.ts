@@ -73,5 +73,8 @@ export interface TypesResult { neurons: TypeInfo[]; synapses: TypeInfo[]; module
 export interface PreviewResult { synapses: number; source: number[]; target: number[] }
 export interface FilesResult { folder: string; parent?: string | null; folders: string[]; files: string[] }
 
+/** Changes a part of the item that a form shows, and sends the operations for it. */
+export type Change = (part: Partial<EditItem>, operation: Operation | Operation[], merge: string) => Promise<unknown>;
+
 /** One change of the document; `do` says which. */
 export type Operation = { do: string } & Record<string, unknown>;
