@@ -154,6 +154,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await field('Arborization').selectOption('ArbRect');
   await write(field('width'), 10);
   await field('Attenuation').selectOption('FunGaussian');
+  await write(field('max'), 1);
   await write(field('sigma'), 5);
 
   step('the others by the dialog, without the mouse');
