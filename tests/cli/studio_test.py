@@ -303,6 +303,54 @@ class Watching(unittest.TestCase):
         self.assertFalse(self.page.ask('move', robot=self.page.last('world')['robots'][0]['name'], x=99.0, y='a')['ok'])
 
 
+class OriginalPlots(unittest.TestCase):
+    """The original's .conf files open the same plots."""
+
+    def test_windows_become_panels(self):
+        with tempfile.TemporaryDirectory() as folder, Studio(forage, system, '--world', world) as studio:
+            page = Page(studio)
+            page.do('pause')
+            groups = {g['path']: g for p in page.last('system')['processes'] for g in p['groups']}
+            light, motor = groups['Bug/Light']['id'], groups['Bug/Motor']['id']
+            connection = page.last('system')['connections'][0]
+            display = lambda item, states='act;', **more: (  # noqa: E731
+                f'<StateVariableDisplays ID="1" itemID="{item}" indices="{more.get("indices", "")}">'
+                f'<Average>{more.get("average", "false")}</Average><SelectedStates>{states}</SelectedStates></StateVariableDisplays>')
+            window = lambda kind, *inside: (  # noqa: E731
+                f'<DataClient type="{kind}" ID="x"><Position x="1" y="1"/>{inside[0]}<StateVariableDisplay>{"".join(inside[1:])}</StateVariableDisplay></DataClient>\n')
+            text = ('<iqrDataManagerConfiguration>\n' + window('PlotTypeGroup', '', display(light, 'vm;'))
+                    + window('PlotTypeTime', '', display(light, indices='1;2;3;'), display(motor), display('gone'))
+                    + window('PlotTypeConnection', f'<ConnectionID>{connection["id"]}</ConnectionID>')
+                    + window('DataSampler', '<AutoStart>true</AutoStart><FileName>x.dat</FileName><SamplingRate>2</SamplingRate><TARGET_MODE>5</TARGET_MODE>',
+                             display(motor, average='true'), display(light, indices='0;2;'))
+                    + '<Window/>\n</iqrDataManagerConfiguration>\n')
+            made = page.do('layout_convert', file='mine.conf', text=text)['content']
+            self.assertEqual(made['plots'], [
+                {'kind': 'space', 'item': 'Bug/Light', 'state': 'vm'},
+                {'kind': 'time', 'sources': ['mean(Bug/Light:act(2..4,1))', 'mean(Bug/Motor:act)']},
+                {'kind': 'wiring', 'item': connection['name']},
+                {'kind': 'sampler', 'sources': ['mean(Bug/Motor:act)', 'Bug/Light:act(1,1)', 'Bug/Light:act(3,1)'], 'file': 'x.dat', 'every': 2,
+                 'cycles': None, 'mode': 'append', 'automatic': True}])
+            self.assertEqual([(p['file'], p['line'], p['severity']) for p in made['problems']], [('mine.conf', 6, 'warning'), ('mine.conf', 3, 'warning')])
+            for plot in made['plots']:
+                for source in plot.get('sources', []):
+                    page.do('read', source=source)
+            refused = page.ask('layout_convert', text='<other/>')
+            self.assertIn('no configuration of plots', refused['problems'][0]['message'])
+            page.close()
+            file = pathlib.Path(folder, 'mine.conf')
+            file.write_text(text)
+            with Studio(forage, system, '--world', world, '--plot-config', str(file)) as begun:
+                other = Page(begun)
+                other.do('pause')
+                self.assertEqual(other.last('hello')['layout']['plots'], made['plots'])
+                other.close()
+            file.write_text('<iqrDataManagerConfiguration>\n<DataClient type="PlotTypeTime">')
+            done = subprocess.run([forage, 'studio', system, '--world', world, '--plot-config', str(file)], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn('mine.conf:2:1: error:', done.stderr)
+
+
 class Crashes(unittest.TestCase):
     """A studio that is killed: what it kept, and that the run goes on as if nothing had happened."""
 

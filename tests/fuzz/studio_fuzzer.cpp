@@ -1,8 +1,10 @@
-// Tries messages of pages to the studio, one per line, and what is read of a request before the token is
-// known. A message changes no file: commands that write are left out.
+// Tries messages of pages to the studio, one per line, what is read of a request before the token is known,
+// and the original's files of plots and panels. A message changes no file: commands that write are left out.
 #include <cstdint>
 #include <string_view>
 
+#include "core/xml/panel.h"
+#include "core/xml/plot_config.h"
 #include "tests/fuzz/holds.h"
 #include "tools/studio/server/http_server.h"
 #include "tools/studio/server/session.h"
@@ -45,6 +47,13 @@ bool left_out(std::string_view message) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static Small small;
     std::string_view text(reinterpret_cast<const char*>(data), size);
+    for (const auto& parse :
+         {+[](const std::string&t, Diagnostics&d) { xml::parse_plot_config("x.conf", t, d); },
+          +[](const std::string&t, Diagnostics&d) { xml::parse_panel("x.hconf", t, d); }}) {
+        Diagnostics diagnostics;
+        parse(std::string(text), diagnostics);
+        test::sensible(diagnostics, std::string(text));
+    }
     query_value(text, "token"), cookie_value(text, "forage_1"), is_from_here(text, text, 1);
     while (!text.empty()) {
         const auto end = std::min(text.find('\n'), text.size());

@@ -94,6 +94,7 @@ struct Commands {
     std::string layout_path(const std::string& name);
     json layouts();
     json layout_read();
+    json layout_convert();
     json layout_write();
     json panels_keep();
 

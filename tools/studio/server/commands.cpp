@@ -87,6 +87,7 @@ const std::map<std::string, Entry>& table() {
         {"sample_stop", {&Commands::sample_stop, false}},
         {"layouts", {&Commands::layouts, false}},
         {"layout_read", {&Commands::layout_read, false}},
+        {"layout_convert", {&Commands::layout_convert, false}},
         {"layout_write", {&Commands::layout_write, false}},
         {"panels_keep", {&Commands::panels_keep, false}},
         {"panel_read", {&Commands::panel_read, false}},

@@ -5,6 +5,7 @@
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
 #include "tools/api/describe_json.h"
+#include "tools/studio/server/plot_layout.h"
 #include "tools/studio/server/command_functions.h"
 
 namespace forage::studio {
@@ -27,16 +28,27 @@ json Commands::layouts() {
         const std::string name = entry.path().filename().string();
         if (constexpr std::string_view end = ".layout.json"; name.ends_with(end))
             out.push_back(name.substr(0, name.size() - end.size()));
+        else if (name.ends_with(".conf") && name == file_name(name))
+            out.push_back(name);
     }
     std::sort(out.begin(), out.end());
     return {{"layouts", std::move(out)}};
 }
 
 json Commands::layout_read() {
-    const auto path = layout_path(c.at("name").get<std::string>());
+    const auto name = c.at("name").get<std::string>();
+    if (name.ends_with(".conf") && name == file_name(name)) {
+        const auto path = (folder() / name).string();
+        return {{"content", plot_layout(run(), path, read_file(path))}};
+    }
+    const auto path = layout_path(name);
     const json content = json::parse(read_file(path), nullptr, false);
     if (content.is_discarded()) throw InputError(fmt::format("'{}' is not a layout", path));
     return {{"content", content}};
+}
+
+json Commands::layout_convert() {
+    return {{"content", plot_layout(run(), c.value("file", "plots.conf"), c.at("text").get<std::string>())}};
 }
 
 json Commands::layout_write() {

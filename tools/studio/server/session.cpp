@@ -15,6 +15,7 @@
 #include "tools/api/sources.h"
 #include "tools/plot/world_map.h"
 #include "tools/studio/server/commands.h"
+#include "tools/studio/server/plot_layout.h"
 #include "tools/studio/server/problems.h"
 
 namespace forage::studio {
@@ -32,6 +33,17 @@ constexpr double save_interval = 20;        ///< s, while the run goes
 constexpr double save_rest = 1;             ///< s, while it does not
 constexpr double most_behind = 0.25;        ///< seconds that a paced run may try to catch up
 
+/// A layout of the studio, or the plots of the original.
+json read_layout(const Run& run, const std::string& path) {
+    const std::string text = read_file(path);
+    if (path.ends_with(".conf")) return plot_layout(run, path, text);
+    json out = json::parse(text, nullptr, false);
+    if (out.is_discarded())
+        throw InputError("'" + path + "' is not a layout of the studio",
+                         "its name ends with .layout.json, or with .conf for plots of the original");
+    return out;
+}
+
 /// The floor and what never moves, exactly on the view of a map.
 plot::Picture floor_picture(const bug::World& world) {
     const plot::WorldMap map(world, {}, 1600, 0, 0);
@@ -43,12 +55,9 @@ plot::Picture floor_picture(const bug::World& world) {
 
 Session::Session(RunInput input, Send send, const std::string& plot_config, std::string shipped)
     : send_(std::move(send)), shipped_(std::move(shipped)) {
-    if (!plot_config.empty()) layout_ = json::parse(read_file(plot_config), nullptr, false);
-    if (layout_.is_discarded())
-        throw InputError("'" + plot_config + "' is not a layout of the studio",
-                         "its name ends with .layout.json");
     open(std::move(input));
     begin_document(input_);
+    if (!plot_config.empty()) layout_ = read_layout(*run_, plot_config);
 }
 
 std::pair<std::unique_ptr<Run>, Touches*> Session::make_run(const RunInput& input, std::string* files) {

@@ -2,7 +2,8 @@
 import { dock } from './stores/dock.svelte';
 import { frame } from './stores/frame.svelte';
 import { model } from './stores/model.svelte';
-import type { LayoutContent } from './protocol/messages';
+import { actions } from './stores/actions.svelte';
+import { problemText, type LayoutContent } from './protocol/messages';
 import type { PanelState } from './panels/registry';
 
 export interface Preset { name: string; hint: string; spaces: string[]; times: string[]; raster?: string[]; weights?: boolean; diagram?: boolean }
@@ -86,12 +87,8 @@ export function arrange(plots: PanelState[]): void {
 
 /** Arranges the panels as a layout file says. Returns whether it says anything. */
 export function applyLayout(content: LayoutContent | null | undefined): boolean {
+  for (const p of content?.problems ?? []) actions.tell('error', problemText(p));
   if (content?.dock) dock.api?.fromJSON(content.dock as never);
-  for (const p of content?.plots ?? []) {
-    const item = p.group ?? p.source ?? p.sources?.[0];
-    if (!item) continue;
-    const kind = (p.kind ?? p.type ?? 'space').replace(/plot$/i, '').toLowerCase();
-    dock.plot(kind === 'time' ? { kind: 'time', sources: p.sources ?? [`mean(${item})`] } : { kind: 'space', item });
-  }
-  return !!content?.dock;
+  else if (content?.plots?.length) arrange(content.plots);
+  return !!content?.dock || !!content?.plots?.length;
 }

@@ -129,8 +129,8 @@ export interface StatusMessage {
 /** `layout` is that of --plot-config, `panels` the arrangement that a page had last. */
 export interface HelloMessage { type: 'hello'; protocol: number; version: string; capabilities: string[]; layout?: LayoutContent | null; panels?: LayoutContent | null }
 
-/** A layout file: the panels' arrangement, or the plots of a file of the original. */
-export interface LayoutContent { dock?: unknown; plots?: { kind?: string; type?: string; source?: string; group?: string; sources?: string[] }[] }
+/** A layout file: the panels' arrangement, or the plots of a file of the original, with what could not be read of it. */
+export interface LayoutContent { dock?: unknown; plots?: { kind: string; item?: string; sources?: string[]; [setting: string]: unknown }[]; problems?: Problem[] }
 
 export interface ActionMessage {
   type: 'action';
