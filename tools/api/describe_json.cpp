@@ -8,6 +8,7 @@
 
 #include "core/model/edit.h"
 #include "core/model/lookup.h"
+#include "tools/api/system_description.h"
 #include "tools/plot/world_map.h"
 
 namespace forage {
@@ -144,66 +145,65 @@ json parameter_of(Run& run, const model::Assignment& item, const Parameter& p, c
 
 json describe_system(const Run& run) { return describe_system(run.system(), run.registry(), &run); }
 
+// What papers and terminals read of a system (system_description.h) is in each object; the rest is for
+// showing it: places, colours, states, and ids instead of names.
 json describe_system(const model::System& system, const Registry& registry, const Run* run) {
-    std::map<std::string_view, int> connections;
-    if (run)
-        for (int i = 0; i < std::ssize(run->layout().connections); ++i)
-            connections[run->layout().connections[static_cast<std::size_t>(i)].id] = i;
+    const SystemDescription said = describe(system, run ? &run->simulation() : nullptr);
     json processes = json::array(), links = json::array();
-    const auto paths = model::group_paths(system);
-    auto path = paths.begin();
-    for (const auto& p : system.processes) {
+    for (std::size_t i = 0; i < system.processes.size(); ++i) {
+        const auto& p = system.processes[i];
+        const auto& process = said.processes[i];
         json inside = json::array();
-        for (const auto& g : p.groups) {
-            const GroupShape shape = model::shape(g.topology);
-            inside.push_back({{"id", g.id},
-                              {"name", trimmed(g.name)},
-                              {"path", *path++},
+        for (std::size_t k = 0; k < p.groups.size(); ++k) {
+            const auto& g = p.groups[k];
+            const auto& group = process.groups[k];
+            inside.push_back({{"id", group.id},
+                              {"name", group.name},
+                              {"path", group.path},
                               {"color", g.color},
-                              {"note", g.note.value_or("")},
+                              {"note", group.notes},
                               {"icon", icon_of(g.icon)},
-                              {"type", g.neuron.type},
-                              {"width", shape.width},
-                              {"height", shape.height},
-                              {"cells", shape.cells},
+                              {"type", group.neuron.type},
+                              {"width", group.width},
+                              {"height", group.height},
+                              {"cells", group.cells},
                               {"places", places_of(g.topology)},
                               {"states", states_of(registry.neuron(g.neuron.type))}});
         }
-        processes.push_back({{"id", p.id},
-                             {"name", trimmed(p.name)},
+        processes.push_back({{"id", process.id},
+                             {"name", process.name},
                              {"color", p.color},
-                             {"note", p.note.value_or("")},
+                             {"note", process.notes},
                              {"icon", icon_of(p.icon)},
                              {"linked", p.linked()},
-                             {"enabled", p.module_enabled},
+                             {"enabled", process.module_enabled},
                              {"module", module_of(p)},
                              {"groups", std::move(inside)}});
     }
-    constexpr const char* kinds[] = {"excitatory", "inhibitory", "modulatory"};
-    for (const auto& c : system.connections) {
-        const auto compiled = connections.find(c.id);
-        const auto* type = c.synapse ? registry.synapse(c.synapse->type) : nullptr;
+    for (std::size_t i = 0; i < system.connections.size(); ++i) {
+        const auto& c = system.connections[i];
+        const auto& connection = said.connections[i];
+        const auto* type = registry.synapse(connection.synapse.type);
         json states = json::array();
         for (const auto& s : type ? type->states : std::vector<SynapseStateInfo>())
             states.push_back({{"name", s.name}, {"label", s.label}});
-        const bool runs = compiled != connections.end();
-        links.push_back({{"id", c.id},
-                         {"name", trimmed(c.name)},
+        links.push_back({{"id", connection.id},
+                         {"name", connection.name},
                          {"source", c.source},
                          {"target", c.target},
-                         {"kind", kinds[static_cast<int>(c.kind)]},
-                         {"type", c.synapse ? c.synapse->type : ""},
-                         {"note", c.note.value_or("")},
-                         {"synapses", runs ? run->simulation().synapses(compiled->second) : 0},
-                         {"form", runs ? run->simulation().connection_form(compiled->second) : "not built"},
+                         {"kind", connection.kind},
+                         {"type", connection.synapse.type},
+                         {"note", connection.notes},
+                         {"synapses", connection.synapses},
+                         {"form", connection.form},
                          {"states", std::move(states)},
                          {"line", line_of(c.line)}});
     }
     const double rate = system.cycles_per_second > 0 ? system.cycles_per_second : 25;
     return {{"type", "system"},
-            {"name", trimmed(system.name)},
-            {"note", system.note.value_or("")},
-            {"cycles_per_second", system.cycles_per_second},
+            {"name", said.name},
+            {"note", said.notes},
+            {"cycles_per_second", said.cycles_per_second},
             {"seconds_per_cycle", run ? run->seconds_per_cycle() : 1 / rate},
             {"processes", std::move(processes)},
             {"connections", std::move(links)}};

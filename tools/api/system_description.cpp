@@ -1,6 +1,7 @@
 #include "tools/api/system_description.h"
 
 #include <map>
+#include <unordered_map>
 #include <variant>
 
 #include <fmt/format.h>
@@ -103,8 +104,10 @@ std::string name_of(InputKind kind) {
     return std::string(names[static_cast<std::size_t>(kind)]);
 }
 
-ProcessDescription describe(const model::Process& process, const model::System& system,
-                            const model::GroupIndex& index) {
+/// The paths of groups by their ids.
+using Paths = std::unordered_map<std::string_view, std::string>;
+
+ProcessDescription describe(const model::Process& process, const Paths& paths) {
     ProcessDescription out{.id = process.id,
                            .name = std::string(model::trim(process.name)),
                            .file = process.path,
@@ -116,14 +119,13 @@ ProcessDescription describe(const model::Process& process, const model::System& 
     if (process.module)
         for (const auto* references : {&process.module->inputs, &process.module->outputs})
             for (const auto& r : *references)
-                if (const auto entry = index.find(r.target); entry.group)
-                    out.ports.push_back({r.name, model::path(system, *entry.process, *entry.group),
-                                         references == &process.module->outputs});
+                if (const auto group = paths.find(r.target); group != paths.end())
+                    out.ports.push_back({r.name, group->second, references == &process.module->outputs});
     for (const auto& g : process.groups) {
         const GroupShape shape = model::shape(g.topology);
         out.groups.push_back({.id = g.id,
                               .name = std::string(model::trim(g.name)),
-                              .path = model::path(system, process, g),
+                              .path = paths.at(g.id),
                               .width = shape.width,
                               .height = shape.height,
                               .cells = shape.cells,
@@ -154,7 +156,7 @@ std::size_t SystemDescription::synapses() const {
     return out;
 }
 
-SystemDescription describe(const model::System& system, const engine::Simulation& compiled) {
+SystemDescription describe(const model::System& system, const engine::Simulation* compiled) {
     SystemDescription out{.name = std::string(model::trim(system.name)),
                           .author = system.author,
                           .date = system.date,
@@ -162,28 +164,40 @@ SystemDescription describe(const model::System& system, const engine::Simulation
                           .processes = {},
                           .connections = {},
                           .notes = system.note.value_or("")};
-    const model::GroupIndex index(system);
-    for (const auto& p : system.processes) out.processes.push_back(describe(p, system, index));
+    Paths paths;
+    const auto in_order = model::group_paths(system);
+    auto next = in_order.begin();
+    for (const auto& p : system.processes)
+        for (const auto& g : p.groups) paths.emplace(g.id, *next++);
+    for (const auto& p : system.processes) out.processes.push_back(describe(p, paths));
 
     std::map<std::string_view, int> numbers;
-    const auto& laid_out = compiled.layout().connections;
-    for (int i = 0; i < std::ssize(laid_out); ++i) numbers[laid_out[i].id] = i;
+    if (compiled)
+        for (const auto& c : compiled->layout().connections) {
+            const int number = static_cast<int>(numbers.size());
+            numbers[c.id] = number;
+        }
+    const auto path_of = [&](const std::string& id) {
+        const auto group = paths.find(id);
+        return group == paths.end() ? std::string() : group->second;
+    };
     for (const auto& c : system.connections) {
-        const auto source = index.find(c.source), target = index.find(c.target);
-        const int number = numbers.at(c.id);
-        out.connections.push_back({.id = c.id,
-                                   .name = std::string(model::trim(c.name)),
-                                   .source = model::path(system, *source.process, *source.group),
-                                   .target = model::path(system, *target.process, *target.group),
-                                   .kind = name_of(c.kind),
-                                   .synapses = compiled.synapses(number),
-                                   .form = std::string(compiled.connection_form(number)),
-                                   .pattern = describe(c.pattern),
-                                   .arborization = describe(c.arborization),
-                                   .attenuation = describe(c.attenuation),
-                                   .delay = describe(c.delay),
-                                   .synapse = describe(*c.synapse),
-                                   .notes = c.note.value_or("")});
+        const auto number = numbers.find(c.id);
+        const bool built = number != numbers.end();
+        out.connections.push_back(
+            {.id = c.id,
+             .name = std::string(model::trim(c.name)),
+             .source = path_of(c.source),
+             .target = path_of(c.target),
+             .kind = name_of(c.kind),
+             .synapses = built ? compiled->synapses(number->second) : 0,
+             .form = built ? std::string(compiled->connection_form(number->second)) : "not built",
+             .pattern = describe(c.pattern),
+             .arborization = describe(c.arborization),
+             .attenuation = describe(c.attenuation),
+             .delay = describe(c.delay),
+             .synapse = c.synapse ? describe(*c.synapse) : TypeDescription{},
+             .notes = c.note.value_or("")});
     }
     return out;
 }

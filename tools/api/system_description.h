@@ -64,8 +64,9 @@ struct SystemDescription {
     std::size_t groups() const, cells() const, synapses() const;
 };
 
-/// Describes a system that was compiled from `system`.
-SystemDescription describe(const model::System& system, const engine::Simulation& compiled);
+/// Describes a system, and what was compiled from it: a connection that is not in `compiled`, which may be
+/// null, is "not built" and has no synapses.
+SystemDescription describe(const model::System& system, const engine::Simulation* compiled);
 
 /// The description for a terminal: each connection below its source.
 std::string as_text(const SystemDescription& description);

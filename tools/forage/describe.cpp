@@ -13,7 +13,7 @@ int describe(const DescribeOptions& options) {
     const auto compiled = compile(loaded, options.input.seed, diagnostics);
     fmt::print(stderr, "{}", format(diagnostics));
     if (!compiled) return bad_input;
-    fmt::print("{}", in_format(forage::describe(loaded->system, *compiled), options.format));
+    fmt::print("{}", in_format(forage::describe(loaded->system, &*compiled), options.format));
     return fine;
 }
 

@@ -5,8 +5,8 @@
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
 #include "tools/api/describe_json.h"
-#include "tools/studio/server/plot_layout.h"
 #include "tools/studio/server/command_functions.h"
+#include "tools/studio/server/plot_layout.h"
 
 namespace forage::studio {
 
