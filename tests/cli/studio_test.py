@@ -3,6 +3,7 @@
 import json
 import math
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -110,7 +111,7 @@ class Watching(unittest.TestCase):
         return self.page.frames
 
     def test_the_greeting(self):
-        self.assertEqual([m['type'] for m in self.page.messages[:4]], ['hello', 'system', 'world', 'status'])
+        self.assertEqual([m['type'] for m in self.page.messages[:5]], ['hello', 'system', 'world', 'document', 'status'])
         groups = [g['path'] for p in self.page.last('system')['processes'] for g in p['groups']]
         self.assertIn('Bug/Light', groups)
         self.assertEqual(len(self.page.last('world')['robots']), 1)
@@ -415,7 +416,9 @@ class Crashes(unittest.TestCase):
         studio, page = self.start('--recover')
         self.assertEqual(page.last('status')['cycle'], 587)
         self.assertEqual(page.last('hello')['panels'], {'plots': ['as they were']})
-        self.assertEqual(page.last('status')['undo'], 'Bug/Light.threshold = 0.25')
+        self.assertTrue(page.last('document')['dirty'])  # the threshold has not been saved
+        light = page.do('parameters', item='Bug/Light')['parameters']
+        self.assertEqual(next(p['value'] for p in light if p['name'] == 'threshold'), 0.25)
         self.assertEqual(page.last('status')['manipulations'], ['Bug/Motor'])
         page.do('step', cycles=400)
         self.assertEqual(page.do('digest'), wanted)
@@ -428,17 +431,20 @@ class Crashes(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             mine = pathlib.Path(folder, 'mine.iqr')
             mine.write_bytes(pathlib.Path(system).read_bytes())
-            start = lambda: Studio(forage, str(mine), '--world', world, state=self.state)  # noqa: E731
+            shutil.copytree(root / 'systems/worlds', pathlib.Path(folder, 'worlds'))
+            arena = pathlib.Path(folder, 'worlds', pathlib.Path(world).name)
+            start = lambda: Studio(forage, str(mine), '--world', str(arena), state=self.state)  # noqa: E731
             with start() as studio:
                 page = Page(studio)
                 page.do('step', cycles=40)
                 self.kill(studio, page)
-            mine.write_bytes(pathlib.Path(system).read_bytes() + b'<!-- changed -->\n')
+            mine.write_bytes(pathlib.Path(system).read_bytes() + b'<!-- changed -->\n')  # the text is kept, too
+            arena.write_bytes(pathlib.Path(world).read_bytes() + b'<!-- changed -->\n')
             with start() as studio:
                 page = Page(studio)
                 refused = page.ask('recover')
                 self.assertIn('has changed', refused['problems'][0]['message'])
-                mine.write_bytes(pathlib.Path(system).read_bytes())
+                arena.write_bytes(pathlib.Path(world).read_bytes())
                 self.assertEqual(page.do('recover')['cycle'], 40)
                 page.do('pause')
                 self.assertIsNone(page.last('status')['killed'])

@@ -63,6 +63,15 @@ void RecoveryFiles::forget_running() const {
     if (fs::is_empty(folder_, ignored)) fs::remove(folder_, ignored);
 }
 
+std::string digest_of_files(const RunInput& input, const Sources& sources) {
+    std::string out = input.text.empty() ? file_digest(input.system) : digest(input.text);
+    for (const auto& [path, content] : system_files(*sources.system))
+        if (fs::absolute(path) != fs::absolute(input.system)) out += " " + content;
+    for (const auto& other : sources.more)
+        for (const auto& [path, content] : system_files(other)) out += " " + content;
+    return input.world.empty() ? out : out + " " + file_digest(input.world);
+}
+
 void archive_input(Archive& archive, RunInput& input) {
     const auto absolute = [](std::string& path) {
         if (!path.empty()) path = fs::absolute(path).string();

@@ -8,6 +8,7 @@
 #include "core/base/archive.h"
 #include "core/base/output_files.h"
 #include "core/run/run_spec.h"
+#include "tools/api/sources.h"
 
 namespace forage::studio {
 
@@ -39,6 +40,10 @@ class RecoveryFiles {
     std::string folder_;
     DirectoryHold hold_;
 };
+
+/// A digest of what decides a run: the system's text, or its file without one, the files that it links, and
+/// the world.
+std::string digest_of_files(const RunInput& input, const Sources& sources);
 
 /// How a run was opened, in an archive; its paths become absolute.
 void archive_input(Archive& archive, RunInput& input);

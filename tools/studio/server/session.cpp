@@ -71,7 +71,7 @@ std::pair<std::unique_ptr<Run>, Touches*> Session::make_run(const RunInput& inpu
     auto& touches = run->add(std::make_unique<Touches>());
     run->start();
     run->title = run_title(input);
-    if (files) *files = source_digests(input, sources);
+    if (files) *files = digest_of_files(input, sources);
     return {std::make_unique<Run>(std::move(*run)), &touches};
 }
 
@@ -82,6 +82,9 @@ void Session::open(RunInput input) {
     end_reference();
     files_ = std::move(files);
     input_ = begun_ = std::move(input);
+    // The text as it is now: the file may change while the run goes.
+    if (begun_.text.empty() && !begun_.system.ends_with(".iqrProcess"))
+        begun_.text = read_file(begun_.system);
     run_ = std::move(run);
     touches_ = touches;
     failed_.clear(), running_ = sampled_ = false;

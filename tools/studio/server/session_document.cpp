@@ -155,7 +155,8 @@ bool Session::rebuild() {
     RunInput input = input_;
     input.text = document_->text();
     Diagnostics diagnostics;
-    auto loaded = load(input, diagnostics);
+    const Sources sources = read_sources(input, diagnostics);
+    auto loaded = assemble(sources, input, diagnostics);
     std::optional<Run> run;
     if (loaded)
         run = Run::make(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world),
@@ -178,6 +179,8 @@ bool Session::rebuild() {
     run_ = std::make_unique<Run>(std::move(*run));
     touches_ = touches;
     failed_.clear();
+    files_ = digest_of_files(input, sources);
+    begun_ = std::move(input);
     history_.begin(*run_);
     rebind();
     return true;

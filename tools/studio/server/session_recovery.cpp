@@ -55,13 +55,16 @@ void Session::save() {
                          std::chrono::system_clock::now().time_since_epoch())
                          .count();
         RunInput opened = input_, begun = begun_;
-        json changed = json::object(), undo = json::array(), redo = json::array();
+        json changed = json::object();
         for (const auto& [name, change] : changed_) changed[name] = {change.assignment, change.loaded};
-        for (const auto& u : undo_) undo.push_back({u.undo, u.redo, u.title});
-        for (const auto& u : redo_) redo.push_back({u.undo, u.redo, u.title});
-        std::string rest = json{{"changed", changed}, {"undo", undo},  {"redo", redo},
-                                {"panels", panels_},  {"mode", mode_}, {"value", value_}}
-                               .dump(-1, ' ', false, json::error_handler_t::replace);
+        json text = nullptr;  // of a system that has not been saved
+        if (document_->dirty()) text = document_->text();
+        std::string rest = json{
+            {"changed", changed},
+            {"document", text},
+            {"panels", panels_},
+            {"mode", mode_},
+            {"value", value_}}.dump(-1, ' ', false, json::error_handler_t::replace);
         archive(head);
         archive_input(archive, opened), archive_input(archive, begun);
         archive(rest);
@@ -96,19 +99,22 @@ void Session::recover() {
     Diagnostics diagnostics;
     const Sources sources = read_sources(begun, diagnostics);
     throw_errors(diagnostics);
-    if (source_digests(begun, sources) != head.files)
+    if (digest_of_files(begun, sources) != head.files)
         throw InputError(
-            fmt::format("'{}' or its world has changed since the session was killed", begun.system),
+            fmt::format("the world or a linked process of '{}' has changed since the session was killed",
+                        begun.system),
             "restore the files, or begin anew");
     open(std::move(begun));
     input_ = std::move(opened);
+    begin_document(input_);
+    if (const auto& unsaved = rest.at("document"); unsaved.is_string())
+        document_->replace_text(unsaved.get<std::string>(), "before the crash");
+    current_ = built_ == document_->system();
     history_ = std::move(past);
     replay(head.cycle);
-    changed_.clear(), undo_.clear(), redo_.clear();
+    changed_.clear();
     for (const auto& [name, change] : rest.at("changed").items())
         changed_[name] = {change.at(0).get<std::string>(), change.at(1)};
-    for (const auto& u : rest.at("undo")) undo_.push_back({u.at(0), u.at(1), u.at(2).get<std::string>()});
-    for (const auto& u : rest.at("redo")) redo_.push_back({u.at(0), u.at(1), u.at(2).get<std::string>()});
     panels_ = rest.at("panels");
     set_speed(rest.at("mode").get<std::string>(), rest.at("value").get<double>());
     rebind();
