@@ -1,7 +1,4 @@
-"""Adaptive experiments: their rounds are the same in one piece, in parts and after kills, with any number of workers.
-
-    adaptive_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
-"""
+"""Adaptive experiments: their rounds are the same in one piece, in parts and after kills, with any number of workers. The arguments are those of support.py."""
 import csv
 import math
 import os
@@ -13,51 +10,25 @@ import signal
 import statistics
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
-FORAGE = str(pathlib.Path(sys.argv[1]).resolve())
-PROJECT = pathlib.Path(sys.argv[2]).resolve()
+from support import FORAGE, KILLS, PROJECT, ExperimentTest
 
-EXPERIMENT = f"""<experiment>
-  <system file="{PROJECT}/systems/reactive_foraging.iqr"/>
-  <world file="{PROJECT}/systems/worlds/basic_arena.world"/>
-  <length trials="2" longest-trial="60"/>
-  <seeds count="3"/>
-  <sweep parameter="Reactive Layer/US.threshold" values="0.2 0.5 0.8 0.9 0.95"/>
-  <measure name="success" success="all"/>
-  <measure name="length" duration="all"/>
-  ADAPT
-</experiment>
-"""
 CONFIDENCE = '<confidence measure="length" width="0.5" most="20"/>'
 HALVING = '<halving measure="length" keep="lowest"/>'
 T = {n: t for n, t in enumerate((12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145, 2.131, 2.120, 2.110,
                                  2.101, 2.093), 2)}  # by the number of seeds
 
 
-class Adaptive(unittest.TestCase):
-    def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="forage-adaptive-"))
-        self.addCleanup(shutil.rmtree, self.folder)
-
-    def write(self, adapt):
-        (self.folder / "x.xml").write_text(EXPERIMENT.replace("ADAPT", adapt))
-
+class Adaptive(ExperimentTest):
     def command(self, directory, *arguments):
         return [FORAGE, "experiment", "x.xml", "-o", directory, *arguments]
 
-    def forage(self, directory, *arguments):
-        return subprocess.run(self.command(directory, *arguments), cwd=self.folder, capture_output=True, text=True)
-
     def whole(self):
-        done = self.forage("whole")
+        done = self.forage(directory="whole")
         self.assertEqual(done.returncode, 0, done.stderr)
         return done
-
-    def tables(self, directory):
-        return [(self.folder / directory / name).read_bytes() for name in ("results.csv", "summary.csv")]
 
     def lengths(self, directory="whole"):
         """The lengths by combination, in the order of the seeds."""
@@ -74,9 +45,9 @@ class Adaptive(unittest.TestCase):
         said = []
         for _ in range(20):
             for part in random.Random(len(said)).sample(range(1, parts + 1), parts):
-                done = self.forage(directory, "--shard", f"{part}/{parts}", "-q")
+                done = self.forage("--shard", f"{part}/{parts}", "-q", directory=directory)
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
-            merged = self.forage(directory, "--merge", "-q")
+            merged = self.forage("--merge", "-q", directory=directory)
             if merged.returncode == 0:
                 return said
             self.assertFalse((self.folder / directory / "results.csv").exists())
@@ -84,7 +55,7 @@ class Adaptive(unittest.TestCase):
         self.fail("there is no end of rounds")
 
     def test_confidence(self):
-        self.write(CONFIDENCE)
+        self.write_rounds(CONFIDENCE)
         said = self.whole().stderr
         counts = []
         narrow = 0
@@ -98,7 +69,7 @@ class Adaptive(unittest.TestCase):
         self.assertIn(f"note: the interval of 'length' is narrow enough in {narrow} of 5 combinations", said)
 
     def test_halving(self):
-        self.write(HALVING)
+        self.write_rounds(HALVING)
         said = self.whole().stderr
         found = self.lengths()
         means = [(statistics.fmean(n[:3]), value) for value, n in found.items()]
@@ -112,10 +83,10 @@ class Adaptive(unittest.TestCase):
 
     def test_the_number_of_workers_changes_nothing(self):
         for adapt in (CONFIDENCE, HALVING):
-            self.write(adapt)
+            self.write_rounds(adapt)
             self.whole()
             for name, options in (("one", ["-j1"]), ("five", ["-j5"])):
-                self.assertEqual(self.forage(name, *options).returncode, 0)
+                self.assertEqual(self.forage(*options, directory=name).returncode, 0)
                 self.assertEqual(self.tables(name), self.tables("whole"))
             for parts in (1, 4):
                 said = self.merge_in_rounds(f"parts-{parts}", parts)
@@ -127,57 +98,57 @@ class Adaptive(unittest.TestCase):
                 shutil.rmtree(self.folder / name)
 
     def test_status(self):
-        self.write(HALVING)
-        self.assertIn("round 1: 0/15 runs", self.forage("x", "--status").stdout)
-        self.assertIn("x.xml: part 1/2: round 1: 8 runs executed now", self.forage("x", "--shard", "1/2").stdout)
-        self.assertIn("round 1: 8/15 runs", self.forage("x", "--status").stdout)
-        self.forage("x", "--shard", "2/2")
-        self.assertIn("round 2: 15/24 runs", self.forage("x", "--status").stdout)
-        done = self.forage("x")  # the rest is executed here
+        self.write_rounds(HALVING)
+        self.assertIn("round 1: 0/15 runs", self.forage("--status", directory="x").stdout)
+        self.assertIn("x.xml: part 1/2: round 1: 8 runs executed now", self.forage("--shard", "1/2", directory="x").stdout)
+        self.assertIn("round 1: 8/15 runs", self.forage("--status", directory="x").stdout)
+        self.forage("--shard", "2/2", directory="x")
+        self.assertIn("round 2: 15/24 runs", self.forage("--status", directory="x").stdout)
+        done = self.forage(directory="x")  # the rest is executed here
         self.assertIn("x.xml: 36 runs\n", done.stdout)
-        self.assertIn("round 3: 36/36 runs", self.forage("x", "--status").stdout)
-        again = self.forage("x")  # the folders of later rounds are no left-overs
+        self.assertIn("round 3: 36/36 runs", self.forage("--status", directory="x").stdout)
+        again = self.forage(directory="x")  # the folders of later rounds are no left-overs
         self.assertEqual(again.returncode, 0)
         self.assertNotIn("warning", again.stderr)
 
     def test_fresh(self):
-        self.write(HALVING)
+        self.write_rounds(HALVING)
         self.whole()
         before = self.tables("whole")
         times = {p: p.stat().st_mtime_ns for p in (self.folder / "whole" / "runs").glob("*/result.json")}
-        self.assertEqual(self.forage("whole").returncode, 0)
+        self.assertEqual(self.forage(directory="whole").returncode, 0)
         self.assertEqual(times, {p: p.stat().st_mtime_ns for p in times})  # nothing is computed again
-        self.assertEqual(self.forage("whole", "--fresh").returncode, 0)
+        self.assertEqual(self.forage("--fresh", directory="whole").returncode, 0)
         self.assertTrue(all(p.stat().st_mtime_ns > t for p, t in times.items()))
         self.assertEqual(self.tables("whole"), before)
 
     def test_a_failed_run(self):
         """It has no number for a decision, and when it is executed again, the decisions are made anew."""
-        self.write(CONFIDENCE)
+        self.write_rounds(CONFIDENCE)
         self.whole()
         (self.folder / "x" / "runs").mkdir(parents=True)
         obstacle = self.folder / "x" / "runs" / "threshold-0.2_seed-2"
         obstacle.write_text("in the way")
-        done = self.forage("x")
+        done = self.forage(directory="x")
         self.assertEqual(done.returncode, 1)
         self.assertIn("error: run 'threshold-0.2_seed-2'", done.stderr)
         obstacle.unlink()
-        self.assertEqual(self.forage("x").returncode, 0)
+        self.assertEqual(self.forage(directory="x").returncode, 0)
         self.assertEqual(self.tables("x"), self.tables("whole"))
 
     def test_kills(self):
         """Whole experiments, parts and merges are killed at random moments, in all rounds."""
         chance = random.Random(1)
         for adapt in (CONFIDENCE, HALVING):
-            self.write(adapt)
+            self.write_rounds(adapt)
             self.whole()
             for directory, choices in (("killed", [["-j2"]]), ("parts", [["--shard", "1/2"], ["--shard", "2/2"], ["--merge"]])):
-                for kill in range(15):
+                for kill in range(KILLS // 4 or 10):
                     process = subprocess.Popen(self.command(directory, "-q", *choices[kill % len(choices)]), cwd=self.folder, stderr=subprocess.DEVNULL)
                     time.sleep(chance.uniform(0, 0.3))
                     process.send_signal(signal.SIGKILL)
                     process.wait()
-            self.assertEqual(self.forage("killed", "-q").returncode, 0)
+            self.assertEqual(self.forage("-q", directory="killed").returncode, 0)
             self.merge_in_rounds("parts", 2)
             for directory in ("killed", "parts"):
                 self.assertEqual(self.tables(directory), self.tables("whole"))

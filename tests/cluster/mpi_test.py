@@ -64,9 +64,7 @@ class Mpi(ExperimentTest):
         self.same_as_one_machine()
 
     def test_rounds(self):
-        text = (self.folder / "x.xml").read_text()
-        text = text.replace('trials="4"', 'trials="2"').replace('count="100"', 'count="3"').replace('values="0.2 0.8"', 'values="0.2 0.5 0.8 0.9 0.95"')
-        (self.folder / "x.xml").write_text(text.replace("</experiment>", '<halving measure="success"/></experiment>'))
+        self.write_rounds('<halving measure="success"/>')
         job = self.start(3, "x.xml", "-o", "mpi")
         output, errors = job.communicate()
         self.assertEqual(job.returncode, 0, errors)

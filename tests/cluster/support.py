@@ -53,6 +53,12 @@ class ExperimentTest(unittest.TestCase):
     def write(self, seeds, trials):
         (self.folder / "x.xml").write_text(EXPERIMENT.replace("SEEDS", str(seeds)).replace("TRIALS", str(trials)))
 
+    def write_rounds(self, adaptation):
+        """An experiment that adapts itself, with five combinations and three seeds to begin with."""
+        self.write(seeds=3, trials=2)
+        text = (self.folder / "x.xml").read_text().replace('"0.2 0.8"', '"0.2 0.5 0.8 0.9 0.95"')
+        (self.folder / "x.xml").write_text(text.replace("</experiment>", f"  {adaptation}\n</experiment>"))
+
     def forage(self, *arguments, directory=None, file="x.xml"):
         return subprocess.run([FORAGE, "experiment", file, "-o", directory or self.results, *arguments], cwd=self.folder, capture_output=True, text=True)
 
