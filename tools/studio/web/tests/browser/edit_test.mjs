@@ -1,0 +1,169 @@
+// Editing a system in the diagram and the inspector, in Chromium against the real program: node edit_test.mjs FORAGE SOURCES
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { join, resolve } from 'node:path';
+import { inBrowser } from './support.mjs';
+
+const [forage, sources] = process.argv.slice(2).map((p) => resolve(p));
+const step = (text) => console.log(text);
+
+await inBrowser(sources, async ({ folder, context, start, until }) => {
+  await context.grantPermissions(['clipboard-read', 'clipboard-write']);
+  const faults = [];
+  const file = join(folder, 'systems/reactive_foraging.iqr');
+  const original = readFileSync(file, 'utf8');
+  const studio = start(forage, ['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
+  const page = await context.newPage();
+  page.setDefaultTimeout(20000);
+  page.on('pageerror', (e) => faults.push(e.message));
+  page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
+  await page.goto(await studio.address);
+  const diagram = page.getByRole('group', { name: 'Diagram' });
+  const canvas = diagram.getByRole('application', { name: 'Canvas' });
+  const inspector = page.getByRole('region', { name: 'Inspector' });
+  const node = (id) => diagram.locator(`.svelte-flow__node[data-id="${id}"]`);
+  const heading = (name) => inspector.getByRole('heading', { name, exact: true }).waitFor();
+  const palette = async (text) => {
+    await page.keyboard.press('Control+k');
+    await page.keyboard.type(text);
+    await page.keyboard.press('Enter');
+  };
+  const place = async (id) => (await node(id).evaluate((e) => e.style.transform)).match(/-?[\d.]+/g).map(Number);
+  const moved = (id, from) => until(page, `${id} moves`, ([i, was]) => document.querySelector(`.svelte-flow__node[data-id="${i}"]`)?.style.transform !== was, [id, `translate(${from[0]}px, ${from[1]}px)`]);
+  const undone = (id, to) => until(page, `${id} is back`, ([i, was]) => document.querySelector(`.svelte-flow__node[data-id="${i}"]`)?.style.transform === was, [id, `translate(${to[0]}px, ${to[1]}px)`]);
+  const dirty = (yes) => until(page, yes ? 'a change' : 'no change', (y) => document.title.startsWith('●') === y, yes);
+  const count = (n) => until(page, `${n} boxes`, (k) => document.querySelectorAll('.svelte-flow__node:not(:has(.phantom))').length === k, n);
+  /** A point of a line, as a part of its length. */
+  const along = (connection, part) => page.evaluate(([c, p]) => {
+    const path = document.querySelector(`g[data-connection="${c}"] .wide`);
+    const at = path.getPointAtLength(path.getTotalLength() * p).matrixTransform(path.getScreenCTM());
+    return [at.x, at.y];
+  }, [connection, part]);
+  const drag = async (from, to) => {
+    await page.mouse.move(...from);
+    await page.mouse.down();
+    await page.mouse.move((from[0] + to[0]) / 2, (from[1] + to[1]) / 2, { steps: 3 });
+    await page.mouse.move(...to, { steps: 3 });
+    await page.mouse.up();
+  };
+
+  step('a box is dragged, undone, redone, and moved by the arrows; only its place in the file changes');
+  await page.getByRole('group', { name: 'Arena' }).waitFor();
+  await palette('layout: build');
+  await diagram.getByRole('button', { name: 'Selection', exact: true }).click();
+  await count(6);
+  const ur = await place('selection.ur');
+  const box = await node('selection.ur').boundingBox();
+  await drag([box.x + 20, box.y + 15], [box.x + 60, box.y + 75]);
+  await moved('selection.ur', ur);
+  await dirty(true);
+  await page.keyboard.press('Control+z');
+  await undone('selection.ur', ur);
+  await dirty(false);
+  await page.keyboard.press('Control+Shift+z');
+  await moved('selection.ur', ur);
+  const there = await place('selection.ur');
+  await page.keyboard.press('Shift+ArrowDown');
+  await until(page, 'the arrow', ([y]) => Number(document.querySelector('.svelte-flow__node[data-id="selection.ur"]').style.transform.match(/-?[\d.]+/g)[1]) > y, [there[1]]);
+  await page.getByText('UR', { exact: true }).first().waitFor();
+  await page.waitForTimeout(600); // the arrows are sent together, shortly after the last one
+  await page.keyboard.press('Control+s');
+  await dirty(false);
+  const saved = readFileSync(file, 'utf8').split('\n');
+  const differing = original.split('\n').flatMap((l, i) => (l === saved[i] ? [] : [i]));
+  assert.equal(saved.length, original.split('\n').length);
+  assert.equal(differing.length, 1);
+  assert.match(saved[differing[0]], /<DiagramIcon x="\d+" y="\d+" width="50" height="50"\/>/);
+
+  step('a vertex is added by Ctrl and click, dragged, and deleted by a key');
+  const c = 'c.approach-ur';
+  await page.keyboard.down('Control');
+  await page.mouse.click(...(await along(c, 0.5)));
+  await page.keyboard.up('Control');
+  const vertex = page.getByRole('button', { name: 'Vertex 1 of Approach to UR' });
+  await vertex.waitFor();
+  const v = await vertex.boundingBox();
+  await drag([v.x + 4, v.y + 4], [v.x + 4, v.y + 64]);
+  await until(page, 'the vertex', (y) => document.querySelector('.vertex')?.getBoundingClientRect().y > y, v.y + 30);
+  await vertex.focus();
+  await page.keyboard.press('Delete');
+  await vertex.waitFor({ state: 'detached' });
+
+  step('an end is drawn to another box: the connection leads elsewhere; undo takes it back');
+  const end = await page.locator('circle[data-end="target"]').boundingBox();
+  const motor = await node('selection.motor_in').boundingBox();
+  await drag([end.x + 5, end.y + 5], [motor.x + motor.width / 2, motor.y + motor.height - 4]);
+  await inspector.getByText('Selection/Approach → Selection/Motor In', { exact: true }).waitFor();
+  await canvas.focus();
+  await page.keyboard.press('Control+z');
+  await inspector.getByText('Selection/Approach → Selection/UR', { exact: true }).waitFor();
+
+  step('groups are selected by a rubber band, copied with their connection, pasted and deleted');
+  const first = await node('selection.approach_inhibition').boundingBox(), second = await node('selection.explore').boundingBox();
+  await page.keyboard.press('Escape');
+  await drag([first.x - 12, first.y - 12], [second.x + second.width + 12, second.y + second.height + 12]);
+  await until(page, 'two selected boxes', () => document.querySelectorAll('.svelte-flow__node.selected').length === 2);
+  await page.keyboard.press('Control+c');
+  await page.getByText('Copied 2 items.').waitFor();
+  await page.keyboard.press('Control+v');
+  await count(8);
+  await page.getByRole('navigation').getByText('11', { exact: true }).waitFor(); // connections
+  await page.keyboard.press('Delete');
+  await count(6);
+
+  step('two groups of a type are changed together');
+  await node('selection.approach').click();
+  await node('selection.explore').click({ modifiers: ['Control'] });
+  await inspector.getByText(/act on the 2 selected groups/).waitFor();
+  const gain = page.locator('[id="Selection/Explore.inhGain"]');
+  await gain.fill('1.25');
+  await gain.press('Enter');
+  await node('selection.approach').click();
+  await until(page, 'the other group', () => document.getElementById('Selection/Approach.inhGain')?.value === '1.25');
+
+  step('what is wrong is listed, and a click goes there');
+  await inspector.getByLabel('Neuron', { exact: true }).waitFor();
+  await inspector.getByText('XML', { exact: true }).click();
+  const xml = inspector.getByLabel('XML of the item');
+  await xml.fill('<Group id="selection.approach" name="Approach">');
+  await xml.press('Control+Enter');
+  await inspector.getByRole('alert').waitFor();
+  await inspector.getByRole('button', { name: 'Discard' }).click();
+  await xml.fill((await xml.inputValue()).replace('neuronLinearThreshold', 'neuronLinearTreshold'));
+  await xml.press('Control+Enter');
+  await page.getByRole('button', { name: /problem/ }).click();
+  const problems = page.getByRole('group', { name: 'Problems' });
+  await palette('US to Approach');
+  await heading('US to Approach');
+  await problems.getByRole('button', { name: /neuronLinearTreshold/ }).first().click();
+  await heading('Selection/Approach');
+  await canvas.focus();
+  await page.keyboard.press('Control+z');
+  await page.getByRole('button', { name: /problem/ }).waitFor({ state: 'detached' });
+
+  step('the changes since the last save; another program writes the file');
+  await palette('changes since');
+  await page.getByRole('group', { name: 'Changes since the last save' }).getByText(/1\.25/).first().waitFor();
+  writeFileSync(file, readFileSync(file, 'utf8').replace('name="Const Speed"', 'name="Drive"'));
+  await page.getByText('reactive_foraging.iqr was changed by another program.').waitFor();
+  await page.getByRole('button', { name: 'Merge both' }).click();
+  await page.getByRole('navigation').getByText('Drive', { exact: true }).waitFor();
+  await page.getByRole('group', { name: 'Changes since the last save' }).getByText(/1\.25/).first().waitFor();
+
+  step('axe finds no serious fault of accessibility');
+  await page.evaluate(readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8'));
+  const serious = () => page.evaluate(async () => (await window.axe.run({ exclude: ['.dv-tab'] }, { resultTypes: ['violations'] })).violations.filter((v) => ['serious', 'critical'].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 160)).join(' | ')}`));
+  await palette('US to Approach');
+  await inspector.getByLabel('Pattern', { exact: true }).waitFor();
+  assert.deepEqual(await serious(), []);
+  await page.getByRole('button', { name: /Reactive foraging/ }).first().click();
+  await page.getByRole('menuitem', { name: 'Save as' }).waitFor();
+  assert.deepEqual(await serious(), []);
+  await page.getByRole('menuitem', { name: 'Save as' }).click();
+  await page.getByRole('dialog', { name: 'Save as' }).waitFor();
+  assert.deepEqual(await serious(), []);
+
+  assert.deepEqual(faults, []);
+  console.log('all fine');
+});
