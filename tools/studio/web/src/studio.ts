@@ -4,6 +4,7 @@ import { protocolVersion, type ServerMessage } from './protocol/messages';
 import type { TypesResult } from './protocol/editing';
 import type { Frame } from './protocol/frame';
 import { editing } from './edit/document.svelte';
+import { worldFile } from './edit/world.svelte';
 import { actions } from './stores/actions.svelte';
 import { model } from './stores/model.svelte';
 import { selection } from './stores/selection.svelte';
@@ -71,6 +72,9 @@ function receive(message: ServerMessage): void {
     case 'document':
       editing.message = message;
       if (!editing.types) void request<TypesResult>('types').then((t) => (editing.types = t), () => {});
+      break;
+    case 'world_document':
+      worldFile.document = message;
       break;
     case 'world':
       model.world = message.file === null ? null : message;

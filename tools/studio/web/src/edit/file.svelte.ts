@@ -6,7 +6,7 @@ import { command, request } from '../studio';
 import { CommandError } from '../connection';
 import { editing } from './document.svelte';
 
-export type FileAction = 'open' | 'save as' | 'import' | 'link' | 'export' | 'new';
+export type FileAction = 'open' | 'save as' | 'import' | 'link' | 'export' | 'new' | 'save the world';
 
 class FileDialog {
   action = $state<FileAction | null>(null);
@@ -26,6 +26,7 @@ class FileDialog {
     this.world = model.world?.file ?? '';
     const item = model.find(process);
     this.name = action === 'export' && item?.kind === 'process' ? `${item.process.name}.iqrProcess` : action === 'save as' ? editing.file.split('/').pop() || `${model.system?.name || 'system'}.iqr` : '';
+    if (action === 'save the world') this.name = model.world?.file?.split('/').pop() ?? 'arena.world';
     if (action !== 'new') void this.list('');
     if (action === 'open') void request<{ files: string[] }>('recent').then((r) => (this.recent = r.files), () => {});
   }
@@ -49,6 +50,7 @@ class FileDialog {
       import: () => request('import', { file, link: false }),
       link: () => request('import', { file, link: true }),
       export: () => request('export', { process: this.process, file }),
+      'save the world': () => request('world_save', { file: /\.world$/.test(file) ? file : `${file}.world`, overwrite }),
       new: () => request('new', { name: this.name.trim() || 'New system', world: this.world.trim() }),
     };
     try {

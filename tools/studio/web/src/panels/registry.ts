@@ -38,6 +38,7 @@ export const kinds: Record<string, PanelKind> = {
   sampler: { title: () => 'Record to a file', load: () => import('./Sampler.svelte') },
   chosen: { title: () => 'Chosen parameters', load: () => import('./Chosen.svelte') },
   tutorial: { title: () => 'Tutorial', load: () => import('./Tutorial.svelte') },
+  world: { title: () => 'World', load: () => import('./World.svelte') },
   problems: { title: () => 'Problems', load: () => import('./Problems.svelte') },
   difference: { title: () => 'Changes', load: () => import('./Difference.svelte') },
   log: { title: () => 'Log', load: () => import('./Log.svelte') },

@@ -78,3 +78,7 @@ export type Change = (part: Partial<EditItem>, operation: Operation | Operation[
 
 /** One change of the document; `do` says which. */
 export type Operation = { do: string } & Record<string, unknown>;
+
+export interface WorldItem { name: string; kind: string; uri: string; x: number; y: number; z: number; yaw: number; size: number[] }
+/** The items of the world's file. The server sends it after each change of it. */
+export interface WorldDocument { type: 'world_document'; file: string; dirty: boolean; items: WorldItem[] }

@@ -1,6 +1,6 @@
 // Control messages: JSON in both directions, as docs/design/studio-protocol.md describes them.
 
-import type { DocumentMessage } from './editing';
+import type { DocumentMessage, WorldDocument } from './editing';
 
 export const protocolVersion = 1;
 
@@ -149,7 +149,7 @@ export interface Problem { severity?: string; file?: string; line?: number; colu
 
 export interface ReplyMessage { type: 'reply'; id: number; ok: boolean; result?: unknown; problems?: Problem[] }
 
-export type ServerMessage = HelloMessage | SystemMessage | WorldMessage | StatusMessage | ActionMessage | DocumentMessage | ReplyMessage;
+export type ServerMessage = HelloMessage | SystemMessage | WorldMessage | StatusMessage | ActionMessage | DocumentMessage | WorldDocument | ReplyMessage;
 
 export type ParameterValue = boolean | number | string;
 

@@ -1,0 +1,21 @@
+// The world's file as it is edited. The run keeps its world until the file is saved.
+import { request } from '../studio';
+import type { WorldDocument } from '../protocol/editing';
+
+class WorldFile {
+  document = $state.raw<WorldDocument | null>(null);
+  /** Why there is none. */
+  missing = $state('');
+
+  async load(): Promise<void> {
+    try {
+      this.document = await request<WorldDocument>('world_document');
+      this.missing = '';
+    } catch (e) {
+      this.document = null;
+      this.missing = (e as Error).message;
+    }
+  }
+}
+
+export const worldFile = new WorldFile();
