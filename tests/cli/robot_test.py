@@ -61,7 +61,7 @@ class Robot(unittest.TestCase):
     def test_the_page_has_the_ports_that_types_prints(self):
         printed = self.forage("types", "moduleGazeboBug").stdout.split("Reads from groups")[1]
         ports = re.findall(r"^  (\w+) +(.+?): (.+?)\. (.+)$", printed, re.MULTILINE)
-        self.assertEqual(len(ports), 13)
+        self.assertEqual(len(ports), 14)
         rows = "".join(f"| `{name}` | {label} | {size} | {doc} |\n" for name, label, size, doc in ports)
         self.on_the_page(r"(?<=\| what the cells mean \|\n\|---\|---\|---\|---\|\n).*?(?=\n\n)", rows[:-1])
 

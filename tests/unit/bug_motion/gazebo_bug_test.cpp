@@ -274,3 +274,23 @@ TEST_CASE("The gripper closes above 0.5, and opens at 0.5 and below") {
     CHECK(angles[2] == Approx(0.45));
     CHECK(angles[3] == Approx(-0.2));
 }
+
+TEST_CASE("The trial group reports a target once, and the reset while it lasts") {
+    auto arena = test::description("basic_arena");
+    arena.trials.emplace();
+    const auto world = test::make_world(arena);
+    Bench bench(world.get());
+    bench.group("_trial") = shape(2, 1);
+    CHECK(bench.problem().empty());
+    bench.start();
+    bench.in_cells[0][4] = 1;  // straight on, from (0, -2) to the target
+    int reached = 0, between = 0;
+    for (std::uint64_t cycle = 0; cycle < 100; ++cycle) {
+        bench.update(cycle);
+        reached += bench.output("_trial")[0] > 0;
+        between += bench.output("_trial")[1] > 0;
+        world->step();
+    }
+    CHECK(reached == 1);
+    CHECK(between == Approx(1.001 / world->seconds_per_cycle()).margin(1.1));
+}
