@@ -4,7 +4,7 @@ import { join } from 'node:path';
 import type { Plugin } from 'vite';
 import { makePage } from './page';
 
-const ids = ['1-getting-started', '2-reactive-layer', '3-adaptive-layer', '4-contextual-layer', '5-build-a-system'];
+const ids = ['1-getting-started', '2-reactive-layer', '3-adaptive-layer', '4-contextual-layer', '5-sequential-episodic-control', '6-allostasis', 'appendix-build-a-system'];
 
 /** `folder` is docs/tutorial. */
 export function tutorial(folder: string): Plugin {
