@@ -136,16 +136,23 @@ class Adaptive(ExperimentTest):
         self.assertEqual(self.forage(directory="x").returncode, 0)
         self.assertEqual(self.tables("x"), self.tables("whole"))
 
+    def finished(self, directory):
+        """The number of runs with results."""
+        parts = (self.folder / directory / "parts").glob("*.jsonl")
+        return sum(p.read_bytes().count(b"\n") for p in parts) + len(list((self.folder / directory / "runs").glob("*/result.json")))
+
     def test_kills(self):
-        """Whole experiments, parts and merges are killed at random moments, in all rounds."""
+        """Whole experiments, parts and merges are killed in all rounds, each when some more runs are finished."""
         chance = random.Random(1)
         for adapt in (CONFIDENCE, HALVING):
             self.write_rounds(adapt)
             self.whole()
             for directory, choices in (("killed", [["-j2"]]), ("parts", [["--shard", "1/2"], ["--shard", "2/2"], ["--merge"]])):
-                for kill in range(KILLS // 4 or 10):
-                    process = subprocess.Popen(self.command(directory, "-q", *choices[kill % len(choices)]), cwd=self.folder, stderr=subprocess.DEVNULL)
-                    time.sleep(chance.uniform(0, 0.3))
+                for turn in range(KILLS // 4 or 9):
+                    wanted = self.finished(directory) + chance.randint(1, 6)
+                    process = subprocess.Popen(self.command(directory, "-q", *choices[turn % len(choices)]), cwd=self.folder, stderr=subprocess.DEVNULL)
+                    while process.poll() is None and self.finished(directory) < wanted:
+                        time.sleep(0.002)
                     process.send_signal(signal.SIGKILL)
                     process.wait()
             self.assertEqual(self.forage("-q", directory="killed").returncode, 0)
