@@ -65,7 +65,7 @@ read, changed, recorded and drawn from Python and in notebooks, with NumPy.")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
       "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "forage, fonts-dejavu-core")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "forage-dev, forage-doc, python3-pandas, python3-xarray, python3-scipy, jupyter-notebook")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "forage-dev, forage-doc, python3-pandas, python3-xarray, python3-scipy, python3-cmaes, jupyter-notebook")
 endif()
 
 # What every package of Debian has in share/doc, and the manual page.
