@@ -64,7 +64,7 @@ await inBrowser(sources, async ({ context, start, until }) => {
   await page.getByRole('button', { name: 'Undo' }).click();
   await page.getByRole('button', { name: 'Redo' }).click();
   await tutorial.locator('[data-open="1"]').click();
-  await tutorial.getByRole('button', { name: 'Drop the changes of this run, and set it up' }).click();
+  await tutorial.getByRole('button', { name: 'Drop the changes, and set it up' }).click();
   await tutorial.locator('.setup.active [data-open="1"]').waitFor();
 
   step('links lead to other parts; after loading anew the same part is shown');
