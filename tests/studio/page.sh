@@ -3,6 +3,7 @@
 # Exit code 77 when Node, the packages or the browser are missing.
 command -v node >/dev/null || { echo "SKIPPED: there is no Node"; exit 77; }
 [ -d "$2/node_modules/vitest" ] || { echo "SKIPPED: the page was not built, see tools/studio/web"; exit 77; }
+export FORAGE_TUTORIAL="$4/docs/tutorial"
 rm -rf "$2/tests" && cp -r "$4/tools/studio/web/tests" "$2" && cd "$2" || exit 1
 case $1 in
     check) npm run --silent check && npm run --silent test ;;

@@ -1,10 +1,11 @@
 // The module `virtual:tutorial`: the pages of docs/tutorial as HTML, with their pictures as assets.
-import { readFileSync } from 'node:fs';
+import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Plugin } from 'vite';
 import { makePage } from './page';
 
-const ids = ['1-getting-started', '2-reactive-layer', '3-adaptive-layer', '4-contextual-layer', '5-sequential-episodic-control', '6-allostasis', 'appendix-build-a-system'];
+/** The parts and the appendix, in their order. */
+const partsOf = (folder: string) => readdirSync(folder).flatMap((file) => /^((?:\d|appendix)\S*)\.md$/.exec(file)?.[1] ?? []).sort();
 
 /** `folder` is docs/tutorial. */
 export function tutorial(folder: string): Plugin {
@@ -14,6 +15,7 @@ export function tutorial(folder: string): Plugin {
     load(id) {
       if (id !== '\0virtual:tutorial') return undefined;
       const imports: string[] = [];
+      const ids = partsOf(folder);
       const pages = ids.map((name) => {
         const file = join(folder, `${name}.md`);
         this.addWatchFile(file);

@@ -46,6 +46,16 @@ describe('pages of the tutorial', () => {
     expect(() => page('<details><summary>S</summary>\n\n<!-- studio\nsystem: a\nworld: b\n-->\n\n</details>')).toThrow('outside'));
 });
 
+describe('docs/tutorial', () => {
+  it('becomes pages: all parts in their order, with set-ups and pictures', async () => {
+    const { pages } = await import('virtual:tutorial');
+    expect(pages.map((p) => p.id.split('-')[0])).toEqual([...pages.keys()].slice(1).map(String).concat('appendix'));
+    expect(pages.slice(0, 4).map((p) => p.setups.length >= 3)).toEqual([true, true, true, true]);
+    for (const p of pages) expect(p.html).not.toContain('src="picture:');
+    expect(pages[0]!.html).toMatch(/<img src="[^"]*1-basic-arena\.png"/);
+  });
+});
+
 describe('a clamp', () => {
   const size = () => ({ width: 9, cells: 81 });
   it('is a pattern, row by row, counted from 1', () => {
