@@ -3,6 +3,7 @@
 # Without NPM, or when npm fails and STRICT is off, only the hand-written page is in it.
 set(page "")
 if(NPM)
+  file(REMOVE_RECURSE ${WORK}/web/src ${WORK}/web/tests ${WORK}/web/tutorial)  # files that are no longer there
   file(COPY ${WEB}/ DESTINATION ${WORK}/web PATTERN node_modules EXCLUDE PATTERN dist EXCLUDE)
   file(SHA256 ${WEB}/package-lock.json lock)
   set(stamp ${WORK}/web/node_modules/.forage-${lock})
