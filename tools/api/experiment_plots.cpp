@@ -57,8 +57,7 @@ std::size_t index_of(const std::vector<std::string>& values, const std::string& 
 }
 
 /// "threshold = 0.2; means of 2 to 3 runs", from the part of the table and the estimates in a picture.
-std::string subtitle_of(const std::string& part,
-                        const std::vector<std::optional<Estimate>>& estimates) {
+std::string subtitle_of(const std::string& part, const std::vector<std::optional<Estimate>>& estimates) {
     std::size_t fewest = std::numeric_limits<std::size_t>::max(), most = 0;
     for (const auto& e : estimates)
         if (e) fewest = std::min(fewest, e->count), most = std::max(most, e->count);
