@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/engine/adopt.h"
 #include "core/engine/cycle.h"
 #include "core/engine/executor.h"
 #include "core/engine/parameters.h"
@@ -145,6 +146,10 @@ ParameterValue Simulation::parameter(const model::Assignment& which) const {
 }
 
 void Simulation::checkpoint(Archive& archive) { parts_->state->checkpoint(*parts_->plan, archive); }
+
+void Simulation::adopt(const Simulation& old, const Unchanged& unchanged) {
+    engine::adopt(*parts_->plan, *parts_->state, *old.parts_->plan, *old.parts_->state, unchanged);
+}
 
 const Layout& Simulation::layout() const { return parts_->plan->layout; }
 bool Simulation::pruned(int group) const { return parts_->plan->groups[group].pruned; }

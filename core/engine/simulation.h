@@ -37,6 +37,8 @@ struct NotFinite {
     double value = 0;
 };
 
+struct Unchanged;
+
 /// Runs a system cycle by cycle. A cycle is
 ///
 ///     update_groups()       each group reads what was delivered at the end of the last cycle
@@ -120,6 +122,9 @@ class Simulation {
     /// simulation of the same system, built with the same seed. Throws ArchiveError when it does not fit, and
     /// RunError for modules of a type that does not declare what it keeps.
     void checkpoint(Archive& archive);
+    /// Goes on where the simulation `old` of a similar system is (adopt.h). Both have started, and this one
+    /// has done no cycle. Throws ArchiveError; this simulation is then of no use.
+    void adopt(const Simulation& old, const Unchanged& unchanged);
 
     // The numbers that follow are those of the running cycle, or between cycles those of the last one.
     // Reading what was pruned, because the demand did not name it, throws std::logic_error.

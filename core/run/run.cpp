@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <memory>
+#include <unordered_map>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/output_files.h"
+#include "core/engine/adopt.h"
 #include "core/model/edit.h"
+#include "core/model/lookup.h"
 #include "core/run/module_files.h"
 #include "core/run/result_files.h"
 #include "core/run/stop_condition.h"
@@ -29,6 +32,43 @@ std::string describe(const engine::NotFinite& what, const engine::Layout& layout
     return fmt::format("in cycle {} '{}' of '{}' becomes {} in cell {}", what.cycle,
                        group.type.states[static_cast<std::size_t>(what.state)].name, group.path, what.value,
                        cell);
+}
+
+/// What two systems have in common that keeps states.
+engine::Unchanged unchanged(const model::System& before, const model::System& after) {
+    engine::Unchanged out;
+    const model::GroupIndex then(before);
+    for (const auto& p : after.processes)
+        for (const auto& g : p.groups)
+            if (const auto* was = then.find(g.id).group;
+                was && was->neuron.type == g.neuron.type && was->topology == g.topology)
+                out.groups.insert(g.id);
+    const auto kept = [&](const std::vector<model::CrossReference>& ports) {
+        return std::ranges::all_of(
+            ports, [&](const auto& r) { return r.target.empty() || out.groups.contains(r.target); });
+    };
+    for (const auto& p : after.processes) {
+        const auto was = std::ranges::find(before.processes, p.id, &model::Process::id);
+        if (was == before.processes.end() || !p.module || !was->module || !was->module_enabled) continue;
+        const auto &now = *p.module, &old = *was->module;
+        if (now.type == old.type && now.inputs == old.inputs && now.outputs == old.outputs &&
+            kept(now.inputs) && kept(now.outputs))
+            out.modules.insert(p.id);
+    }
+    std::unordered_map<std::string_view, const model::Connection*> connections;
+    for (const auto& c : before.connections) connections[c.id] = &c;
+    for (const auto& c : after.connections) {
+        const auto it = connections.find(c.id);
+        if (it == connections.end()) continue;
+        const auto& was = *it->second;
+        if (c.source == was.source && c.target == was.target && c.kind == was.kind &&
+            c.pattern == was.pattern && c.arborization == was.arborization &&
+            c.attenuation == was.attenuation && c.delay == was.delay && c.synapse && was.synapse &&
+            c.synapse->type == was.synapse->type && out.groups.contains(c.source) &&
+            out.groups.contains(c.target))
+            out.connections.insert(c.id);
+    }
+    return out;
 }
 
 }  // namespace
@@ -242,6 +282,17 @@ void Run::checkpoint(Archive& archive) {
     archive(divergence_);
     if (!divergence_.empty()) simulation_->check_finite(false);
     for (const auto& o : observers_) o->checkpoint(archive);
+}
+
+void Run::adopt(Run& old) {
+    start();
+    simulation_->adopt(*old.simulation_, unchanged(old.system_, system_));
+    if (environment_ && old.environment_) {
+        Archive out;
+        old.environment_->checkpoint(out);
+        Archive in{std::string_view(out.bytes())};
+        environment_->checkpoint(in);
+    }
 }
 
 std::string Run::digest() {

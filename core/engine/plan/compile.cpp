@@ -209,8 +209,10 @@ class Compiler {
         add_synapse_states(c, about.type, plan);
         if (budget_.exceeded()) return;
         if (plan.reads_states) plan.pre = synapses.pre, plan.post = synapses.post;
+        plan.first_number = plan_->rows.size();
         auto kernel = make_plastic(std::move(synapses), source, target, about.type, plan.reads_states,
                                    plan_->rows, forms_);
+        plan.numbers = plan_->rows.size() - plan.first_number;
         plan.plastic = kernel.get();
         plan.kernel = std::move(kernel);
     }

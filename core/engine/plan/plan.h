@@ -75,6 +75,8 @@ struct ConnectionPlan {
     bool reads_states = false;  ///< of its synapses, from outside
     std::vector<int> feedback;  ///< for a plastic one: states of the target, -1 for an unset one
     std::size_t synapses = 0;
+    Rows::Offset first_number = 0;  ///< of what a plastic kernel keeps, in State::numbers
+    std::size_t numbers = 0;        ///< how many they are
     /// Source and target cell of each synapse, when `reads_states` is set and the kernel is plastic.
     std::vector<int> pre, post;
 };
