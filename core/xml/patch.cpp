@@ -298,14 +298,17 @@ Patch patch(const std::string& path, const std::string& text, const model::Syste
 }
 
 bool same_content(const model::System& a, const model::System& b) {
+    // Of a linked process, the file has only the link.
     const auto content = [](model::System s) {
         s.comments.clear();
         for (auto& p : s.processes) {
+            if (p.linked()) p = model::Process(p.placeholder.front());
             p.comments.clear();
             for (auto& g : p.groups) g.comments.clear();
         }
-        for (auto& c : s.connections) c.comments.clear();
-        return in_full(std::move(s));
+        std::erase_if(s.connections, [](const model::Connection& c) { return c.linked; });
+        for (auto& c : s.connections) c.comments.clear(), c.terse = false;
+        return s;
     };
     return content(a) == content(b);
 }

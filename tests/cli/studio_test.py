@@ -352,6 +352,62 @@ class OriginalPlots(unittest.TestCase):
             self.assertIn('mine.conf:2:1: error:', done.stderr)
 
 
+class Editing(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.mine = pathlib.Path(self.folder.name, 'mine.iqr')
+        self.mine.write_bytes(pathlib.Path(system).read_bytes())
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def test_a_system_is_edited_while_it_runs_and_runs_from_the_command_line(self):
+        with Studio(forage, str(self.mine), '--world', world, state=self.folder.name) as studio:
+            page = Page(studio)
+            groups = {g['path']: g['id'] for p in page.last('system')['processes'] for g in p['groups']}
+            page.do('step', cycles=100)
+            before = page.do('read', source='Bug/Light')
+            page.do('edit', operations=[
+                {'do': 'add_group', 'process': page.last('system')['processes'][0]['id'], 'name': 'New', 'x': 5, 'y': 5, 'id': 'new'},
+                {'do': 'add_connection', 'source': groups['Bug/Light'], 'target': 'new', 'kind': 'excitatory'}])
+            self.assertEqual(page.last('status')['cycle'], 100)
+            self.assertEqual(page.do('read', source='Bug/Light'), before)
+            self.assertTrue(page.last('document')['running_is_current'])
+            page.do('save')
+            page.do('edit', operations=[{'do': 'rename', 'id': 'new', 'name': 'Other'}])
+            self.assertIn('+', page.do('difference')['text'])
+            self.assertIn('Bug/New', self.described())
+            page.do('undo')
+            self.assertFalse(page.last('document')['dirty'])
+            page.do('undo')
+            page.do('save')
+            self.assertEqual(self.mine.read_bytes(), pathlib.Path(system).read_bytes())
+            page.close()
+
+    def test_unsaved_edits_survive_a_crash(self):
+        studio = Studio(forage, str(self.mine), '--world', world, state=self.folder.name)
+        page = Page(studio)
+        group = page.last('system')['processes'][0]['groups'][0]['id']
+        page.do('edit', operations=[{'do': 'set', 'id': group, 'property': 'note', 'value': 'not saved'}])
+        folder = pathlib.Path(self.folder.name, 'forage/studio')
+        for _ in range(200):
+            if list(folder.rglob('running.forage')):
+                break
+            time.sleep(0.1)
+        studio.child.kill()
+        studio.child.wait(20)
+        with Studio(forage, str(self.mine), '--world', world, '--recover', state=self.folder.name) as studio:
+            page = Page(studio)
+            self.assertIn('not saved', page.do('document')['text'])
+            self.assertTrue(page.last('document')['dirty'])
+            page.do('undo')
+            self.assertFalse(page.last('document')['dirty'])
+            page.close()
+
+    def described(self):
+        return subprocess.run([forage, 'describe', str(self.mine)], capture_output=True, text=True, check=True).stdout
+
+
 class Crashes(unittest.TestCase):
     """A studio that is killed: what it kept, and that the run goes on as if nothing had happened."""
 

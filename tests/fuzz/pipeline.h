@@ -8,6 +8,7 @@
 #include "core/connectivity/connect.h"
 #include "core/model/lookup.h"
 #include "core/model/validate.h"
+#include "core/xml/patch.h"
 #include "core/xml/reader.h"
 #include "neurons/neurons.h"
 #include "synapses/synapses.h"
@@ -24,7 +25,22 @@ inline void must(bool holds, const char* what) {
     if (!holds) throw std::logic_error(what);
 }
 
-/// Reads, checks and connects. Throws when a result is impossible.
+/// Edits the text. Throws when the edit does not read as what it is.
+inline void edit(const std::string& text, const model::System& system) {
+    must(xml::patched(text, system, system) == text, "a text that is not edited keeps its bytes");
+    model::System edited = system;
+    for (auto& p : edited.processes) {
+        if (p.linked()) continue;
+        p.name += " & <more>";
+        p.icon = model::Icon{1, 2, 3, 4};
+        if (!p.groups.empty()) p.groups.front().topology = model::SparseTopology{{{1, 1, {}}, {2, 3, {}}}};
+    }
+    if (!edited.connections.empty()) edited.connections.pop_back();
+    const auto made = xml::patch("input.iqr", text, system, edited);
+    must(made.system && xml::same_content(*made.system, edited), "an edited text reads as the edited system");
+}
+
+/// Reads, checks, edits and connects. Throws when a result is impossible.
 inline PipelineResult run_pipeline(const std::string& text, const Registry& registry, bool lenient) {
     PipelineResult result;
     Diagnostics diagnostics;
@@ -35,6 +51,7 @@ inline PipelineResult run_pipeline(const std::string& text, const Registry& regi
     if (system) model::validate(*system, registry, diagnostics);
     result.checked = !diagnostics.failed();
     if (result.checked) {
+        edit(text, *system);
         const model::GroupIndex groups(*system);
         for (const auto& c : system->connections) {
             const auto *source = groups.find(c.source).group, *target = groups.find(c.target).group;

@@ -33,6 +33,8 @@ std::string content_of(const std::string& path) {
     }
 }
 
+constexpr std::size_t most_kept = 2u << 20;  ///< of these, in a checkpoint
+
 /// The name by which messages call a text without a file.
 std::string shown(const std::string& path) { return path.empty() ? "untitled.iqr" : path; }
 
@@ -238,6 +240,28 @@ bool Document::reload(Keep keep) {
     saved_ = std::move(theirs);
     stamp_ = now;
     return changed;
+}
+
+void Document::checkpoint(Archive& archive) {
+    std::deque<Step> steps;  // the latest
+    std::size_t bytes = 0;
+    if (!archive.loading())
+        for (auto it = undo_.rbegin(); it != undo_.rend() && (bytes += it->text.size()) <= most_kept; ++it)
+            steps.push_front(*it);
+    if (!archive.loading() && !path_.empty()) {
+        std::string path = fs::absolute(path_).string();
+        archive(path);
+    } else {
+        archive(path_);
+    }
+    archive(text_, saved_, lenient_, steps, redo_);
+    if (!archive.loading()) return;
+    undo_ = std::move(steps);
+    Diagnostics ignored;
+    if (auto saved = xml::parse_system(shown(path_), saved_, ignored)) saved_system_ = *std::move(saved);
+    std::string text = std::move(text_);
+    read(std::move(text));
+    stamp_ = {};
 }
 
 std::string Document::difference() const {

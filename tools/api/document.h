@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/archive.h"
 #include "core/model/system.h"
 #include "core/run/input_error.h"
 #include "core/types/registry.h"
@@ -30,6 +31,7 @@ class Document {
     };
     using Edit = std::function<void(model::System&)>;
 
+    Document() = default;  ///< only to read a checkpoint into it
     /// Reads the file `path`. Throws InputError when its text has no system; other mistakes are problems.
     static Document open(const std::string& path, bool lenient = false);
     /// A text that has not been saved, of a file that `path` names, or of none when it is empty. Throws
@@ -65,6 +67,7 @@ class Document {
 
     /// The titles of the steps that undo() and redo() would take; null when there is none.
     const std::string* undo_title() const { return undo_.empty() ? nullptr : &undo_.back().title; }
+    std::size_t steps() const { return undo_.size(); }  ///< that can be undone
     const std::string* redo_title() const { return redo_.empty() ? nullptr : &redo_.back().title; }
     void undo();  ///< throws InputError when there is nothing to undo
     void redo();
@@ -85,11 +88,15 @@ class Document {
     /// The changes since the last save, as `diff -u` prints them.
     std::string difference() const;
 
+    /// Writes or reads everything, for the case that the program is killed; of what can be undone, the latest
+    /// steps. The file is not read again: whether it has changed since is found later.
+    void checkpoint(Archive& archive);
+
   private:
     struct Step {
         std::string text, title, merge;  ///< the text before it, or after it
+        void checkpoint(Archive& archive) { archive(text, title, merge); }
     };
-    Document() = default;
     void read(std::string text);  ///< throws InputError
     void push(std::string before, const std::string& title, const std::string& merge);
     void swap_step(std::deque<Step>& from, std::deque<Step>& to);

@@ -183,6 +183,24 @@ TEST_CASE("a system that cannot run is edited on, and the last run that could go
     CHECK(e.last["document"]["running_is_current"] == true);
 }
 
+TEST_CASE("a file whose system cannot run is opened to be corrected") {
+    Editor e;
+    std::string text = e.content();
+    const auto at = text.find("\"neuronLinearThreshold\"");
+    std::ofstream(e.file) << text.replace(at, 23, "\"neuronLinearTreshold\"");
+    e.result({{"command", "open"}, {"system", e.file}});
+    CHECK(e.last["document"]["running_is_current"] == false);
+    const json problem = e.last["document"]["problems"][0];
+    CHECK(problem["item"] == "bug.motor");
+    CHECK(e.last["system"]["processes"].size() == 3);
+    e.result({{"command", "step"}});
+    e.edit(
+        {{{"do", "type"}, {"id", problem["item"]}, {"part", "neuron"}, {"type", "neuronLinearThreshold"}}});
+    CHECK(e.last["document"]["running_is_current"] == true);
+    std::ofstream(e.file) << "<System";
+    CHECK(e.ask({{"command", "open"}, {"system", e.file}})["ok"] == false);
+}
+
 TEST_CASE("a new system is built from nothing, saved under a name, and opened again") {
     Editor e;
     e.result({{"command", "new"}, {"name", "Nothing yet"}});
@@ -273,4 +291,53 @@ TEST_CASE("items tell what their forms show, and the synapses of a pattern are t
     CHECK(e.result({{"command", "difference"}})["text"].get<std::string>().find("\n+") != std::string::npos);
     const auto text = e.result({{"command", "item"}, {"item", connection["id"]}})["text"].get<std::string>();
     CHECK(e.ask({{"command", "item_text"}, {"item", connection["id"]}, {"text", text + "<"}})["ok"] == false);
+}
+
+TEST_CASE("an edit of the structure keeps the cycle, the states and the manipulations of the rest") {
+    Editor e, undisturbed("reactive_foraging.iqr");
+    const auto clamp = json{
+        {"command", "manipulate"}, {"group", "Bug/Motor"}, {"patterns", {std::vector<double>(81, 0.25)}}};
+    e.result({{"command", "step"}, {"cycles", 60}}),
+        undisturbed.result({{"command", "step"}, {"cycles", 60}});
+    e.result(clamp), undisturbed.result(clamp);
+    e.edit({{{"do", "add_group"},
+             {"process", e.last["system"]["processes"][1]["id"]},
+             {"name", "New"},
+             {"x", 1},
+             {"y", 1},
+             {"width", 4},
+             {"id", "!new"}}});
+    CHECK(e.session->run().cycle() == 60);
+    e.result({{"command", "step"}, {"cycles", 40}}),
+        undisturbed.result({{"command", "step"}, {"cycles", 40}});
+    for (const char* source : {"Bug/Light", "Bug/Motor", "Selection/Motor In", "Bug/GPS"})
+        CHECK(e.result({{"command", "read"}, {"source", source}}) ==
+              undisturbed.result({{"command", "read"}, {"source", source}}));
+    e.result({{"command", "seek"}, {"cycle", 70}});  // the past since the edit is there
+    e.result({{"command", "stop"}});
+    CHECK(e.session->run().cycle() == 0);
+    CHECK_FALSE(e.group("!new").is_null());
+}
+
+TEST_CASE("a world is edited, undone, saved, and the run begins anew in it") {
+    ::setenv("FORAGE_MODEL_PATH", FORAGE_SOURCE_DIR "/systems/worlds/models", 1);
+    Editor e;
+    CHECK(e.result({{"command", "world_document"}})["dirty"] == false);
+    const auto names = e.result({{"command", "world_edit"},
+                                 {"operations",
+                                  {{{"do", "add"}, {"kind", "wall"}, {"x", 1}, {"y", 1}, {"width", 2}},
+                                   {{"do", "move"}, {"name", "Bug"}, {"x", 0.25}, {"y", -1.5}}}}})["names"];
+    CHECK(names[0] == "Wall_2");
+    CHECK(e.last["world_document"]["dirty"] == true);
+    CHECK(e.last["document"]["undo"] == "add in the world");
+    e.result({{"command", "undo"}});
+    CHECK(e.last["world_document"]["dirty"] == false);
+    e.result({{"command", "redo"}});
+    const auto file = (e.folder / "mine.world").string();
+    e.result({{"command", "world_save"}, {"file", file}});
+    CHECK(e.last["world"]["file"] == file);
+    CHECK(e.session->run().environment()->pose(0).x == Approx(0.25));
+    CHECK(e.ask({{"command", "world_edit"},
+                 {"operations", {{{"do", "move"}, {"name", "Nothing"}, {"x", 0}, {"y", 0}}}}})["ok"] ==
+          false);
 }

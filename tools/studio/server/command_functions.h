@@ -131,6 +131,14 @@ struct Commands {
     /// After a step of the document.
     json edited(const std::string& title);
 
+    // ---- the text of the world ----
+    Session::WorldText& world_text();
+    void set_world_text(const std::string& text);
+    json world_document();
+    json world_types();
+    json world_edit();
+    json world_save();
+
     // ---- the past ----
     json history();
     json digest();

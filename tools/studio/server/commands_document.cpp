@@ -48,11 +48,9 @@ json Commands::new_system() {
     input.text = made.text();
     input.system = "untitled.iqr";
     input.world = c.value("world", "");
-    s.open(input);
-    s.begin_document(s.input_);
+    s.open_document(input);
     s.document_ = made;
-    s.rebind();
-    s.tell(s.system_message()), s.tell(s.world_message()), s.tell_document();
+    s.tell_document();
     return json::object();
 }
 

@@ -81,12 +81,14 @@ json Commands::back_or_forth(std::vector<Session::Undo>& from, std::vector<Sessi
     s.undo_.clear(), s.redo_.clear();
     if (command.is_null())
         s.follow_document(title);
+    else if (command.at("command") == "world_text")
+        set_world_text(command.at("text"));
     else
         s.act(command, std::nullopt, told(command, title));
     s.undo_ = std::move(undone), s.redo_ = std::move(redone);
-    const bool document = entry.document;
+    const bool document = entry.document, world = command.is_object() && command["command"] == "world_text";
     to.push_back(std::move(entry));
-    if (document) s.tell_document();
+    if (document || world) s.tell_document();
     return {{"generation", s.generation_}};
 }
 

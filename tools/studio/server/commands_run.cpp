@@ -72,20 +72,7 @@ json Commands::open() {
     const std::string world = c.value("world", "");
     input.system = folder / c.at("system").get<std::string>();
     input.world = world.empty() ? world : (folder / world).string();
-    s.open(std::move(input));
-    s.sampler_waits_ = nullptr;
-    s.begin_document(s.input_);
-    if (s.kept_) {
-        s.kept_->forget_running();
-        try {
-            s.keep();
-        } catch (const std::exception& e) {
-            s.kept_.reset();
-            s.save_failed_ = e.what();
-        }
-    }
-    s.rebind();
-    s.tell(s.system_message()), s.tell(s.world_message()), s.tell_document();
+    s.open_document(input);
     return json::object();
 }
 

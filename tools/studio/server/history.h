@@ -34,7 +34,7 @@ class History {
     /// Forgets everything and notes the state of a run that begins.
     void begin(Run& run) {
         checkpoints_.clear(), actions_.clear();
-        bytes_ = 0, next_action_ = 0, interval_ = first_interval, last_ = run.cycle();
+        bytes_ = 0, next_action_ = 0, interval_ = first_interval, last_ = run.cycle(), rested_ = {};
         keep(run);
     }
     /// Called after each cycle.

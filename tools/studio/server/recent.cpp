@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most = 20;
+constexpr std::size_t most_recent = 20;
 
 std::string list_path() { return state_home() + "/forage/recent"; }
 
@@ -23,7 +23,7 @@ std::vector<std::string> recent_files() {
     try {
         std::ifstream list(list_path());
         std::error_code ignored;
-        for (std::string line; out.size() < most && std::getline(list, line);)
+        for (std::string line; out.size() < most_recent && std::getline(list, line);)
             if (fs::is_regular_file(line, ignored)) out.push_back(line);
     } catch (const std::exception&) {  // without a home there is no list
     }

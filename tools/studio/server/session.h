@@ -87,6 +87,10 @@ class Session {
         History past;
         Changes changed;
     };
+    /// The text of the world's file, when it is edited.
+    struct WorldText {
+        std::string path, text, saved;
+    };
     struct Sampler {
         std::string file;
         std::uint64_t every = 1, rows = 0;
@@ -125,6 +129,9 @@ class Session {
     // ---- the document (session_document.cpp) ----
     /// Edits the system that `input` names; what was edited before is forgotten.
     void begin_document(const RunInput& input);
+    /// Opens another system, also one that cannot run, and tells the pages. Throws InputError when it cannot
+    /// even be edited.
+    void open_document(const RunInput& input);
     /// Makes the run what the document says, as far as that can run, and tells the pages.
     void follow_document(const std::string& title);
     /// Builds the run anew; groups and connections that did not change keep their states. Returns false, with
@@ -160,6 +167,7 @@ class Session {
     Changes changed_;
     std::optional<Sampler> sampler_;
     std::optional<Document> document_;
+    std::optional<WorldText> world_text_;
     model::System built_;                      ///< the document's system that runs
     std::vector<model::System> others_;        ///< systems that run beside it
     std::vector<Document::Problem> problems_;  ///< of the document

@@ -48,10 +48,49 @@ void Session::begin_document(const RunInput& input) {
         Diagnostics known;  // they have been read before
         others_ = read_sources(input, known).more;
     }
+    world_text_.reset();
     built_ = document_->system();
     current_ = true, outside_ = false;
     problems_ = document_->problems(run_->registry(), run_->environment());
     changed_.clear(), undo_.clear(), redo_.clear();
+}
+
+void Session::open_document(const RunInput& input) {
+    try {
+        open(input);
+        begin_document(input_);
+    } catch (const InputError& e) {
+        if (!input.text.empty() || std::filesystem::path(input.system).extension() != ".iqr") throw;
+        std::optional<Document> document;
+        try {
+            document = Document::open(input.system, input.lenient);
+        } catch (const InputError&) {
+            throw e;
+        }
+        // Until it can run, a system without content runs.
+        RunInput nothing = input;
+        model::System empty;
+        empty.id = document->system().id, empty.name = document->system().name;
+        empty.cycles_per_second = document->system().cycles_per_second;
+        nothing.text = xml::write_system(empty);
+        open(nothing);
+        begin_document(nothing);
+        document_ = std::move(document);
+        current_ = false;
+        problems_ = document_->located(e.diagnostics());
+    }
+    sampler_waits_ = nullptr;
+    if (kept_) {
+        kept_->forget_running();
+        try {
+            keep();
+        } catch (const std::exception& e) {
+            kept_.reset();
+            save_failed_ = e.what();
+        }
+    }
+    rebind();
+    tell(system_message()), tell(world_message()), tell_document();
 }
 
 model::System Session::shown_system() const {
@@ -165,8 +204,11 @@ bool Session::rebuild() {
     if (run) {
         touches = &run->add(std::make_unique<Touches>());
         try {
-            if (!run->start(diagnostics)) run.reset();
-        } catch (const engine::RunError& e) {
+            if (!run->start(diagnostics))
+                run.reset();
+            else if (failed_.empty() && run_->cycle() > 0)
+                run->adopt(*run_);
+        } catch (const std::exception& e) {
             diagnostics.error({}, e.what());
             run.reset();
         }
@@ -175,6 +217,19 @@ bool Session::rebuild() {
     if (!run) return false;
     close_sampler();
     end_reference();
+    for (const auto& [number, manipulation] : touches_->groups()) {
+        auto settings = manipulation.settings();
+        const auto& id = run_->layout().groups[static_cast<std::size_t>(number)].id;
+        const auto& groups = run->layout().groups;
+        const auto it = std::ranges::find_if(groups, [&](const auto& g) {
+            return g.id == id && !settings.patterns.empty() &&
+                   static_cast<int>(settings.patterns[0].size()) == g.shape.cells;
+        });
+        if (it == groups.end()) continue;
+        settings.group = static_cast<int>(it - groups.begin());
+        touches->put(std::move(settings));
+    }
+    const bool anew = run->cycle() != run_->cycle();
     run->title = run_->title;
     run_ = std::make_unique<Run>(std::move(*run));
     touches_ = touches;
@@ -182,6 +237,7 @@ bool Session::rebuild() {
     files_ = digest_of_files(input, sources);
     begun_ = std::move(input);
     history_.begin(*run_);
+    if (anew) rewound();  // a run that has failed does not go on
     rebind();
     return true;
 }

@@ -6,6 +6,7 @@
 
 #include "core/run/checkpoint_file.h"
 #include "tools/api/sources.h"
+#include "tools/studio/server/recent.h"
 #include "tools/studio/server/session.h"
 
 namespace forage::studio {
@@ -26,6 +27,7 @@ const char* const begin_anew = "begin anew, or close this message";
 
 void Session::keep() {
     kept_.emplace(input_.system);
+    if (!document_->path().empty()) note_recent(document_->path());
     look_for_killed();
     saved_version_ = version_;  // there is nothing to lose yet
 }
@@ -55,19 +57,16 @@ void Session::save() {
                          std::chrono::system_clock::now().time_since_epoch())
                          .count();
         RunInput opened = input_, begun = begun_;
-        json changed = json::object();
+        json changed = json::object(), undo = json::array(), redo = json::array();
         for (const auto& [name, change] : changed_) changed[name] = {change.assignment, change.loaded};
-        json text = nullptr;  // of a system that has not been saved
-        if (document_->dirty()) text = document_->text();
-        std::string rest = json{
-            {"changed", changed},
-            {"document", text},
-            {"panels", panels_},
-            {"mode", mode_},
-            {"value", value_}}.dump(-1, ' ', false, json::error_handler_t::replace);
+        for (const auto& u : undo_) undo.push_back({u.undo, u.redo, u.title, u.document});
+        for (const auto& u : redo_) redo.push_back({u.undo, u.redo, u.title, u.document});
+        std::string rest = json{{"changed", changed}, {"undo", undo},  {"redo", redo},
+                                {"panels", panels_},  {"mode", mode_}, {"value", value_}}
+                               .dump(-1, ' ', false, json::error_handler_t::replace);
         archive(head);
         archive_input(archive, opened), archive_input(archive, begun);
-        archive(rest);
+        archive(rest, *document_, current_);
         history_.save(archive, run_->cycle());
         kept_->write(archive.bytes());
         save_failed_.clear();
@@ -92,7 +91,9 @@ void Session::recover() {
     RunInput opened, begun;
     archive_input(archive, opened), archive_input(archive, begun);
     std::string text;
-    archive(text);
+    Document document;
+    bool current = true;
+    archive(text, document, current);
     const json rest = json::parse(text);
     History past;
     past.load(archive);
@@ -106,15 +107,24 @@ void Session::recover() {
             "restore the files, or begin anew");
     open(std::move(begun));
     input_ = std::move(opened);
-    begin_document(input_);
-    if (const auto& unsaved = rest.at("document"); unsaved.is_string())
-        document_->replace_text(unsaved.get<std::string>(), "before the crash");
-    current_ = built_ == document_->system();
     history_ = std::move(past);
     replay(head.cycle);
-    changed_.clear();
+    begin_document(begun_);
+    if (current) built_ = document.system();
+    document_ = std::move(document), current_ = current;
+    problems_ = document_->problems(run_->registry(), run_->environment());
+    changed_.clear(), undo_.clear(), redo_.clear();
     for (const auto& [name, change] : rest.at("changed").items())
         changed_[name] = {change.at(0).get<std::string>(), change.at(1)};
+    for (const auto& u : rest.at("undo")) undo_.push_back({u.at(0), u.at(1), u.at(2), u.at(3)});
+    for (const auto& u : rest.at("redo")) redo_.push_back({u.at(0), u.at(1), u.at(2), u.at(3)});
+    // Of what was kept, only steps that the document still has can be undone.
+    std::size_t steps = document_->steps();
+    for (auto it = undo_.rbegin(); it != undo_.rend(); ++it)
+        if (it->document && steps-- == 0) {
+            undo_.erase(undo_.begin(), it.base());
+            break;
+        }
     panels_ = rest.at("panels");
     set_speed(rest.at("mode").get<std::string>(), rest.at("value").get<double>());
     rebind();

@@ -1,0 +1,135 @@
+// What an editor does to a system.
+#include "core/model/operations.h"
+
+#include <algorithm>
+
+#include "core/model/build.h"
+#include "core/model/changes.h"
+#include "core/model/merge.h"
+#include "neurons/neurons.h"
+#include "synapses/synapses.h"
+#include "tests/support/catch.h"
+
+using namespace forage;
+using namespace forage::model;
+
+namespace {
+
+struct Small {
+    System system;
+    Registry registry;
+    std::string p = add_process(system, "P", "p"),
+                a = add_group(system, p, "A", 3, 1, "neuronLinearThreshold", "a"),
+                b = add_group(system, p, "B", 3, 1, "neuronLinearThreshold", "b"),
+                c = add_connection(system, a, b, InputKind::excitatory, "synapseFixedWeight", "c");
+    Small() {
+        add_neurons(registry), add_synapses(registry);
+        place(system, a, 10, 20), place(system, b, 110, 20);
+        set_line(system, c, {3, 12, std::vector<Point>{{60, 40, {}}}});
+    }
+};
+
+}  // namespace
+
+TEST_CASE("items are placed, routed, coloured and noted") {
+    Small s;
+    place(s.system, "p", 1, 2);
+    CHECK(s.system.processes[0].icon == Icon{1, 2, 50, 50});
+    set_line(s.system, "c", {.target_anchor = 5});
+    CHECK(s.system.connections[0].line->source_anchor == 3);
+    CHECK(s.system.connections[0].line->vertices.size() == 1);
+    CHECK_THROWS_AS(set_line(s.system, "c", {.source_anchor = 16}), std::invalid_argument);
+    reroute(s.system, "c", "b", "");
+    CHECK((s.system.connections[0].source == "b" && s.system.connections[0].target == "b"));
+    CHECK_THROWS_AS(reroute(s.system, "c", "nothing", ""), std::invalid_argument);
+    CHECK_THROWS_AS(place(s.system, "c", 0, 0), std::invalid_argument);
+    set_note(s.system, "a", "why"), set_color(s.system, "a", "#010203");
+    CHECK(find_group(s.system, "a")->note == "why");
+    set_note(s.system, "a", "");
+    CHECK_FALSE(find_group(s.system, "a")->note);
+}
+
+TEST_CASE("another type keeps the parameters that it has, too") {
+    Small s;
+    set_parameter(s.system, "a", "threshold", "0.5"), set_parameter(s.system, "a", "excGain", "2");
+    set_type(s.system, s.registry, "a", Part::neuron, "neuronRandomSpike");
+    const auto& settings = find_group(s.system, "a")->neuron.settings;
+    for (const auto& set : settings)
+        CHECK(std::ranges::any_of(s.registry.neuron("neuronRandomSpike")->parameters,
+                                  [&](const auto& p) { return p.name == set.name; }));
+    CHECK(settings.size() < 2);
+    CHECK_THROWS_AS(set_type(s.system, s.registry, "a", Part::neuron, "neuronNone"), std::invalid_argument);
+    CHECK_THROWS_AS(set_ports(s.system, "p", {}, {}), std::invalid_argument);  // without a module
+}
+
+TEST_CASE("what is copied is pasted with new ids and names, with the connections among it") {
+    Small s;
+    const System one = copy(s.system, std::vector<std::string>{"a"});
+    CHECK(one.connections.empty());
+    const System both = copy(s.system, std::vector<std::string>{"a", "b"});
+    CHECK(both.connections.size() == 1);
+    const auto ids = paste(s.system, both, "p", 100, 100);
+    REQUIRE(ids.size() == 3);
+    CHECK(ids[0] == "CB1a");
+    CHECK(find_group(s.system, ids[0])->name == "A 2");
+    CHECK(find_group(s.system, ids[0])->icon->x == 100);
+    CHECK(find_group(s.system, ids[1])->icon->x == 200);
+    CHECK(find_connection(s.system, ids[2])->source == ids[0]);
+    CHECK(find_connection(s.system, ids[2])->line->vertices[0].x == 150);
+    CHECK(paste(s.system, both, "p", 0, 0)[0] == "CB2a");
+    const auto whole = paste(s.system, copy(s.system, std::vector<std::string>{"p"}), "", 0, 0);
+    CHECK(find_process(s.system, whole[0])->name == "P 2");
+    CHECK_THROWS_AS(paste(s.system, both, "nothing", 0, 0), std::invalid_argument);
+    CHECK_THROWS_AS(copy(s.system, std::vector<std::string>{"nothing"}), std::invalid_argument);
+}
+
+TEST_CASE("the content of a linked process is not edited") {
+    Small s;
+    s.system.processes[0].placeholder.push_back(s.system.processes[0]);
+    s.system.processes[0].path = "p.iqrProcess";
+    place(s.system, "p", 7, 7);  // its icon is in the system's file
+    CHECK(s.system.processes[0].placeholder[0].icon->x == 7);
+    CHECK_THROWS_AS(place(s.system, "a", 0, 0), std::invalid_argument);
+    CHECK_THROWS_AS(set_parameter(s.system, "a", "threshold", "1"), std::invalid_argument);
+}
+
+TEST_CASE("a run needs only parameters, or is built anew, or does not notice") {
+    Small s;
+    const System before = s.system;
+    place(s.system, "a", 0, 0), set_note(s.system, "b", "note"), set_line(s.system, "c", {1, 1, {}});
+    auto changes = parameter_changes(before, s.system, s.registry);
+    REQUIRE(changes);
+    CHECK(changes->empty());
+    set_parameter(s.system, "a", "threshold", "0.5"), set_parameter(s.system, "c", "weight", "2");
+    changes = parameter_changes(before, s.system, s.registry);
+    REQUIRE(changes);
+    REQUIRE(changes->size() == 2);
+    CHECK((*changes)[0].text == "P/A.threshold=0.5");
+    CHECK((*changes)[1].text == "A to B.weight=2");
+    const auto back = parameter_changes(s.system, before, s.registry);
+    CHECK(std::get<double>((*back)[1].value) == 1);  // its default
+    set_delay(s.system, "c", {UniformFunction{1}, {}});
+    CHECK_FALSE(parameter_changes(before, s.system, s.registry));
+}
+
+TEST_CASE("changes of different things are merged, and others are conflicts") {
+    Small s;
+    const System base = s.system;
+    System mine = base, theirs = base;
+    set_parameter(mine, "a", "threshold", "0.5");
+    set_parameter(theirs, "a", "excGain", "2"), rename(theirs, "b", "Theirs");
+    add_group(mine, "p", "New", 1, 1, "neuronLinearThreshold", "n");
+    auto merged = merge(base, mine, theirs);
+    CHECK(merged.conflicts.empty());
+    CHECK(find_group(merged.system, "a")->neuron.settings.size() == 2);
+    CHECK(find_group(merged.system, "b")->name == "Theirs");
+    CHECK(find_group(merged.system, "n"));
+    rename(mine, "b", "Mine");
+    CHECK(merge(base, mine, theirs).conflicts == std::vector<std::string>{"the name of group 'B'"});
+    remove(theirs, "a");
+    merged = merge(base, mine, theirs);
+    CHECK(merged.conflicts.size() == 2);
+    System gone = base;
+    remove(gone, "a");
+    CHECK(merge(base, gone, base).system == gone);
+}
