@@ -364,19 +364,20 @@ class Editing(unittest.TestCase):
     def test_a_system_is_edited_while_it_runs_and_runs_from_the_command_line(self):
         with Studio(forage, str(self.mine), '--world', world, state=self.folder.name) as studio:
             page = Page(studio)
+            page.do('pause')
             groups = {g['path']: g['id'] for p in page.last('system')['processes'] for g in p['groups']}
             page.do('step', cycles=100)
             before = page.do('read', source='Bug/Light')
             page.do('edit', operations=[
                 {'do': 'add_group', 'process': page.last('system')['processes'][0]['id'], 'name': 'New', 'x': 5, 'y': 5, 'id': 'new'},
                 {'do': 'add_connection', 'source': groups['Bug/Light'], 'target': 'new', 'kind': 'excitatory'}])
-            self.assertEqual(page.last('status')['cycle'], 100)
+            self.assertEqual(page.do('digest')['cycle'], 100)
             self.assertEqual(page.do('read', source='Bug/Light'), before)
             self.assertTrue(page.last('document')['running_is_current'])
             page.do('save')
             page.do('edit', operations=[{'do': 'rename', 'id': 'new', 'name': 'Other'}])
             self.assertIn('+', page.do('difference')['text'])
-            self.assertIn('Bug/New', self.described())
+            self.assertIn('Light to New', self.described())
             page.do('undo')
             self.assertFalse(page.last('document')['dirty'])
             page.do('undo')
@@ -387,6 +388,7 @@ class Editing(unittest.TestCase):
     def test_unsaved_edits_survive_a_crash(self):
         studio = Studio(forage, str(self.mine), '--world', world, state=self.folder.name)
         page = Page(studio)
+        page.do('pause')
         group = page.last('system')['processes'][0]['groups'][0]['id']
         page.do('edit', operations=[{'do': 'set', 'id': group, 'property': 'note', 'value': 'not saved'}])
         folder = pathlib.Path(self.folder.name, 'forage/studio')
@@ -398,6 +400,7 @@ class Editing(unittest.TestCase):
         studio.child.wait(20)
         with Studio(forage, str(self.mine), '--world', world, '--recover', state=self.folder.name) as studio:
             page = Page(studio)
+            page.do('pause')
             self.assertIn('not saved', page.do('document')['text'])
             self.assertTrue(page.last('document')['dirty'])
             page.do('undo')

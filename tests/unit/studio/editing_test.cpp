@@ -188,7 +188,9 @@ TEST_CASE("a file whose system cannot run is opened to be corrected") {
     std::string text = e.content();
     const auto at = text.find("\"neuronLinearThreshold\"");
     std::ofstream(e.file) << text.replace(at, 23, "\"neuronLinearTreshold\"");
-    e.result({{"command", "open"}, {"system", e.file}});
+    e.result({{"command", "open"},
+              {"system", e.file},
+              {"world", FORAGE_SOURCE_DIR "/systems/worlds/basic_arena.world"}});
     CHECK(e.last["document"]["running_is_current"] == false);
     const json problem = e.last["document"]["problems"][0];
     CHECK(problem["item"] == "bug.motor");
@@ -196,6 +198,7 @@ TEST_CASE("a file whose system cannot run is opened to be corrected") {
     e.result({{"command", "step"}});
     e.edit(
         {{{"do", "type"}, {"id", problem["item"]}, {"part", "neuron"}, {"type", "neuronLinearThreshold"}}});
+    INFO(e.last["document"].dump(1));
     CHECK(e.last["document"]["running_is_current"] == true);
     std::ofstream(e.file) << "<System";
     CHECK(e.ask({{"command", "open"}, {"system", e.file}})["ok"] == false);
