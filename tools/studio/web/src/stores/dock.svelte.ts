@@ -40,6 +40,11 @@ class Dock {
     return id;
   }
 
+  /** Opens a panel as a tab beside one of another kind. */
+  openBeside(panel: PanelState, kind: string): string | null {
+    return this.open(panel, { beside: this.api?.panels.find((p) => (p.params as PanelState).kind === kind)?.id });
+  }
+
   /** Opens a plot where the other plots are, or at the right side. */
   plot(panel: PanelState): string | null {
     const others = this.api?.panels.filter((p) => !['arena', 'diagram', 'log', 'tutorial'].includes((p.params as PanelState).kind)) ?? [];
