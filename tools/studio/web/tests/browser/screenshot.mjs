@@ -1,18 +1,29 @@
-// The pictures of the docs: node screenshot.mjs FORAGE SOURCES OUTPUT [WIDTH HEIGHT light|dark [tutorial]]
+// The pictures of the docs: node screenshot.mjs FORAGE SOURCES OUTPUT [WIDTH HEIGHT light|dark [tutorial|build]]
 import { spawn } from 'node:child_process';
 import { resolve } from 'node:path';
 import { chromium } from 'playwright-core';
 
 const [forage, sources, output] = process.argv.slice(2, 5).map((p) => resolve(p));
-const [width = 1400, height = 900, colorScheme = 'light', tutorial] = process.argv.slice(5);
-const studio = spawn(forage, ['studio', 'systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world'], { cwd: sources });
+const [width = 1400, height = 900, colorScheme = 'light', shown] = process.argv.slice(5);
+const tutorial = shown === 'tutorial';
+const studio = spawn(forage, ['studio', shown === 'build' ? 'systems/reactive_foraging.iqr' : 'systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world'], { cwd: sources });
 const address = await new Promise((found) => studio.stdout.on('data', (text) => found(/http:\/\/\S+/.exec(text)[0])));
 const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-background-networking'] });
 try {
   const page = await browser.newPage({ viewport: { width: Number(width), height: Number(height) }, colorScheme });
   await page.goto(address);
   await page.getByRole('group', { name: 'Arena' }).waitFor();
-  if (tutorial) {
+  const find = async (text) => {
+    await page.keyboard.press('Control+k');
+    await page.keyboard.type(text);
+    await page.keyboard.press('Enter');
+  };
+  if (shown === 'build') {
+    await find('layout: build');
+    await page.getByRole('group', { name: 'Diagram' }).getByRole('button', { name: 'Reactive Layer' }).click();
+    await find('US to Approach');
+    await page.getByRole('region', { name: 'Inspector' }).getByText('3 synapses', { exact: true }).waitFor();
+  } else if (tutorial) {
     await page.getByRole('button', { name: 'Tutorial', exact: true }).click();
     const text = page.getByRole('group', { name: 'Tutorial', exact: true });
     await text.getByTitle('Tutorial 3: the adaptive layer').click();
@@ -20,10 +31,12 @@ try {
     await text.locator('.setup.active').waitFor();
     await page.getByRole('group', { name: 'Arena' }).getByRole('button', { name: '3-D' }).click();
   } else await page.getByRole('navigation').getByText('Motor', { exact: true }).click({ timeout: 2000 }).catch(() => {});
-  await page.getByRole('button', { name: '20×', exact: true }).click();
-  await page.getByRole('button', { name: 'Run', exact: true }).click();
-  await page.waitForFunction((least) => Number(document.querySelector('[aria-label="Moment of the run"]')?.value) > least, tutorial ? 3480 : 1560, { polling: 20 });
-  await page.getByRole('button', { name: 'Pause', exact: true }).click();
+  if (shown !== 'build') {
+    await page.getByRole('button', { name: '20×', exact: true }).click();
+    await page.getByRole('button', { name: 'Run', exact: true }).click();
+    await page.waitForFunction((least) => Number(document.querySelector('[aria-label="Moment of the run"]')?.value) > least, tutorial ? 3480 : 1560, { polling: 20 });
+    await page.getByRole('button', { name: 'Pause', exact: true }).click();
+  }
   await page.waitForTimeout(500);
   await page.screenshot({ path: output });
 } finally {
