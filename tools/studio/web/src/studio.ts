@@ -80,6 +80,8 @@ function receive(message: ServerMessage): void {
       model.world = message.file === null ? null : message;
       break;
     case 'status':
+      // What was refused may be there after a change.
+      if (run.status?.generation !== message.generation) streams.retry();
       run.status = message;
       break;
     case 'action':
