@@ -198,7 +198,6 @@ TEST_CASE("a file whose system cannot run is opened to be corrected") {
     e.result({{"command", "step"}});
     e.edit(
         {{{"do", "type"}, {"id", problem["item"]}, {"part", "neuron"}, {"type", "neuronLinearThreshold"}}});
-    INFO(e.last["document"].dump(1));
     CHECK(e.last["document"]["running_is_current"] == true);
     std::ofstream(e.file) << "<System";
     CHECK(e.ask({{"command", "open"}, {"system", e.file}})["ok"] == false);

@@ -195,23 +195,31 @@ bool Session::rebuild() {
     input.text = document_->text();
     Diagnostics diagnostics;
     const Sources sources = read_sources(input, diagnostics);
-    auto loaded = assemble(sources, input, diagnostics);
     std::optional<Run> run;
-    if (loaded)
+    Touches* touches = nullptr;
+    const auto build = [&](bool go_on) {
+        run.reset();
+        auto loaded = assemble(sources, input, diagnostics);
+        if (!loaded) return;
         run = Run::make(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world),
                         {.seed = run_->seed()}, diagnostics);
-    Touches* touches = nullptr;
-    if (run) {
+        if (!run) return;
         touches = &run->add(std::make_unique<Touches>());
-        try {
-            if (!run->start(diagnostics))
-                run.reset();
-            else if (failed_.empty() && run_->cycle() > 0)
-                run->adopt(*run_);
-        } catch (const std::exception& e) {
-            diagnostics.error({}, e.what());
+        if (!run->start(diagnostics))
             run.reset();
+        else if (go_on)
+            run->adopt(*run_);
+    };
+    try {
+        try {
+            build(failed_.empty() && run_->cycle() > 0);
+        } catch (const ArchiveError&) {  // other modules sense the world in another way: it begins anew
+            diagnostics = {};
+            build(false);
         }
+    } catch (const std::exception& e) {
+        diagnostics.error({}, e.what());
+        run.reset();
     }
     problems_ = document_->located(diagnostics);
     if (!run) return false;
