@@ -31,4 +31,9 @@ nlohmann::json describe_types(const Registry& registry);
 nlohmann::json describe_settings(const model::TypeUse& use, const model::TypeUse* saved,
                                  const std::vector<Parameter>& parameters, const std::string& owner);
 
+/// The number of synapses of a connection in a system that is edited, with the first `most` pairs of cells.
+/// Throws InputError when there is no such connection, or it cannot be built.
+nlohmann::json describe_synapses(const model::System& system, std::string_view connection, std::uint64_t seed,
+                                 std::size_t most);
+
 }  // namespace forage

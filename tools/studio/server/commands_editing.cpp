@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "core/connectivity/connect.h"
 #include "core/model/lookup.h"
 #include "core/model/operations.h"
 #include "core/xml/writer.h"
@@ -133,15 +132,6 @@ struct Description {
     }
 };
 
-/// The synapses of a connection between the groups that the system has.
-connectivity::Synapses synapses_of(const model::System& system, const model::Connection& c,
-                                   std::uint64_t seed, Diagnostics& diagnostics) {
-    const model::GroupIndex groups(system);
-    const auto *source = groups.find(c.source).group, *target = groups.find(c.target).group;
-    if (!source || !target) throw InputError("a group of the connection does not exist");
-    return connectivity::connect(c, source->topology, target->topology, seed, diagnostics);
-}
-
 }  // namespace
 
 Document& Commands::document() { return *s.document_; }
@@ -192,9 +182,8 @@ json Commands::item() {
     } else if (const auto* connection = with_id(system.connections, id)) {
         out = description.of(*connection);
         linked = connection->linked;
-        Diagnostics ignored;
         try {
-            out["synapses"] = synapses_of(system, *connection, run().seed(), ignored).size();
+            out["synapses"] = describe_synapses(system, id, run().seed(), 0)["synapses"];
         } catch (const InputError&) {
             out["synapses"] = 0;
         }
@@ -231,17 +220,7 @@ json Commands::preview() {
     for (const char* part : {"pattern", "arborization", "attenuation", "delay"})
         if (c.contains(part))
             carry_out({{"do", part}, {"id", id}, {part, c[part]}}, system, run().registry());
-    const auto* connection = with_id(system.connections, id);
-    if (!connection) throw InputError(fmt::format("there is no connection with the id '{}'", id));
-    Diagnostics diagnostics;
-    const auto all = synapses_of(system, *connection, run().seed(), diagnostics);
-    throw_errors(diagnostics);
-    const std::size_t shown = std::min(all.size(), most_pairs);
-    const auto first = [&](const std::vector<int>& cells) {
-        return std::vector<int>(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(shown));
-    };
-    return {
-        {"synapses", all.size()}, {"pairs", shown}, {"source", first(all.pre)}, {"target", first(all.post)}};
+    return describe_synapses(system, id, run().seed(), most_pairs);
 }
 
 }  // namespace forage::studio
