@@ -29,7 +29,7 @@ ALLOWED = {
     # Pictures, and what other projects see.
     'tools/plot': {'core/base', 'core/model', 'core/connectivity', 'core/engine', 'core/observe', 'core/run',
                    'bug_interface'},
-    'tools/api': {'core/base', 'core/types', 'core/model', 'core/engine', 'core/xml', 'core/plugin', 'core/observe',
+    'tools/api': {'core/base', 'core/types', 'core/model', 'core/connectivity', 'core/engine', 'core/xml', 'core/plugin', 'core/observe',
                   'core/run', 'neurons', 'synapses', 'modules', 'bug_interface', 'devices', 'tools/plot'},
     'tools/cluster': {'core/base', 'core/run', 'tools/api'},
 }
