@@ -313,7 +313,9 @@ void add_studio(CLI::App& app, StudioCommand& o) {
     command.add_option("--seed", o.input.seed, "Decides everything random [1]")
         ->transform(seed())
         ->option_text("N");
-    command.add_option("--plot-config", o.plot_config, "Layout that the page begins with (.layout.json), or plots of the original (.conf)")
+    command
+        .add_option("--plot-config", o.plot_config,
+                    "Layout that the page begins with (.layout.json), or plots of the original (.conf)")
         ->check(CLI::ExistingFile)
         ->option_text("FILE");
     command.add_option("--port", o.port, "Port on 127.0.0.1 [a free one]")
