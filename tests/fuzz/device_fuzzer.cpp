@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "devices/gamepad/evdev.h"
-#include "devices/video/ppm.h"
+#include "modules/devices/gamepad/evdev.h"
+#include "modules/devices/video/ppm.h"
 #include "tests/fuzz/holds.h"
 
 namespace {

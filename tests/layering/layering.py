@@ -25,15 +25,15 @@ ALLOWED = {
     'synapses': {'core/types'},
     'modules': {'core/base', 'core/types'},
     'bug_interface': {'core/base', 'core/types', 'core/xml', 'core/run'},
-    'devices': {'core/base', 'core/types', 'bug_interface'},
+    'modules/devices': {'core/base', 'core/types', 'bug_interface'},
     # Pictures, and what other projects see.
     'tools/plot': {'core/base', 'core/model', 'core/connectivity', 'core/engine', 'core/observe', 'core/run',
                    'bug_interface'},
     'tools/api': {'core/base', 'core/types', 'core/model', 'core/connectivity', 'core/engine', 'core/xml', 'core/plugin', 'core/observe',
-                  'core/run', 'neurons', 'synapses', 'modules', 'bug_interface', 'devices', 'tools/plot'},
+                  'core/run', 'neurons', 'synapses', 'modules', 'bug_interface', 'modules/devices', 'tools/plot'},
     'tools/cluster': {'core/base', 'core/run', 'tools/api'},
 }
-ALLOWED['tools'] = set(ALLOWED) - {'core/connectivity', 'core/plugin', 'core/types', 'devices', 'modules', 'neurons', 'synapses'}
+ALLOWED['tools'] = set(ALLOWED) - {'core/connectivity', 'core/plugin', 'core/types', 'modules/devices', 'modules', 'neurons', 'synapses'}
 ALLOWED['tools/python'] = {'core/base', 'core/observe', 'core/run', 'tools/api'}
 ALLOWED['tools/studio/server'] = {'core/base', 'core/types', 'core/model', 'core/xml', 'core/observe', 'core/run', 'bug_interface', 'tools/plot', 'tools/api'}
 ALLOWED['tools'].add('tools/studio/server')

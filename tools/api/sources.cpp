@@ -16,7 +16,7 @@
 #include "core/model/validate.h"
 #include "core/plugin/search.h"
 #include "core/xml/reader.h"
-#include "devices/devices.h"
+#include "modules/devices/devices.h"
 #include "modules/modules.h"
 #include "modules/replay/replay.h"
 #include "neurons/neurons.h"

@@ -4,7 +4,7 @@
 #include <linux/input.h>
 #include <linux/joystick.h>
 
-#include "devices/gamepad/evdev.h"
+#include "modules/devices/gamepad/evdev.h"
 #include "tests/support/catch.h"
 
 using namespace forage::gamepad;

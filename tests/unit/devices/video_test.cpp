@@ -1,6 +1,6 @@
 // Pictures, their cells and their stream.
-#include "devices/video/picture.h"
-#include "devices/video/ppm.h"
+#include "modules/devices/video/picture.h"
+#include "modules/devices/video/ppm.h"
 #include "tests/support/catch.h"
 
 using namespace forage::video;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/types/module.h"
-#include "devices/gamepad/evdev.h"
+#include "modules/devices/gamepad/evdev.h"
 
 namespace forage::gamepad {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "devices/video/picture.h"
+#include "modules/devices/video/picture.h"
 
 namespace forage::video {
 

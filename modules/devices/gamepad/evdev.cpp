@@ -1,4 +1,4 @@
-#include "devices/gamepad/evdev.h"
+#include "modules/devices/gamepad/evdev.h"
 
 #include <algorithm>
 #include <cstring>

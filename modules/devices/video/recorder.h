@@ -4,7 +4,7 @@
 #include <ostream>
 
 #include "core/types/module.h"
-#include "devices/video/picture.h"
+#include "modules/devices/video/picture.h"
 
 namespace forage::video {
 

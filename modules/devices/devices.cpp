@@ -1,8 +1,8 @@
-#include "devices/devices.h"
+#include "modules/devices/devices.h"
 
-#include "devices/gamepad/module.h"
-#include "devices/video/module.h"
-#include "devices/video/recorder.h"
+#include "modules/devices/gamepad/module.h"
+#include "modules/devices/video/module.h"
+#include "modules/devices/video/recorder.h"
 
 namespace forage {
 

@@ -1,4 +1,4 @@
-#include "devices/video/module.h"
+#include "modules/devices/video/module.h"
 
 #include <algorithm>
 #include <cmath>

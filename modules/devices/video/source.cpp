@@ -1,4 +1,4 @@
-#include "devices/video/source.h"
+#include "modules/devices/video/source.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -9,8 +9,8 @@
 #include <unistd.h>
 
 #include "bug_interface/world/png.h"
-#include "devices/video/child_process.h"
-#include "devices/video/ppm.h"
+#include "modules/devices/video/child_process.h"
+#include "modules/devices/video/ppm.h"
 
 namespace forage::video {
 namespace {

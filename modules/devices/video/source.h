@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "devices/video/picture.h"
+#include "modules/devices/video/picture.h"
 
 namespace forage::video {
 

@@ -1,4 +1,4 @@
-#include "devices/video/picture.h"
+#include "modules/devices/video/picture.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "devices/gamepad/module.h"
+#include "modules/devices/gamepad/module.h"
 
 #include <cerrno>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "devices/video/child_process.h"
+#include "modules/devices/video/child_process.h"
 
 #include <cerrno>
 #include <csignal>

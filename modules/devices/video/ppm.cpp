@@ -1,4 +1,4 @@
-#include "devices/video/ppm.h"
+#include "modules/devices/video/ppm.h"
 
 #include <stdexcept>
 

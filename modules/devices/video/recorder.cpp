@@ -1,4 +1,4 @@
-#include "devices/video/recorder.h"
+#include "modules/devices/video/recorder.h"
 
 #include <algorithm>
 #include <array>

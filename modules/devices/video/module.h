@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/types/module.h"
-#include "devices/video/source.h"
+#include "modules/devices/video/source.h"
 
 namespace forage::video {
 
