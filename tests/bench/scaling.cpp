@@ -182,10 +182,11 @@ int main(int argc, char** argv) {
          {std::pair{100, 10}, std::pair{1000, 10}, std::pair{10'000, 10}, std::pair{10'000, 100},
           std::pair{20'000, 500}, std::pair{50'000, 2000}})
         if (static_cast<double>(cells) * each <= most) lists.emplace_back(cells, each);
-    const bool good = scale("neurons", {{1000, 1}, {10'000, 1}, {100'000, 1}, {1'000'000, 1}}, neurons) &&
-                      scale("synapses", lists, [](int cells, int each) { return bench::random_lists(cells, each); }) &&
-                      compare_groups("ring, one to one", false, 1) &&
-                      compare_groups("ring, one to one, a random source each", true, 1) &&
-                      compare_groups("ring, three synapses per cell", false, 3);
+    const bool good =
+        scale("neurons", {{1000, 1}, {10'000, 1}, {100'000, 1}, {1'000'000, 1}}, neurons) &&
+        scale("synapses", lists, [](int cells, int each) { return bench::random_lists(cells, each); }) &&
+        compare_groups("ring, one to one", false, 1) &&
+        compare_groups("ring, one to one, a random source each", true, 1) &&
+        compare_groups("ring, three synapses per cell", false, 3);
     return good ? 0 : 1;
 }
