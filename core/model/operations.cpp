@@ -13,7 +13,7 @@
 namespace forage::model {
 namespace {
 
-[[noreturn]] void refuse(std::string message) { throw std::invalid_argument(std::move(message)); }
+[[noreturn]] void refuse(const std::string& message) { throw std::invalid_argument(message); }
 [[noreturn]] void missing(std::string_view what, std::string_view id) {
     refuse(fmt::format("there is no {} with the id '{}'", what, id));
 }

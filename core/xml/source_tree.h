@@ -53,7 +53,7 @@ LineStart line_start(std::string_view text, std::size_t at);
 /// Replacements of parts of a text, which do not overlap.
 class TextEdits {
   public:
-    void replace(Span span, std::string text) { edits_.push_back({span, std::move(text)}); }
+    void replace(Span span, std::string text) { edits_.emplace_back(span, std::move(text)); }
     void insert(std::size_t at, std::string text) { replace({at, at}, std::move(text)); }
     /// Cuts what stands there, with its lines when nothing else stands on them.
     void cut(std::string_view text, Span span);

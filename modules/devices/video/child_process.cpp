@@ -12,8 +12,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-extern char** environ;
-
 namespace forage::video {
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {

@@ -48,7 +48,7 @@ class Folder final : public Source {
 /// The pictures that ffmpeg writes.
 class Decoded final : public Source {
   public:
-    Decoded(std::string name, std::vector<std::string> input)
+    Decoded(std::string name, const std::vector<std::string>& input)
         : name_(std::move(name)), process_(command(input)) {}
 
     std::optional<Picture> next() override {
@@ -79,7 +79,7 @@ class Decoded final : public Source {
         std::vector<std::string> out{"ffmpeg", "-nostdin", "-v", "fatal"};
         out.insert(out.end(), input.begin(), input.end());
         for (const char* word : {"-map", "0:v:0", "-f", "image2pipe", "-c:v", "ppm", "pipe:1"})
-            out.push_back(word);
+            out.emplace_back(word);
         return out;
     }
     void add(const std::string& bytes) {

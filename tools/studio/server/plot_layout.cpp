@@ -75,7 +75,7 @@ class Converter {
         }
         if (window.kind == Kind::time && !sources.empty())
             plots_.push_back({{"kind", "time"}, {"sources", std::move(sources)}});
-        if (window.kind == Kind::sampler)
+        else if (window.kind == Kind::sampler)
             plots_.push_back(
                 {{"kind", "sampler"},
                  {"sources", std::move(sources)},
