@@ -78,7 +78,9 @@ class Decoded final : public Source {
     static std::vector<std::string> command(const std::vector<std::string>& input) {
         std::vector<std::string> out{"ffmpeg", "-nostdin", "-v", "fatal"};
         out.insert(out.end(), input.begin(), input.end());
-        for (const char* word : {"-map", "0:v:0", "-f", "image2pipe", "-c:v", "ppm", "pipe:1"})
+        // Without these flags, a processor decides by which code colours are converted, and so their bits.
+        for (const char* word : {"-map", "0:v:0", "-sws_flags", "bicubic+accurate_rnd+bitexact", "-f",
+                                 "image2pipe", "-c:v", "ppm", "pipe:1"})
             out.emplace_back(word);
         return out;
     }
