@@ -50,7 +50,10 @@ ChildProcess::~ChildProcess() {
 
 std::optional<std::string> ChildProcess::read(int milliseconds) {
     pollfd what{pipe_, POLLIN, 0};
-    if (poll(&what, 1, milliseconds) <= 0) return std::nullopt;
+    int found = 0;
+    do found = poll(&what, 1, milliseconds);
+    while (found < 0 && errno == EINTR);  // Ctrl-C, or a terminal of another size
+    if (found <= 0) return std::nullopt;
     std::string out(1 << 16, '\0');
     const auto size = ::read(pipe_, out.data(), out.size());
     if (size < 0 && errno == EINTR) return std::nullopt;
