@@ -290,6 +290,7 @@ std::vector<std::string> paste(System& system, System content, std::string_view 
             for (const auto& g : p.groups) look(g.icon);
         else
             look(p.icon);
+    if (left == std::numeric_limits<int>::max()) left = x, top = y;  // nothing has a place
     const auto shift = [&](std::optional<Icon>& icon) {
         if (icon) icon->x += x - left, icon->y += y - top;
     };
@@ -311,8 +312,10 @@ std::vector<std::string> paste(System& system, System content, std::string_view 
             target->groups.push_back(std::move(g));
         }
     }
-    if (target)
+    if (target) {
+        target = find_process(system, process);  // processes may have been added after its groups
         for (const auto& g : target->groups) shifted.insert(g.id);
+    }
     for (auto& c : content.connections) {
         if (c.line && shifted.contains(c.source) && shifted.contains(c.target))
             for (Point& v : c.line->vertices) v.x += x - left, v.y += y - top;

@@ -77,6 +77,17 @@ TEST_CASE("what is copied is pasted with new ids and names, with the connections
     CHECK(find_connection(s.system, ids[2])->source == ids[0]);
     CHECK(find_connection(s.system, ids[2])->line->vertices[0].x == 150);
     CHECK(paste(s.system, both, "p", 0, 0)[0] == "CB2a");
+    System mixed = both;  // loose groups before whole processes, none of them with a place
+    for (int i = 0; i < 8; ++i) {
+        Process process;
+        process.id = process.name = "more" + std::to_string(i);
+        mixed.processes.push_back(process);
+    }
+    for (auto& g : mixed.processes[0].groups) g.icon.reset();
+    const auto all = paste(s.system, mixed, "p", 10, 10);
+    REQUIRE(all.size() == 11);
+    CHECK(find_connection(s.system, all.back())->line->vertices[0].x ==
+          both.connections[0].line->vertices[0].x);
     const auto whole = paste(s.system, copy(s.system, std::vector<std::string>{"p"}), "", 0, 0);
     CHECK(find_process(s.system, whole[0])->name == "P 2");
     CHECK_THROWS_AS(paste(s.system, both, "nothing", 0, 0), std::invalid_argument);
