@@ -205,12 +205,19 @@ class Patcher {
                          rendered(after_, wanted, start.indentation, start.alone ? layout_ : Layout{"", ""}));
     }
 
-    /// The comments between an element and the one before it.
-    static std::vector<Span> comments_before(const SourceElement& parent, std::size_t child) {
+    /// The comments between an element and the one before it. One at the end of a line is about what stands
+    /// before it there.
+    static std::vector<Span> comments_before(std::string_view text, const SourceElement& parent,
+                                             std::size_t child) {
         const std::size_t from = child == 0 ? parent.content.begin : parent.children[child - 1].whole.end;
+        const std::size_t to = parent.children[child].whole.begin;
+        const auto one_line = [&](std::size_t begin, std::size_t end) {
+            return text.substr(begin, end - begin).find('\n') == text.npos;
+        };
         std::vector<Span> out;
         for (const Span& c : parent.comments)
-            if (c.begin >= from && c.end <= parent.children[child].whole.begin) out.push_back(c);
+            if (c.begin >= from && c.end <= to && (!one_line(from, c.begin) || one_line(c.end, to)))
+                out.push_back(c);
         return out;
     }
 
@@ -218,7 +225,7 @@ class Patcher {
         const auto& e = parent.children[child];
         Span span = e.whole;
         if (is_item(e.name)) {
-            if (const auto comments = comments_before(parent, child); !comments.empty())
+            if (const auto comments = comments_before(text_, parent, child); !comments.empty())
                 span.begin = comments.front().begin;
             edits_.cut(text_, span);
         } else if (auto comments = kept_comments(e); comments.empty()) {
@@ -245,7 +252,7 @@ class Patcher {
             const auto& e = wanted.children[j];
             if (is_new[j] || afresh.contains(place_of(e))) {
                 pieces.push_back(
-                    {after_, &e, is_item(e.name) ? comments_before(wanted, j) : std::vector<Span>()});
+                    {after_, &e, is_item(e.name) ? comments_before(after_, wanted, j) : std::vector<Span>()});
             } else if (mine_of[j] &&
                        (!anchor || mine_of[j]->whole.end > anchor->whole.end || !pieces.empty())) {
                 insert();

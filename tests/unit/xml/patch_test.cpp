@@ -354,6 +354,22 @@ TEST_CASE("line ends of Windows and files on one line stay what they are") {
         "<System id=\"s\" name=\"s\">\n    <Process id=\"p\" name=\"P\" enableModule=\"true\"/>\n</System>"));
 }
 
+TEST_CASE("a comment at the end of a line belongs to what stands before it there") {
+    const std::string text = R"(<System id="s" name="s"> <!-- of the system -->
+    <Process id="p" name="P"/> <!-- of P -->
+    <!-- of Q -->
+    <Process id="q" name="Q"/>
+</System>
+)";
+    const auto without = [&](const char* id) {
+        return text_of(text, [&](model::System& s) { model::remove(s, id); });
+    };
+    CHECK(without("q") ==
+          "<System id=\"s\" name=\"s\"> <!-- of the system -->\n    <Process id=\"p\" name=\"P\"/> <!-- of P "
+          "-->\n</System>\n");
+    CHECK(without("p").find("<!-- of the system -->") != std::string::npos);
+}
+
 TEST_CASE("a comment before an item that is pasted or removed belongs to it") {
     const auto before = read_text(hand_written);
     const auto copied = model::copy(before, std::vector<std::string>{"h"});
