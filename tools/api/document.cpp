@@ -179,18 +179,16 @@ void Document::save(const std::string& path, const Registry& registry, bool over
                          "reload it, merge both changes, or overwrite it");
     if (!overwrite && !same && fs::exists(to))
         throw InputError(fmt::format("'{}' exists", to), "overwrite it, or choose another name");
+    std::string text = text_;
     if (!same && !path_.empty()) {
         model::System moved = system_;
         model::move_files(moved, path_, to, registry);
-        if (!xml::same_content(moved, system_)) {
-            const auto patch = xml::patch(to, text_, system_, moved, lenient_);
-            push(text_, "save as " + to, {});
-            text_ = patch.text;
-        }
+        if (!xml::same_content(moved, system_)) text = xml::patch(to, text_, system_, moved, lenient_).text;
     }
     // A name that is a link stays one.
     const std::string file = fs::is_symlink(to) ? fs::weakly_canonical(to).string() : to;
-    write_file(file, text_);
+    write_file(file, text);  // a failure leaves the document as it was
+    if (text != text_) push(std::exchange(text_, std::move(text)), "save as " + to, {});
     const bool renamed = to != path_;
     path_ = to;
     saved_ = text_;
