@@ -87,6 +87,7 @@ void Session::open(RunInput input) {
         begun_.text = read_file(begun_.system);
     run_ = std::move(run);
     touches_ = touches;
+    rebind();  // at once: what follows may fail, and streams must not read the run before
     failed_.clear(), running_ = sampled_ = false;
     history_.begin(*run_);
     rewound();
@@ -107,7 +108,6 @@ void Session::reset() {
     input_ = as_opened, input_.seed = seed;
     for (const auto& [group, manipulation] : touched) touches_->put(manipulation.settings());
     history_.begin(*run_);
-    rebind();
 }
 
 void Session::rebind() {
@@ -280,7 +280,6 @@ void Session::go_to(std::uint64_t cycle) {
             const RunInput input = input_;
             open(input);
             history_ = std::move(past);
-            rebind();
         }
         replay(cycle);
         if (!reference_) return;

@@ -89,7 +89,6 @@ void Session::open_document(const RunInput& input) {
             save_failed_ = e.what();
         }
     }
-    rebind();
     tell(system_message()), tell(world_message()), tell_document();
 }
 

@@ -127,7 +127,6 @@ void Session::recover() {
         }
     panels_ = rest.at("panels");
     set_speed(rest.at("mode").get<std::string>(), rest.at("value").get<double>());
-    rebind();
     save();
     if (save_failed_.empty()) kept_->forget_killed();
     killed_ = nullptr;
