@@ -79,13 +79,19 @@ json Commands::back_or_forth(std::vector<Session::Undo>& from, std::vector<Sessi
     if (entry.document) s.step_document(back);
     auto undone = std::move(s.undo_), redone = std::move(s.redo_);
     s.undo_.clear(), s.redo_.clear();
-    if (command.is_null())
-        s.follow_document(title);
-    else if (command.at("command") == "world_text")
-        set_world_text(command.at("text"));
-    else
-        s.act(command, std::nullopt, told(command, title));
-    s.undo_ = std::move(undone), s.redo_ = std::move(redone);
+    const auto back_again = [&] { s.undo_ = std::move(undone), s.redo_ = std::move(redone); };
+    try {
+        if (command.is_null())
+            s.follow_document(title);
+        else if (command.at("command") == "world_text")
+            set_world_text(command.at("text"));
+        else
+            s.act(command, std::nullopt, told(command, title));
+    } catch (...) {  // what it touched is not there any more; the other steps stay
+        back_again();
+        throw;
+    }
+    back_again();
     const bool document = entry.document, world = command.is_object() && command["command"] == "world_text";
     to.push_back(std::move(entry));
     if (document || world) s.tell_document();
