@@ -304,7 +304,8 @@ std::string moved_in_world(const std::string& text, std::string_view name, doubl
         } else {
             const auto piece = xml::scan(added);
             const SourceElement* last = nullptr;
-            if (here.item->name == "include") last = &here.item->children.back();
+            if (here.item->name == "include" && !here.item->children.empty())
+                last = &here.item->children.back();
             xml::insert_into(edits, text, *here.item, last, xml::layout_of(text, here.root),
                              {{added, &piece}});
         }

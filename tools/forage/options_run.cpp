@@ -134,7 +134,7 @@ void add_network(CLI::App& run, RunSpec& o) {
            "--remote", [&o](const std::string& text) { o.remote = endpoint("--remote", text, 0); },
            "Obey commands that arrive as datagrams at this port of this computer: 'cmd:stop', "
            "'cmd:param;...'. 0 "
-           "takes a free port; HOST:PORT listens at another address, to anybody who reaches it")
+           "takes a free port; HOST:PORT listens at another address, to every machine that reaches it")
         ->option_text("PORT");
     auto* broadcast =
         run.add_option_function<std::string>(

@@ -85,12 +85,15 @@ void GamepadModule::start(const ModulePorts&) {
 
 void GamepadModule::update(ModuleFrame& frame) {
     char bytes[24 * 64];
-    for (bool complete = false;;) {
+    constexpr int most_reads = 64;  // in a cycle, so that a stream without an end does not hold up the run
+    bool complete = false;
+    for (int reads = 0; reads < most_reads;) {
         if (waiting_.empty()) {
             const auto size = read(file_->handle, bytes, sizeof bytes);
             if (size < 0 && errno == ENODEV)
                 throw std::runtime_error(fmt::format("the gamepad '{}' is gone", device));
             if (size <= 0) break;
+            ++reads;
             waiting_.assign(bytes, static_cast<std::size_t>(size));
         }
         const std::size_t taken = reader_.read(waiting_, complete);
