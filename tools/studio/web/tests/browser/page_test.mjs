@@ -1,10 +1,10 @@
 // Drives the page in Chromium against the real program: node page_test.mjs FORAGE SOURCES [SCREENSHOT]
 // Exit code 77: skipped, as there is no browser.
-import { spawn } from 'node:child_process';
 import { existsSync, mkdtempSync, cpSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import assert from 'node:assert/strict';
+import { startStudio } from './support.mjs';
 
 const [forage, sources, screenshot] = process.argv.slice(2).map((p) => resolve(p));
 const browserPath = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((p) => existsSync(p));
@@ -16,23 +16,7 @@ const { chromium } = await import('playwright-core');
 const folder = mkdtempSync(join(tmpdir(), 'forage-page-'));
 cpSync(join(sources, 'systems'), join(folder, 'systems'), { recursive: true });
 
-function startStudio() {
-  const child = spawn(forage, ['studio', 'systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world'], { cwd: folder, env: { ...process.env, XDG_STATE_HOME: join(folder, 'state') } });
-  const address = new Promise((resolve, reject) => {
-    let text = '';
-    const read = (chunk) => {
-      text += chunk;
-      const found = /http:\/\/\S+/.exec(text);
-      if (found) resolve(found[0]);
-    };
-    child.stdout.on('data', read);
-    child.stderr.on('data', read);
-    child.on('exit', () => reject(new Error(`the studio ended:\n${text}`)));
-  });
-  return { child, address };
-}
-
-const studio = startStudio();
+const studio = startStudio(forage, folder);
 let browser;
 const faults = [];
 const step = (text) => console.log(text);
