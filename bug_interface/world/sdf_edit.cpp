@@ -40,20 +40,6 @@ std::string decoded(std::string_view text) {
     return out;
 }
 
-std::string encoded(std::string_view text) {
-    std::string out;
-    for (const char c : text)
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += c;
-    return out;
-}
-
 /// A length or angle, to a micrometre.
 std::string number(double value) {
     if (!std::isfinite(value) || std::abs(value) > 1e6)
@@ -170,7 +156,7 @@ struct Body {
 };
 
 std::string model_text(const NewItem& item, const Body& body) {
-    const std::string name = encoded(item.name), colours = colour(item.color);
+    const std::string name = xml::encoded(item.name), colours = colour(item.color);
     std::string out = fmt::format("<model name=\"{}\"><pose>{} {} 0 0 0 {}</pose>", name, number(item.x),
                                   number(item.y), number(item.yaw));
     if (!body.moves) out += "<static>true</static>";
@@ -190,7 +176,8 @@ std::string model_text(const NewItem& item, const Body& body) {
 
 std::string included(const NewItem& item, const std::string& uri) {
     return fmt::format("<include><name>{}</name><uri>{}</uri><pose>{} {} 0 0 0 {}</pose></include>",
-                       encoded(item.name), encoded(uri), number(item.x), number(item.y), number(item.yaw));
+                       xml::encoded(item.name), xml::encoded(uri), number(item.x), number(item.y),
+                       number(item.yaw));
 }
 
 std::string item_text(const NewItem& item) {
@@ -345,11 +332,11 @@ std::string renamed_in_world(const std::string& text, std::string_view name, con
         if (i.name == new_name) throw std::invalid_argument(fmt::format("there is already a '{}'", new_name));
     xml::TextEdits edits;
     if (here.item->name != "include") {
-        if (const auto* a = here.item->attribute("name")) edits.replace(a->inside, encoded(new_name));
+        if (const auto* a = here.item->attribute("name")) edits.replace(a->inside, xml::encoded(new_name));
     } else if (const auto* e = child(*here.item, "name")) {
-        edits.replace(e->content, encoded(new_name));
+        edits.replace(e->content, xml::encoded(new_name));
     } else {
-        const std::string added = "<name>" + encoded(new_name) + "</name>";
+        const std::string added = "<name>" + xml::encoded(new_name) + "</name>";
         const auto piece = xml::scan(added);
         xml::insert_into(edits, text, *here.item, nullptr, xml::layout_of(text, here.root),
                          {{added, &piece}});

@@ -3,30 +3,9 @@
 #include <fmt/format.h>
 
 #include "core/xml/document.h"
+#include "core/xml/source_tree.h"
 
 namespace forage::xml {
-namespace {
-
-std::string attribute(const std::string& text) {
-    std::string out;
-    for (const char c : text) switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += c;
-        }
-    return out;
-}
-
-}  // namespace
-
 std::vector<PanelRow> parse_panel(const std::string& path, const std::string& text,
                                   Diagnostics& diagnostics) {
     std::vector<PanelRow> out;
@@ -58,12 +37,11 @@ std::string panel_text(const std::vector<PanelRow>& rows, bool values) {
     std::string out = values ? "<ParamSet>\n" : "<HarborConfig>\n";
     for (const PanelRow& r : rows)
         out += values ? fmt::format("  <Parameter itemType=\"{}\" itemID=\"{}\" name=\"{}\" value=\"{}\"/>\n",
-                                    attribute(r.type), attribute(r.id), attribute(r.parameter),
-                                    attribute(r.value))
+                                    encoded(r.type), encoded(r.id), encoded(r.parameter), encoded(r.value))
                       : fmt::format(
                             "  <ParamTrade itemType=\"{}\" itemChild=\"\" itemID=\"{}\" ParamLabel=\"{}\" "
                             "ParamName=\"{}\"/>\n",
-                            attribute(r.type), attribute(r.id), attribute(r.label), attribute(r.parameter));
+                            encoded(r.type), encoded(r.id), encoded(r.label), encoded(r.parameter));
     return out + (values ? "</ParamSet>\n" : "</HarborConfig>\n");
 }
 

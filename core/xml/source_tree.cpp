@@ -202,4 +202,18 @@ void insert_into(TextEdits& edits, std::string_view text, const SourceElement& p
     edits.insert(parent.content.begin, lines(inner.indentation, inner.alone ? layout : one_line));
 }
 
+std::string encoded(std::string_view text) {
+    std::string out;
+    for (const char c : text)
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else if (c == '"')
+            out += "&quot;";
+        else
+            out += c;
+    return out;
+}
+
 }  // namespace forage::xml

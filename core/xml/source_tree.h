@@ -50,6 +50,9 @@ struct LineStart {
 };
 LineStart line_start(std::string_view text, std::size_t at);
 
+/// `text` as the content of an element or as a value between double quotes, in XML and HTML.
+std::string encoded(std::string_view text);
+
 /// Replacements of parts of a text, which do not overlap.
 class TextEdits {
   public:

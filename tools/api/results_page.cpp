@@ -8,6 +8,7 @@
 #include "core/base/output_files.h"
 #include "core/base/table.h"
 #include "core/run/run_json.h"
+#include "core/xml/source_tree.h"
 #include "tools/api/results.h"
 #include "tools/plot/canvas.h"
 
@@ -17,21 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_rows = 200, most_columns = 40, most_pictures = 500;
-
-std::string to_html(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += c;
-    }
-    return out;
-}
 
 /// A file name as a relative URL.
 std::string address(std::string_view name) {
@@ -47,7 +33,7 @@ std::string address(std::string_view name) {
 }
 
 std::string picture(const std::string& name) {
-    const std::string at = address(name), text = to_html(name);
+    const std::string at = address(name), text = xml::encoded(name);
     if (plot::format_of(name) == plot::Format::pdf)
         return fmt::format("<p><a href=\"{}\">{}</a></p>\n", at, text);
     return fmt::format(
@@ -67,10 +53,10 @@ std::string table(const fs::path& path) {
         if (count == 0) first = in.row();
         rows += "<tr>";
         for (std::size_t i = 0; i < std::min(in.fields().size(), most_columns); ++i)
-            rows += fmt::format("<{0}>{1}</{0}>", count == 0 ? "th" : "td", to_html(in.fields()[i]));
+            rows += fmt::format("<{0}>{1}</{0}>", count == 0 ? "th" : "td", xml::encoded(in.fields()[i]));
         rows += "</tr>\n";
     }
-    std::string out = fmt::format("<h3><a href=\"{}\">{}</a></h3>\n", address(name), to_html(name));
+    std::string out = fmt::format("<h3><a href=\"{}\">{}</a></h3>\n", address(name), xml::encoded(name));
     if (first.starts_with("cycle,") || name.starts_with("trajectory")) return out;
     out += "<table>\n" + rows + "</table>\n";
     if (count > most_rows) out += fmt::format("<p>The first {} rows.</p>\n", most_rows);
@@ -82,7 +68,7 @@ std::string settings(const std::string& directory) {
     if (!run) return {};
     std::string out = "<h2>What was run</h2>\n<table>\n";
     for (const auto& [key, value] : run->settings)
-        out += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", to_html(key), to_html(value));
+        out += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", xml::encoded(key), xml::encoded(value));
     return out + "</table>\n";
 }
 
@@ -110,7 +96,7 @@ std::string results_page(const std::string& directory) {
     }
     for (auto* files : {&pictures, &tables, &others, &folders}) std::sort(files->begin(), files->end());
     std::stable_partition(pictures.begin(), pictures.end(), shows_all_runs);
-    const std::string title = to_html(fs::weakly_canonical(directory).filename().string());
+    const std::string title = xml::encoded(fs::weakly_canonical(directory).filename().string());
     std::string out = fmt::format(R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>{0}</title>
 <style>
@@ -129,7 +115,7 @@ table {{ border-collapse: collapse; font-size: 13px; }} th, td {{ border: 1px so
     for (const auto* list : {&others, &folders})
         for (const auto& f : *list) {
             const std::string name = f.filename().string();
-            out += fmt::format("<li><a href=\"{}\">{}</a></li>\n", address(name), to_html(name));
+            out += fmt::format("<li><a href=\"{}\">{}</a></li>\n", address(name), xml::encoded(name));
         }
     if (!others.empty() || !folders.empty()) out += "</ul>\n";
     const auto below = pictures_below(directory);
