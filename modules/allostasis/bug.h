@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/column.h"
+#include "core/types/module.h"
 #include "modules/allostasis/steering.h"
 
 namespace forage::allostasis {
@@ -18,6 +19,20 @@ inline constexpr std::array<Index, 8> ray_of{17, 20, 23, 29, 2, 8, 11, 14};
 /// the Bug's sensor has a range of 2 m from its axis, and the Bug a radius of 0.2 m.
 inline double range(double activity, double scale) {
     return std::min(0.3, (2 * (1 - activity) - 0.2) / scale);
+}
+
+/// Declares the output of the motor group that show_wheels() writes.
+template <class T>
+void describe_motor(ModuleSpec<T>& s) {
+    s.output("motor", "Motor")
+        .size("a square with an odd number of rows, at least 3",
+              [](const auto&, PortSizes&, const GroupShape& given) {
+                  const bool fits = given.width == given.height && given.width % 2 == 1 && given.width >= 3;
+                  return fits ? given : rectangle(41, 41);
+              })
+        .doc(
+            "1 at the wanted speed: the top row is 0.124 m/s times 'Scale' forwards, the left column "
+            "a left turn with 4.77 rad/s.");
 }
 
 /// Writes 1 into the cell of a motor group of width x height cells that is nearest to the speeds of the

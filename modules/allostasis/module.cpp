@@ -82,15 +82,7 @@ void AllostasisModule::describe(ModuleSpec<AllostasisModule>& s) {
         .optional()
         .size(4, needs)
         .doc("What is sensed of each field, 0 to 1. Row: need; column: NW, NE, SW, SE of the robot.");
-    s.output("motor", "Motor")
-        .size("a square with an odd number of rows, at least 3",
-              [](const auto&, PortSizes&, const GroupShape& given) {
-                  const bool fits = given.width == given.height && given.width % 2 == 1 && given.width >= 3;
-                  return fits ? given : rectangle(41, 41);
-              })
-        .doc(
-            "1 at the wanted speed: the top row is 0.124 m/s times 'Scale' forwards, the left column "
-            "a left turn with 4.77 rad/s.");
+    describe_motor(s);
     s.output("time", "Time")
         .optional()
         .cells(2)

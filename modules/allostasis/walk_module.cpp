@@ -33,15 +33,7 @@ void WalkModule::describe(ModuleSpec<WalkModule>& s) {
         .range(1, 1000)
         .doc("Cycles between random changes of speed: 8 at 40 ms per cycle, about 0.32 s.");
     s.input("proximity", "Proximity").cells(32).doc("The proximity sensors of the Bug.");
-    s.output("motor", "Motor")
-        .size("a square with an odd number of rows, at least 3",
-              [](const auto&, PortSizes&, const GroupShape& given) {
-                  const bool fits = given.width == given.height && given.width % 2 == 1 && given.width >= 3;
-                  return fits ? given : rectangle(41, 41);
-              })
-        .doc(
-            "1 at the wanted speed: the top row is 0.124 m/s times 'Scale' forwards, the left column "
-            "a left turn with 4.77 rad/s.");
+    describe_motor(s);
 }
 
 void WalkModule::check(const ModulePorts&, Diagnostics& diagnostics) const {
