@@ -137,6 +137,27 @@ class Video(Devices):
         self.resumed("small.iqr", "--cycles", 120)
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
+    def test_a_film_with_gaps_has_each_picture_once(self):
+        subprocess.run(["ffmpeg", "-v", "error", "-framerate", "25", "-i", VIDEO / "noisy_disc/%03d.png", "-vf", "setpts=N*N/25/TB", "-vsync", "vfr", "-frames:v", "5",
+                        "-c:v", "ffv1", "-pix_fmt", "bgr0", self.here / "gaps.mkv"], check=True, stdin=subprocess.DEVNULL)
+        def of(file):
+            self.small(size=(48, 36), file=file, loop="false")
+            return self.rows("A", "--cycles", 6)
+        self.assertEqual(of("gaps.mkv")[:5], of(VIDEO / "noisy_disc")[:5])
+
+    def test_a_decoder_that_fails_is_not_the_end_of_the_film(self):
+        (self.here / "bin").mkdir()
+        program = self.here / "bin/ffmpeg"
+        program.write_text("#!/bin/sh\nprintf 'P6 1 1 255 abc'\nexit 3\n")
+        program.chmod(0o755)
+        (self.here / "film.mkv").write_text("")
+        self.small(file="film.mkv")
+        done = subprocess.run([FORAGE, "run", "small.iqr", "--cycles", "9"], cwd=self.here, capture_output=True, text=True, timeout=60,
+                              env={**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}"})
+        self.assertRegex(done.stderr, "ffmpeg cannot read '.*film.mkv' to its end")
+        self.assertEqual(done.returncode, 1)
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
     def test_the_recorders_film_is_read_by_ffmpeg_and_by_the_module(self):
         self.forage("run", DENOISING, "--cycles", 20, "-o", "out", "--set", "Denoising.Scale=1", "--record", "Denoising/Disc")
         disc = [[(float(v) + 1) / 2 for v in row[1:]] for row in self.table("out/Denoising_Disc_act.csv")[1:]]

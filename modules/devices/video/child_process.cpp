@@ -42,10 +42,18 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
 }
 
 ChildProcess::~ChildProcess() {
-    kill(process_, SIGKILL);
     close(pipe_);
-    while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+    if (!status_) kill(process_, SIGKILL);
+    succeeded();
+}
+
+bool ChildProcess::succeeded() {
+    while (!status_) {
+        int status = 0;
+        const auto done = waitpid(process_, &status, 0);
+        if (done >= 0 || errno != EINTR) status_ = done >= 0 ? status : -1;
     }
+    return *status_ == 0;
 }
 
 std::optional<std::string> ChildProcess::read(int milliseconds) {

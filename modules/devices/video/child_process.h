@@ -19,9 +19,12 @@ class ChildProcess {
     /// The bytes that are there, after waiting for them for at most `milliseconds`. An empty text is the end
     /// of the output; nothing means that there were none in this time. Throws std::runtime_error.
     std::optional<std::string> read(int milliseconds);
+    /// Waits for the program, whose output has ended. Returns whether it succeeded.
+    bool succeeded();
 
   private:
     int process_ = -1, pipe_ = -1;
+    std::optional<int> status_;  ///< of the program that has ended
 };
 
 }  // namespace forage::video

@@ -54,7 +54,7 @@ class Decoded final : public Source {
     std::optional<Picture> next() override {
         for (;;) {
             if (auto picture = stream_.next()) return found_ = true, picture;
-            if (ended_) return std::nullopt;
+            if (ended_) return check_end(), std::nullopt;
             const auto bytes = process_.read(longest_wait);
             if (!bytes)
                 throw std::runtime_error(
@@ -79,16 +79,22 @@ class Decoded final : public Source {
         std::vector<std::string> out{"ffmpeg", "-nostdin", "-v", "fatal"};
         out.insert(out.end(), input.begin(), input.end());
         // Without these flags, a processor decides by which code colours are converted, and so their bits.
-        for (const char* word : {"-map", "0:v:0", "-sws_flags", "bicubic+accurate_rnd+bitexact", "-f",
-                                 "image2pipe", "-c:v", "ppm", "pipe:1"})
+        // Each picture of the film is one here, whatever its time.
+        for (const char* word :
+             {"-map", "0:v:0", "-vsync", "passthrough", "-sws_flags", "bicubic+accurate_rnd+bitexact", "-f",
+              "image2pipe", "-c:v", "ppm", "pipe:1"})
             out.emplace_back(word);
         return out;
     }
     void add(const std::string& bytes) {
         stream_.add(bytes);
         ended_ = bytes.empty();
-        if (ended_ && !found_ && stream_.empty())
-            throw std::runtime_error(fmt::format("ffmpeg finds no pictures in '{}'", name_));
+    }
+    /// A program that fails does not end a film.
+    void check_end() {
+        const bool good = process_.succeeded() && stream_.empty();
+        if (!found_) throw std::runtime_error(fmt::format("ffmpeg finds no pictures in '{}'", name_));
+        if (!good) throw std::runtime_error(fmt::format("ffmpeg cannot read '{}' to its end", name_));
     }
 
     std::string name_;
