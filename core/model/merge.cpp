@@ -73,6 +73,8 @@ class Merger {
         }
         member(where, "the name", base.name, mine.name, theirs.name);
         member(where, "the colour", base.color, mine.color, theirs.color);
+        member(where, "the host", base.hostname, mine.hostname, theirs.hostname);
+        member(where, "the port", base.port, mine.port, theirs.port);
         member(where, "the enabling of the module", base.module_enabled, mine.module_enabled,
                theirs.module_enabled);
         member(where, "the note", base.note, mine.note, theirs.note);
@@ -148,6 +150,11 @@ Merge merge(const System& base, const System& mine, const System& theirs) {
     merger.member("the system", "the date", base.date, mine.date, s.date);
     merger.member("the system", "the cycles per second", base.cycles_per_second, mine.cycles_per_second,
                   s.cycles_per_second);
+    merger.member("the system", "the port", base.port, mine.port, s.port);
+    merger.member("the system", "the synchronisation of plots", base.sync_plots, mine.sync_plots,
+                  s.sync_plots);
+    merger.member("the system", "the instructions before it", base.instructions, mine.instructions,
+                  s.instructions);
     merger.member("the system", "the note", base.note, mine.note, s.note);
     merger.items(base.processes, mine.processes, s.processes);
     merger.items(base.connections, mine.connections, s.connections);
