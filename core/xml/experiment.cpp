@@ -232,6 +232,8 @@ class ExperimentReader {
     void confidence(const Element& e) {
         model::Adaptation a{.measure = written(e["measure"]), .at = e.where()};
         a.width = e["width"].number(), a.relative_width = e["relative-width"].number();
+        // A width that is wrong has been reported.
+        if ((e["width"] && !a.width) || (e["relative-width"] && !a.relative_width)) return;
         a.most = whole(e["most"]).value_or(a.most);
         experiment_.adaptation = std::move(a);
     }
