@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The studio over its sockets: what it refuses, its flow control, and that watching changes nothing."""
 import json
+import os
 import math
 import pathlib
 import shutil
@@ -509,6 +510,54 @@ class Crashes(unittest.TestCase):
                 self.assertIsNone(page.last('status')['killed'])
                 page.close()
         self.assertEqual(self.kept(), [])
+
+    def test_a_system_of_the_tutorial_stays_as_it_is_and_is_found_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mine = pathlib.Path(folder, 'mine.iqr')
+            mine.write_bytes(pathlib.Path(system).read_bytes())
+            start = lambda *more: Studio(forage, str(mine), '--world', world, *more, state=self.state)  # noqa: E731
+            with start() as studio:
+                page = Page(studio)
+                page.do('open', system='tutorial/explore.iqr', world='worlds/basic_arena.world', shipped=True)
+                page.do('pause')
+                page.do('set', assignments=['Light to US.weight=0'])
+                document = page.do('document')
+                self.assertTrue(document['shipped'])
+                shipped = pathlib.Path(document['file'])
+                before = shipped.read_bytes()
+                for command in ({}, {'file': str(shipped), 'overwrite': True}):
+                    self.assertIn('comes with Forage', page.ask('save', **command)['problems'][0]['message'])
+                self.assertEqual(shipped.read_bytes(), before)
+                self.kill(studio, page)
+            # Which systems have sessions is said where there is none of this one.
+            tried = subprocess.run([forage, 'studio', str(mine), '--world', world, '--recover'], capture_output=True, text=True, timeout=60, env={**os.environ, 'XDG_STATE_HOME': self.state})
+            self.assertRegex(tried.stderr, r"no session of '.*mine\.iqr' was killed\n.*explore\.iqr")
+            self.assertEqual(tried.returncode, 2)
+            with Studio(forage, str(shipped), '--world', world, '--recover', state=self.state) as studio:
+                page = Page(studio)
+                page.do('pause')
+                other = pathlib.Path(folder, 'other.iqr')
+                page.do('save', file=str(other))
+                self.assertFalse(page.last('document')['shipped'])
+                page.do('step', cycles=3)
+                self.kill(studio, page)
+            with Studio(forage, str(other), '--world', world, '--recover', state=self.state) as studio:  # under its last name
+                page = Page(studio)
+                page.do('pause')
+                self.assertEqual(page.last('document')['file'], str(other))
+                page.close()
+        self.assertEqual(self.kept(), [])
+
+    def test_a_world_that_was_not_saved_is_kept(self):
+        studio, page = self.start()
+        item = page.do('world_document')['items'][0]['name']
+        page.do('world_edit', operations=[{'do': 'rename', 'name': item, 'to': 'another'}])
+        page.do('step', cycles=2)
+        self.kill(studio, page)
+        _, page = self.start('--recover')
+        self.assertIn('another', [i['name'] for i in page.do('world_document')['items']])
+        page.do('undo')
+        self.assertIn(item, [i['name'] for i in page.do('world_document')['items']])
 
     def test_what_is_kept_is_damaged(self):
         studio, page = self.start()

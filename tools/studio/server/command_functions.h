@@ -113,6 +113,8 @@ struct Commands {
     Document& document();
     json edit();
     json item();
+    /// The number of synapses of a connection of the document; 0 when it cannot be built.
+    std::size_t synapses_of(const std::string& connection);
     json item_text();
     json copy();
     json types();

@@ -46,7 +46,7 @@ void Session::act(const json& command, const std::optional<json>& undo, json tol
     status_due_ = true;
     const std::string title = told.at("title");
     history_.act(run_->cycle(), command, title);
-    if (undo) undo_.push_back({*undo, command, title}), redo_.clear();
+    if (undo) add_undo({*undo, command, title});
     told["type"] = "action", told["generation"] = generation_, told["cycle"] = run_->cycle();
     told["command"] = command.at("command"), told["undoable"] = undo.has_value();
     tell(told);

@@ -58,11 +58,16 @@ json Commands::save() {
     const auto file = c.value("file", "");
     if (!file.empty() && fs::path(file).extension() != ".iqr")
         throw InputError(fmt::format("'{}' is not a name of a system", file), "it ends with .iqr");
+    const std::string before = document().path(), to = file.empty() ? before : file;
+    if (s.comes_with_forage(to))
+        throw InputError(fmt::format("'{}' comes with Forage and stays as it is", to),
+                         "save it in a folder of your own");
     document().save(file, run().registry(), c.value("overwrite", false));
     s.input_.system = document().path();
     s.outside_ = false;
     if (s.current_) s.built_ = document().system();
     note_recent(document().path());
+    if (s.kept_ && document().path() != before) s.keep_anew(), s.saved_version_.reset();
     s.tell(s.system_message()), s.tell_document();
     return {{"file", document().path()}};
 }

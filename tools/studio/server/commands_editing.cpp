@@ -137,8 +137,7 @@ struct Description {
 Document& Commands::document() { return *s.document_; }
 
 json Commands::edited(const std::string& title) {
-    s.undo_.push_back({nullptr, nullptr, title, true});
-    s.redo_.clear();
+    s.add_undo({nullptr, nullptr, title, true});
     s.follow_document(title);
     s.tell_document();
     return {{"generation", s.generation_}};
@@ -169,6 +168,19 @@ json Commands::edit() {
     return {{"ids", std::move(ids)}, {"generation", s.generation_}};
 }
 
+std::size_t Commands::synapses_of(const std::string& connection) {
+    if (s.current_) {  // the run has counted them
+        const auto& all = run().layout().connections;
+        const auto it = std::ranges::find(all, connection, &engine::Layout::Connection::id);
+        if (it != all.end()) return run().simulation().synapses(static_cast<int>(it - all.begin()));
+    }
+    try {
+        return describe_synapses(document().system(), connection, run().seed(), 0)["synapses"];
+    } catch (const InputError&) {
+        return 0;
+    }
+}
+
 json Commands::item() {
     const auto id = c.at("item").get<std::string>();
     const auto& system = document().system();
@@ -182,11 +194,7 @@ json Commands::item() {
     } else if (const auto* connection = with_id(system.connections, id)) {
         out = description.of(*connection);
         linked = connection->linked;
-        try {
-            out["synapses"] = describe_synapses(system, id, run().seed(), 0)["synapses"];
-        } catch (const InputError&) {
-            out["synapses"] = 0;
-        }
+        out["synapses"] = synapses_of(id);
     } else {
         const auto found = model::GroupIndex(system).find(id);
         if (!found.group) throw InputError(fmt::format("there is no item with the id '{}'", id));

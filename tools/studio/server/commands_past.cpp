@@ -49,7 +49,8 @@ json Commands::compare_end() {
 
 json Commands::recover() {
     s.recover();
-    s.tell(s.system_message()), s.tell(s.world_message());
+    s.tell(s.system_message()), s.tell(s.world_message()), s.tell_document();
+    if (s.world_text_) s.tell(world_document());
     return {{"cycle", run().cycle()}, {"panels", s.panels_}};
 }
 

@@ -89,7 +89,7 @@ json Commands::world_edit() {
     if (joins)
         s.undo_.back().redo = redo;
     else
-        s.undo_.push_back({{{"command", "world_text"}, {"text", world_text().text}}, redo, title, false});
+        s.add_undo({{{"command", "world_text"}, {"text", world_text().text}}, redo, title, false});
     s.redo_.clear();
     set_world_text(text);
     return {{"names", std::move(names)}, {"generation", s.generation_}};

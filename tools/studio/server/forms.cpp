@@ -37,10 +37,10 @@ Population population_from(const json& pattern, const char* side) {
     if (form == "all") return All{};
     if (form == "list") return List{points_from(it->at("points")), {}};
     if (form == "region")
-        return Region{it->at("x").get<int>(),
-                      it->at("y").get<int>(),
-                      it->at("width").get<int>(),
-                      it->at("height").get<int>(),
+        return Region{whole_from(it->at("x"), model::most_cells),
+                      whole_from(it->at("y"), model::most_cells),
+                      whole_from(it->at("width"), model::most_cells),
+                      whole_from(it->at("height"), model::most_cells),
                       {}};
     no_form("a population", form);
 }
@@ -50,7 +50,10 @@ json form(const char* type, json values) { return {{"type", type}, {"values", st
 /// The values of a form; what is absent has the default of a member.
 struct Values {
     const json& all;
-    int whole(const char* name, int otherwise) const { return all.value(name, otherwise); }
+    int whole(const char* name, int otherwise) const {
+        const auto it = all.find(name);
+        return it == all.end() ? otherwise : whole_from(*it, model::most_cells);
+    }
     double number(const char* name, double otherwise) const { return all.value(name, otherwise); }
 };
 
@@ -58,13 +61,14 @@ struct Values {
 
 std::vector<Point> points_from(const json& points) {
     std::vector<Point> out;
-    for (const auto& p : points) out.push_back({place_from(p.at(0)), place_from(p.at(1)), {}});
+    for (const auto& p : points) out.push_back({whole_from(p.at(0)), whole_from(p.at(1)), {}});
     return out;
 }
 
-int place_from(const json& number) {
+int whole_from(const json& number, double most) {
     const double value = number.get<double>();
-    if (!(std::abs(value) <= 1e6)) throw InputError("a place is a number from -1e6 to 1e6");
+    if (!(std::abs(value) <= most))
+        throw InputError(fmt::format("{} is not a number from {} to {}", number.dump(), -most, most));
     return static_cast<int>(std::lround(value));
 }
 
@@ -208,8 +212,9 @@ json json_of(const Topology& topology) {
 Topology topology_from(const json& form) {
     const auto points = form.find("points");
     if (points != form.end() && !points->empty()) return SparseTopology{points_from(*points)};
-    return RectTopology{form.at("width").get<int>(), form.at("height").get<int>(),
-                        form.value("wrap_x", false), form.value("wrap_y", false)};
+    return RectTopology{whole_from(form.at("width"), model::most_cells),
+                        whole_from(form.at("height"), model::most_cells), form.value("wrap_x", false),
+                        form.value("wrap_y", false)};
 }
 
 }  // namespace forage::studio

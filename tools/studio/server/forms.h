@@ -21,7 +21,8 @@ model::Arborization arborization_from(const json& form);
 model::DistanceFunction function_from(const json& form);
 model::Topology topology_from(const json& form);
 std::vector<model::Point> points_from(const json& points);
-/// A number of the page, which may have a fraction, as a place in the diagram.
-int place_from(const json& number);
+/// A number of the page, which may have a fraction, as a whole one. Throws InputError when it is beyond
+/// `most`.
+int whole_from(const json& number, double most = 1e6);
 
 }  // namespace forage::studio

@@ -50,20 +50,24 @@ struct Operation {
 
     json add_process() {
         const auto made = model::add_process(system, text("name"), text("id", ""));
-        if (member("x")) model::place(system, made, place_from(o["x"]), place_from(o["y"]));
+        if (member("x")) model::place(system, made, whole_from(o["x"]), whole_from(o["y"]));
         return made;
+    }
+    int side(const char* name) const {
+        const auto* given = member(name);
+        return given ? whole_from(*given, model::most_cells) : 1;
     }
     json add_group() {
         const auto made =
-            model::add_group(system, text("process"), text("name"), o.value("width", 1), o.value("height", 1),
+            model::add_group(system, text("process"), text("name"), side("width"), side("height"),
                              text("neuron", "neuronLinearThreshold"), text("id", ""));
-        if (member("x")) model::place(system, made, place_from(o["x"]), place_from(o["y"]));
+        if (member("x")) model::place(system, made, whole_from(o["x"]), whole_from(o["y"]));
         return made;
     }
     LineChange line_change() const {
         LineChange out;
-        if (const auto* a = member("source_anchor")) out.source_anchor = a->get<int>();
-        if (const auto* a = member("target_anchor")) out.target_anchor = a->get<int>();
+        if (const auto* a = member("source_anchor")) out.source_anchor = whole_from(*a);
+        if (const auto* a = member("target_anchor")) out.target_anchor = whole_from(*a);
         if (const auto* v = member("vertices")) out.vertices = points_from(*v);
         return out;
     }
@@ -87,7 +91,7 @@ struct Operation {
         return nullptr;
     }
     json rename() { return model::rename(system, id(), text("name")), nullptr; }
-    json place() { return model::place(system, id(), place_from(o.at("x")), place_from(o.at("y"))), nullptr; }
+    json place() { return model::place(system, id(), whole_from(o.at("x")), whole_from(o.at("y"))), nullptr; }
     json line() { return model::set_line(system, id(), line_change()), nullptr; }
     json reroute() { return model::reroute(system, id(), text("source", ""), text("target", "")), nullptr; }
     json set() {
@@ -144,8 +148,8 @@ struct Operation {
         Diagnostics diagnostics;
         auto content = xml::parse_system("clipboard", text("text"), diagnostics);
         if (!content) throw InputError(std::move(diagnostics));
-        return model::paste(system, *std::move(content), text("process", ""), place_from(o.at("x")),
-                            place_from(o.at("y")));
+        return model::paste(system, *std::move(content), text("process", ""), whole_from(o.at("x")),
+                            whole_from(o.at("y")));
     }
     json system_properties() {
         if (const auto* v = member("name")) system.name = v->get<std::string>();

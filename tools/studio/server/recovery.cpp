@@ -52,6 +52,21 @@ std::optional<std::string> RecoveryFiles::killed() const {
     return read_checkpoint(killed_path());
 }
 
+std::vector<std::string> RecoveryFiles::all_killed() {
+    std::vector<std::string> out;
+    std::error_code none;
+    for (const auto& folder : fs::directory_iterator(state_home() + "/forage/studio", none)) {
+        try {
+            const DirectoryHold hold(folder.path().string());
+            for (const char* name : {"killed.forage", "running.forage"})
+                if (const auto file = folder.path() / name; fs::exists(file))
+                    out.push_back(read_checkpoint(file.string()));
+        } catch (const std::exception&) {  // a studio holds it, or it is damaged
+        }
+    }
+    return out;
+}
+
 void RecoveryFiles::forget_killed() const {
     std::error_code ignored;
     fs::remove(killed_path(), ignored);

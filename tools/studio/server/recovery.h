@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/archive.h"
 #include "core/base/output_files.h"
@@ -29,6 +30,9 @@ class RecoveryFiles {
     void write(std::string_view content) const;
     /// The content of the killed session; empty without one. Throws CheckpointError when it is damaged.
     std::optional<std::string> killed() const;
+    /// The contents of all sessions that were killed, of any system, and that no studio holds. Damaged ones
+    /// are left out.
+    static std::vector<std::string> all_killed();
     void forget_killed() const;
     /// The session ends as its user wants: nothing of it remains.
     void forget_running() const;

@@ -98,7 +98,10 @@ class Session {
         std::optional<observe::Recorder> recorder;
     };
 
-    void save();  ///< into the folder of states; notes what goes wrong
+    void add_undo(Undo step);  ///< the last step; what was undone before cannot be done again
+    void trim_undo();          ///< drops the oldest steps
+    void save();               ///< into the folder of states; notes what goes wrong
+    void keep_anew();          ///< under the name that the system has now
     void look_for_killed();
     /// A started run of the system, with the touches of pages. Throws InputError.
     std::pair<std::unique_ptr<Run>, Touches*> make_run(const RunInput& input, std::string* files = nullptr);
@@ -154,6 +157,9 @@ class Session {
 
     RunInput input_, begun_;  ///< as the system was opened; and with the parameters of the last stop
     Send send_;
+    /// Whether a path is one of a system that the page opened from those that come with Forage. They are not
+    /// written, so that the next reader of the tutorial finds them as they are.
+    bool comes_with_forage(const std::string& path) const;
     std::string shipped_;
     json layout_;  ///< the layout that pages begin with; null for none
     json panels_;  ///< the arrangement that a page had last; null for none

@@ -80,16 +80,33 @@ void Session::open_document(const RunInput& input) {
         problems_ = document_->located(e.diagnostics());
     }
     sampler_waits_ = nullptr;
-    if (kept_) {
-        kept_->forget_running();
-        try {
-            keep();
-        } catch (const std::exception& e) {
-            kept_.reset();
-            save_failed_ = e.what();
-        }
-    }
+    if (kept_) keep_anew();
     tell(system_message()), tell(world_message()), tell_document();
+}
+
+void Session::add_undo(Undo step) {
+    undo_.push_back(std::move(step));
+    redo_.clear();
+    trim_undo();
+}
+
+void Session::trim_undo() {
+    constexpr std::size_t most_steps = 500;
+    if (undo_.size() > most_steps) undo_.erase(undo_.begin(), undo_.end() - most_steps);
+    // A step of the document can be undone while the document has it.
+    std::size_t steps = document_->steps();
+    for (auto it = undo_.rbegin(); it != undo_.rend(); ++it)
+        if (it->document && steps-- == 0) {
+            undo_.erase(undo_.begin(), it.base());
+            break;
+        }
+}
+
+bool Session::comes_with_forage(const std::string& path) const {
+    if (shipped_.empty() || path.empty()) return false;
+    const auto folder = std::filesystem::absolute(shipped_).lexically_normal();
+    const auto inside = std::filesystem::absolute(path).lexically_normal().lexically_relative(folder);
+    return !inside.empty() && *inside.begin() != "..";
 }
 
 model::System Session::shown_system() const {
@@ -104,6 +121,7 @@ json Session::document_message() const {
     };
     return {{"type", "document"},
             {"file", document_->path()},
+            {"shipped", comes_with_forage(document_->path())},
             {"name", document_->system().name},
             {"dirty", document_->dirty()},
             {"problems", json_of(problems_)},

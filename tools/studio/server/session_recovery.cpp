@@ -1,6 +1,8 @@
 // What is kept of a session in case its program is killed.
 #include <chrono>
 #include <exception>
+#include <filesystem>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -21,6 +23,20 @@ struct Head {
     void checkpoint(Archive& archive) { archive(version, files, cycle, seconds, saved); }
 };
 
+/// The systems of all sessions that were killed.
+std::set<std::string> systems_of_killed() {
+    std::set<std::string> out;
+    for (const auto& content : RecoveryFiles::all_killed()) try {
+            Archive archive{std::string_view(content)};
+            Head head;
+            RunInput opened;
+            archive(head), archive_input(archive, opened);
+            out.insert(std::filesystem::path(opened.system).lexically_normal().string());
+        } catch (const ArchiveError&) {  // of another version
+        }
+    return out;
+}
+
 const char* const begin_anew = "begin anew, or close this message";
 
 }  // namespace
@@ -30,6 +46,16 @@ void Session::keep() {
     if (!document_->path().empty()) note_recent(document_->path());
     look_for_killed();
     saved_version_ = version_;  // there is nothing to lose yet
+}
+
+void Session::keep_anew() {
+    kept_->forget_running();
+    try {
+        keep();
+    } catch (const std::exception& e) {
+        kept_.reset();
+        save_failed_ = e.what();
+    }
 }
 
 void Session::look_for_killed() {
@@ -61,8 +87,10 @@ void Session::save() {
         for (const auto& [name, change] : changed_) changed[name] = {change.assignment, change.loaded};
         for (const auto& u : undo_) undo.push_back({u.undo, u.redo, u.title, u.document});
         for (const auto& u : redo_) redo.push_back({u.undo, u.redo, u.title, u.document});
-        std::string rest = json{{"changed", changed}, {"undo", undo},  {"redo", redo},
-                                {"panels", panels_},  {"mode", mode_}, {"value", value_}}
+        json world;
+        if (world_text_) world = {world_text_->path, world_text_->text, world_text_->saved};
+        std::string rest = json{{"world", world},    {"changed", changed}, {"undo", undo},   {"redo", redo},
+                                {"panels", panels_}, {"mode", mode_},      {"value", value_}}
                                .dump(-1, ' ', false, json::error_handler_t::replace);
         archive(head);
         archive_input(archive, opened), archive_input(archive, begun);
@@ -80,7 +108,13 @@ void Session::save() {
 void Session::recover() {
     if (!kept_) throw InputError("nothing is kept of sessions", "the messages at the start say why");
     const auto content = kept_->killed();
-    if (!content) throw InputError("there is no session that was killed", "begin anew");
+    if (!content) {
+        const auto others = systems_of_killed();
+        throw InputError(fmt::format("no session of '{}' was killed", input_.system),
+                         others.empty()
+                             ? "begin anew"
+                             : fmt::format("there are sessions of '{}'", fmt::join(others, "', '")));
+    }
     Archive archive{std::string_view(*content)};
     Head head;
     archive(head);
@@ -118,13 +152,9 @@ void Session::recover() {
         changed_[name] = {change.at(0).get<std::string>(), change.at(1)};
     for (const auto& u : rest.at("undo")) undo_.push_back({u.at(0), u.at(1), u.at(2), u.at(3)});
     for (const auto& u : rest.at("redo")) redo_.push_back({u.at(0), u.at(1), u.at(2), u.at(3)});
-    // Of what was kept, only steps that the document still has can be undone.
-    std::size_t steps = document_->steps();
-    for (auto it = undo_.rbegin(); it != undo_.rend(); ++it)
-        if (it->document && steps-- == 0) {
-            undo_.erase(undo_.begin(), it.base());
-            break;
-        }
+    trim_undo();
+    if (const auto& world = rest.at("world"); !world.is_null())
+        world_text_ = {world.at(0), world.at(1), world.at(2)};
     panels_ = rest.at("panels");
     set_speed(rest.at("mode").get<std::string>(), rest.at("value").get<double>());
     save();

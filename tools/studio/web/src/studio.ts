@@ -59,6 +59,7 @@ function receive(message: ServerMessage): void {
       // An edited system keeps some of its processes, also when it is saved under another name.
       const named = model.system?.file === message.file && model.system.name === message.name;
       const other = !named && !model.processes.some((p) => message.processes.some((q) => q.id === p.id));
+      if (model.system?.file !== message.file) actions.begin();
       model.system = message;
       // The diagram begins with the process that is the robot, whose groups show their activity.
       if (other && !model.find(selection.process)) selection.process = (message.processes.find((p) => p.module) ?? message.processes[0])?.id ?? null;

@@ -7,6 +7,8 @@ class DocumentState {
   types = $state.raw<TypesResult | null>(null);
 
   file = $derived(this.message?.file ?? '');
+  /** Whether it comes with Forage, and is saved under another name only. */
+  shipped = $derived(this.message?.shipped ?? false);
   dirty = $derived(this.message?.dirty ?? false);
   problems = $derived<DocumentProblem[]>(this.message?.problems ?? []);
   /** Whether the server can edit. */

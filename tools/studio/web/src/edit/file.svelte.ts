@@ -44,6 +44,7 @@ class FileDialog {
   /** Does what the dialog is for. Stays open, with the reason, when that is refused. */
   async act(overwrite = false): Promise<void> {
     const file = this.path(this.name.trim());
+    const action = this.action!;
     const steps: Record<FileAction, () => Promise<unknown>> = {
       open: () => request('open', { system: file, world: this.world.trim() }),
       'save as': () => request('save', { file: /\.iqr$|\.xml$/.test(file) ? file : `${file}.iqr`, overwrite }),
@@ -54,8 +55,9 @@ class FileDialog {
       new: () => request('new', { name: this.name.trim() || 'New system', world: this.world.trim() }),
     };
     try {
-      await steps[this.action!]();
+      await steps[action]();
       this.action = null;
+      if (action.startsWith('save')) actions.tell('info', `Saved as ${file.split('/').pop()}.`);
     } catch (e) {
       this.error = e instanceof CommandError ? e.message : String(e);
     }
@@ -68,7 +70,7 @@ export const fileDialog = new FileDialog();
 export const mayLeave = () => !editing.dirty || confirm('The system has changes that are not saved. Leave them?');
 
 export async function save(): Promise<void> {
-  if (!editing.file) return fileDialog.open('save as');
+  if (!editing.file || editing.shipped) return fileDialog.open('save as');
   if (await command('save')) actions.tell('info', 'Saved.');
 }
 

@@ -8,6 +8,8 @@ export interface DocumentMessage {
   type: 'document';
   /** Empty for a system that has no file yet. */
   file: string;
+  /** Whether the file comes with Forage: it is not written. */
+  shipped: boolean;
   dirty: boolean;
   problems: DocumentProblem[];
   /** "changed" when another program wrote the file. */

@@ -6,10 +6,20 @@ export interface Notice { key: number; kind: 'error' | 'info'; text: string }
 class Actions {
   log = $state.raw<(ActionMessage & { at: Date })[]>([]);
   notices = $state.raw<Notice[]>([]);
+  private begun = $state.raw(new Date());
   private nextKey = 1;
 
   add(action: ActionMessage): void {
     this.log = [...this.log.slice(-499), { ...action, at: new Date() }];
+  }
+  /** Another system is open: earlier actions are not about it. */
+  begin(): void {
+    this.begun = new Date();
+  }
+  /** The last action on the system that is open. */
+  get last(): ActionMessage | undefined {
+    const action = this.log[this.log.length - 1];
+    return action && action.at >= this.begun ? action : undefined;
   }
   /** Shows a message; an error stays until it is closed. */
   tell(kind: Notice['kind'], text: string): void {

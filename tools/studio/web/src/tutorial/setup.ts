@@ -33,6 +33,8 @@ export function clampPattern(clamp: string, size: (group: string) => { width: nu
 
 function panelOf({ kind, item }: Setup['panels'][number]): PanelState {
   if (kind === 'time') return { kind, sources: item.split(', ').map((s) => (model.group(s) ? `mean(${s})` : s)) };
+  // Cells are between 0 and 1, mostly: a scale that followed smaller values would show noise as an answer.
+  if (kind === 'space') return { kind, item, scale: { mode: 'expand', low: 0, high: 1 } };
   return kind === 'sampler' ? { kind, sources: [item] } : { kind, item };
 }
 
