@@ -27,7 +27,8 @@ class FileDialog {
     const item = model.find(process);
     this.name = action === 'export' && item?.kind === 'process' ? `${item.process.name}.iqrProcess` : action === 'save as' ? editing.file.split('/').pop() || `${model.system?.name || 'system'}.iqr` : '';
     if (action === 'save the world') this.name = model.world?.file?.split('/').pop() ?? 'arena.world';
-    if (action !== 'new') void this.list('');
+    // What comes with Forage is saved where the studio was started.
+    if (action !== 'new') void this.list(action === 'save as' && editing.shipped ? '.' : '');
     if (action === 'open') void request<{ files: string[] }>('recent').then((r) => (this.recent = r.files), () => {});
   }
   async list(folder: string): Promise<void> {

@@ -1,12 +1,13 @@
 // The tutorial in Chromium against the real program: node tutorial_test.mjs FORAGE SOURCES
 import assert from 'node:assert/strict';
-import { resolve } from 'node:path';
+import { existsSync } from 'node:fs';
+import { join, resolve } from 'node:path';
 import { inBrowser } from './support.mjs';
 
 const [forage, sources] = process.argv.slice(2).map((p) => resolve(p));
 const step = (text) => console.log(text);
 
-await inBrowser(sources, async ({ context, start, until }) => {
+await inBrowser(sources, async ({ folder, context, start, until }) => {
   const page = await context.newPage();
   page.setDefaultTimeout(10000);
   const faults = [];
@@ -41,6 +42,16 @@ await inBrowser(sources, async ({ context, start, until }) => {
       assert.equal(await refused.count(), 0, `${part}, set-up ${i + 1}: ${await refused.allTextContents()}`);
     }
   }
+
+  step('a system of the tutorial is saved under another name, in the folder of the user');
+  await page.keyboard.press('Control+s');
+  const dialog = page.getByRole('dialog');
+  await dialog.waitFor();
+  assert.ok((await dialog.locator('.folder').first().innerText()).includes(folder.split('/').pop()), 'the folder in which the studio was started');
+  await dialog.getByLabel('Name').fill('mine.iqr');
+  await dialog.getByLabel('Name').press('Enter');
+  await page.getByText('Saved as mine.iqr.').waitFor();
+  assert.ok(existsSync(join(folder, 'mine.iqr')));
 
   step('the answer of 1.1 is seen: cell (5, 1) is held, and the robot has left its start');
   await tutorial.getByRole('button', { name: '1', exact: true }).click();
