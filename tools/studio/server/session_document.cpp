@@ -91,8 +91,8 @@ void Session::add_undo(Undo step) {
 }
 
 void Session::trim_undo() {
-    constexpr std::size_t most_steps = 500;
-    if (undo_.size() > most_steps) undo_.erase(undo_.begin(), undo_.end() - most_steps);
+    constexpr std::size_t most_undone = 500;
+    if (undo_.size() > most_undone) undo_.erase(undo_.begin(), undo_.end() - most_undone);
     // A step of the document can be undone while the document has it.
     std::size_t steps = document_->steps();
     for (auto it = undo_.rbegin(); it != undo_.rend(); ++it)
