@@ -341,6 +341,20 @@ class Interrupted(Experiment):
         self.assertIn("finishing the current cycle of each run; Ctrl-C again ends at once", said)
         self.assertIn("the same command continues", said)
 
+    def test_a_finished_run_without_its_trials_is_an_error_and_is_repeated_when_it_is_removed(self):
+        self.forage("experiment", "robot.xml", "-o", "out", "-q")
+        before = (self.here / "out/trials.csv").read_bytes()
+        run = self.rows("out/results.csv")[1]["run"]
+        (self.here / f"out/runs/{run}/trials.csv").unlink()
+        said = self.forage("experiment", "robot.xml", "-o", "out", "-q", status=1).stderr
+        self.assertEqual(said, f"error: cannot read the trials of a finished run: 'out/runs/{run}/trials.csv' is missing or empty\n"
+                               f"  hint: remove 'out/runs/{run}' and start the experiment again, which repeats this run\n")
+        self.assertFalse((self.here / "out/trials.csv").exists())
+        self.assertFalse((self.here / "out/trials.csv.part").exists())
+        shutil.rmtree(self.here / f"out/runs/{run}")
+        self.forage("experiment", "robot.xml", "-o", "out", "-q")
+        self.assertEqual((self.here / "out/trials.csv").read_bytes(), before)
+
     def test_only_new_runs_are_executed(self):
         self.forage("experiment", "robot.xml", "-o", "out")
         before = self.made_at("out")

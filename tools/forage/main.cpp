@@ -11,6 +11,7 @@
 
 #include "core/base/diagnostic.h"
 #include "core/model/lookup.h"
+#include "core/run/input_error.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/options.h"
 #include "tools/forage/reference.h"
@@ -195,6 +196,9 @@ int program(int argc, char** argv) {
         if (app.got_subcommand("build-plugin")) return build_plugin(build_options);
         if (app.got_subcommand("schema")) return schema(schema_options);
         return types(type, plugins);
+    } catch (const forage::InputError& e) {  // its text has the words "error" and "hint"
+        fmt::print(stderr, "{}", e.what());
+        return run_failed;
     } catch (const std::exception& e) {
         fmt::print(stderr, "error: {}\n", e.what());
         return run_failed;
