@@ -15,7 +15,7 @@ namespace forage {
 namespace {
 
 constexpr std::string_view magic = "forage checkpoint\n";
-constexpr std::uint32_t format_version = 7;  ///< version of the content of checkpoints
+constexpr std::uint32_t format_version = 8;  ///< version of the content of checkpoints
 
 }  // namespace
 

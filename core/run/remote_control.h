@@ -49,7 +49,7 @@ class RemoteControl final : public Observer {
     void declare(engine::Demand& demand) const override { demand.read_everything(); }
     /// Adds the pictures to the files of the run.
     void finish(RunView&, ResultFiles& files) override;
-    void checkpoint(Archive& archive) override { archive(obeyed_, pictures_); }
+    void checkpoint(Archive& archive) override { archive(obeyed_, pictures_, paused_); }
 
   private:
     void carry_out(const RemoteCommand& command, Run& run, Diagnostics& diagnostics);

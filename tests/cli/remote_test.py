@@ -115,6 +115,28 @@ class Remote(Cli):
             self.assertEqual(process.returncode, 128 + 15)
         self.assertEqual(self.record()["result"]["stopped"], "by SIGTERM")
 
+    def test_a_stopped_run_stays_stopped_when_it_is_resumed(self):
+        with self.running("--checkpoint-every", 10**8) as (process, send):
+            cycle = 0
+            while cycle == 0:
+                send("cmd:start")
+                cycle = int(re.fullmatch(r"remote: cycle (\d+): cmd:stop\n", send("cmd:stop"))[1])
+            process.terminate()
+            process.communicate(timeout=60)
+        process = subprocess.Popen([FORAGE, "resume", "out"], cwd=self.here, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        try:
+            self.assertEqual(process.stderr.readline(), f"continuing from cycle {cycle}\n")
+            port = int(re.fullmatch(r"remote: commands are received at 127\.0\.0\.1:(\d+)\n", process.stderr.readline())[1])
+            self.assertEqual(process.stderr.readline(), "remote: the run is stopped; cmd:start goes on with it\n")
+            time.sleep(0.2)  # enough for thousands of cycles
+            with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+                sender.sendto(b"cmd:quit", ("127.0.0.1", port))
+                self.assertEqual(process.stderr.readline(), f"remote: cycle {cycle}: cmd:quit\n")
+            process.communicate(timeout=60)
+        finally:
+            process.kill()
+            process.communicate()
+
     def test_mistakes(self):
         for option, text in (("--remote", "65536"), ("--remote", "somewhere"), ("--broadcast", "0"), ("--broadcast", ":9")):
             said = self.forage("run", SYSTEM, option, text, status=2).stderr
