@@ -166,7 +166,7 @@ void RemoteControl::obey(Run& run) {
             if (tell) tell(fmt::format("a datagram is not a command: {}", problem));
             continue;
         }
-        const std::string text = datagram->substr(0, datagram->find_first_of(std::string_view("\r\n\0", 3)));
+        const std::string text(datagram->substr(0, datagram->find_first_of(std::string_view("\r\n\0", 3))));
         Diagnostics diagnostics;
         try {
             carry_out(*command, run, diagnostics);

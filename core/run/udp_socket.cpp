@@ -69,7 +69,8 @@ UdpSocket UdpSocket::connect(const Endpoint& there) {
     }));
 }
 
-UdpSocket::UdpSocket(UdpSocket&& other) noexcept : handle_(std::exchange(other.handle_, -1)) {}
+UdpSocket::UdpSocket(UdpSocket&& other) noexcept
+    : handle_(std::exchange(other.handle_, -1)), buffer_(std::move(other.buffer_)) {}
 
 UdpSocket::~UdpSocket() {
     if (handle_ >= 0) close(handle_);
@@ -82,12 +83,11 @@ int UdpSocket::port() const {
     return ntohs(address.sin_port);
 }
 
-std::optional<std::string> UdpSocket::receive(std::size_t most) {
-    std::string out(most, '\0');
-    const auto size = recv(handle_, out.data(), out.size(), 0);
+std::optional<std::string_view> UdpSocket::receive(std::size_t most) {
+    if (buffer_.size() < most) buffer_.resize(most);
+    const auto size = recv(handle_, buffer_.data(), most, 0);
     if (size < 0) return std::nullopt;
-    out.resize(static_cast<std::size_t>(size));
-    return out;
+    return std::string_view(buffer_).substr(0, static_cast<std::size_t>(size));
 }
 
 bool UdpSocket::send(std::string_view datagram) {

@@ -1,6 +1,7 @@
 // Datagrams over IPv4.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,8 +31,8 @@ class UdpSocket {
     ~UdpSocket();
 
     int port() const;  ///< the port of this socket
-    /// The next datagram, cut to `most` bytes; empty when none has arrived.
-    std::optional<std::string> receive(std::size_t most);
+    /// The next datagram, cut to `most` bytes; empty when none has arrived. It is valid until the next call.
+    std::optional<std::string_view> receive(std::size_t most);
     /// Sends a datagram. Returns whether the system took it; that nothing receives it is no failure.
     bool send(std::string_view datagram);
     /// Waits until a datagram arrives, `milliseconds` have passed, or a signal comes.
@@ -40,6 +41,7 @@ class UdpSocket {
   private:
     explicit UdpSocket(int handle) : handle_(handle) {}
     int handle_;
+    std::string buffer_;  ///< of receive(), which is called in every cycle
 };
 
 }  // namespace forage
