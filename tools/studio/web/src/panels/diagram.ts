@@ -82,7 +82,7 @@ async function placeOthers(boxes: PageBox[], links: { source: string; target: st
 
 /** Places from left to right along the connections. */
 export async function layOut(boxes: { id: string; box: Box }[], links: { source: string; target: string }[]): Promise<Map<string, Point>> {
-  const { Graph, layout } = await import('@dagrejs/dagre').then((m) => ({ Graph: m.graphlib.Graph, layout: m.layout }));
+  const { Graph, layout } = await import('@dagrejs/dagre');
   const graph = new Graph();
   graph.setGraph({ rankdir: 'LR', nodesep: 40, ranksep: 80, marginx: 40, marginy: 40 });
   graph.setDefaultEdgeLabel(() => ({}));
