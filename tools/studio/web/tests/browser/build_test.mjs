@@ -111,7 +111,6 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
     await box(from).click();
     for (const [x, y] of corners) await canvas.click({ position: { x, y } });
     await box(to).click();
-    await page.keyboard.press('Escape');
   };
   const exact = (name) => new RegExp(`^\\s*${name}\\s*$`);
   step('connections within a page: by clicks');
@@ -139,6 +138,9 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
     await inspector.getByRole('button', { name: 'Add tuple' }).click();
     await inspector.getByRole('list', { name: 'Tuples' }).getByText(`${s},1 → ${t},1`).waitFor();
   }
+  await page.getByRole('button', { name: 'Close the inspector' }).click();
+  await diagram.getByLabel('US to Approach, excitatory').dispatchEvent('dblclick'); // a level line has no height to click on
+  await heading('US to Approach');
   await inspector.getByText('3 synapses', { exact: true }).waitFor();
 
   step('a connection across processes: two panes');
@@ -149,7 +151,6 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await diagram.getByRole('button', { name: 'Connect excitatory' }).click();
   await panes.nth(1).locator('.svelte-flow__node').filter({ hasText: exact('Light') }).click();
   await panes.nth(0).locator('.svelte-flow__node').filter({ hasText: exact('US') }).click();
-  await page.keyboard.press('Escape');
   await named('Bug/Light → Reactive Layer/US', 'Light to US');
   await field('Arborization').selectOption('ArbRect');
   await write(field('width'), 10);
