@@ -165,6 +165,18 @@ TEST_CASE("a run is paced by the clock, and does not catch up a long pause") {
     CHECK(f.session.run().cycle() <= 5);
 }
 
+TEST_CASE("a page hears of the world before it hears of the system that is opened in it") {
+    Fixture f;
+    f.session.connect(1);
+    f.messages.clear();
+    const RunInput input = Fixture::input();
+    f.result({{"command", "open"}, {"system", input.system}, {"world", input.world}});
+    std::vector<std::string> order;
+    for (const auto& m : f.messages[1])
+        if (m["type"] == "system" || m["type"] == "world") order.push_back(m["type"]);
+    CHECK(order == std::vector<std::string>{"world", "system"});
+}
+
 TEST_CASE("stop goes back to the first cycle and keeps parameters and manipulations") {
     Fixture f;
     const std::string first = f.session.run().digest();

@@ -81,7 +81,8 @@ void Session::open_document(const RunInput& input) {
     }
     sampler_waits_ = nullptr;
     if (kept_) keep_anew();
-    tell(system_message()), tell(world_message()), tell_document();
+    // The page arranges its panels when it has the system, and an arena is one of them.
+    tell(world_message()), tell(system_message()), tell_document();
 }
 
 void Session::add_undo(Undo step) {
