@@ -16,24 +16,35 @@ const panelKinds = ['space', 'time', 'raster', 'weights', 'wiring', 'camera', 'm
 
 /** Reads what a comment `<!-- studio ... -->` says: lines of a key, a colon and a value. */
 export function readSetup(text: string): Setup {
-  const setup: Setup = { system: '', world: '', set: [], clamp: [], speed: 1, panels: [], choices: [], say: '' };
+  const setup: Setup = { system: '', world: '', set: [], clamp: [], speed: 1, seed: 1, window: 30, panels: [], diagram: '', choices: [], say: '' };
   for (const line of text.split('\n').map((l) => l.trim()).filter(Boolean)) {
     const [, key, value] = /^(\w+): *(.+)$/.exec(line) ?? [];
     if (!key || !value) throw new Error(`'${line}' is not a key, a colon and a value`);
-    if (key === 'system' || key === 'world') setup[key] = value;
+    if (key === 'system' || key === 'world' || key === 'diagram') setup[key] = value;
     else if (key === 'set' || key === 'clamp') setup[key].push(value);
     else if (key === 'speed') {
       setup.speed = value === 'max' ? 0 : Number(value);
       if (!(setup.speed >= 0)) throw new Error(`'${value}' is not a speed: a number, or max`);
+    } else if (key === 'seed' || key === 'window') {
+      setup[key] = Number(value);
+      if (!Number.isSafeInteger(setup[key]) || setup[key] < 1) throw new Error(`'${value}' is not a whole number from 1 up, for '${key}'`);
+      if (key === 'window' && ![10, 30, 120, 600].includes(setup.window)) throw new Error(`'${value}' seconds are no span of a plot: 10, 30, 120 or 600`);
     } else if (key === 'say') setup.say = `${setup.say} ${value}`.trim();
     else if (key === 'choose') {
       const [, assignment, values] = /^(.+?) = (.+)$/.exec(value) ?? [];
       if (!assignment || !values) throw new Error(`'${value}' is not a parameter, ' = ' and values`);
       setup.choices.push({ assignment, values: values.split(/\s+/) });
+    } else if (key === 'space') {
+      const [, item, low, high] = /^(.+) from (\S+) to (\S+)$/.exec(value) ?? [];
+      if (item && !(Number(low) < Number(high))) throw new Error(`'${value}' has no scale: two numbers, the lower one first`);
+      setup.panels.push(item ? { kind: key, item, scale: [Number(low), Number(high)] } : { kind: key, item: value });
     } else if (panelKinds.includes(key)) setup.panels.push({ kind: key, item: value });
     else throw new Error(`'${key}' is not a key of a set-up`);
   }
   if (!setup.system || !setup.world) throw new Error('a set-up names a system and a world');
+  // Without a name, the diagram shows the process of the first plot.
+  setup.diagram ||= setup.panels.flatMap((p) => /^([^/]+)\//.exec(p.item)?.[1] ?? [])[0] ?? '';
+  if (!setup.diagram) throw new Error('a set-up has a plot of a group, or names the process of the diagram');
   return setup;
 }
 

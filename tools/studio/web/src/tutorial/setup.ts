@@ -1,10 +1,19 @@
 // What a button of the tutorial does: it opens a system of those that come with Forage, sets parameters, and arranges panels.
 import { arrange, closePlots } from '../presets';
 import type { PanelState } from '../panels/registry';
+import { actions } from '../stores/actions.svelte';
 import { dock } from '../stores/dock.svelte';
 import { model } from '../stores/model.svelte';
+import { run } from '../stores/run.svelte';
+import { selection } from '../stores/selection.svelte';
 import { command } from '../studio';
 
+export interface PanelSetup {
+  kind: string;
+  item: string;
+  /** The ends of a fixed scale. */
+  scale?: [number, number];
+}
 export interface Setup {
   /** Files below the folder of systems that come with Forage, and below its worlds. */
   system: string;
@@ -15,7 +24,13 @@ export interface Setup {
   clamp: string[];
   /** Seconds of the world per second; 0: as fast as it goes. */
   speed: number;
-  panels: { kind: string; item: string }[];
+  panels: PanelSetup[];
+  /** The seed of random numbers. */
+  seed: number;
+  /** Seconds that plots over time show. */
+  window: number;
+  /** The process whose groups the diagram shows, by name. */
+  diagram: string;
   /** Values that one tries while it runs. */
   choices: { assignment: string; values: string[] }[];
   say: string;
@@ -31,23 +46,33 @@ export function clampPattern(clamp: string, size: (group: string) => { width: nu
   return { group, pattern };
 }
 
-function panelOf({ kind, item }: Setup['panels'][number]): PanelState {
-  if (kind === 'time') return { kind, sources: item.split(', ').map((s) => (model.group(s) ? `mean(${s})` : s)) };
+function panelOf({ kind, item, scale }: PanelSetup, window: number): PanelState {
+  if (kind === 'time') return { kind, window, sources: item.split(', ').map((s) => (model.group(s) ? `mean(${s})` : s)) };
+  if (kind === 'space' && scale) return { kind, item, scale: { mode: 'manual', low: scale[0], high: scale[1] } };
   // Cells are between 0 and 1, mostly: a scale that followed smaller values would show noise as an answer.
   if (kind === 'space') return { kind, item, scale: { mode: 'expand', low: 0, high: 1 } };
   return kind === 'sampler' ? { kind, sources: [item] } : { kind, item };
+}
+
+function showProcess(name: string): void {
+  const process = model.processes.find((p) => p.name === name);
+  if (!process) throw new Error(`the system has no process '${name}'`);
+  selection.set([]);
+  selection.process = process.id;
 }
 
 /** Returns whether all could be done; what could not is told by `command`. */
 export async function setUp(setup: Setup): Promise<boolean> {
   dock.arranging = true; // so that no layout of an earlier visit comes in between
   try {
+    actions.begin(); // what was done before is not about this exercise, also when its system is the same
     closePlots(); // the groups that they show may not be in the other system
     if (!(await command('open', { system: setup.system, world: `worlds/${setup.world}`, shipped: true }))) return false;
     for (const assignment of setup.set) {
       // Some parameters are read at the start, and those of a module exist when it is enabled.
       if (!(await command('set', { assignments: [assignment] })) || !(await command('stop'))) return false;
     }
+    if (run.status?.seed !== setup.seed && !(await command('restart', { seed: setup.seed }))) return false;
     if (!(await command('speed', setup.speed === 0 ? { mode: 'free' } : setup.speed === 1 ? { mode: 'real' } : { mode: 'times', value: setup.speed }))) return false;
     const clamped = new Map<string, number[]>();
     for (const clamp of setup.clamp) {
@@ -55,7 +80,8 @@ export async function setUp(setup: Setup): Promise<boolean> {
       if (!(await command('manipulate', { group, mode: 'clamp', patterns: [pattern] }))) return false;
       clamped.set(group, pattern);
     }
-    arrange(setup.panels.map(panelOf).map((p) => (p.kind === 'manipulate' ? { ...p, cells: clamped.get(p.item!) } : p)));
+    showProcess(setup.diagram);
+    arrange(setup.panels.map((p) => panelOf(p, setup.window)).map((p) => (p.kind === 'manipulate' ? { ...p, cells: clamped.get(p.item!) } : p)));
     return true;
   } finally {
     dock.arranging = false;

@@ -24,12 +24,20 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await picture.scrollIntoViewIfNeeded();
   await until(page, 'the picture', () => document.querySelector('[aria-label="Tutorial"] img').naturalWidth > 100);
 
-  step('every exercise is set up: its system is opened, no command is refused, each of its plots gets numbers');
+  step('every exercise is set up: its system is opened, no command is refused, each of its plots gets numbers, and the diagram shows the process that it is about');
   const refused = page.locator('.notice.error');
-  for (const part of ['1', '2', '3', '4']) {
+  const about = {
+    1: ['Bug', 'Selection', 'Bug', 'Bug'],
+    2: ['Reactive Layer', 'Reactive Layer', 'Selection', 'Reactive Layer', 'Bug'],
+    3: Array(8).fill('Adaptive'),
+    4: Array(9).fill('Contextual'),
+    5: ['Contextual', 'Contextual', 'Contextual', 'Sequential'],
+    6: Array(5).fill('Allostasis'),
+  };
+  for (const [part, processes] of Object.entries(about)) {
     await tutorial.getByRole('button', { name: part, exact: true }).click();
     const count = await tutorial.locator('[data-open]').count();
-    assert.ok(count >= 3, `part ${part} has ${count} set-ups`);
+    assert.equal(count, processes.length, `set-ups of part ${part}`);
     for (let i = 0; i < count; i++) {
       const button = tutorial.locator(`[data-open="${i}"]`);
       await button.press('Enter');
@@ -39,6 +47,8 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
         const plots = [...document.querySelectorAll('[aria-label^="Space plot of"] canvas.heat')];
         return plots.every((c) => c.width > 0 && c.getContext('2d').getImageData(0, 0, 1, 1).data[3] > 0);
       });
+      const shown = page.getByRole('group', { name: 'Diagram' }).getByRole('group', { name: 'Processes' }).locator('button.on');
+      assert.equal(await shown.textContent(), processes[i], `${part}, set-up ${i + 1}: the diagram`);
       assert.equal(await refused.count(), 0, `${part}, set-up ${i + 1}: ${await refused.allTextContents()}`);
     }
   }
@@ -47,7 +57,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.keyboard.press('Control+s');
   const dialog = page.getByRole('dialog');
   await dialog.waitFor();
-  assert.ok((await dialog.locator('.folder').first().innerText()).includes(folder.split('/').pop()), 'the folder in which the studio was started');
+  await until(page, 'the folder in which the studio was started', (name) => document.querySelector('.folder')?.textContent.includes(name), folder.split('/').pop());
   await dialog.getByLabel('Name').fill('mine.iqr');
   await dialog.getByLabel('Name').press('Enter');
   await page.getByText('Saved as mine.iqr.').waitFor();

@@ -29,7 +29,7 @@ describe('pages of the tutorial', () => {
   });
   it('have a button for each comment that sets something up', () => {
     const made = page('<!-- studio\nsystem: a.iqr\nworld: b.world\nset: P.x=1\nspeed: max\nchoose: P.y = 0 0.5\nspace: P/G\nsay: Press *Run* <now>.\n-->\n\n<!-- made by: x -->\n');
-    expect(made.setups).toEqual([{ system: 'a.iqr', world: 'b.world', set: ['P.x=1'], clamp: [], speed: 0, panels: [{ kind: 'space', item: 'P/G' }], choices: [{ assignment: 'P.y', values: ['0', '0.5'] }], say: 'Press *Run* <now>.' }]);
+    expect(made.setups).toEqual([{ system: 'a.iqr', world: 'b.world', set: ['P.x=1'], clamp: [], speed: 0, seed: 1, window: 30, panels: [{ kind: 'space', item: 'P/G' }], diagram: 'P', choices: [{ assignment: 'P.y', values: ['0', '0.5'] }], say: 'Press *Run* <now>.' }]);
     expect(made.html).toContain('data-open="0">Set it up</button>');
     expect(made.html).toContain('data-set="P.y=0.5" aria-label="P.y = 0.5">0.5</button>');
     expect(made.html).toContain('Press <em>Run</em> &#60;now&#62;.');
@@ -41,16 +41,32 @@ describe('pages of the tutorial', () => {
     ['system: a\nworld: b\nchoose: x', 'and values'],
     ['system: a\nworld: b\nspeed: fast', 'not a speed'],
     ['hello', 'a key, a colon and a value'],
+    ['system: a\nworld: b\nseed: x', "not a whole number from 1 up, for 'seed'"],
+    ['system: a\nworld: b\nwindow: 0.5', 'not a whole number'],
+    ['system: a\nworld: b\nwindow: 60', 'no span of a plot'],
+    ['system: a\nworld: b\nspace: P/G from 1 to 0', 'the lower one first'],
+    ['system: a\nworld: b\nspace: P/G from a to b', 'the lower one first'],
+    ['system: a\nworld: b\nweights: A to B', 'the process of the diagram'],
   ])('refuse the set-up %j', (text, message) => expect(() => readSetup(text)).toThrow(message));
+  it('say which process the diagram shows, or take that of the first plot', () => {
+    const read = (lines: string) => readSetup(`system: a\nworld: b\n${lines}`).diagram;
+    expect(read('weights: A to B\ntime: Two words/G(1,1), Other/G')).toBe('Two words');
+    expect(read('diagram: Third\nspace: P/G')).toBe('Third');
+  });
+  it('may fix the scale of a plot, and say the seed and the seconds that plots over time show', () => {
+    const setup = readSetup('system: a\nworld: b\nseed: 3\nwindow: 600\nspace: P/Two words from -0.5 to 0.2\ntime: P/G');
+    expect(setup.panels).toEqual([{ kind: 'space', item: 'P/Two words', scale: [-0.5, 0.2] }, { kind: 'time', item: 'P/G' }]);
+    expect([setup.seed, setup.window]).toEqual([3, 600]);
+  });
   it('refuse a set-up that would be folded away', () =>
-    expect(() => page('<details><summary>S</summary>\n\n<!-- studio\nsystem: a\nworld: b\n-->\n\n</details>')).toThrow('outside'));
+    expect(() => page('<details><summary>S</summary>\n\n<!-- studio\nsystem: a\nworld: b\nspace: P/G\n-->\n\n</details>')).toThrow('outside'));
 });
 
 describe('docs/tutorial', () => {
   it('becomes pages: all parts in their order, with set-ups and pictures', async () => {
     const { pages } = await import('virtual:tutorial');
     expect(pages.map((p) => p.id.split('-')[0])).toEqual([...pages.keys()].slice(1).map(String).concat('appendix'));
-    expect(pages.slice(0, 4).map((p) => p.setups.length >= 3)).toEqual([true, true, true, true]);
+    for (const p of pages.slice(0, 6)) expect(p.setups.length, p.id).toBeGreaterThanOrEqual(3);
     for (const p of pages) expect(p.html).not.toContain('src="picture:');
     expect(pages[0]!.html).toMatch(/<img src="[^"]*1-basic-arena\.png"/);
   });
