@@ -89,7 +89,8 @@ export class Streams {
       },
       (error: Error) => {
         stream.refused = true;
-        failed(source, error);
+        // Another system was opened meanwhile, and the panel has gone with the old one.
+        if (stream.listeners.size > 0) failed(source, error);
       },
     );
   }

@@ -63,6 +63,15 @@ describe('Streams', () => {
     expect(a).toHaveBeenCalledTimes(1);
   });
 
+  it('tells what is refused to those who still wait for it', async () => {
+    const told: string[] = [];
+    const streams = new Streams(() => Promise.reject(new Error('no such group')), (source) => told.push(source));
+    streams.subscribe('A', 'latest', () => {});
+    streams.subscribe('B', 'latest', () => {})();
+    await settle();
+    expect(told).toEqual(['A']);
+  });
+
   it('ends a subscription that was given up before the server replied', async () => {
     const { sent, streams } = server();
     streams.subscribe('A', 'latest', () => {})();
