@@ -344,6 +344,44 @@ TEST_CASE("a session that is killed while it runs goes on where it was kept, byt
     std::filesystem::remove_all(folder);
 }
 
+TEST_CASE("a comparison goes on after a crash, bit by bit") {
+    const auto folder = std::filesystem::temp_directory_path() / "forage-studio-compares";
+    std::filesystem::remove_all(folder);
+    setenv("XDG_STATE_HOME", folder.c_str(), 1);
+    const auto at = [](Fixture& x, const char* source) {
+        return x.result({{"command", "read"}, {"source", source}})["values"];
+    };
+    json now, beside;
+    {
+        Fixture f;
+        f.session.keep();
+        f.result({{"command", "step"}, {"cycles", 50}});
+        f.result({{"command", "set"}, {"assignments", {"Bug/Light.excGain=0.5"}}});
+        f.result({{"command", "step"}, {"cycles", 250}});
+        f.result({{"command", "compare"}, {"cycle", 100}, {"assignments", {"Bug/Light.threshold=0.9"}}});
+        f.result({{"command", "step"}, {"cycles", 100}});
+        f.session.work(1000);  // is kept
+        f.result({{"command", "step"}, {"cycles", 300}});
+        now = at(f, "world:poses"), beside = at(f, "reference:world:poses");
+    }  // without end()
+    REQUIRE(now != beside);
+    Fixture f;
+    f.session.connect(1);
+    f.session.keep();
+    f.session.recover();
+    CHECK(f.session.run().cycle() == 200);
+    f.session.work(1000);
+    CHECK(f.messages[1].back()["compare"]["from"] == 100);
+    f.result({{"command", "step"}, {"cycles", 300}});
+    CHECK(at(f, "world:poses") == now);
+    CHECK(at(f, "reference:world:poses") == beside);
+    f.result({{"command", "seek"}, {"cycle", 150}});  // both go back
+    f.result({{"command", "step"}, {"cycles", 350}});
+    CHECK(at(f, "reference:world:poses") == beside);
+    f.session.end();
+    std::filesystem::remove_all(folder);
+}
+
 TEST_CASE("two runs go side by side from any moment: one as it was, one with another parameter") {
     Fixture f, before;
     const auto both = [](Fixture& x) {

@@ -79,7 +79,10 @@ class Session {
         json loaded;  ///< the value of the file
     };
     using Changes = std::map<std::string, Change>;  ///< by the name of the parameter
-    /// A run from the same past, in step with the run. It takes the course that the run took before.
+    static json json_of_changes(const Changes& changes);
+    static Changes changes_of(const json& text);
+    /// A run from the same past, in step with the run. It takes the course that the run took before. It is
+    /// begun as the run was, so that the past alone makes it again.
     struct Reference {
         std::uint64_t from = 0;  ///< the cycle since which they may differ
         std::unique_ptr<Run> run;
@@ -113,6 +116,8 @@ class Session {
     void swap_reference();
     void step_reference();
     void begin_reference(std::uint64_t cycle);
+    /// Lets a second run with this past go beside the run, from `cycle` on. Its run is made here.
+    void run_beside(Reference made, std::uint64_t cycle);
     void end_reference();
     void go_to(std::uint64_t cycle);
     void replay(std::uint64_t cycle);  ///< from the last checkpoint before it

@@ -41,6 +41,19 @@ const char* const begin_anew = "begin anew, or close this message";
 
 }  // namespace
 
+json Session::json_of_changes(const Changes& changes) {
+    json out = json::object();
+    for (const auto& [name, change] : changes) out[name] = {change.assignment, change.loaded};
+    return out;
+}
+
+Session::Changes Session::changes_of(const json& text) {
+    Changes out;
+    for (const auto& [name, change] : text.items())
+        out[name] = {change.at(0).get<std::string>(), change.at(1)};
+    return out;
+}
+
 void Session::keep() {
     kept_.emplace(input_.system);
     if (!document_->path().empty()) note_recent(document_->path());
@@ -83,19 +96,23 @@ void Session::save() {
                          std::chrono::system_clock::now().time_since_epoch())
                          .count();
         RunInput opened = input_, begun = begun_;
-        json changed = json::object(), undo = json::array(), redo = json::array();
-        for (const auto& [name, change] : changed_) changed[name] = {change.assignment, change.loaded};
+        json undo = json::array(), redo = json::array(), compare;
         for (const auto& u : undo_) undo.push_back({u.undo, u.redo, u.title, u.document});
         for (const auto& u : redo_) redo.push_back({u.undo, u.redo, u.title, u.document});
         json world;
         if (world_text_) world = {world_text_->path, world_text_->text, world_text_->saved};
-        std::string rest = json{{"world", world},    {"changed", changed}, {"undo", undo},   {"redo", redo},
-                                {"panels", panels_}, {"mode", mode_},      {"value", value_}}
+        if (reference_)
+            compare = {{"from", reference_->from}, {"changed", json_of_changes(reference_->changed)}};
+        std::string rest = json{{"world", world},    {"changed", json_of_changes(changed_)},
+                                {"undo", undo},      {"redo", redo},
+                                {"panels", panels_}, {"mode", mode_},
+                                {"value", value_},   {"compare", compare}}
                                .dump(-1, ' ', false, json::error_handler_t::replace);
         archive(head);
         archive_input(archive, opened), archive_input(archive, begun);
         archive(rest, *document_, current_);
         history_.save(archive, run_->cycle());
+        if (reference_) reference_->past.save(archive, run_->cycle());
         kept_->write(archive.bytes());
         save_failed_.clear();
     } catch (const std::exception& e) {
@@ -131,6 +148,13 @@ void Session::recover() {
     const json rest = json::parse(text);
     History past;
     past.load(archive);
+    const json compare = rest.value("compare", json());
+    std::optional<Reference> reference;
+    if (!compare.is_null()) {
+        reference.emplace();
+        reference->from = compare.at("from"), reference->changed = changes_of(compare.at("changed"));
+        reference->past.load(archive);
+    }
     Diagnostics diagnostics;
     const Sources sources = read_sources(begun, diagnostics);
     throw_errors(diagnostics);
@@ -147,9 +171,9 @@ void Session::recover() {
     if (current) built_ = document.system();
     document_ = std::move(document), current_ = current;
     problems_ = document_->problems(run_->registry(), run_->environment());
-    changed_.clear(), undo_.clear(), redo_.clear();
-    for (const auto& [name, change] : rest.at("changed").items())
-        changed_[name] = {change.at(0).get<std::string>(), change.at(1)};
+    if (reference) run_beside(std::move(*reference), head.cycle);
+    changed_ = changes_of(rest.at("changed"));
+    undo_.clear(), redo_.clear();
     for (const auto& u : rest.at("undo")) undo_.push_back({u.at(0), u.at(1), u.at(2), u.at(3)});
     for (const auto& u : rest.at("redo")) redo_.push_back({u.at(0), u.at(1), u.at(2), u.at(3)});
     trim_undo();

@@ -13,14 +13,18 @@ void Session::swap_reference() {
 }
 
 void Session::begin_reference(std::uint64_t cycle) {
-    end_reference();
     Reference made;
-    std::tie(made.run, made.touches) = make_run(begun_);
     made.from = cycle, made.changed = changed_;
     Archive out;
     history_.save(out, cycle);
     Archive in{std::string_view(out.bytes())};
     made.past.load(in);
+    run_beside(std::move(made), cycle);
+}
+
+void Session::run_beside(Reference made, std::uint64_t cycle) {
+    end_reference();
+    std::tie(made.run, made.touches) = make_run(begun_);
     reference_.emplace(std::move(made));
     swap_reference();
     replay(cycle);
