@@ -31,6 +31,8 @@ await inBrowser(sources, async ({ context, start, until }) => {
   await page.getByRole('navigation').getByText('Motor', { exact: true }).click();
   await inspector.getByRole('button', { name: 'Time' }).click();
   await page.locator('.uplot canvas').first().waitFor();
+  await inspector.getByRole('button', { name: 'Raster' }).click();
+  await page.getByRole('group', { name: 'Raster plot of Bug/Motor' }).getByText('It fills while the run goes.').waitFor();
   await page.getByRole('button', { name: '4×' }).click();
   await page.getByRole('button', { name: 'Run', exact: true }).click();
   await cycle(150);
@@ -50,6 +52,7 @@ await inBrowser(sources, async ({ context, start, until }) => {
   await page.getByRole('button', { name: 'Pause', exact: true }).click();
 
   step('both traces are in the plot, with their values; both robots are in the arena');
+  await page.locator('.dv-tab', { hasText: 'over time' }).click();
   const key = page.locator('.key .number').filter({ hasText: '/' }).first();
   await key.waitFor();
   const [now, before] = (await key.innerText()).split('/').map(Number);
@@ -60,11 +63,30 @@ await inBrowser(sources, async ({ context, start, until }) => {
     for (let i = 0; i < data.length; i += 4) if (data[i + 2] > 180 && data[i + 2] > data[i] + 60 && data[i + 1] > 100) blue++;
     return blue;
   });
+  step('space and raster plots have a picture of each run, or one of their difference');
+  const show = (tab) => page.locator('.dv-tab', { hasText: tab }).filter({ hasText: new RegExp(`^${tab}$`) }).click();
+  for (const [tab, plot] of [['Bug/Motor', '[aria-label="Space plot of Bug/Motor"] '], ['Bug/Motor raster', '[aria-label="Raster plot of Bug/Motor"] ']]) {
+    await show(tab);
+    await page.locator(`${plot}canvas.reference`).waitFor();
+    // The gain of the motor is zero, so its cells are silent now, and were active.
+    const [silent, active] = [await count(`${plot}canvas:not(.reference)`), await count(`${plot}canvas.reference`)];
+    assert.ok(silent < active, `${silent} and ${active} colours in ${tab}`);
+    await page.locator(plot).getByLabel('Comparison').selectOption('difference');
+    await page.locator(`${plot}canvas.reference`).waitFor({ state: 'detached' });
+    await until(page, `blue in ${tab}: less than it was`, (p) => {
+      const c = document.querySelector(`${p}canvas`), { data } = c.getContext('2d').getImageData(0, 0, c.width, c.height);
+      let blue = 0, red = 0;
+      for (let i = 0; i < data.length; i += 4) blue += data[i + 3] && data[i + 2] > data[i] + 20, red += data[i + 3] && data[i] > data[i + 2] + 20;
+      return blue > 0 && red === 0;
+    }, plot);
+  }
   const both = await robots();
   if (screenshot) await page.screenshot({ path: screenshot });
   await page.getByRole('button', { name: 'End comparison' }).click();
   await page.getByRole('button', { name: 'Compare from here' }).waitFor();
+  await page.locator('.dv-tab', { hasText: 'over time' }).click();
   await until(page, 'one value', () => ![...document.querySelectorAll('.key .number')].some((n) => n.textContent.includes('/')));
+  assert.equal(await page.getByLabel('Comparison').count(), 0);
   await page.waitForTimeout(300);
   assert.ok(both > (await robots()), 'the pale robot and its trail are gone');
   console.log('all fine');
