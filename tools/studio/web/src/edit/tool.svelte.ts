@@ -16,6 +16,8 @@ export interface Pending {
 
 class Tools {
   current = $state<Tool>('select');
+  /** Whether the tool stays on after it was used once. */
+  stays = $state(false);
   pending = $state.raw<Pending | null>(null);
   /** The item whose name is written in its box. */
   renaming = $state<string | null>(null);
@@ -27,15 +29,27 @@ class Tools {
 
   connecting = $derived(this.current !== 'select' && this.current !== 'add');
 
-  use(tool: Tool): void {
-    this.current = this.current === tool ? 'select' : tool;
+  /** Takes a tool in hand, for one use or until it is left. The tool that is in hand is put away. */
+  use(tool: Tool, stays = false): void {
+    this.current = this.current === tool && !stays ? 'select' : tool;
+    this.stays = stays && this.current !== 'select';
     this.pending = null;
+  }
+  /** The tool has done its work. */
+  used(): void {
+    this.pending = null;
+    if (!this.stays) this.current = 'select';
+  }
+  /** Puts the tool away, with what was begun. Returns whether there was one. */
+  leave(): boolean {
+    if (this.current === 'select') return false;
+    this.use('select');
+    return true;
   }
   /** Takes back the last step: the pending line, then the tool. Returns whether there was one. */
   cancel(): boolean {
     if (this.pending) this.pending = null;
-    else if (this.current !== 'select') this.current = 'select';
-    else return false;
+    else return this.leave();
     return true;
   }
 }

@@ -99,6 +99,33 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.keyboard.press('Control+z');
   await inspector.getByText('Selection/Approach → Selection/UR', { exact: true }).waitFor();
 
+  step('a tool connects once and is put away; with Shift or a double click it stays, until Escape');
+  const tool = (name) => diagram.getByRole('button', { name, exact: true });
+  const inHand = (name) => until(page, `the tool ${name}`, (n) => [...document.querySelectorAll('[aria-label="Editing"] [aria-pressed="true"]')].map((b) => b.ariaLabel).join() === n, name);
+  const lines = () => page.locator('g[data-connection]').count();
+  const connections = await lines();
+  await inHand('Select');
+  await tool('Connect inhibitory').click();
+  await inHand('Connect inhibitory');
+  await node('selection.explore').click();
+  await node('selection.ur').click();
+  await inspector.getByText('Selection/Explore → Selection/UR', { exact: true }).waitFor();
+  await inHand('Select');
+  for (const keep of [() => tool('Connect inhibitory').click({ modifiers: ['Shift'] }), () => tool('Connect inhibitory').dblclick()]) {
+    await keep();
+    await node('selection.explore').click();
+    await node('selection.ur').click();
+    await until(page, 'another line', (n) => document.querySelectorAll('g[data-connection]').length >= n, connections + 1);
+    await inHand('Connect inhibitory');
+    await node('selection.explore').click();
+    await tool('Connect inhibitory').focus(); // Escape is heard outside of the canvas, too
+    await page.keyboard.press('Escape');
+    await inHand('Select');
+  }
+  await canvas.focus();
+  for (let i = 0; i < 3; i++) await page.keyboard.press('Control+z');
+  await until(page, 'the lines as before', (n) => document.querySelectorAll('g[data-connection]').length === n, connections);
+
   step('groups are selected by a rubber band, copied with their connection, pasted and deleted');
   const first = await node('selection.approach_inhibition').boundingBox(), second = await node('selection.explore').boundingBox();
   await page.keyboard.press('Escape');
