@@ -18,7 +18,6 @@ export const presets: Preset[] = [
 ];
 
 const find = (name: string) => model.groups.find((g) => (name.startsWith('/') ? `/${g.name}`.startsWith(name) : g.path === name));
-const narrow = () => matchMedia('(max-width: 720px)').matches;
 
 /** Opens the panels of a preset, and closes others. */
 export function applyPreset(preset: Preset): void {
@@ -34,15 +33,18 @@ export function openTutorial(): void {
   // It takes the place of the tree, and on a middling window that of the inspector.
   frame.tree = false;
   if (innerWidth < 1500) frame.inspector = false;
-  dock.open({ kind: 'tutorial' }, narrow() ? { direction: 'below' } : { direction: 'left', width: tutorialWidth() });
+  dock.open({ kind: 'tutorial' }, frame.small ? { direction: 'below' } : { direction: 'left', width: tutorialWidth() });
 }
 const tutorialWidth = () => Math.round(Math.min(440, Math.max(300, (dock.api?.width ?? 0) * 0.36)));
 
 const kindOf = (panel: { params?: unknown }) => (panel.params as PanelState).kind;
 
+/** Whether a panel shows a part of the system. */
+export const isPlot = (panel: PanelState): boolean => !['arena', 'diagram', 'tutorial', 'log'].includes(panel.kind);
+
 /** Closes the panels that show a part of the system. */
 export function closePlots(): void {
-  for (const p of [...(dock.api?.panels ?? [])]) if (!['arena', 'diagram', 'tutorial', 'log'].includes(kindOf(p))) dock.api!.removePanel(p);
+  for (const p of [...(dock.api?.panels ?? [])]) if (isPlot(p.params as PanelState)) dock.api!.removePanel(p);
 }
 
 /** Closes all panels but the tutorial, which it returns. */
@@ -57,7 +59,7 @@ function clear() {
 function build(): void {
   if (!dock.api) return;
   const kept = clear();
-  const diagram = dock.open({ kind: 'diagram' }, kept ? { beside: kept.id, direction: narrow() ? 'above' : 'right' } : {})!;
+  const diagram = dock.open({ kind: 'diagram' }, kept ? { beside: kept.id, direction: frame.small ? 'above' : 'right' } : {})!;
   if (model.world) dock.open({ kind: 'arena' }, { beside: diagram, inactive: true });
 }
 
@@ -67,8 +69,8 @@ export function arrange(plots: PanelState[]): void {
   if (!api) return;
   const kept = clear();
   const first: PanelState = model.world ? { kind: 'arena' } : { kind: 'diagram' };
-  const arena = dock.open(first, kept ? { beside: kept.id, direction: narrow() ? 'above' : 'right' } : {})!;
-  if (narrow()) {
+  const arena = dock.open(first, kept ? { beside: kept.id, direction: frame.small ? 'above' : 'right' } : {})!;
+  if (frame.small) {
     if (model.world) dock.open({ kind: 'diagram' }, { beside: arena, inactive: true });
     for (const p of plots) dock.open(p, { beside: arena, inactive: true });
     return;
@@ -80,6 +82,7 @@ export function arrange(plots: PanelState[]): void {
     above = id ?? above;
   }
   if (model.world) dock.open({ kind: 'diagram' }, { beside: arena, direction: 'below', height: Math.round(api.height * 0.42) });
+  api.getPanel(arena)?.api.setActive();
   if (!kept) return;
   kept.api.setSize({ width: tutorialWidth() });
   if (above) api.getPanel(above)?.api.setSize({ width });
@@ -88,7 +91,9 @@ export function arrange(plots: PanelState[]): void {
 /** Arranges the panels as a layout file says. Returns whether it says anything. */
 export function applyLayout(content: LayoutContent | null | undefined): boolean {
   for (const p of content?.problems ?? []) actions.tell('error', problemText(p));
-  if (content?.dock) dock.api?.fromJSON(content.dock as never);
-  else if (content?.plots?.length) arrange(content.plots);
+  if (content?.dock) {
+    dock.api?.fromJSON(content.dock as never);
+    if (frame.small) dock.stack();
+  } else if (content?.plots?.length) arrange(content.plots);
   return !!content?.dock || !!content?.plots?.length;
 }

@@ -1,6 +1,7 @@
 // The panels in the middle. Dockview arranges them; this store opens, focuses and keeps them.
-import type { DockviewApi } from 'dockview-core';
+import type { DockviewApi, DockviewGroupPanel, SerializedDockview } from 'dockview-core';
 import { kinds, type PanelState } from '../panels/registry';
+import { frame } from './frame.svelte';
 
 type Direction = 'left' | 'right' | 'above' | 'below' | 'within';
 /** Beside a panel, or without one at an edge of all. */
@@ -11,6 +12,8 @@ class Dock {
   active = $state<string | null>(null);
   /** Whether panels are being arranged for a system that is opened; its kept layout does not come back then. */
   arranging = false;
+  /** How the panels stood when the window had room for columns. */
+  wide: SerializedDockview | null = null;
   private made = 0;
 
   /** A panel's identity: the same source opens once. */
@@ -20,7 +23,9 @@ class Dock {
 
   open(panel: PanelState, where: Where = {}): string | null {
     if (!this.api || !kinds[panel.kind]) return null;
-    const existing = this.api.panels.find((p) => Dock.key(p.params as PanelState) === Dock.key(panel));
+    // Where the drawers lie over the panels, a panel that is opened would be below them.
+    if (frame.narrow) frame.tree = frame.inspector = false;
+    const existing = this.find(panel);
     if (existing) {
       existing.api.setActive();
       return existing.id;
@@ -45,12 +50,46 @@ class Dock {
     return this.open(panel, { beside: this.api?.panels.find((p) => (p.params as PanelState).kind === kind)?.id });
   }
 
+  /** Makes all panels tabs of one stack, as a small window has room for one. The tutorial stays below, as it is read beside another panel. */
+  stack(): void {
+    const api = this.api;
+    if (!api || api.totalPanels === 0) return;
+    this.wide = api.toJSON();
+    const active = api.activePanel;
+    const panels = [...api.panels], text = panels.filter((p) => p.params?.kind === 'tutorial');
+    const gather = (some: typeof panels, direction?: 'below') => {
+      if (some.length === 0) return;
+      const group = api.addGroup(direction && { direction }) as DockviewGroupPanel;
+      for (const p of some) p.api.moveTo({ group, skipSetActive: p !== active });
+    };
+    gather(panels.filter((p) => !text.includes(p)));
+    gather(text, 'below');
+    active?.api.setActive();
+  }
+
+  /** Places the panels that are open as an earlier arrangement had them. What it does not have is opened beside the others. */
+  spread(earlier: SerializedDockview): void {
+    const api = this.api!;
+    const open = api.panels.map((p) => p.params as PanelState), active = api.activePanel?.params as PanelState | undefined;
+    const layout = structuredClone(earlier);
+    for (const p of api.panels) if (layout.panels[p.id]) layout.panels[p.id]!.params = p.params;
+    api.fromJSON(layout, { reuseExistingPanels: true });
+    const keys = new Set(open.map(Dock.key));
+    for (const p of [...api.panels]) if (!keys.has(Dock.key(p.params as PanelState))) api.removePanel(p);
+    for (const panel of open) if (!this.find(panel)) this.plot(panel);
+    if (active) this.find(active)?.api.setActive();
+  }
+
+  private find(panel: PanelState) {
+    return this.api?.panels.find((p) => Dock.key(p.params as PanelState) === Dock.key(panel));
+  }
+
   /** Opens a plot where the other plots are, or at the right side. */
   plot(panel: PanelState): string | null {
     const others = this.api?.panels.filter((p) => !['arena', 'diagram', 'log', 'tutorial'].includes((p.params as PanelState).kind)) ?? [];
     const last = others[others.length - 1];
-    if (!last) return this.open(panel, {});
-    const roomy = last.api.height > 420;
+    if (!last) return this.open(panel, frame.small ? { beside: this.api?.activePanel?.id } : {});
+    const roomy = last.api.height > 420 && !frame.small;
     return this.open(panel, { beside: last.id, direction: roomy ? 'below' : 'within' });
   }
 }

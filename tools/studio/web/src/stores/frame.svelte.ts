@@ -1,9 +1,24 @@
-// Which of the drawers beside the panels are open.
+// How much room the window has, and which of the drawers beside the panels are open. Both follow its width.
 const narrow = matchMedia('(max-width: 1020px)');
+const small = matchMedia('(max-width: 720px)');
 
 class Frame {
   tree = $state(!narrow.matches);
   inspector = $state(!narrow.matches);
+  /** Whether the window is too small for columns: the panels are tabs of one stack. */
+  small = $state(small.matches);
+  /** The drawers of the window while it had room for them. */
+  private wide = { tree: true, inspector: true };
+
+  constructor() {
+    narrow.addEventListener('change', () => {
+      if (narrow.matches) this.wide = { tree: this.tree, inspector: this.inspector };
+      this.tree = !narrow.matches && this.wide.tree;
+      this.inspector = !narrow.matches && this.wide.inspector;
+    });
+    small.addEventListener('change', () => (this.small = small.matches));
+  }
+  /** Whether the drawers lie over the panels. */
   get narrow(): boolean {
     return narrow.matches;
   }

@@ -1,0 +1,109 @@
+// The window follows its width, in Chromium against the real program: node window_test.mjs FORAGE SOURCES
+import assert from 'node:assert/strict';
+import { resolve } from 'node:path';
+import { inBrowser } from './support.mjs';
+
+const [forage, sources] = process.argv.slice(2).map((p) => resolve(p));
+const step = (text) => console.log(text);
+const large = { width: 1600, height: 1000 }, small = { width: 420, height: 800 };
+
+await inBrowser(sources, async ({ context, start, until }) => {
+  const faults = [];
+  const address = await start(forage).address;
+  const open = async (size) => {
+    const page = await context.newPage();
+    page.setDefaultTimeout(10000);
+    page.on('pageerror', (e) => faults.push(e.message));
+    page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
+    await page.setViewportSize(size);
+    await page.goto(address);
+    await page.getByRole('group', { name: 'Arena' }).waitFor();
+    return page;
+  };
+  /** The places of the stacks of panels, with the tabs of each. */
+  const stacks = (page) => page.evaluate(() => [...document.querySelectorAll('.dv-groupview')].filter((g) => g.offsetParent).map((g) => {
+    const { x, y, width, height } = g.getBoundingClientRect();
+    return [[...g.querySelectorAll('.dv-tab')].map((t) => t.textContent.trim()).sort().join(', '), ...[x, y, width, height].map(Math.round)].join(' | ');
+  }).sort());
+  const count = (page, n) => until(page, `${n} stacks of panels`, (k) => [...document.querySelectorAll('.dv-groupview')].filter((g) => g.offsetParent).length === k, n);
+  const tree = (page) => page.getByRole('navigation');
+  const inspector = (page) => page.getByRole('region', { name: 'Inspector' });
+
+  const page = await open(large);
+  await page.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
+
+  step('the title says which system, file, world and session this is');
+  await until(page, 'the title', (port) => document.title === `DAC foraging (systems/dac_foraging.iqr) in basic_arena – Forage ${port}`, new URL(address).port);
+
+  step('narrowed, the columns become one stack with the same panels, and the drawers close');
+  await tree(page).waitFor();
+  await count(page, 4);
+  const before = await stacks(page);
+  await page.getByRole('group', { name: 'Arena' }).evaluate((e) => (e.dataset.same = 'yes'));
+  await page.setViewportSize(small);
+  await count(page, 1);
+  const [stack] = await stacks(page);
+  assert.match(stack, /^Arena, Bug\/Light, Bug\/Motor, Diagram \| 0 \| \d+ \| 420 /);
+  assert.deepEqual([await tree(page).count(), await inspector(page).count()], [0, 0]);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth && document.querySelector('header').scrollWidth <= innerWidth));
+  await page.getByRole('group', { name: 'Arena' }).waitFor();
+
+  step('what is opened there is a tab of the stack, and the drawer does not hide it');
+  await page.getByRole('button', { name: 'Show or hide the tree' }).click();
+  await tree(page).getByText('CS', { exact: true }).first().click();
+  await inspector(page).getByRole('button', { name: 'Space' }).click();
+  await page.getByRole('group', { name: 'Space plot of Adaptive/CS' }).waitFor();
+  await count(page, 1);
+  await inspector(page).waitFor({ state: 'detached' });
+  await page.locator('.dv-tab', { hasText: 'Bug/Light' }).click();
+  await page.locator('.dv-tab', { hasText: 'Bug/Light' }).locator('.dv-default-tab-action').click();
+
+  step('widened, the columns are back, with the panel that was opened and without the one that was closed');
+  await page.setViewportSize(large);
+  await tree(page).waitFor();
+  await inspector(page).waitFor();
+  await page.getByRole('group', { name: 'Space plot of Adaptive/CS' }).waitFor();
+  await page.getByRole('group', { name: 'Arena' }).waitFor();
+  assert.equal(await page.getByRole('group', { name: 'Arena' }).getAttribute('data-same'), 'yes', 'panels are moved, not made anew');
+  const after = await stacks(page);
+  const columns = (all) => all.filter((s) => /^(Arena|Diagram) /.test(s));
+  assert.deepEqual(columns(after), columns(before));
+  assert.ok(!after.join().includes('Bug/Light') && after.join().includes('Adaptive/CS'), after.join('\n'));
+
+  step('the panels of a small window stand in columns when it is widened, with and without earlier columns');
+  await page.setViewportSize(small);
+  await page.reload();
+  await count(page, 1);
+  await page.setViewportSize(large);
+  await until(page, 'columns', (n) => [...document.querySelectorAll('.dv-groupview')].filter((g) => g.offsetParent).length >= n, 3);
+  assert.deepEqual(columns(await stacks(page)), columns(before));
+  await page.evaluate(() => localStorage.clear());
+  await page.setViewportSize(small);
+  await count(page, 1);
+  await page.evaluate(() => Object.keys(localStorage).filter((k) => !k.includes('narrow')).forEach((k) => localStorage.removeItem(k)));
+  await page.reload();
+  await count(page, 1);
+  await page.setViewportSize(large);
+  await until(page, 'columns', (n) => [...document.querySelectorAll('.dv-groupview')].filter((g) => g.offsetParent).length >= n, 3);
+
+  step('names in forms break between their words only');
+  await page.keyboard.press('Control+k');
+  await page.keyboard.type('Light to US');
+  await page.keyboard.press('Enter');
+  await inspector(page).getByLabel('Arborization', { exact: true }).selectOption('ArbRect');
+  await inspector(page).getByLabel('initialization_probability').waitFor();
+  const broken = await inspector(page).evaluate((form) => [...form.querySelectorAll('label, h2, h3')].flatMap((label) => {
+    const texts = document.createTreeWalker(label, NodeFilter.SHOW_TEXT), found = [];
+    for (let node = texts.nextNode(); node; node = texts.nextNode())
+      for (const word of node.data.matchAll(/\S+/g)) {
+        const range = document.createRange();
+        range.setStart(node, word.index);
+        range.setEnd(node, word.index + word[0].length);
+        if (new Set([...range.getClientRects()].map((r) => Math.round(r.top))).size > 1) found.push(label.textContent);
+      }
+    return found;
+  }));
+  assert.deepEqual(broken, []);
+  assert.deepEqual(faults, []);
+  console.log('all fine');
+});
