@@ -86,6 +86,31 @@ await inBrowser(sources, async ({ context, start, until }) => {
   await page.setViewportSize(large);
   await until(page, 'columns', (n) => [...document.querySelectorAll('.dv-groupview')].filter((g) => g.offsetParent).length >= n, 3);
 
+  step('the tree is one stop of the Tab key, and arrows lead through it');
+  const row = (name) => until(page, `the row ${name}`, (n) => document.activeElement.matches('nav .row') && document.activeElement.textContent.includes(n), name);
+  await page.getByLabel('Filter the tree').focus();
+  await page.keyboard.press('ArrowDown');
+  await row('Bug');
+  await page.keyboard.press('ArrowLeft');
+  await page.keyboard.press('ArrowDown');
+  await row('Reactive Layer');
+  await page.keyboard.press('ArrowUp');
+  await page.keyboard.press('ArrowRight');
+  await page.keyboard.press('ArrowDown');
+  await row('Motor');
+  await page.keyboard.press('ArrowRight');
+  await until(page, 'a button of the row', () => document.activeElement.ariaLabel === 'Space plot of Bug/Motor');
+  await page.keyboard.press('ArrowLeft');
+  await row('Motor');
+  await page.keyboard.press('ArrowLeft');
+  await row('Bug');
+  await page.keyboard.press('End');
+  await row('Connections');
+  await page.keyboard.press('Tab');
+  assert.equal(await page.evaluate(() => document.activeElement.closest('nav')), null);
+  await page.keyboard.press('Shift+Tab');
+  await row('Connections');
+
   step('names in forms break between their words only');
   await page.keyboard.press('Control+k');
   await page.keyboard.type('Light to US');
