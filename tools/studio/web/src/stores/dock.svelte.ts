@@ -24,7 +24,7 @@ class Dock {
   open(panel: PanelState, where: Where = {}): string | null {
     if (!this.api || !kinds[panel.kind]) return null;
     // Where the drawers lie over the panels, a panel that is opened would be below them.
-    if (frame.narrow) frame.tree = frame.inspector = false;
+    if (frame.over) frame.closeDrawers();
     const existing = this.find(panel);
     if (existing) {
       existing.api.setActive();

@@ -10,7 +10,8 @@ class Frame {
   /** The drawers of the window while it had room for them. */
   private wide = { tree: true, inspector: true };
 
-  constructor() {
+  /** Follows the width of the window from now on. */
+  start(): void {
     narrow.addEventListener('change', () => {
       if (narrow.matches) this.wide = { tree: this.tree, inspector: this.inspector };
       this.tree = !narrow.matches && this.wide.tree;
@@ -18,9 +19,16 @@ class Frame {
     });
     small.addEventListener('change', () => (this.small = small.matches));
   }
-  /** Whether the drawers lie over the panels. */
+  /** Whether drawers lie over the panels when they are open. */
   get narrow(): boolean {
     return narrow.matches;
+  }
+  /** Whether one of them does. */
+  get over(): boolean {
+    return narrow.matches && (this.tree || this.inspector);
+  }
+  closeDrawers(): void {
+    this.tree = this.inspector = false;
   }
 }
 

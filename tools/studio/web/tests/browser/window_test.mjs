@@ -55,6 +55,12 @@ await inBrowser(sources, async ({ context, start, until }) => {
   await page.getByRole('group', { name: 'Space plot of Adaptive/CS' }).waitFor();
   await count(page, 1);
   await inspector(page).waitFor({ state: 'detached' });
+  for (const close of [() => page.keyboard.press('Escape'), () => page.mouse.click(410, 400)]) {
+    await page.getByRole('button', { name: 'Show or hide the tree' }).click();
+    await tree(page).waitFor();
+    await close();
+    await tree(page).waitFor({ state: 'detached' });
+  }
   await page.locator('.dv-tab', { hasText: 'Bug/Light' }).click();
   await page.locator('.dv-tab', { hasText: 'Bug/Light' }).locator('.dv-default-tab-action').click();
 
@@ -85,6 +91,21 @@ await inBrowser(sources, async ({ context, start, until }) => {
   await count(page, 1);
   await page.setViewportSize(large);
   await until(page, 'columns', (n) => [...document.querySelectorAll('.dv-groupview')].filter((g) => g.offsetParent).length >= n, 3);
+
+  step('menus: Home and End, and Escape leads back to the button');
+  const focus = (what) => until(page, what, (w) => document.activeElement.textContent.startsWith(w) || document.activeElement.ariaLabel === w, what);
+  await page.getByRole('button', { name: /^DAC foraging/ }).press('Enter');
+  await focus('New…');
+  await page.keyboard.press('End');
+  await focus('Properties of the system');
+  await page.keyboard.press('Home');
+  await focus('New…');
+  await page.keyboard.press('Escape');
+  await focus('DAC foraging');
+  await page.getByRole('button', { name: 'Layouts of the panels' }).press('Enter');
+  await page.getByRole('button', { name: /^Overview/ }).focus();
+  await page.keyboard.press('Escape');
+  await focus('Layouts of the panels');
 
   step('the tree is one stop of the Tab key, and arrows lead through it');
   const row = (name) => until(page, `the row ${name}`, (n) => document.activeElement.matches('nav .row') && document.activeElement.textContent.includes(n), name);
