@@ -8,7 +8,7 @@ const [width = 1400, height = 900, colorScheme = 'light', shown] = process.argv.
 const tutorial = shown === 'tutorial';
 const studio = spawn(forage, ['studio', shown === 'build' ? 'systems/reactive_foraging.iqr' : 'systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world'], { cwd: sources });
 const address = await new Promise((found) => studio.stdout.on('data', (text) => found(/http:\/\/\S+/.exec(text)[0])));
-const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-background-networking'] });
+const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ['--no-sandbox', ...(tutorial ? ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] : ['--disable-gpu']), '--disable-background-networking'] });
 try {
   const page = await browser.newPage({ viewport: { width: Number(width), height: Number(height) }, colorScheme });
   await page.goto(address);
@@ -30,13 +30,25 @@ try {
     await text.locator('[data-open="1"]').click();
     await text.locator('.setup.active').waitFor();
     await page.getByRole('group', { name: 'Arena' }).getByRole('button', { name: '3-D' }).click();
-  } else await page.getByRole('navigation').getByText('Motor', { exact: true }).click({ timeout: 2000 }).catch(() => {});
-  if (shown !== 'build') {
-    await page.getByRole('button', { name: '20×', exact: true }).click();
-    await page.getByRole('button', { name: 'Run', exact: true }).click();
-    await page.waitForFunction((least) => Number(document.querySelector('[aria-label="Moment of the run"]')?.value) > least, tutorial ? 3480 : 1560, { polling: 20 });
-    await page.getByRole('button', { name: 'Pause', exact: true }).click();
+  } else {
+    await find('layout: part 2');
+    await page.getByRole('group', { name: 'Space plot of Reactive Layer/Approach' }).waitFor();
+    await find('bug/motor');
+    await page.getByRole('region', { name: 'Inspector' }).getByRole('heading', { name: 'Bug/Motor' }).waitFor();
   }
+  if (shown !== 'build') {
+    // The last cycles are steps, so that the picture shows the same moment on each machine: the robot turns to the light, and Approach is active.
+    const last = tutorial ? 3490 : 1843;
+    const reached = (cycle) => page.waitForFunction((c) => Number(document.querySelector('[aria-label="Moment of the run"]')?.value) >= c, cycle, { polling: 50 });
+    await page.getByRole('button', { name: '4×', exact: true }).click();
+    await page.getByRole('button', { name: 'Run', exact: true }).click();
+    await reached(last - 200);
+    await page.getByRole('button', { name: 'Pause', exact: true }).click();
+    await page.getByRole('button', { name: 'Run', exact: true }).waitFor();
+    for (let c = Number(await page.getByLabel('Moment of the run').inputValue()); c < last; c++) await page.keyboard.press('.');
+    await reached(last);
+  }
+  await page.evaluate(() => document.activeElement.blur());
   await page.waitForTimeout(500);
   await page.screenshot({ path: output });
 } finally {
