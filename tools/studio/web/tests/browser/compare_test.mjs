@@ -71,6 +71,12 @@ await inBrowser(sources, async ({ context, start, until }) => {
     // The gain of the motor is zero, so its cells are silent now, and were active.
     const [silent, active] = [await count(`${plot}canvas:not(.reference)`), await count(`${plot}canvas.reference`)];
     assert.ok(silent < active, `${silent} and ${active} colours in ${tab}`);
+    if (tab === 'Bug/Motor') {
+      await page.locator(`${plot}canvas.reference`).hover({ position: { x: 4, y: 4 } });
+      await page.locator(plot).getByText('(1, 1)').waitFor();
+      const captions = await page.locator(`${plot}figcaption`).allInnerTexts();
+      assert.ok(captions.length === 2 && /^now 0$/.test(captions[0]) && /^as it was [\d.]+$/.test(captions[1]), captions.join());
+    }
     await page.locator(plot).getByLabel('Comparison').selectOption('difference');
     await page.locator(`${plot}canvas.reference`).waitFor({ state: 'detached' });
     await until(page, `blue in ${tab}: less than it was`, (p) => {

@@ -8,7 +8,7 @@ const step = (text) => console.log(text);
 const cycle = (page) => page.getByLabel('Moment of the run').inputValue().then(Number);
 
 await inBrowser(sources, async ({ context, start, until }) => {
-  step('a studio that is killed: the next one offers to go on, with the panels as they were');
+  step('a studio that is killed: the next one offers to go on, with the panels and the comparison as they were');
   const first = start(forage);
   const page = await context.newPage();
   page.setDefaultTimeout(10000);
@@ -18,6 +18,9 @@ await inBrowser(sources, async ({ context, start, until }) => {
   await page.getByRole('group', { name: /^Space plot of .*\/CS$/ }).waitFor();
   for (let i = 0; i < 7; i++) await page.locator('body').press('.');
   await until(page, 'seven cycles', () => document.querySelector('[aria-label="Moment of the run"]')?.value === '7');
+  await page.getByRole('button', { name: 'Compare from here' }).click();
+  await page.getByRole('button', { name: 'End comparison' }).waitFor();
+  await page.locator('[aria-label^="Space plot of"] canvas.reference').first().waitFor();
   await page.waitForTimeout(2500); // it is kept one second after the last change
   first.child.removeAllListeners('exit');
   first.child.kill('SIGKILL');
@@ -31,6 +34,8 @@ await inBrowser(sources, async ({ context, start, until }) => {
   await again.getByRole('button', { name: 'Go on with it' }).click();
   await until(again, 'cycle 7', () => document.querySelector('[aria-label="Moment of the run"]')?.value === '7');
   await again.getByRole('group', { name: /^Space plot of .*\/CS$/ }).waitFor();
+  await again.getByRole('button', { name: 'End comparison' }).waitFor();
+  await again.locator('[aria-label^="Space plot of"] canvas.reference').first().waitFor();
   assert.equal(await again.getByText("This system's last session was not closed.").count(), 0);
   console.log('all fine');
 });
