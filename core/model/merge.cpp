@@ -21,6 +21,39 @@ class Merger {
         theirs = mine;
     }
 
+    /// Parameters belong to a type: when only one side has changed the type, all of the use is that side's,
+    /// and further changes of the other side are a conflict. `what` names the use; `references` merges the
+    /// cross references of uses of one type.
+    template <class Use, class References>
+    void type_use(const std::string& what, const Use& base, const Use& mine, Use& theirs,
+                  References references) {
+        auto note = theirs.note;
+        member(what, "the note of the type", base.note, mine.note, note);
+        if (mine.type == theirs.type) {
+            settings(what, base, mine, theirs);
+            references(base, mine, theirs);
+        } else if (!says_the_same(mine, base)) {
+            if (!says_the_same(theirs, base))
+                conflicts_.push_back(fmt::format("the type of {} or its parameters", what));
+            theirs = mine;
+        }
+        theirs.note = std::move(note);
+    }
+    /// Whether two uses have the same type, parameters and cross references, in any order.
+    template <class Use>
+    static bool says_the_same(const Use& a, const Use& b) {
+        const auto content = [](Use use) {
+            use.note.reset();
+            const auto by_name = [](auto& all) {
+                std::ranges::sort(all, {}, [](const auto& i) { return i.name; });
+            };
+            by_name(use.settings);
+            if constexpr (requires { use.feedback; }) by_name(use.feedback);
+            if constexpr (requires { use.inputs; }) by_name(use.inputs), by_name(use.outputs);
+            return use;
+        };
+        return content(a) == content(b);
+    }
     void settings(const std::string& where, const TypeUse& base, const TypeUse& mine, TypeUse& theirs) {
         const auto find = [](auto& use, const std::string& name) {
             const auto it = std::ranges::find(use.settings, name, &Setting::name);
@@ -30,8 +63,6 @@ class Merger {
             const auto* s = find(use, name);
             return s ? std::optional(s->value) : std::nullopt;
         };
-        member(where, "the type", base.type, mine.type, theirs.type);
-        member(where, "the note of the type", base.note, mine.note, theirs.note);
         std::vector<std::string> names;
         for (const auto* use : {&base, &mine})
             for (const auto& s : use->settings) names.push_back(s.name);
@@ -48,12 +79,11 @@ class Merger {
         }
     }
     /// A use of a type that may be absent.
-    template <class Use, class More>
+    template <class Use, class References>
     void use(const std::string& where, const char* what, const std::optional<Use>& base,
-             const std::optional<Use>& mine, std::optional<Use>& theirs, More more) {
+             const std::optional<Use>& mine, std::optional<Use>& theirs, References references) {
         if (!base || !mine || !theirs) return member(where, what, base, mine, theirs);
-        settings(where, *base, *mine, *theirs);
-        more(*base, *mine, *theirs);
+        type_use(fmt::format("{} of {}", what, where), *base, *mine, *theirs, references);
     }
 
     void item(const Group& base, const Group& mine, Group& theirs) {
@@ -63,7 +93,7 @@ class Merger {
         member(where, "the topology", base.topology, mine.topology, theirs.topology);
         member(where, "the note", base.note, mine.note, theirs.note);
         member(where, "the place", base.icon, mine.icon, theirs.icon);
-        settings(where, base.neuron, mine.neuron, theirs.neuron);
+        type_use(where, base.neuron, mine.neuron, theirs.neuron, [](auto&&...) {});
     }
     void item(const Process& base, const Process& mine, Process& theirs) {
         const std::string where = fmt::format("process '{}'", trim(base.name));

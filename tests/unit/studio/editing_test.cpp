@@ -251,6 +251,26 @@ TEST_CASE("a file that changes outside is noticed, and both changes are merged")
     CHECK(e.content() == e.text());
 }
 
+TEST_CASE("another type outside and another parameter here are a conflict, and both stay as they are") {
+    Editor e;
+    const std::string group = e.last["system"]["processes"][1]["groups"][0]["id"],
+                      type = "neuronLinearThreshold";
+    e.edit({{{"do", "parameter"}, {"id", group}, {"name", "excGain"}, {"value", "0.25"}}});
+    std::string theirs = e.content();
+    const auto element = theirs.find("<Group id=\"" + group);
+    REQUIRE(element != std::string::npos);
+    theirs.replace(theirs.find(type, element), type.size(), "neuronSigmoid");
+    std::ofstream(e.file) << theirs;
+    e.session->work(1000);
+    const std::string mine = e.text();
+    const json refused = e.ask({{"command", "reload"}, {"keep", "merge"}});
+    CHECK(refused["ok"] == false);
+    CHECK(refused.dump().find("both have changed the type of group") != std::string::npos);
+    CHECK(e.text() == mine);
+    CHECK(e.content() == theirs);
+    CHECK(e.last["document"]["outside"] == "changed");
+}
+
 TEST_CASE("items tell what their forms show, and the synapses of a pattern are told before it is set") {
     Editor e;
     const auto connection = e.last["system"]["connections"][0];
