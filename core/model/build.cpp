@@ -24,8 +24,10 @@ std::unordered_set<std::string_view> all_ids(const System& system) {
     for (const auto& p : system.processes) {
         ids.insert(p.id);
         for (const auto& g : p.groups) ids.insert(g.id);
+        for (const auto& c : p.canvas_comments) ids.insert(c.id);
     }
     for (const auto& c : system.connections) ids.insert(c.id);
+    for (const auto& c : system.canvas_comments) ids.insert(c.id);
     return ids;
 }
 
@@ -45,6 +47,19 @@ void forget_groups(System& system, const std::set<std::string, std::less<>>& ids
             for (auto& r : *references)
                 if (ids.contains(r.target)) r.target.clear();
     }
+}
+
+/// Forgets the places of phantoms that no page shows any more.
+void forget_phantoms(System& system) {
+    const GroupIndex groups(system);
+    std::set<std::pair<const Process*, std::string_view>> shown;
+    for (const auto& c : system.connections) {
+        const auto source = groups.find(c.source), target = groups.find(c.target);
+        if (!source.group || !target.group) continue;
+        shown.emplace(source.process, c.target), shown.emplace(target.process, c.source);
+    }
+    for (auto& p : system.processes)
+        std::erase_if(p.phantoms, [&](const Phantom& f) { return !shown.contains({&p, f.group}); });
 }
 
 /// Throws for a linked process: its content is in its own file, so changes would be lost.
@@ -103,6 +118,16 @@ std::string add_connection(System& system, std::string_view source, std::string_
     return system.connections.back().id;
 }
 
+std::string add_canvas_comment(System& system, std::string_view process, CanvasComment comment) {
+    Process* p = process.empty() ? nullptr : find_process(system, process);
+    if (!p && !process.empty()) no_item("process", process);
+    if (p) refuse_linked(*p);
+    comment.id = claim(system, std::move(comment.id), "comment");
+    auto& page = p ? p->canvas_comments : system.canvas_comments;
+    page.push_back(std::move(comment));
+    return page.back().id;
+}
+
 Process* find_process(System& system, std::string_view id) { return find_in(system.processes, id); }
 
 Group* find_group(System& system, std::string_view id) {
@@ -112,6 +137,12 @@ Group* find_group(System& system, std::string_view id) {
 }
 
 Connection* find_connection(System& system, std::string_view id) { return find_in(system.connections, id); }
+
+CanvasComment* find_canvas_comment(System& system, std::string_view id) {
+    for (auto& p : system.processes)
+        if (auto* c = find_in(p.canvas_comments, id)) return c;
+    return find_in(system.canvas_comments, id);
+}
 
 void set_parameter(TypeUse& use, std::string name, std::string value) {
     const auto it =
@@ -124,20 +155,28 @@ void set_parameter(TypeUse& use, std::string name, std::string value) {
 
 void remove(System& system, std::string_view id) {
     const auto is_it = [id = std::string(id)](const auto& item) { return item.id == id; };
-    if (std::erase_if(system.connections, is_it)) return;
-    for (auto& p : system.processes)
+    if (std::erase_if(system.connections, is_it)) return forget_phantoms(system);
+    if (std::erase_if(system.canvas_comments, is_it)) return;
+    for (auto& p : system.processes) {
+        if (find_in(p.canvas_comments, id)) {
+            refuse_linked(p);
+            std::erase_if(p.canvas_comments, is_it);
+            return;
+        }
         if (find_in(p.groups, id)) {
             refuse_linked(p);
             forget_groups(system, {std::string(id)});
             std::erase_if(p.groups, is_it);
-            return;
+            return forget_phantoms(system);
         }
+    }
     const Process* process = find_process(system, id);
-    if (!process) no_item("process, group or connection", id);
+    if (!process) no_item("process, group, connection or comment", id);
     std::set<std::string, std::less<>> groups;
     for (const auto& g : process->groups) groups.insert(g.id);
     forget_groups(system, groups);
     std::erase_if(system.processes, is_it);
+    forget_phantoms(system);
 }
 
 std::string make_ids_unique(const System& system, std::span<Process> processes,
@@ -148,6 +187,7 @@ std::string make_ids_unique(const System& system, std::span<Process> processes,
     for (auto& p : processes) {
         ids.push_back(&p.id);
         for (auto& g : p.groups) ids.push_back(&g.id), groups.insert(g.id);
+        for (auto& c : p.canvas_comments) ids.push_back(&c.id);
     }
     for (auto& c : connections) ids.push_back(&c.id);
     std::string prefix;
@@ -162,10 +202,13 @@ std::string make_ids_unique(const System& system, std::span<Process> processes,
     const auto follow = [&](std::string& reference) {
         reference = groups.contains(reference) ? prefix + reference : std::string();
     };
-    for (auto& p : processes)
+    for (auto& p : processes) {
+        std::erase_if(p.phantoms, [&](const Phantom& f) { return !groups.contains(f.group); });
+        for (auto& f : p.phantoms) follow(f.group);
         if (p.module)
             for (auto* references : {&p.module->inputs, &p.module->outputs})
                 for (auto& r : *references) follow(r.target);
+    }
     for (auto& c : connections) follow(c.source), follow(c.target), c.linked = false;
     for (auto* id : ids) *id = prefix + *id;
     return prefix;
@@ -188,12 +231,15 @@ void join(System& system, System other) {
     for (auto& p : other.processes) {
         ids.push_back(&p.id);
         for (auto& g : p.groups) ids.push_back(&g.id);
+        for (auto& c : p.canvas_comments) ids.push_back(&c.id);
+        for (auto& f : p.phantoms) references.push_back(&f.group);
         if (p.module)
             for (auto* side : {&p.module->inputs, &p.module->outputs})
                 for (auto& r : *side) references.push_back(&r.target);
     }
     for (auto& c : other.connections)
         ids.push_back(&c.id), references.push_back(&c.source), references.push_back(&c.target);
+    for (auto& c : other.canvas_comments) ids.push_back(&c.id);
     std::string prefix;
     const auto clashes = [&] {
         return std::any_of(ids.begin(), ids.end(),
@@ -214,6 +260,7 @@ void join(System& system, System other) {
         system.processes.push_back(std::move(p));
     }
     for (auto& c : other.connections) system.connections.push_back(std::move(c));
+    for (auto& c : other.canvas_comments) system.canvas_comments.push_back(std::move(c));
 }
 
 ProcessFile extract_process(const System& system, std::string_view id) {
@@ -223,6 +270,7 @@ ProcessFile extract_process(const System& system, std::string_view id) {
     ProcessFile out{*it, {}};
     out.process.path.clear();
     out.process.placeholder.clear();
+    out.process.phantoms.clear();
     std::set<std::string, std::less<>> groups;
     for (const auto& g : it->groups) groups.insert(g.id);
     if (out.process.module)

@@ -26,26 +26,32 @@ std::string add_group(System& system, std::string_view process, std::string name
 std::string add_connection(System& system, std::string_view source, std::string_view target, InputKind kind,
                            std::string synapse_type, std::string id = {});
 
+/// Adds a comment to the page of a process, or to that of the system when `process` is empty, and returns its
+/// id. Throws std::invalid_argument when there is no such process, when it is linked, or when the id is
+/// taken.
+std::string add_canvas_comment(System& system, std::string_view process, CanvasComment comment);
+
 /// The item with this id, which may be changed; null when there is none. Valid until something is added or
 /// removed.
 Process* find_process(System& system, std::string_view id);
 Group* find_group(System& system, std::string_view id);
 Connection* find_connection(System& system, std::string_view id);
+CanvasComment* find_canvas_comment(System& system, std::string_view id);
 
 /// Sets a parameter to a value, which is written as in a file.
 void set_parameter(TypeUse& use, std::string name, std::string value);
 
-/// Removes the process, group or connection with this id and everything in it. Connections from and to
-/// removed groups are removed, too, and cross references to them become unset. Throws std::invalid_argument
-/// when there is no such item.
+/// Removes the process, group, connection or comment with this id and everything in it. Connections from and
+/// to removed groups are removed, too, and cross references to them become unset. Places of phantoms that no
+/// connection needs any more are forgotten. Throws std::invalid_argument when there is no such item.
 void remove(System& system, std::string_view id);
 
 /// Renames a process, group or connection. Throws std::invalid_argument when there is none with this id.
 void rename(System& system, std::string_view id, std::string name);
 
 /// Gives all ids a prefix CB<n>, as the original does, so that none of them is in `system`. References to
-/// groups that are not among `processes` become unset. Throws std::invalid_argument when a connection has no
-/// group there. Returns the prefix.
+/// groups that are not among `processes` become unset, and places of their phantoms are forgotten. Throws
+/// std::invalid_argument when a connection has no group there. Returns the prefix.
 std::string make_ids_unique(const System& system, std::span<Process> processes,
                             std::span<Connection> connections);
 

@@ -13,10 +13,12 @@ namespace {
 System skeleton(System s) {
     const auto bare = [](TypeUse& use) { use.settings.clear(), use.note.reset(); };
     s.author = s.date = s.port = "";
-    s.note.reset(), s.comments.clear(), s.instructions.clear(), s.sync_plots = false;
+    s.note.reset(), s.comments.clear(), s.canvas_comments.clear(), s.instructions.clear();
+    s.sync_plots = false;
     for (auto& p : s.processes) {
         p.color = p.hostname = p.port = p.path = "";
         p.note.reset(), p.icon.reset(), p.comments.clear(), p.placeholder.clear();
+        p.canvas_comments.clear(), p.phantoms.clear();
         if (p.module) bare(*p.module);
         for (auto& g : p.groups) {
             g.color.clear(), g.note.reset(), g.icon.reset(), g.comments.clear();

@@ -86,6 +86,19 @@ std::vector<GroupIndex::Entry> find_groups(const System& system, std::string_vie
     return out;
 }
 
+std::string first_words(std::string_view text) {
+    constexpr std::size_t most = 32;
+    std::string_view line = trim(trim(text).substr(0, trim(text).find('\n')));
+    if (line.size() <= most && line.size() == trim(text).size()) return std::string(line);
+    line = line.substr(0, most);
+    // A character of several bytes is not divided.
+    while (line.size() == most && (static_cast<unsigned char>(line.back()) & 0xC0) == 0x80)
+        line.remove_suffix(1);
+    if (line.size() < most && !line.empty() && static_cast<unsigned char>(line.back()) >= 0xC0)
+        line.remove_suffix(1);
+    return std::string(line) + "...";
+}
+
 std::string resolved(const std::string& path, const Location& at) {
     if (path.empty() || !at.file) return path;
     return (std::filesystem::path(at.file->path).parent_path() / path).string();

@@ -44,6 +44,9 @@ std::string suggest_group(std::string_view wanted, const std::vector<std::string
 /// command line, which is no file, they begin in the working directory.
 std::string resolved(const std::string& path, const Location& at);
 
+/// The beginning of the first line of a text, by which messages name it.
+std::string first_words(std::string_view text);
+
 /// `text` without blanks at its ends.
 std::string_view trim(std::string_view text);
 

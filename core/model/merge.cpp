@@ -115,6 +115,17 @@ class Merger {
                 member(where, "the outputs of the module", b.outputs, m.outputs, t.outputs);
             });
         items(base.groups, mine.groups, theirs.groups);
+        items(base.canvas_comments, mine.canvas_comments, theirs.canvas_comments);
+        items(base.phantoms, mine.phantoms, theirs.phantoms);
+    }
+    void item(const CanvasComment& base, const CanvasComment& mine, CanvasComment& theirs) {
+        const std::string where = title_of(base);
+        member(where, "the text", base.text, mine.text, theirs.text);
+        member(where, "the colour", base.color, mine.color, theirs.color);
+        member(where, "the place", base.box, mine.box, theirs.box);
+    }
+    void item(const Phantom& base, const Phantom& mine, Phantom& theirs) {
+        member(title_of(base), "the place", base, mine, theirs);
     }
     void item(const Connection& base, const Connection& mine, Connection& theirs) {
         const std::string where = fmt::format("connection '{}'", trim(base.name));
@@ -136,36 +147,45 @@ class Merger {
 
     template <class Item>
     void items(const std::vector<Item>& base, const std::vector<Item>& mine, std::vector<Item>& theirs) {
-        const auto find = [](auto& all, const std::string& id) {
-            const auto it = std::ranges::find(all, id, &Item::id);
+        const auto find = [](auto& all, const Item& item) {
+            const auto it = std::ranges::find_if(all, [&](const Item& i) { return id_of(i) == id_of(item); });
             return it == all.end() ? nullptr : &*it;
         };
         for (const Item& was : base) {
-            const Item* is = find(mine, was.id);
-            Item* there = find(theirs, was.id);
+            const Item* is = find(mine, was);
+            Item* there = find(theirs, was);
             if (is && there) {
                 item(was, *is, *there);
             } else if (is && !(*is == was)) {
-                conflicts_.push_back(
-                    fmt::format("'{}', which the file does not have any more", trim(was.name)));
+                conflicts_.push_back(fmt::format("{}, which the file does not have any more", title_of(was)));
                 theirs.push_back(*is);
             } else if (!is && there) {
                 if (!(*there == was))
-                    conflicts_.push_back(fmt::format("'{}', which is removed here", trim(was.name)));
-                std::erase_if(theirs, [&](const Item& i) { return i.id == was.id; });
+                    conflicts_.push_back(fmt::format("{}, which is removed here", title_of(was)));
+                std::erase_if(theirs, [&](const Item& i) { return id_of(i) == id_of(was); });
             }
         }
         for (const Item& is : mine)
-            if (!find(base, is.id)) {
-                if (const Item* there = find(theirs, is.id); !there)
+            if (!find(base, is)) {
+                if (const Item* there = find(theirs, is); !there)
                     theirs.push_back(is);
                 else if (!(*there == is))
                     conflicts_.push_back(
-                        fmt::format("'{}', which has the id '{}' in both", trim(is.name), is.id));
+                        fmt::format("{}, which has the id '{}' in both", title_of(is), id_of(is)));
             }
     }
 
   private:
+    static const std::string& id_of(const auto& item) { return item.id; }
+    static const std::string& id_of(const Phantom& phantom) { return phantom.group; }
+    static std::string title_of(const auto& item) { return fmt::format("'{}'", trim(item.name)); }
+    static std::string title_of(const CanvasComment& comment) {
+        return fmt::format("the comment '{}'", first_words(comment.text));
+    }
+    static std::string title_of(const Phantom& phantom) {
+        return fmt::format("the phantom of group '{}'", phantom.group);
+    }
+
     std::vector<std::string>& conflicts_;
 };
 
@@ -188,7 +208,10 @@ Merge merge(const System& base, const System& mine, const System& theirs) {
     merger.member("the system", "the note", base.note, mine.note, s.note);
     merger.items(base.processes, mine.processes, s.processes);
     merger.items(base.connections, mine.connections, s.connections);
+    merger.items(base.canvas_comments, mine.canvas_comments, s.canvas_comments);
     const GroupIndex groups(s);
+    for (auto& p : s.processes)
+        std::erase_if(p.phantoms, [&](const Phantom& f) { return !groups.find(f.group).group; });
     std::erase_if(s.connections, [&](const Connection& c) {  // a group of it was removed here, or there
         return !groups.find(c.source).group || !groups.find(c.target).group;
     });

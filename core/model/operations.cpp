@@ -1,9 +1,11 @@
 #include "core/model/operations.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -124,9 +126,28 @@ void place(System& system, std::string_view id, int x, int y) {
         if (p->linked()) move(p->placeholder.front().icon, x, y);
     } else if (find_group(system, id)) {
         move(group_of(system, id).icon, x, y);
+    } else if (find_canvas_comment(system, id)) {
+        set_comment(system, id, {.x = x, .y = y});
     } else {
-        missing("process or group", id);
+        missing("process, group or comment", id);
     }
+}
+
+void place_phantom(System& system, std::string_view process, std::string_view group, int x, int y) {
+    Process* p = find_process(system, process);
+    if (!p) missing("process", process);
+    require_group(system, group);
+    if (std::ranges::any_of(p->groups, [&](const Group& g) { return g.id == group; }))
+        refuse(fmt::format("the group '{}' is in this process", group));
+    const auto in = [&](std::vector<Phantom>& all) {
+        const auto it = std::ranges::find(all, group, &Phantom::group);
+        if (it == all.end())
+            all.push_back({std::string(group), x, y});
+        else
+            it->x = x, it->y = y;
+    };
+    in(p->phantoms);
+    if (p->linked()) in(p->placeholder.front().phantoms);  // like its icon
 }
 
 void set_line(System& system, std::string_view id, LineChange change) {
@@ -137,19 +158,47 @@ void set_line(System& system, std::string_view id, LineChange change) {
     if (change.source_anchor) c.line->source_anchor = *change.source_anchor;
     if (change.target_anchor) c.line->target_anchor = *change.target_anchor;
     if (change.vertices) c.line->vertices = *std::move(change.vertices);
+    if (change.source_vertices) c.line->source_vertices = *std::move(change.source_vertices);
+    if (change.target_vertices) c.line->target_vertices = *std::move(change.target_vertices);
 }
 
 void reroute(System& system, std::string_view id, std::string_view source, std::string_view target) {
     auto& c = connection_of(system, id);
     for (const auto end : {source, target})
         if (!end.empty()) require_group(system, end);
+    const GroupIndex groups(system);
+    const auto pages = [&] {
+        return std::pair(groups.find(c.source).process, groups.find(c.target).process);
+    };
+    const auto before = pages();
     if (!source.empty()) c.source = source;
     if (!target.empty()) c.target = target;
+    const auto now = pages();
+    if (!c.line || now == before) return;
+    const bool within = now.first == now.second;
+    c.line->vertices.clear();
+    if (within || now.first != before.first) c.line->source_vertices.clear();
+    if (within || now.second != before.second) c.line->target_vertices.clear();
+}
+
+void set_comment(System& system, std::string_view id, CommentChange change) {
+    for (auto& p : system.processes)
+        if (std::ranges::any_of(p.canvas_comments, [&](const auto& c) { return c.id == id; })) refuse_edit(p);
+    CanvasComment* c = find_canvas_comment(system, id);
+    if (!c) missing("comment", id);
+    for (const auto& side : {change.width, change.height})
+        if (side && *side < 1) refuse("a comment is at least 1 wide and high");
+    if (change.text) c->text = *std::move(change.text);
+    if (change.color) c->color = *std::move(change.color);
+    c->box = {change.x.value_or(c->box.x), change.y.value_or(c->box.y), change.width.value_or(c->box.width),
+              change.height.value_or(c->box.height)};
 }
 
 void set_color(System& system, std::string_view id, std::string color) {
     if (find_process(system, id))
         process_of(system, id).color = std::move(color);
+    else if (find_canvas_comment(system, id))
+        set_comment(system, id, {.color = std::move(color)});
     else
         group_of(system, id).color = std::move(color);
 }
@@ -256,25 +305,45 @@ System copy(const System& system, std::span<const std::string> ids) {
             groups.insert(g.id), found.insert(g.id);
             if (!whole) loose.groups.push_back(g);
         }
+        for (const auto& c : p.canvas_comments)
+            if (wanted.contains(c.id)) {
+                found.insert(c.id);
+                if (!whole) loose.canvas_comments.push_back(c);
+            }
     }
+    for (const auto& c : system.canvas_comments)
+        if (wanted.contains(c.id)) found.insert(c.id), out.canvas_comments.push_back(c);
+    const GroupIndex index(system);
     for (const auto& c : system.connections) {
         if (wanted.contains(c.id)) found.insert(c.id);
         if (!groups.contains(c.source) || !groups.contains(c.target)) continue;
         out.connections.push_back(c);
         out.connections.back().linked = false;
+        const auto *from = index.find(c.source).process, *to = index.find(c.target).process;
+        // A loose group leaves its page, and with it what a line between processes has there.
+        if (c.line && from != to && !(wanted.contains(from->id) && wanted.contains(to->id))) {
+            auto& line = *out.connections.back().line;
+            line.vertices.clear(), line.source_vertices.clear(), line.target_vertices.clear();
+        }
     }
     for (const auto& id : wanted)
-        if (!found.contains(id)) missing("process, group or connection", id);
-    if (!loose.groups.empty()) out.processes.push_back(std::move(loose));
+        if (!found.contains(id)) missing("process, group, connection or comment", id);
+    if (!loose.groups.empty() || !loose.canvas_comments.empty()) out.processes.push_back(std::move(loose));
     return out;
 }
 
 std::vector<std::string> paste(System& system, System content, std::string_view process, int x, int y) {
     embed_links(content);
-    const auto loose = std::ranges::find(content.processes, clipboard_process, &Process::id);
-    Process* target = nullptr;
-    if (loose != content.processes.end()) {
-        target = find_process(system, process);
+    const auto is_loose = [](const Process& p) { return p.id == clipboard_process; };
+    std::vector<CanvasComment> comments;  // that come without a process
+    bool groups = false;
+    for (auto& p : content.processes)
+        if (is_loose(p)) comments = std::exchange(p.canvas_comments, {}), groups = !p.groups.empty();
+    if (!groups) std::erase_if(content.processes, is_loose);
+    const bool whole = content.processes.size() > (groups ? 1u : 0u);
+    if (!whole) std::ranges::move(std::exchange(content.canvas_comments, {}), std::back_inserter(comments));
+    if (groups || (!comments.empty() && !process.empty())) {
+        Process* target = find_process(system, process);
         if (!target) missing("process", process);
         refuse_edit(*target);
     }
@@ -282,46 +351,53 @@ std::vector<std::string> paste(System& system, System content, std::string_view 
     const std::string loose_id = prefix + std::string(clipboard_process);
 
     int left = std::numeric_limits<int>::max(), top = left;
-    const auto look = [&](const std::optional<Icon>& icon) {
-        if (icon) left = std::min(left, icon->x), top = std::min(top, icon->y);
-    };
+    const auto look = [&](const Icon& icon) { left = std::min(left, icon.x), top = std::min(top, icon.y); };
     for (const auto& p : content.processes)
-        if (p.id == loose_id)
-            for (const auto& g : p.groups) look(g.icon);
-        else
-            look(p.icon);
+        if (p.id == loose_id) {
+            for (const auto& g : p.groups)
+                if (g.icon) look(*g.icon);
+        } else if (p.icon) {
+            look(*p.icon);
+        }
+    for (const auto* all : {&comments, &content.canvas_comments})
+        for (const auto& c : *all) look(c.box);
     if (left == std::numeric_limits<int>::max()) left = x, top = y;  // nothing has a place
-    const auto shift = [&](std::optional<Icon>& icon) {
-        if (icon) icon->x += x - left, icon->y += y - top;
-    };
+    const auto shift = [&](auto& at) { at.x += x - left, at.y += y - top; };
     std::vector<std::string> ids;
-    std::set<std::string_view> shifted;  // groups whose connections move with them
     for (auto& p : content.processes) {
         if (p.id != loose_id) {
-            shift(p.icon);
+            if (p.icon) shift(*p.icon);
             p.name = free_name(system.processes, p.name);
             ids.push_back(p.id);
             system.processes.push_back(std::move(p));
             continue;
         }
-        target = find_process(system, process);  // adding processes may have moved it
+        Process* target = find_process(system, process);  // adding processes may have moved it
         for (auto& g : p.groups) {
-            shift(g.icon);
+            if (g.icon) shift(*g.icon);
             g.name = free_name(target->groups, g.name);
             ids.push_back(g.id);
             target->groups.push_back(std::move(g));
         }
     }
-    if (target) {
-        target = find_process(system, process);  // processes may have been added after its groups
-        for (const auto& g : target->groups) shifted.insert(g.id);
-    }
+    const auto add = [&](std::vector<CanvasComment>& all, std::string_view page) {
+        for (auto& c : all) {
+            shift(c.box);
+            c.id = fresh_id(system, prefix + c.id);
+            ids.push_back(add_canvas_comment(system, page, std::move(c)));
+        }
+    };
+    add(comments, process);
+    add(content.canvas_comments, {});
+    const GroupIndex index(system);
     for (auto& c : content.connections) {
-        if (c.line && shifted.contains(c.source) && shifted.contains(c.target))
-            for (Point& v : c.line->vertices) v.x += x - left, v.y += y - top;
+        // Groups in a process that was pasted as a whole stay where they are on its page.
+        const auto *from = index.find(c.source).process, *to = index.find(c.target).process;
+        if (c.line && (from != to || (groups && from->id == process)))
+            for (Point& v : c.line->vertices) shift(v);
         ids.push_back(c.id);
-        system.connections.push_back(std::move(c));
     }
+    for (auto& c : content.connections) system.connections.push_back(std::move(c));
     return ids;
 }
 

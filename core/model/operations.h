@@ -19,20 +19,33 @@ namespace forage::model {
 /// The use of a type in the group, process or connection with this id; null when there is none.
 const TypeUse* find_use(const System& system, std::string_view id);
 
-/// Moves the icon of a process or group, in the diagram's units. An item without an icon gets one.
+/// Moves the icon of a process or group, or a comment, in the diagram's units. An item without an icon gets
+/// one.
 void place(System& system, std::string_view id, int x, int y);
 
-/// What changes of the line of a connection. Anchors are numbers of the 16 points around an icon.
+/// Moves the phantom of a group of another process on the page of a process, which may be linked.
+void place_phantom(System& system, std::string_view process, std::string_view group, int x, int y);
+
+/// What changes of the line of a connection. Anchors are numbers of the 16 points around an icon; each list
+/// of vertices is on a page of its own.
 struct LineChange {
     std::optional<int> source_anchor = {}, target_anchor = {};
-    std::optional<std::vector<Point>> vertices = {};
+    std::optional<std::vector<Point>> vertices = {}, source_vertices = {}, target_vertices = {};
 };
 void set_line(System& system, std::string_view id, LineChange change);
 
-/// Changes the groups that a connection connects; an empty id keeps the group.
+/// Changes the groups that a connection connects; an empty id keeps the group. Vertices on pages that the
+/// line has left are removed.
 void reroute(System& system, std::string_view id, std::string_view source, std::string_view target);
 
-void set_color(System& system, std::string_view id, std::string color);  ///< of a process or group
+/// What changes of a comment on a page.
+struct CommentChange {
+    std::optional<std::string> text = {}, color = {};
+    std::optional<int> x = {}, y = {}, width = {}, height = {};
+};
+void set_comment(System& system, std::string_view id, CommentChange change);
+
+void set_color(System& system, std::string_view id, std::string color);  ///< of a process, group or comment
 /// Sets the note of an item, or of the system when `id` is the system's. An empty note removes it.
 void set_note(System& system, std::string_view id, std::string note);
 void set_kind(System& system, std::string_view id, InputKind kind);
@@ -62,15 +75,16 @@ void set_ports(System& system, std::string_view id, const std::map<std::string, 
 /// Sets the states of the target that a connection's synapse reads.
 void set_feedback(System& system, std::string_view id, const std::map<std::string, std::string>& states);
 
-/// The processes and groups with these ids, with all connections among their groups and the connections with
-/// these ids among them, as a system of its own. Groups without their process are in a process whose id is
-/// clipboard_process.
+/// The processes, groups and comments with these ids, with all connections among their groups and the
+/// connections with these ids among them, as a system of its own. Groups and comments without their process
+/// are in a process whose id is clipboard_process.
 System copy(const System& system, std::span<const std::string> ids);
 inline constexpr std::string_view clipboard_process = "clipboard";
 /// Adds what copy() has made, or a whole system, with new ids (a prefix CB<n>, as in the original) and new
-/// names where names are taken. Groups of clipboard_process are added to the process `process`. The upper
-/// left corner of what is added is placed at (x, y). Returns the ids of the added processes, groups and
-/// connections.
+/// names where names are taken. Groups of clipboard_process are added to the process `process`. Comments that
+/// come without a process are added to the page of `process`, which is that of the system when it is empty;
+/// those that come with processes stay beside them. The upper left corner of what is added is placed at (x,
+/// y). Returns the ids of the added processes, groups, comments and connections.
 std::vector<std::string> paste(System& system, System content, std::string_view process, int x, int y);
 
 }  // namespace forage::model

@@ -53,6 +53,22 @@ struct Icon {
     friend bool operator==(const Icon&, const Icon&) = default;
 };
 
+/// A text that stands on a page of the diagram, apart from any item.
+struct CanvasComment {
+    std::string id, text;
+    std::string color;  ///< #RRGGBB; empty for the usual colour
+    Icon box{0, 0, 80, 30};
+    Location at;
+    friend bool operator==(const CanvasComment&, const CanvasComment&) = default;
+};
+
+/// Where the phantom of a group of another process is on the page of a process.
+struct Phantom {
+    std::string group;  ///< its id
+    int x = 0, y = 0;
+    friend bool operator==(const Phantom&, const Phantom&) = default;
+};
+
 struct RectTopology {
     int width = 1, height = 1;
     bool wrap_x = false;  ///< `cylinderVert`: the left edge meets the right one
@@ -94,6 +110,8 @@ struct Process {
     std::optional<std::string> note;
     std::optional<Icon> icon;
     std::vector<std::string> comments;
+    std::vector<CanvasComment> canvas_comments;  ///< on the page of its groups
+    std::vector<Phantom> phantoms;               ///< those that the file places
     std::vector<Group> groups;
     /// The process as the system's own file has it: one element for a process that is linked to the file
     /// `path` (relative to the system's file), none for other processes. It is what the writer writes; the
@@ -104,10 +122,14 @@ struct Process {
     friend bool operator==(const Process&, const Process&) = default;
 };
 
-/// The line of a connection in the diagram.
+/// The line of a connection in the diagram. A connection between two processes has three: on the page of the
+/// system, from process to process, and on the page of each process, from or to the phantom of the other
+/// group.
 struct Line {
     int source_anchor = 0, target_anchor = 0;  ///< number of one of the 16 points around the icon
-    std::vector<Point> vertices;
+    std::vector<Point> vertices;  ///< on the page of its process; between processes, on that of the system
+    std::vector<Point> source_vertices = {};  ///< between processes: on the page of the source's process
+    std::vector<Point> target_vertices = {};  ///< the same for the target's process
     friend bool operator==(const Line&, const Line&) = default;
 };
 
@@ -137,6 +159,7 @@ struct System {
     std::vector<Process> processes;
     std::vector<Connection> connections;
     std::vector<std::string> comments;
+    std::vector<CanvasComment> canvas_comments;  ///< on the page of the processes
     Location at;
     friend bool operator==(const System&, const System&) = default;
 };

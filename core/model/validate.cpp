@@ -74,7 +74,9 @@ class Validator {
         for (const auto& p : system_.processes) {
             see(p.id, p.at, "process");
             for (const auto& g : p.groups) see(g.id, g.at, "group");
+            for (const auto& c : p.canvas_comments) see(c.id, c.at, "comment");
         }
+        for (const auto& c : system_.canvas_comments) see(c.id, c.at, "comment");
         for (const auto& c : system_.connections) see(c.id, c.at, "connection");
     }
 

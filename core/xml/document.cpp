@@ -17,13 +17,16 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
 
-void collect_comments(const tinyxml2::XMLNode& parent, std::vector<Comment>& out) {
+void collect_comments(const Document& document, const tinyxml2::XMLNode& parent, std::vector<Comment>& out) {
     std::size_t waiting = out.size();  // comments that wait for the element before which they stand
     for (const auto* node = parent.FirstChild(); node; node = node->NextSibling()) {
-        if (node->ToComment()) out.push_back({node->Value(), {}, Element(parent.ToElement())});
+        if (node->ToComment()) {
+            const char* text = node->Value();
+            out.push_back({text, {}, Element(parent.ToElement()), document.in_source(text)});
+        }
         if (const auto* element = node->ToElement()) {
             for (; waiting < out.size(); ++waiting) out[waiting].before = Element(element);
-            collect_comments(*element, out);
+            collect_comments(document, *element, out);
             waiting = out.size();
         }
     }
@@ -185,7 +188,7 @@ Element Document::root() const { return Element(xml->RootElement()); }
 
 std::vector<Comment> Document::comments() const {
     std::vector<Comment> out;
-    collect_comments(*xml, out);
+    collect_comments(*this, *xml, out);
     return out;
 }
 

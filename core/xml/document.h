@@ -94,6 +94,7 @@ struct Attribute {
 struct Comment {
     std::string_view text;
     Element before, parent;
+    const char* at = nullptr;  ///< its first character in the file's text, after `<!--`
 };
 
 /// A file that is well-formed XML. It must not be moved, as elements point to it.

@@ -14,6 +14,8 @@ namespace {
 using Elements = std::vector<SourceElement>;
 
 bool is_item(std::string_view name) { return name == "Process" || name == "Group" || name == "Connection"; }
+/// Whether the element is a comment on a page, or another part of the diagram that stands in an XML comment.
+bool is_canvas_part(std::string_view name) { return name.starts_with("forage:"); }
 
 /// The elements that take the same place in their parent: those of one name, or alternatives.
 std::string place_of(const SourceElement& e) {
@@ -28,6 +30,10 @@ std::string place_of(const SourceElement& e) {
 /// own are the same when their texts are.
 std::string key_of(std::string_view text, const SourceElement& e) {
     if (is_item(e.name)) return std::string(e.name) + " " + std::string(e.value("id"));
+    if (is_canvas_part(e.name)) {
+        const auto name = e.name == "forage:comment" ? "id" : e.name == "forage:phantom" ? "group" : "page";
+        return std::string(e.name) + " " + std::string(e.value(name));
+    }
     if (e.name == "Parameter" || e.name == "XRef" || e.name == "XRefHolder")
         return std::string(e.name) + " " + std::string(e.value("name"));
     if (e.name == "Point" || e.name == "Tuple") return std::string(e.whole.of(text));
@@ -86,7 +92,8 @@ class Patcher {
     }
     void insert_attribute(const SourceElement& mine, const SourceAttribute* previous,
                           const SourceAttribute& a) {
-        const std::size_t at = previous ? previous->whole.end : mine.tag.begin + 1 + mine.name.size();
+        const auto name_end = static_cast<std::size_t>(mine.name.data() + mine.name.size() - text_.data());
+        const std::size_t at = previous ? previous->whole.end : name_end;
         std::string gap = " ";
         if (previous) {  // on a line of its own when the others are
             const auto before = text_.find_last_not_of(" \t\r\n", previous->whole.begin - 1) + 1;
@@ -152,7 +159,8 @@ class Patcher {
             std::size_t from = 0;
             for (const int j : come) {
                 const auto& e = wanted[static_cast<std::size_t>(j)];
-                const auto keeps_name = is_item(e.name) || e.name == "Parameter" || e.name == "XRef";
+                const auto keeps_name =
+                    is_item(e.name) || is_canvas_part(e.name) || e.name == "Parameter" || e.name == "XRef";
                 std::size_t g = from;
                 while (g < gone.size() &&
                        (keeps_name || place_of(old[static_cast<std::size_t>(gone[g])]) != place_of(e)))
@@ -275,9 +283,10 @@ std::string in_full(model::System system) {
 }
 
 const SourceElement* item(const SourceElement& e, std::string_view id) {
-    if ((is_item(e.name) || e.name == "System") && e.value("id") == id) return &e;
+    const bool is_comment = e.name == "forage:comment";
+    if ((is_item(e.name) || is_comment || e.name == "System") && e.value("id") == id) return &e;
     for (const auto& child : e.children)
-        if (is_item(child.name))
+        if (is_item(child.name) || child.name == "forage:comment")
             if (const auto* found = item(child, id)) return found;
     return nullptr;
 }

@@ -39,7 +39,7 @@ Patch patch(const std::string& path, const std::string& text, const model::Syste
 /// Whether two systems have the same text, apart from comments and from elements that a file may leave out.
 bool same_content(const model::System& a, const model::System& b);
 
-/// The place of the element of the process, group or connection with this id; of the outermost element when
+/// The place of the element of the process, group, connection or comment with this id; of the outermost when
 /// `id` is that of the system. Empty when there is none.
 std::optional<Span> find_item(const SourceElement& root, std::string_view id);
 /// The id of the innermost process, group or connection around the byte `at`; empty when there is none.

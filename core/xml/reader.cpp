@@ -7,10 +7,23 @@
 #include <fmt/format.h>
 
 #include "core/model/lookup.h"
+#include "core/xml/canvas.h"
 #include "core/xml/check.h"
 
 namespace forage::xml {
 namespace {
+
+/// The part of the diagram that a comment holds, if it stands where such a part may stand.
+std::optional<CanvasPart> canvas_part(const Comment& comment) {
+    auto part = read_canvas_part(comment.text);
+    const auto in = comment.parent ? comment.parent.name() : std::string_view();
+    const bool placed =
+        part && (std::holds_alternative<model::CanvasComment>(*part) ? in == "System" || in == "Process"
+                 : std::holds_alternative<model::Phantom>(*part)     ? in == "Process"
+                                                                     : in == "DiagramLine");
+    if (!placed) part.reset();
+    return part;
+}
 
 /// Comments by the process, group or connection before which they stand. Other comments belong to the item
 /// that they stand in, or to the file's root.
@@ -20,6 +33,7 @@ std::map<Element, std::vector<std::string>> comments_by_owner(const Document& do
     };
     std::map<Element, std::vector<std::string>> out;
     for (const Comment& c : document.comments()) {
+        if (canvas_part(c)) continue;
         Element owner = c.before && is_owner(c.before) ? c.before : c.parent;
         while (owner && !is_owner(owner)) owner = owner.parent();
         out[owner ? owner : document.root()].emplace_back(c.text);
@@ -31,7 +45,17 @@ std::map<Element, std::vector<std::string>> comments_by_owner(const Document& do
 class Reader {
   public:
     Reader(const Document& document, Diagnostics& out)
-        : document_(document), out_(out), comments_(comments_by_owner(document)) {}
+        : document_(document), out_(out), comments_(comments_by_owner(document)) {
+        for (const Comment& c : document.comments())
+            if (auto part = canvas_part(c)) {
+                if (auto* comment = std::get_if<model::CanvasComment>(&*part))
+                    comment->at = document.place(c.at);
+                canvas_[c.parent].push_back(*std::move(part));
+            } else if (begins_canvas_part(c.text)) {
+                out.warning(document.place(c.at), "this is no part of the diagram that Forage can read",
+                            canvas_forms());
+            }
+    }
 
     model::System system() {
         const Element& e = document_.root();
@@ -43,6 +67,7 @@ class Reader {
         s.sync_plots = e["syncPlots"].flag(false);
         s.note = note(e);
         s.comments = comments_of(e);
+        s.canvas_comments = canvas_parts<model::CanvasComment>(e);
         s.instructions = document_.instructions();
         for (const Element& p : e.children("Process")) s.processes.push_back(process(p));
         for (const Element& c : e.children("Connection")) s.connections.push_back(connection(c));
@@ -64,6 +89,14 @@ class Reader {
         const auto it = comments_.find(e);
         return it == comments_.end() ? std::vector<std::string>() : it->second;
     }
+    template <class Part>
+    std::vector<Part> canvas_parts(const Element& e) const {
+        std::vector<Part> out;
+        if (const auto it = canvas_.find(e); it != canvas_.end())
+            for (const auto& part : it->second)
+                if (const auto* p = std::get_if<Part>(&part)) out.push_back(*p);
+        return out;
+    }
     static std::optional<std::string> note(const Element& e) {
         const Element n = e.child("Note");
         return n ? std::optional(n.text()) : std::nullopt;
@@ -83,6 +116,8 @@ class Reader {
         p.module_enabled = e["enableModule"].flag(true);
         p.path_at = e["path"].where();
         p.comments = comments_of(e);
+        p.canvas_comments = canvas_parts<model::CanvasComment>(e);
+        p.phantoms = canvas_parts<model::Phantom>(e);
         if (const Element m = e.child("Module")) p.module = module(m);
         p.note = note(e);
         p.icon = icon(e);
@@ -256,14 +291,18 @@ class Reader {
         }
         c.note = note(e);
         c.comments = comments_of(e);
-        if (const Element l = e.child("DiagramLine"))
+        if (const Element l = e.child("DiagramLine")) {
             c.line = model::Line{l["APSource"].whole(0), l["APTarget"].whole(0), points(l)};
+            for (auto& v : canvas_parts<PageVertices>(l))
+                (v.of_source ? c.line->source_vertices : c.line->target_vertices) = std::move(v.points);
+        }
         return c;
     }
 
     const Document& document_;
     Diagnostics& out_;
     const std::map<Element, std::vector<std::string>> comments_;
+    std::map<Element, std::vector<CanvasPart>> canvas_;  ///< by the element in which they stand
 };
 
 /// Reads the files of linked processes, which replace the processes in the system's own file.
@@ -300,6 +339,7 @@ class Linker {
         content->process.path = place.path;
         content->process.path_at = place.path_at;
         if (place.icon) content->process.icon = place.icon;
+        content->process.phantoms = place.phantoms;  // its connections to others are in this file, too
         content->process.placeholder.push_back(std::move(place));
         place = std::move(content->process);
         for (auto& c : content->connections) {

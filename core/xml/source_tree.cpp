@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/xml/canvas.h"
+
 namespace forage::xml {
 namespace {
 
@@ -29,7 +31,12 @@ class SourceScanner {
             const std::size_t begin = pos_;
             if (at("<!--")) {
                 skip_to("-->");
-                parent.comments.push_back({begin, pos_});
+                const Span comment{begin, pos_};
+                if (const auto inside = comment.of(text_);
+                    inside.size() > 7 && read_canvas_part(inside.substr(4, inside.size() - 7)))
+                    parent.children.push_back(canvas_part(comment));
+                else
+                    parent.comments.push_back(comment);
             } else if (at("<![CDATA[")) {
                 skip_to("]]>");
             } else if (at("<?")) {
@@ -46,13 +53,40 @@ class SourceScanner {
         return std::min(text_.find_first_not_of(what, pos_), text_.size());
     }
 
+    SourceElement canvas_part(Span comment) {
+        pos_ = comment.begin + 4;
+        pos_ = skip(spaces);
+        SourceElement e;
+        name_and_attributes(e, "-->", "-->");
+        e.closed = false;
+        e.whole = e.tag = comment;
+        e.content = {comment.end, comment.end};
+        pos_ = comment.end;
+        return e;
+    }
+
     SourceElement element() {
         SourceElement e;
         e.whole.begin = e.tag.begin = pos_++;
+        name_and_attributes(e, ">", "/>");
+        e.closed = at(">");
+        pos_ = e.tag.end = std::min(pos_ + (e.closed ? 1 : 2), text_.size());
+        e.content = {pos_, pos_};
+        if (e.closed) {
+            content(e);
+            e.content.end = pos_;
+            skip_to(">");
+        }
+        e.whole.end = pos_;
+        return e;
+    }
+
+    /// Reads from the name up to one of the two ends of the tag.
+    void name_and_attributes(SourceElement& e, std::string_view end, std::string_view other_end) {
         const std::size_t name = pos_;
         pos_ = std::min(text_.find_first_of(" \t\r\n/>", pos_), text_.size());
         e.name = text_.substr(name, pos_ - name);
-        while ((pos_ = skip(spaces)) < text_.size() && !at(">") && !at("/>")) {
+        while ((pos_ = skip(spaces)) < text_.size() && !at(end) && !at(other_end)) {
             SourceAttribute a;
             a.whole.begin = pos_;
             const std::size_t from = pos_;
@@ -66,16 +100,6 @@ class SourceScanner {
             pos_ = a.whole.end = std::min(a.inside.end + 1, text_.size());
             e.attributes.push_back(a);
         }
-        e.closed = at(">");
-        pos_ = e.tag.end = std::min(pos_ + (e.closed ? 1 : 2), text_.size());
-        e.content = {pos_, pos_};
-        if (e.closed) {
-            content(e);
-            e.content.end = pos_;
-            skip_to(">");
-        }
-        e.whole.end = pos_;
-        return e;
     }
 
     std::string_view text_;

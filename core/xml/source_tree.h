@@ -23,7 +23,8 @@ struct SourceAttribute {
     Span inside;             ///< the value
 };
 
-/// An element with its places in the text. Names and values are parts of the text, which must outlive it.
+/// An element with its places in the text. Names and values are parts of the text, which must outlive it. A
+/// part of the diagram in a comment (canvas.h) is an element, too: its tag is the comment.
 struct SourceElement {
     std::string_view name;
     Span whole;          ///< from '<' of the start tag to '>' of the end tag
@@ -32,7 +33,7 @@ struct SourceElement {
     bool closed = true;  ///< whether there is an end tag: `<a></a>`, not `<a/>`
     std::vector<SourceAttribute> attributes;
     std::vector<SourceElement> children;
-    std::vector<Span> comments;  ///< directly in the element
+    std::vector<Span> comments;  ///< directly in the element, without those that are elements
 
     const SourceAttribute* attribute(std::string_view name) const;
     /// The value of an attribute as written; empty when it is absent.

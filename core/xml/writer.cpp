@@ -3,6 +3,7 @@
 #include <array>
 #include <type_traits>
 
+#include "core/xml/canvas.h"
 #include "core/xml/printer.h"
 
 namespace forage::xml {
@@ -25,6 +26,7 @@ class Writer : Printer {
         for (const auto& p : s.processes) process(p.linked() ? p.placeholder.front() : p);
         for (const auto& c : s.connections)
             if (!c.linked) connection(c);
+        for (const auto& c : s.canvas_comments) comment(write_canvas_part(c));
         close();
     }
 
@@ -71,6 +73,9 @@ class Writer : Printer {
         note(p.note);
         icon(p.icon);
         for (const auto& g : p.groups) group(g);
+        // At the end, where they are not taken for remarks about the next group.
+        for (const auto& c : p.canvas_comments) comment(write_canvas_part(c));
+        for (const auto& f : p.phantoms) comment(write_canvas_part(f));
         close();
     }
 
@@ -210,6 +215,9 @@ class Writer : Printer {
         if (c.line) {
             open("DiagramLine", {{"APSource", c.line->source_anchor}, {"APTarget", c.line->target_anchor}});
             for (const auto& v : c.line->vertices) point(v);
+            for (const bool of_source : {true, false})
+                if (const auto& v = of_source ? c.line->source_vertices : c.line->target_vertices; !v.empty())
+                    comment(write_canvas_part(PageVertices{of_source, v}));
             close();
         }
         close();

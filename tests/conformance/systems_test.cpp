@@ -32,7 +32,7 @@ Registry types(const Path& drive) {
     return registry;
 }
 
-/// Rows to compare: not what the stand-in says. Sorted by cycle.
+/// Rows to compare: not what the phantom says. Sorted by cycle.
 std::vector<ExpectedRow> rows_of(const std::vector<Path>& files) {
     std::vector<ExpectedRow> out;
     for (const auto& file : files)
@@ -49,7 +49,7 @@ std::size_t compare(const Path& file, const Path& drive, const std::vector<std::
     INFO(drive.parent_path());
     const Registry registry = types(drive);
     Diagnostics diagnostics;
-    diagnostics.lenient = true;  // the stand-in has none of the robot's parameters
+    diagnostics.lenient = true;  // the phantom has none of the robot's parameters
     auto system = xml::read_system(file, diagnostics);
     REQUIRE(system);
     for (const auto& setting : settings) model::set(*system, registry, setting, diagnostics);

@@ -26,6 +26,7 @@ class RandomModel {
         s.comments = comments();
         for (int p = 1 + below(3); p > 0; --p) add_process(s);
         for (int c = below(6); c > 0; --c) add_connection(s);
+        add_canvas_parts(s);
         return s;
     }
 
@@ -167,9 +168,30 @@ class RandomModel {
             c.line.reset();
         else
             c.line = model::Line{below(16), below(16), points_in(source.topology)};
+        if (c.line && chance(0.3)) c.line->source_vertices = points_in(source.topology);
+        if (c.line && chance(0.3)) c.line->target_vertices = points_in(target.topology);
         Diagnostics diagnostics;
         connectivity::connect(c, source.topology, target.topology, connection_seed, diagnostics);
         if (diagnostics.failed()) model::remove(s, id);  // no synapses
+    }
+
+    /// Comments on the pages, and places of the phantoms of groups of other processes.
+    void add_canvas_parts(model::System& s) {
+        for (int n = below(4); n > 0; --n) {
+            const auto page = static_cast<std::size_t>(below(static_cast<int>(s.processes.size()) + 1));
+            const model::Icon box{from_to(-50, 500), from_to(-50, 500), from_to(1, 90), from_to(1, 90)};
+            const auto id = page == 0 ? std::string() : s.processes[page - 1].id;
+            model::add_canvas_comment(s, id,
+                                      {"",
+                                       text() + pick<std::string>({"", " -- ", "-->", "\r\n"}),
+                                       maybe_text().value_or(""),
+                                       box,
+                                       {}});
+        }
+        for (auto& p : s.processes)
+            for (const auto& other : s.processes)
+                if (&p != &other && chance(0.3))
+                    p.phantoms.push_back({other.groups.front().id, from_to(-50, 500), from_to(-50, 500)});
     }
 
     model::Pattern pattern(const model::Topology& source, const model::Topology& target) {

@@ -51,11 +51,29 @@ json module_of(const model::Process& p) {
 
 json line_of(const std::optional<model::Line>& line) {
     if (!line) return nullptr;
-    json vertices = json::array();
-    for (const auto& v : line->vertices) vertices.push_back({v.x, v.y});
+    const auto places = [](const std::vector<model::Point>& all) {
+        json out = json::array();
+        for (const auto& v : all) out.push_back({v.x, v.y});
+        return out;
+    };
     return {{"source_anchor", line->source_anchor},
             {"target_anchor", line->target_anchor},
-            {"vertices", std::move(vertices)}};
+            {"vertices", places(line->vertices)},
+            {"source_vertices", places(line->source_vertices)},
+            {"target_vertices", places(line->target_vertices)}};
+}
+
+json comments_of(const std::vector<model::CanvasComment>& comments) {
+    json out = json::array();
+    for (const auto& c : comments)
+        out.push_back({{"id", c.id}, {"text", c.text}, {"color", c.color}, {"icon", icon_of(c.box)}});
+    return out;
+}
+
+json phantoms_of(const std::vector<model::Phantom>& phantoms) {
+    json out = json::array();
+    for (const auto& p : phantoms) out.push_back({{"group", p.group}, {"x", p.x}, {"y", p.y}});
+    return out;
 }
 
 std::string trimmed(const std::string& text) { return std::string(model::trim(text)); }
@@ -178,6 +196,8 @@ json describe_system(const model::System& system, const Registry& registry, cons
                              {"linked", p.linked()},
                              {"enabled", process.module_enabled},
                              {"module", module_of(p)},
+                             {"comments", comments_of(p.canvas_comments)},
+                             {"phantoms", phantoms_of(p.phantoms)},
                              {"groups", std::move(inside)}});
     }
     for (std::size_t i = 0; i < system.connections.size(); ++i) {
@@ -205,6 +225,7 @@ json describe_system(const model::System& system, const Registry& registry, cons
             {"note", said.notes},
             {"cycles_per_second", said.cycles_per_second},
             {"seconds_per_cycle", run ? run->seconds_per_cycle() : 1 / rate},
+            {"comments", comments_of(system.canvas_comments)},
             {"processes", std::move(processes)},
             {"connections", std::move(links)}};
 }

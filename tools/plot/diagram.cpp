@@ -71,8 +71,16 @@ struct Edge {
     std::string label;
 };
 
+/// A comment on the page.
+struct Remark {
+    Box box;
+    std::string text;
+    Colour colour;
+};
+
 struct DiagramSheet {
     std::string title;
+    std::vector<Remark> remarks;
     std::vector<Node> nodes;
     std::vector<Edge> edges;
     Box extent{};
@@ -89,9 +97,11 @@ struct DiagramSheet {
         }
         for (const auto& e : edges)
             for (const auto& p : e.points) take(p.x, p.y);
+        for (const auto& r : remarks) take(r.box.x, r.box.y), take(r.box.right(), r.box.bottom());
         if (nodes.empty()) take(0, 0), take(120, 20);
         const double dx = sheet_margin - x0, dy = heading + sheet_margin - y0;
         for (auto& n : nodes) n.box.x += dx, n.box.y += dy;
+        for (auto& r : remarks) r.box.x += dx, r.box.y += dy;
         for (auto& e : edges)
             for (auto& p : e.points) p.x += dx, p.y += dy;
         extent.width =
@@ -165,8 +175,24 @@ void draw(Canvas& canvas, const Edge& e) {
     canvas.text(x, y + 3.5, e.label, small_size, 0.5, colour_of(e.kind));
 }
 
+void draw(Canvas& canvas, const Remark& r) {
+    canvas.fill(r.box.x, r.box.y, r.box.width, r.box.height, r.colour);
+    const Colour ink = 0.3 * r.colour.r + 0.6 * r.colour.g + 0.1 * r.colour.b > 0.5 ? black : white;
+    double y = r.box.y + 14;
+    for (std::size_t at = 0; at <= r.text.size();) {
+        const auto end = std::min(r.text.find('\n', at), r.text.size());
+        for (const auto& line : lines_of(canvas, r.text.substr(at, end - at), r.box.width - 10)) {
+            if (y > r.box.bottom() - 2) return;
+            canvas.text(r.box.x + 5, y, line, name_size, 0, ink);
+            y += 14;
+        }
+        at = end + 1;
+    }
+}
+
 void draw(Canvas& canvas, const DiagramSheet& sheet) {
     canvas.text(sheet_margin, 22, sheet.title, 14, 0, black, true);
+    for (const auto& r : sheet.remarks) draw(canvas, r);
     for (const auto& e : sheet.edges) draw(canvas, e);
     for (const auto& n : sheet.nodes) draw(canvas, n);
 }
@@ -192,6 +218,15 @@ void slide(Point2& p, const Box& box, double by) {
         p.x = std::min(p.x + by, box.right() - 4);
     else
         p.y = std::min(p.y + by, box.bottom() - 4);
+}
+
+/// The point of a box that is the nearest to `p`: straight below, above or beside, if the box reaches there.
+Point2 nearest_on_border(const Box& box, Point2 p) {
+    const double x = std::clamp(p.x, box.x + 12, box.right() - 12),
+                 y = std::clamp(p.y, box.y + 12, box.bottom() - 12);
+    if (p.y >= box.bottom()) return {x, box.bottom()};
+    if (p.y <= box.y) return {x, box.y};
+    return {p.x < box.x + box.width / 2 ? box.x : box.right(), y};
 }
 
 /// Loops above the upper right corner; further ones of a box are larger.
@@ -237,6 +272,31 @@ void place_in_layers(DiagramSheet& sheet, const std::vector<std::pair<std::size_
     }
 }
 
+/// The colour "#RRGGBB"; a light yellow for another text.
+Colour colour_of(const std::string& text) {
+    const bool right = text.size() == 7 && text[0] == '#' &&
+                       text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+    const auto part = [&](std::size_t at) { return std::stoi(text.substr(at, 2), nullptr, 16) / 255.0; };
+    return right ? Colour{part(1), part(3), part(5)} : Colour{0.99, 0.95, 0.78};
+}
+
+/// Adds the comments of a page where the file places them; below boxes that the file does not place.
+void add_remarks(DiagramSheet& sheet, const std::vector<model::CanvasComment>& comments, bool placed) {
+    if (comments.empty()) return;
+    double shift = 0;
+    if (!placed) {
+        double bottom = 0, top = std::numeric_limits<double>::max();
+        for (const auto& n : sheet.nodes) bottom = std::max(bottom, n.box.bottom());
+        for (const auto& c : comments) top = std::min(top, c.box.y * diagram_scale);
+        shift = bottom + 40 - top;
+    }
+    for (const auto& c : comments)
+        sheet.remarks.push_back({{c.box.x * diagram_scale, c.box.y * diagram_scale + shift,
+                                  c.box.width * diagram_scale, c.box.height * diagram_scale},
+                                 c.text,
+                                 colour_of(c.color)});
+}
+
 std::string size_of(const model::Group& group) {
     const GroupShape s = model::shape(group.topology);
     return s.cells == s.width * s.height ? fmt::format("{} × {}", s.width, s.height)
@@ -258,21 +318,34 @@ DiagramSheet system_sheet(const model::System& system) {
     }
     const bool placed =
         std::all_of(system.processes.begin(), system.processes.end(), [](const auto& p) { return p.icon; });
-    // One arrow stands for all connections of a kind between two processes.
-    std::map<std::tuple<std::size_t, std::size_t, InputKind>, int> counts;
+    add_remarks(out, system.canvas_comments, placed);
+    // One arrow stands for all connections of a kind between two processes that are bent in the same way.
+    using Bends = std::vector<std::pair<int, int>>;
+    std::map<std::tuple<std::size_t, std::size_t, InputKind, Bends>, int> counts;
     const model::GroupIndex groups(system);
     for (const auto& c : system.connections) {
         const auto source = groups.find(c.source), target = groups.find(c.target);
-        if (source.group && target.group && source.process != target.process)
-            ++counts[{node_of[source.process], node_of[target.process], c.kind}];
+        if (!source.group || !target.group || source.process == target.process) continue;
+        Bends bends;
+        if (c.line && placed)
+            for (const auto& v : c.line->vertices) bends.emplace_back(v.x, v.y);
+        ++counts[{node_of[source.process], node_of[target.process], c.kind, std::move(bends)}];
     }
     std::vector<std::pair<std::size_t, std::size_t>> arrows;
     for (const auto& [key, count] : counts) {
-        const auto& [from, to, kind] = key;
+        const auto& [from, to, kind, bends] = key;
         const std::string label = count > 1 ? fmt::format("{}", count) : "";
         if (!placed) {
             out.edges.push_back({{}, kind, label});
             arrows.emplace_back(from, to);
+            continue;
+        }
+        if (!bends.empty()) {
+            std::vector<Point2> points;
+            for (const auto& [x, y] : bends) points.push_back({x * diagram_scale, y * diagram_scale});
+            points.insert(points.begin(), out.nodes[from].border(points.front()));
+            points.push_back(out.nodes[to].border(points.back()));
+            out.edges.push_back({std::move(points), kind, label});
             continue;
         }
         const Point2 a = out.nodes[from].centre(), b = out.nodes[to].centre();
@@ -284,8 +357,9 @@ DiagramSheet system_sheet(const model::System& system) {
     return out;
 }
 
-/// Places the groups of other processes in a row above the process's own groups, near those they connect to.
-void add_outside(DiagramSheet& sheet, const model::System& system,
+/// Places the groups of other processes where the file puts their phantoms, or in a row above the process's
+/// own groups, near those they connect to.
+void add_outside(DiagramSheet& sheet, const model::System& system, const model::Process& process,
                  std::map<std::string_view, std::size_t>& node_of) {
     const model::GroupIndex groups(system);
     std::map<std::string_view, std::vector<double>> partners;
@@ -307,10 +381,14 @@ void add_outside(DiagramSheet& sheet, const model::System& system,
     double free_from = std::numeric_limits<double>::lowest();
     for (const auto& [x, id] : order) {
         const auto entry = groups.find(id);
-        const double width = 62 * diagram_scale, left = std::max(x - width / 2, free_from);
-        free_from = left + width + 14;
+        const auto phantom = std::ranges::find(process.phantoms, id, &model::Phantom::group);
+        const bool placed = phantom != process.phantoms.end();
+        const double width = 62 * diagram_scale,
+                     left = placed ? phantom->x * diagram_scale : std::max(x - width / 2, free_from),
+                     y = placed ? phantom->y * diagram_scale : top - 105 * diagram_scale;
+        if (!placed) free_from = left + width + 14;
         node_of[entry.group->id] = sheet.nodes.size();
-        sheet.nodes.push_back({{left, top - 105 * diagram_scale, width, 36 * diagram_scale},
+        sheet.nodes.push_back({{left, y, width, 36 * diagram_scale},
                                trimmed(entry.process->name) + " / " + trimmed(entry.group->name),
                                size_of(*entry.group),
                                "",
@@ -320,10 +398,10 @@ void add_outside(DiagramSheet& sheet, const model::System& system,
 }
 
 /// The sheet of a process whose file places all groups.
-void draw_connections(DiagramSheet& sheet, const model::System& system,
+void draw_connections(DiagramSheet& sheet, const model::System& system, const model::Process& process,
                       std::map<std::string_view, std::size_t>& node_of) {
     const std::size_t own = sheet.nodes.size();
-    add_outside(sheet, system, node_of);
+    add_outside(sheet, system, process, node_of);
     std::map<std::size_t, int> loops;
     for (const auto& c : system.connections) {
         const auto from = node_of.find(c.source), to = node_of.find(c.target);
@@ -334,10 +412,12 @@ void draw_connections(DiagramSheet& sheet, const model::System& system,
         const model::Line line = c.line.value_or(model::Line{});
         if (a.outside || b.outside) {
             const Point2 inner = a.outside ? b.anchor(line.target_anchor) : a.anchor(line.source_anchor);
-            const Node& outer = a.outside ? a : b;
-            const Point2 end{std::clamp(inner.x, outer.box.x + 12, outer.box.right() - 12),
-                             outer.box.bottom()};
-            e.points = a.outside ? std::vector{end, inner} : std::vector{inner, end};
+            const auto& vertices = a.outside ? line.target_vertices : line.source_vertices;
+            for (const auto& v : vertices) e.points.push_back({v.x * diagram_scale, v.y * diagram_scale});
+            const Point2 next = e.points.empty() ? inner : a.outside ? e.points.front() : e.points.back();
+            const Point2 end = nearest_on_border((a.outside ? a : b).box, next);
+            e.points.insert(e.points.begin(), a.outside ? end : inner);
+            e.points.push_back(a.outside ? inner : end);
         } else if (from->second == to->second && line.vertices.empty()) {
             e.points = loop(b, loops[to->second]++);
         } else {
@@ -385,10 +465,13 @@ DiagramSheet process_sheet(const model::System& system, const model::Process& pr
         node_of[g.id] = out.nodes.size();
         out.nodes.push_back({box_of(g.icon), trimmed(g.name), size_of(g), ""});
     }
-    if (std::all_of(process.groups.begin(), process.groups.end(), [](const auto& g) { return g.icon; }))
-        draw_connections(out, system, node_of);
+    const bool placed =
+        std::all_of(process.groups.begin(), process.groups.end(), [](const auto& g) { return g.icon; });
+    if (placed)
+        draw_connections(out, system, process, node_of);
     else
         draw_in_layers(out, system, process, node_of);
+    add_remarks(out, process.canvas_comments, placed);
     return out;
 }
 

@@ -209,3 +209,105 @@ TEST_CASE("a merge takes hosts, ports and the properties of the system from both
     CHECK(merge(base, mine, theirs).conflicts ==
           std::vector<std::string>{"the port of the system", "the port of process 'P'"});
 }
+
+TEST_CASE("comments on a page are added, changed, copied, pasted and removed") {
+    Small s;
+    const auto one = add_canvas_comment(s.system, "p", {"", "one", "", {10, 10, 50, 20}, {}});
+    const auto all = add_canvas_comment(s.system, {}, {"", "all", "", {0, 0, 50, 20}, {}});
+    CHECK((one == "comment" && all == "comment-2"));
+    CHECK_THROWS_AS(add_canvas_comment(s.system, "none", {}), std::invalid_argument);
+    CHECK_THROWS_AS(add_canvas_comment(s.system, "p", {"a", "", "", {}, {}}), std::invalid_argument);
+    place(s.system, one, 20, 30), set_color(s.system, one, "#123456");
+    set_comment(s.system, one, {.text = "One", .width = 70});
+    CHECK(*find_canvas_comment(s.system, one) == CanvasComment{one, "One", "#123456", {20, 30, 70, 20}, {}});
+    CHECK_THROWS_AS(set_comment(s.system, one, {.height = 0}), std::invalid_argument);
+    CHECK_THROWS_AS(set_comment(s.system, "a", {}), std::invalid_argument);
+    auto changes = parameter_changes(Small().system, s.system, s.registry);
+    CHECK((changes && changes->empty()));
+
+    // Onto the page that is named, with groups or without.
+    const System copied = copy(s.system, std::vector{one, all, std::string("a")});
+    const auto ids = paste(s.system, copied, "p", 100, 100);
+    REQUIRE(ids.size() == 3);
+    CHECK(s.system.processes[0].canvas_comments.size() == 3);
+    CHECK(find_group(s.system, ids[0])->icon->x == 110);
+    CHECK(find_canvas_comment(s.system, ids[1])->box.x == 120);
+    CHECK(paste(s.system, copy(s.system, std::vector{one}), "", 0, 0).size() == 1);
+    CHECK(s.system.canvas_comments.size() == 2);
+    // With a process, its own comments go along, and those of the system stay beside it.
+    const auto whole = paste(s.system, copy(s.system, std::vector{std::string("p"), all}), "p", 0, 0);
+    CHECK(find_process(s.system, whole[0])->canvas_comments.size() == 3);
+    CHECK(s.system.canvas_comments.size() == 3);
+    remove(s.system, one), remove(s.system, all);
+    CHECK(s.system.processes[0].canvas_comments.size() == 2);
+    CHECK(s.system.canvas_comments.size() == 2);
+    CHECK_THROWS_AS(remove(s.system, one), std::invalid_argument);
+}
+
+TEST_CASE("phantoms have places, and vertices stay on the pages on which they are") {
+    Small s;
+    add_process(s.system, "Q", "q"), add_process(s.system, "R", "r");
+    add_group(s.system, "q", "C", 1, 1, "neuronLinearThreshold", "far");
+    add_group(s.system, "r", "D", 1, 1, "neuronLinearThreshold", "farther");
+    CHECK_THROWS_AS(place_phantom(s.system, "q", "far", 1, 1), std::invalid_argument);
+    CHECK_THROWS_AS(place_phantom(s.system, "q", "none", 1, 1), std::invalid_argument);
+    const auto c = add_connection(s.system, "a", "far", InputKind::excitatory, "synapseFixedWeight");
+    place_phantom(s.system, "p", "far", 1, 2), place_phantom(s.system, "p", "far", 3, 4);
+    place_phantom(s.system, "q", "a", 5, 6);
+    CHECK(s.system.processes[0].phantoms == std::vector<Phantom>{{"far", 3, 4}});
+    const std::vector<Point> bend{{1, 1, {}}};
+    set_line(s.system, c, {.vertices = bend, .source_vertices = bend, .target_vertices = bend});
+    const auto line = [&] { return *find_connection(s.system, c)->line; };
+    reroute(s.system, c, "b", "");
+    CHECK((line().vertices == bend && line().source_vertices == bend && line().target_vertices == bend));
+    reroute(s.system, c, "", "farther");
+    CHECK((line().vertices.empty() && line().source_vertices == bend && line().target_vertices.empty()));
+    reroute(s.system, c, "", "a");
+    CHECK((line().vertices.empty() && line().source_vertices.empty()));
+    reroute(s.system, "c", "", "far");  // it had a vertex on its page
+    CHECK(find_connection(s.system, "c")->line->vertices.empty());
+    remove(s.system, "c");
+    CHECK((s.system.processes[0].phantoms.empty() && s.system.processes[1].phantoms.empty()));
+
+    // A copied process keeps phantoms of what is copied with it.
+    const auto d = add_connection(s.system, "a", "far", InputKind::excitatory, "synapseFixedWeight");
+    set_line(s.system, d, {.vertices = bend, .source_vertices = bend});
+    place_phantom(s.system, "p", "far", 3, 4);
+    place(s.system, "p", 0, 0), place(s.system, "q", 10, 0);
+    System target;
+    paste(target, copy(s.system, std::vector<std::string>{"p", "q"}), "", 100, 100);
+    CHECK(target.processes[0].phantoms == std::vector<Phantom>{{"CB1far", 3, 4}});
+    CHECK(target.connections.back().line->vertices[0].x == 101);
+    CHECK(target.connections.back().line->source_vertices == bend);
+    CHECK(extract_process(s.system, "p").process.phantoms.empty());
+    // Groups without their process leave its page.
+    const auto loose = copy(s.system, std::vector<std::string>{"a", "far"});
+    CHECK(
+        (loose.connections[0].line->vertices.empty() && loose.connections[0].line->source_vertices.empty()));
+    System joined = s.system;
+    join(joined, s.system);
+    CHECK(joined.processes[3].phantoms == std::vector<Phantom>{{"S2_far", 3, 4}});
+}
+
+TEST_CASE("comments and phantoms are merged, too") {
+    Small s;
+    add_process(s.system, "Q", "q");
+    add_group(s.system, "q", "C", 1, 1, "neuronLinearThreshold", "far");
+    add_connection(s.system, "a", "far", InputKind::excitatory, "synapseFixedWeight", "across");
+    const auto id = add_canvas_comment(s.system, "p", {"", "Why it\nis so", "", {10, 10, 50, 20}, {}});
+    const System base = s.system;
+    System mine = base, theirs = base;
+    place(mine, id, 1, 1), place_phantom(mine, "p", "far", 1, 2);
+    set_comment(theirs, id, {.text = "other"}), add_canvas_comment(theirs, {}, {"", "all", "", {}, {}});
+    auto merged = merge(base, mine, theirs);
+    CHECK(merged.conflicts.empty());
+    CHECK((find_canvas_comment(merged.system, id)->text == "other" &&
+           find_canvas_comment(merged.system, id)->box.x == 1));
+    CHECK(merged.system.canvas_comments.size() == 1);
+    CHECK(merged.system.processes[0].phantoms.size() == 1);
+    set_comment(mine, id, {.text = "mine"});
+    CHECK(merge(base, mine, theirs).conflicts ==
+          std::vector<std::string>{"the text of the comment 'Why it...'"});
+    remove(theirs, "far");
+    CHECK(merge(base, mine, theirs).system.processes[0].phantoms.empty());
+}

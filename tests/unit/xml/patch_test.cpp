@@ -380,3 +380,69 @@ TEST_CASE("a comment before an item that is pasted or removed belongs to it") {
     CHECK(made.text.find("<!-- what it does -->\n    <Group id=\"" + ids.front() + "\"") != made.text.npos);
     CHECK(is_subsequence(lines(hand_written), lines(made.text)));
 }
+
+TEST_CASE("comments on a page come, change and go without another byte") {
+    using namespace model;
+    const auto before = read_text(hand_written);
+    auto after = before;
+    const auto id = add_canvas_comment(after, "p", {"", "two\nlines", "", {1, 2, 30, 40}, {}});
+    const auto of_system = add_canvas_comment(after, {}, {"", "all", "", {5, 6, 30, 40}, {}});
+    const auto added = patch(hand_written, before, after);
+    INFO(added.text);
+    CHECK(is_subsequence(lines(hand_written), lines(added.text)));
+    CHECK(added.text.find(
+              "    </Group>\n    <!-- forage:comment id=\"" + id +
+              "\" x=\"1\" y=\"2\" width=\"30\" height=\"40\" text=\"two\nlines\" -->\n  </Process>") !=
+          std::string::npos);
+
+    // What its author wrote in another way keeps that, apart from what changes.
+    std::string mine = hand_written;
+    mine.insert(
+        mine.find("    <Group id=\"h\""),
+        "    <!--forage:comment text='old &amp; good'\n   id='x' x = '1'\ty='2' height='4' width='3'-->\n");
+    const auto moved = text_of(mine, [](System& s) { place(s, "x", 7, 2); });
+    CHECK(moved == std::string(mine).replace(mine.find("x = '1'"), 7, "x = '7'"));
+    const auto coloured = text_of(mine, [](System& s) { set_color(s, "x", "#ff0000"); });
+    std::string wanted = mine;
+    CHECK(coloured == wanted.insert(wanted.find("height='4'") + 10, " color=\"#ff0000\""));
+    const auto said = text_of(mine, [](System& s) { set_comment(s, "x", {.text = "it's new"}); });
+    CHECK(read_text(said).processes[0].canvas_comments[0].text == "it's new");
+    CHECK(text_of(mine, [](System& s) { remove(s, "x"); }) == hand_written);
+    // It is not a remark about the group after it.
+    CHECK(text_of(mine, [](System& s) { remove(s, "h"); }).find("forage:comment") != std::string::npos);
+
+    auto less = *added.system;
+    remove(less, id), remove(less, of_system);
+    CHECK(patch(added.text, *added.system, less).text == hand_written);
+}
+
+TEST_CASE("phantoms are placed and lines bent on each page without another byte") {
+    using namespace model;
+    auto base = read_text(hand_written);
+    const auto before_q = base;
+    const auto q = add_process(base, "Q");
+    const auto g = add_group(base, q, "G", 1, 1, "neuronLinearThreshold");
+    const auto c = add_connection(base, g, "h", InputKind::excitatory, "synapseFixedWeight");
+    const auto start = patch(hand_written, before_q, base);
+    auto after = *start.system;
+    place_phantom(after, "p", g, 3, -4);
+    set_line(after, c,
+             {.vertices = std::vector<Point>{{1, 1, {}}},
+              .target_vertices = std::vector<Point>{{2, 2, {}}, {3, 3, {}}}});
+    const auto placed = patch(start.text, *start.system, after);
+    CHECK(placed.text.find("<!-- forage:phantom group=\"" + g + "\" x=\"3\" y=\"-4\" -->") !=
+          std::string::npos);
+    CHECK(placed.text.find("<!-- forage:vertices page=\"target\" points=\"2,2 3,3\" -->") !=
+          std::string::npos);
+    auto moved = *placed.system;
+    place_phantom(moved, "p", g, 30, -4);
+    set_line(moved, c, {.source_vertices = std::vector<Point>{{9, 9, {}}}});
+    const auto there = patch(placed.text, *placed.system, moved);
+    CHECK(there.text.find("x=\"30\" y=\"-4\"") != std::string::npos);
+    auto back = *there.system;
+    place_phantom(back, "p", g, 3, -4);
+    set_line(back, c, {.source_vertices = std::vector<Point>{}});
+    CHECK(patch(there.text, *there.system, back).text == placed.text);
+    remove(back, c);  // with it, the phantom is not shown any more
+    CHECK(back.processes[0].phantoms.empty());
+}

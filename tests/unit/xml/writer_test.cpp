@@ -39,7 +39,9 @@ std::string process_text() {
 std::string linking_system(const std::string& path) {
     return "<System id=\"s\" name=\"S\" author=\"\" date=\"\" cylesPerSecond=\"25\">\n"
            "  <Process id=\"p\" name=\"placeholder\" path=\"" +
-           path + "\"><DiagramIcon x=\"7\" y=\"8\"/></Process>\n</System>\n";
+           path +
+           "\"><DiagramIcon x=\"7\" y=\"8\"/><!-- forage:phantom group='far' x='1' y='2' "
+           "--></Process>\n</System>\n";
 }
 
 }  // namespace
@@ -80,6 +82,63 @@ TEST_CASE("Comments stay with the process, group or connection before or in whic
     CHECK(s.processes[0].groups[1].comments == std::vector<std::string>{" of b ", " in b "});
     CHECK(s.connections[0].comments == std::vector<std::string>{" of c ", " and more "});
     CHECK(system_of(xml::write_system(s)) == s);
+}
+
+TEST_CASE("Comments on a page, places of phantoms and vertices of both pages are XML comments") {
+    model::System s = system_of(small_system);
+    const auto q = model::add_process(s, "Q");
+    const auto g = model::add_group(s, q, "G", 3, 2, "neuronLinearThreshold", "g");
+    const auto c = model::add_connection(s, g, "a", InputKind::excitatory, "synapseFixedWeight");
+    model::add_canvas_comment(
+        s, {}, {"one", "Ends --> here -- \"not\" 'yet' & <b>\nsecond line", "", {-1, 2, 3, 4}, {}});
+    model::add_canvas_comment(s, "p", {"two", "größer", "#ffeeaa", {10, 20, 30, 40}, {}});
+    s.processes[0].phantoms = {{g, 5, -60}};
+    model::find_connection(s, c)->line->vertices = {{1, 2, {}}};
+    model::find_connection(s, c)->line->source_vertices = {{3, 4, {}}, {-5, 6, {}}};
+    model::find_connection(s, c)->line->target_vertices = {{7, 8, {}}};
+    const std::string text = xml::write_system(s);
+    INFO(text);
+    CHECK(system_of(text) == s);
+    for (const char* kept : {"<!-- forage:comment id=\"two\" x=\"10\" y=\"20\" width=\"30\" height=\"40\" "
+                             "color=\"#ffeeaa\" text=\"größer\" -->",
+                             "<!-- forage:phantom group=\"g\" x=\"5\" y=\"-60\" -->",
+                             "<!-- forage:vertices page=\"source\" points=\"3,4 -5,6\" -->",
+                             "<!-- forage:vertices page=\"target\" points=\"7,8\" -->"})
+        CHECK(text.find(kept) != std::string::npos);
+    CHECK(s.comments.empty());
+    // The original and older versions see comments in a valid file, so nothing else of it changes.
+    model::System bare = s;
+    bare.canvas_comments.clear();
+    for (auto& p : bare.processes) p.canvas_comments.clear(), p.phantoms.clear();
+    auto& line = *model::find_connection(bare, c)->line;
+    line.source_vertices.clear(), line.target_vertices.clear();
+    std::string without = text;
+    for (std::size_t from; (from = without.find("<!-- forage:")) != std::string::npos;) {
+        const auto begin = without.rfind('\n', from);
+        without.erase(begin, without.find("-->", from) + 3 - begin);
+    }
+    CHECK(system_of(without) == bare);
+}
+
+TEST_CASE("A part of the diagram with a mistake, or in a wrong place, stays a comment and gives a warning") {
+    for (const std::string wrong :
+         {"forage:comment id='x' x='1' y='2' width='3'",
+          "forage:comment id='x' x='1' y='2' width='3' height='0'",
+          "forage:comment id='x' x='1.5' y='2' width='3' height='4'",
+          "forage:comment id='x' x='1' y='2' width='3' height='4' font='5'", "forage:comment id='x x='1'",
+          "forage:note text='x'", "forage:phantom group='a' x='1' y='2'", "forage:"}) {
+        Diagnostics diagnostics;
+        const std::string text = replaced(small_system, "</System>", "<!-- " + wrong + " --></System>");
+        const auto s = xml::parse_system("small.iqr", text, diagnostics);
+        INFO(wrong);
+        REQUIRE(s);
+        CHECK(diagnostics.warnings() == 1);
+        CHECK(diagnostics.all()[0].message == "this is no part of the diagram that Forage can read");
+        CHECK(diagnostics.all()[0].where.line > 1);
+        CHECK(s->canvas_comments.empty());
+        CHECK(s->comments == std::vector<std::string>{" " + wrong + " "});
+        CHECK(xml::write_system(*s).find("<!-- " + wrong + " -->") != std::string::npos);
+    }
 }
 
 TEST_CASE(
@@ -127,6 +186,8 @@ TEST_CASE("A linked process is read from its file, with its connections, and wri
     CHECK(s->processes[0].name == "P");
     CHECK(s->processes[0].groups.size() == 2);
     CHECK(s->processes[0].icon->x == 7);  // where the system shows it
+    CHECK(s->processes[0].phantoms == std::vector<model::Phantom>{{"far", 1, 2}});
+    CHECK(s->processes[0].canvas_comments.empty());  // the file of the process has none
     CHECK(s->connections.size() == 1);
     const std::string written = xml::write_system(*s);
     CHECK(written.find("path=\"brain.iqrProcess\"") != std::string::npos);

@@ -122,6 +122,12 @@ struct Description {
                                        {"state", target_of(c.synapse->feedback, f.name)}});
         return out;
     }
+    json of(const model::CanvasComment& c, bool in_linked_process) {
+        return {{"kind", "comment"},           {"name", model::first_words(c.text)},
+                {"content", c.text},           {"color", c.color},
+                {"width", c.box.width},        {"height", c.box.height},
+                {"linked", in_linked_process}, {"parameters", json::array()}};
+    }
     json of_system() {
         return {{"kind", "system"},
                 {"name", trimmed(system.name)},
@@ -195,6 +201,13 @@ json Commands::item() {
         out = description.of(*connection);
         linked = connection->linked;
         out["synapses"] = synapses_of(id);
+    } else if (const auto* comment = with_id(system.canvas_comments, id)) {
+        out = description.of(*comment, false);
+    } else if (const auto p = std::ranges::find_if(
+                   system.processes, [&](const auto& q) { return with_id(q.canvas_comments, id); });
+               p != system.processes.end()) {
+        linked = p->linked();
+        out = description.of(*with_id(p->canvas_comments, id), linked);
     } else {
         const auto found = model::GroupIndex(system).find(id);
         if (!found.group) throw InputError(fmt::format("there is no item with the id '{}'", id));

@@ -1,5 +1,6 @@
 #include "tools/studio/server/operations.h"
 
+#include <algorithm>
 #include <map>
 
 #include <fmt/format.h>
@@ -69,6 +70,8 @@ struct Operation {
         if (const auto* a = member("source_anchor")) out.source_anchor = whole_from(*a);
         if (const auto* a = member("target_anchor")) out.target_anchor = whole_from(*a);
         if (const auto* v = member("vertices")) out.vertices = points_from(*v);
+        if (const auto* v = member("source_vertices")) out.source_vertices = points_from(*v);
+        if (const auto* v = member("target_vertices")) out.target_vertices = points_from(*v);
         return out;
     }
     json add_connection() {
@@ -79,8 +82,29 @@ struct Operation {
         model::set_line(system, made, line_change());
         return made;
     }
+    CommentChange comment_change() const {
+        CommentChange out;
+        if (const auto* v = member("text")) out.text = v->get<std::string>();
+        if (const auto* v = member("color")) out.color = v->get<std::string>();
+        const auto number = [&](const char* name, std::optional<int>& to) {
+            if (const auto* v = member(name)) to = whole_from(*v);
+        };
+        number("x", out.x), number("y", out.y), number("width", out.width), number("height", out.height);
+        return out;
+    }
+    json add_comment() {
+        const auto made = add_canvas_comment(system, text("process", ""), {.id = text("id", "")});
+        set_comment(system, made, comment_change());
+        return made;
+    }
+    json comment() { return set_comment(system, id(), comment_change()), nullptr; }
+    json phantom() {
+        place_phantom(system, text("process"), text("group"), whole_from(o.at("x")), whole_from(o.at("y")));
+        return nullptr;
+    }
     bool exists(const std::string& each) {
-        return find_process(system, each) || find_group(system, each) || find_connection(system, each);
+        return find_process(system, each) || find_group(system, each) || find_connection(system, each) ||
+               find_canvas_comment(system, each);
     }
     json remove() {
         const auto ids = o.at("ids").get<std::vector<std::string>>();
@@ -166,6 +190,9 @@ const std::map<std::string, json (Operation::*)()>& operations_by_name() {
         {"add_process", &Operation::add_process},
         {"add_group", &Operation::add_group},
         {"add_connection", &Operation::add_connection},
+        {"add_comment", &Operation::add_comment},
+        {"comment", &Operation::comment},
+        {"phantom", &Operation::phantom},
         {"remove", &Operation::remove},
         {"rename", &Operation::rename},
         {"place", &Operation::place},
@@ -194,6 +221,13 @@ std::string name_of(const System& system, const std::string& id) {
     }
     for (const auto& c : system.connections)
         if (c.id == id) return std::string(trim(c.name));
+    const auto title = [&](const std::vector<CanvasComment>& comments) {
+        const auto it = std::ranges::find(comments, id, &CanvasComment::id);
+        return it == comments.end() ? std::string() : fmt::format("comment '{}'", first_words(it->text));
+    };
+    for (const auto& p : system.processes)
+        if (auto out = title(p.canvas_comments); !out.empty()) return out;
+    if (auto out = title(system.canvas_comments); !out.empty()) return out;
     return "the system";
 }
 
@@ -228,6 +262,8 @@ std::string title_of(const json& o, const System& system) {
                                              : value.dump());
     }
     if (what == "place") return "move " + name;
+    if (what == "phantom") return "move the phantom of " + name_of(system, o.value("group", ""));
+    if (what == "comment") return "change " + name;
     if (what == "rename") return fmt::format("rename {} to {}", name, o.value("name", ""));
     if (what == "set") return fmt::format("{} of {}", o.value("property", "property"), name);
     if (what == "paste") return "paste";

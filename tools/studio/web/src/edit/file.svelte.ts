@@ -79,5 +79,17 @@ export async function openFile(file: string): Promise<void> {
   if (mayLeave()) await command('open', { system: file });
 }
 
-/** What to do when another program wrote the file. */
-export const reload = (keep: 'mine' | 'theirs' | 'merge') => command('reload', { keep });
+/** What both this page and another program have changed, when a merge was tried; empty otherwise. */
+class Outside { conflict = $state('') }
+export const outside = new Outside();
+
+/** What to do when another program wrote the file. A merge that cannot be made says why, and asks again. */
+export async function reload(keep: 'mine' | 'theirs' | 'merge'): Promise<void> {
+  try {
+    await request('reload', { keep });
+    outside.conflict = '';
+  } catch (e) {
+    if (keep === 'merge' && e instanceof CommandError && e.problems.length) outside.conflict = e.problems.map((p) => p.message).join('\n');
+    else actions.tell('error', (e as Error).message);
+  }
+}

@@ -44,6 +44,7 @@ export function itemMenu(id: string): Entries {
       ...editEntries,
     ];
   }
+  if (item.kind === 'comment') return [...(editing.editable ? [{ label: 'Write', keys: 'Enter', act: () => rename(id) }] : []), { label: 'Properties', act: () => properties(id) }, ...editEntries];
   const first: Entries = [{ label: 'Properties', keys: 'Enter', act: () => properties(id) }];
   if (editing.editable) first.push({ label: 'Rename', keys: 'F2', act: () => rename(id) });
   if (item.kind === 'group') {

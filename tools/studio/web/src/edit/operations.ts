@@ -22,7 +22,10 @@ export interface NewConnection {
   kind: ConnectionKind;
   source_anchor: number;
   target_anchor: number;
-  vertices: [number, number][];
+  /** On the page of both groups; or, between processes, on the page of one of them. */
+  vertices?: [number, number][];
+  source_vertices?: [number, number][];
+  target_vertices?: [number, number][];
 }
 
 export async function connect(c: NewConnection): Promise<string | null> {

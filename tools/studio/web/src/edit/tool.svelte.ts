@@ -2,7 +2,7 @@
 import type { ConnectionKind } from '../protocol/messages';
 import type { Point } from '../panels/line';
 
-export type Tool = 'select' | 'add' | ConnectionKind;
+export type Tool = 'select' | 'add' | 'comment' | ConnectionKind;
 
 export interface Pending {
   source: string;
@@ -19,15 +19,17 @@ class Tools {
   /** Whether the tool stays on after it was used once. */
   stays = $state(false);
   pending = $state.raw<Pending | null>(null);
-  /** The item whose name is written in its box. */
+  /** The item whose name, or the comment whose text, is written in its box. */
   renaming = $state<string | null>(null);
+  /** The comment that was just made. Writing its text joins the step that made it. */
+  fresh = $state.raw<{ id: string; step: string } | null>(null);
   /** Groups between which the dialog connects; null when it is closed. */
   dialog = $state.raw<{ source: string | null; kind: ConnectionKind } | null>(null);
 
   /** How often the properties of an item were asked for. */
   asked = $state(0);
 
-  connecting = $derived(this.current !== 'select' && this.current !== 'add');
+  connecting = $derived(this.current !== 'select' && this.current !== 'add' && this.current !== 'comment');
 
   /** Takes a tool in hand, for one use or until it is left. The tool that is in hand is put away. */
   use(tool: Tool, stays = false): void {

@@ -1,5 +1,5 @@
 // A page of the diagram: boxes and lines. Ids are those of the model, places those of the file, stretched by a fixed factor.
-import type { Connection, Group, Icon, Process, SystemMessage } from '../protocol/messages';
+import type { CanvasComment, Connection, ConnectionLine, Group, Icon, Process, SystemMessage } from '../protocol/messages';
 import { anchor, type Box, type Point } from './line';
 
 /** What a unit of the file is on a page: an icon of 50 x 50 is a box of 100 x 100. */
@@ -9,7 +9,9 @@ const phantomSize = { width: 96, height: 30 };
 
 export interface PageBox {
   id: string;
-  item: Group | Process;
+  item: Group | Process | CanvasComment;
+  /** It is a text, which no line meets. */
+  comment: boolean;
   /** It stands for a group of another process. */
   phantom: boolean;
   /** The file has no place for it. */
@@ -28,8 +30,11 @@ export interface PageLine {
   drawn: boolean;
   /** Its number among the lines between the same boxes. */
   lane: number;
+  /** The vertices of the connection that belong to this page, and where the file keeps them. */
   vertices: Point[];
+  list: VertexList;
 }
+export type VertexList = Exclude<keyof ConnectionLine, 'source_anchor' | 'target_anchor'>;
 
 export interface Page { boxes: PageBox[]; lines: PageLine[] }
 
@@ -58,13 +63,16 @@ export async function pageOf(system: SystemMessage, process: Process | null): Pr
   const boxes: PageBox[] = items.map((item) => ({
     id: item.id,
     item,
+    comment: false,
     phantom: false,
     placed: item.icon !== null,
     box: item.icon ? toBox(item.icon) : { x: 0, y: 0, width: boxSize, height: boxSize },
   }));
   await placeOthers(boxes, links);
   if (process) boxes.push(...phantoms(system, process, boxes, links));
-  return { boxes, lines: linesOf(process, boxes, links) };
+  const lines = linesOf(process, boxes, links);
+  boxes.push(...(process ?? system).comments.map((item) => ({ id: item.id, item, comment: true, phantom: false, placed: true, box: toBox(item.icon) })));
+  return { boxes, lines };
 }
 
 /** Boxes without a place in the file: laid out by Dagre when none has one, otherwise in rows below the others. */
@@ -92,7 +100,7 @@ export async function layOut(boxes: { id: string; box: Box }[], links: { source:
   return new Map(boxes.map((b) => [b.id, { x: Math.round(graph.node(b.id).x - b.box.width / 2), y: Math.round(graph.node(b.id).y - b.box.height / 2) }]));
 }
 
-/** The groups of other processes stand in a row above, each above the groups that it is connected with. */
+/** The groups of other processes stand where the file puts them, or in a row above, each above the groups that it is connected with. */
 function phantoms(system: SystemMessage, process: Process, boxes: PageBox[], links: { source: string; target: string }[]): PageBox[] {
   const at = new Map(boxes.map((b) => [b.id, b.box]));
   const partners = new Map<string, number[]>();
@@ -108,12 +116,14 @@ function phantoms(system: SystemMessage, process: Process, boxes: PageBox[], lin
     return item ? [{ item, x: xs.reduce((a, b) => a + b, 0) / xs.length - phantomSize.width / 2 }] : [];
   });
   wanted.sort((a, b) => a.x - b.x);
+  const places = new Map(process.phantoms.map((p) => [p.group, { x: p.x * scale, y: p.y * scale }]));
   const y = Math.min(...boxes.map((b) => b.box.y)) - 90;
   let free = -Infinity;
   return wanted.map(({ item, x }) => {
     const left = Math.max(x, free);
-    free = left + phantomSize.width + 14;
-    return { id: item.id, item, phantom: true, placed: true, box: { x: left, y, ...phantomSize } };
+    const placed = places.get(item.id);
+    if (!placed) free = left + phantomSize.width + 14;
+    return { id: item.id, item, comment: false, phantom: true, placed: true, box: { ...(placed ?? { x: left, y }), ...phantomSize } };
   });
 }
 
@@ -124,7 +134,10 @@ function linesOf(process: Process | null, boxes: PageBox[], links: { connection:
   for (const { connection, source, target } of links) {
     const from = byId.get(source), to = byId.get(target);
     if (!from || !to) continue;
-    const key = process ? connection.id : `${source} ${target} ${connection.kind}`;
+    // Between processes, a line has vertices of its own on the page of each of the two.
+    const list: VertexList = from.phantom ? 'target_vertices' : to.phantom ? 'source_vertices' : 'vertices';
+    const vertices = (connection.line?.[list] ?? []).map(([x, y]) => ({ x: x * scale, y: y * scale }));
+    const key = process ? connection.id : `${source} ${target} ${connection.kind} ${JSON.stringify(vertices)}`;
     const known = merged.get(key);
     if (known) {
       known.members.push(connection);
@@ -133,7 +146,6 @@ function linesOf(process: Process | null, boxes: PageBox[], links: { connection:
     const pair = [source, target].sort().join(' ');
     const lane = lanes.get(pair) ?? 0;
     lanes.set(pair, lane + 1);
-    const within = process !== null && !from.phantom && !to.phantom;
     merged.set(key, {
       id: key,
       connection,
@@ -142,7 +154,8 @@ function linesOf(process: Process | null, boxes: PageBox[], links: { connection:
       members: [connection],
       drawn: process !== null && connection.line !== null && from.placed && to.placed,
       lane,
-      vertices: within ? (connection.line?.vertices ?? []).map(([x, y]) => ({ x: x * scale, y: y * scale })) : [],
+      vertices,
+      list,
     });
   }
   return [...merged.values()];
@@ -158,22 +171,31 @@ function border(b: Box, p: Point): Point {
   return { x: c.x + f * dx, y: c.y + f * dy };
 }
 
+/** The point of a box that is the nearest to `p`: straight below, above or beside, if the box reaches there. */
+export function nearestOnBorder(b: Box, p: Point): Point {
+  const within = (v: number, from: number, size: number) => Math.min(Math.max(v, from + 10), from + size - 10);
+  const x = within(p.x, b.x, b.width);
+  if (p.y >= b.y + b.height) return { x, y: b.y + b.height };
+  if (p.y <= b.y) return { x, y: b.y };
+  return { x: p.x < b.x + b.width / 2 ? b.x : b.x + b.width, y: within(p.y, b.y, b.height) };
+}
+
 /** The points of a line between the present places of its boxes. */
 export function pointsOf(line: PageLine, from: PageBox, to: PageBox): Point[] {
   const { connection, vertices } = line;
   const [a, b] = [from.box, to.box];
   if (from.phantom !== to.phantom) {
-    // A phantom is met at its lower edge, straight above the other end if it reaches there.
     const [outer, box, number] = from.phantom ? [a, b, connection.line?.target_anchor ?? 1] : [b, a, connection.line?.source_anchor ?? 1];
     const inner = anchor(box, number);
-    const end = { x: Math.min(Math.max(inner.x, outer.x + 10), outer.x + outer.width - 10), y: outer.y + outer.height };
-    return from.phantom ? [end, inner] : [inner, end];
+    if (from.phantom) return [nearestOnBorder(outer, vertices[0] ?? inner), ...vertices, inner];
+    return [inner, ...vertices, nearestOnBorder(outer, vertices[vertices.length - 1] ?? inner)];
   }
   if (line.source === line.target && vertices.length === 0) {
     const r = 18 + 8 * line.lane;
     return [{ x: a.x + a.width, y: a.y + 20 }, { x: a.x + a.width + r, y: a.y + 20 }, { x: a.x + a.width + r, y: a.y - r }, { x: a.x + a.width - 20, y: a.y - r }, { x: a.x + a.width - 20, y: a.y }];
   }
   if (line.drawn) return [anchor(a, connection.line!.source_anchor), ...vertices, anchor(b, connection.line!.target_anchor)];
+  if (vertices.length) return [border(a, vertices[0]!), ...vertices, border(b, vertices[vertices.length - 1]!)];
   // Lines between the same boxes stand side by side.
   const shift = (line.lane % 2 ? 1 : -1) * Math.ceil(line.lane / 2) * 12;
   const [ca, cb] = [centre(a), centre(b)];

@@ -55,7 +55,8 @@ export interface ConnectionItem extends Common {
 }
 export interface ProcessItem extends Common { kind: 'process'; enabled: boolean; module: string | null; inputs: Port[]; outputs: Port[] }
 export interface SystemItem extends Common { kind: 'system'; author: string; date: string; cycles_per_second: number }
-export type EditItem = GroupItem | ConnectionItem | ProcessItem | SystemItem;
+export interface CommentItem extends Common { kind: 'comment'; content: string; width: number; height: number }
+export type EditItem = GroupItem | ConnectionItem | ProcessItem | SystemItem | CommentItem;
 
 export interface FormParameter {
   name: string;

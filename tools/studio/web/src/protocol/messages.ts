@@ -24,6 +24,11 @@ export interface Group {
   states: State[];
 }
 
+/** A text on a page of the diagram, apart from any item. */
+export interface CanvasComment { id: string; text: string; color: string; icon: Icon }
+/** Where the file puts the phantom of a group of another process on the page of a process. */
+export interface PhantomPlace { group: string; x: number; y: number }
+
 export interface ModulePort { name: string; group: string }
 
 export interface Process {
@@ -36,9 +41,20 @@ export interface Process {
   enabled: boolean;
   module: { type: string; inputs: ModulePort[]; outputs: ModulePort[] } | null;
   groups: Group[];
+  comments: CanvasComment[];
+  phantoms: PhantomPlace[];
 }
 
 export type ConnectionKind = 'excitatory' | 'inhibitory' | 'modulatory';
+
+/** The line of a connection. Between processes it has vertices on three pages: of the system, of its source and of its target. */
+export interface ConnectionLine {
+  source_anchor: number;
+  target_anchor: number;
+  vertices: [number, number][];
+  source_vertices: [number, number][];
+  target_vertices: [number, number][];
+}
 
 export interface Connection {
   id: string;
@@ -51,7 +67,7 @@ export interface Connection {
   synapses: number;
   form: string;
   states: State[];
-  line: { source_anchor: number; target_anchor: number; vertices: [number, number][] } | null;
+  line: ConnectionLine | null;
 }
 
 export interface SystemMessage {
@@ -63,6 +79,7 @@ export interface SystemMessage {
   seconds_per_cycle: number;
   processes: Process[];
   connections: Connection[];
+  comments: CanvasComment[];
 }
 
 export interface Solid { kind: string; x: number; y: number; z: number; yaw: number; size: [number, number, number]; color: string }

@@ -1,10 +1,11 @@
 // The system and the world as the server describes them. Only messages of the server change them.
-import type { Connection, Group, Process, SystemMessage, WorldMessage } from '../protocol/messages';
+import type { CanvasComment, Connection, Group, Process, SystemMessage, WorldMessage } from '../protocol/messages';
 
 export type Item =
   | { kind: 'process'; process: Process }
   | { kind: 'group'; group: Group; process: Process }
-  | { kind: 'connection'; connection: Connection };
+  | { kind: 'connection'; connection: Connection }
+  | { kind: 'comment'; comment: CanvasComment; process: Process | null };
 
 class Model {
   system = $state.raw<SystemMessage | null>(null);
@@ -14,12 +15,16 @@ class Model {
   processes = $derived(this.system?.processes ?? []);
   groups = $derived(this.processes.flatMap((p) => p.groups));
   connections = $derived(this.system?.connections ?? []);
+  /** The comments of all pages. */
+  comments = $derived([...(this.system?.comments ?? []), ...this.processes.flatMap((p) => p.comments)]);
   private items = $derived.by(() => {
     const all = new Map<string, Item>();
     for (const process of this.processes) {
       all.set(process.id, { kind: 'process', process });
       for (const group of process.groups) all.set(group.id, { kind: 'group', group, process });
+      for (const comment of process.comments) all.set(comment.id, { kind: 'comment', comment, process });
     }
+    for (const comment of this.system?.comments ?? []) all.set(comment.id, { kind: 'comment', comment, process: null });
     for (const connection of this.connections) all.set(connection.id, { kind: 'connection', connection });
     return all;
   });
@@ -47,4 +52,4 @@ export const model = new Model();
 /** The state of a group that plots show unless another one is chosen. */
 export const outputState = (group: Group): string => (group.states.find((s) => s.output) ?? group.states[0])?.name ?? 'act';
 
-export const itemName = (item: Item): string => (item.kind === 'group' ? item.group.path : item.kind === 'process' ? item.process.name : item.connection.name);
+export const itemName = (item: Item): string => (item.kind === 'group' ? item.group.path : item.kind === 'process' ? item.process.name : item.kind === 'connection' ? item.connection.name : 'Comment');

@@ -3,25 +3,27 @@ import { nearestAnchor, pageOf, pointsOf, segmentAt, toFile } from '../../src/pa
 import { aligned, distributed, freshName } from '../../src/edit/places';
 import { holds, parseTuples, spanned, tupleText } from '../../src/edit/forms/cells';
 import { anchor, roundedPath } from '../../src/panels/line';
-import type { Connection, Group, SystemMessage } from '../../src/protocol/messages';
+import type { Connection, ConnectionLine, Group, SystemMessage } from '../../src/protocol/messages';
 
 const group = (id: string, x: number | null, y = 0): Group => ({ id, name: id, path: `P/${id}`, color: '', note: '', icon: x === null ? null : { x, y, width: 50, height: 50 }, type: '', width: 1, height: 1, cells: 1, places: null, states: [] });
 const connection = (id: string, source: string, target: string, line: Connection['line'] = null): Connection => ({ id, name: id, source, target, kind: 'excitatory', type: '', note: '', synapses: 1, form: '', states: [], line });
+const line = (more: Partial<ConnectionLine>): ConnectionLine => ({ source_anchor: 1, target_anchor: 1, vertices: [], source_vertices: [], target_vertices: [], ...more });
 const system = (groups: Group[][], connections: Connection[]): SystemMessage => ({
   type: 'system', name: 's', file: '', note: '', cycles_per_second: 25, seconds_per_cycle: 0.04,
-  processes: groups.map((g, i) => ({ id: `p${i}`, name: `P${i}`, color: '', note: '', icon: { x: 100 * i, y: 0, width: 50, height: 50 }, linked: false, enabled: true, module: null, groups: g })),
+  processes: groups.map((g, i) => ({ id: `p${i}`, name: `P${i}`, color: '', note: '', icon: { x: 100 * i, y: 0, width: 50, height: 50 }, linked: false, enabled: true, module: null, groups: g, comments: [], phantoms: [] })),
   connections,
+  comments: [],
 });
 
 describe('a page of the diagram', () => {
   it('puts a box where the file has its icon, and its lines at the points and vertices of the file', async () => {
-    const s = system([[group('a', 10, 20), group('b', 200, 20)]], [connection('c', 'a', 'b', { source_anchor: 4, target_anchor: 12, vertices: [[120, 90]] })]);
+    const s = system([[group('a', 10, 20), group('b', 200, 20)]], [connection('c', 'a', 'b', line({ source_anchor: 4, target_anchor: 12, vertices: [[120, 90]] }))]);
     const page = await pageOf(s, s.processes[0]!);
     expect(page.boxes.map((b) => b.box)).toEqual([{ x: 20, y: 40, width: 100, height: 100 }, { x: 400, y: 40, width: 100, height: 100 }]);
     expect(pointsOf(page.lines[0]!, page.boxes[0]!, page.boxes[1]!)).toEqual([{ x: 120, y: 52.5 }, { x: 240, y: 180 }, { x: 400, y: 52.5 }]);
   });
   it('shows groups of other processes as phantoms above, which the line meets from below', async () => {
-    const s = system([[group('a', 10, 20)], [group('z', 0, 0)]], [connection('c', 'z', 'a', { source_anchor: 1, target_anchor: 1, vertices: [[5, 5]] })]);
+    const s = system([[group('a', 10, 20)], [group('z', 0, 0)]], [connection('c', 'z', 'a', line({ vertices: [[5, 5]] }))]);
     const page = await pageOf(s, s.processes[0]!);
     const [a, z] = page.boxes;
     expect([z!.id, z!.phantom]).toEqual(['z', true]);
@@ -35,6 +37,32 @@ describe('a page of the diagram', () => {
     const s = system([[group('a', 0), group('b', 100)], [group('z', 0)]], [connection('c', 'a', 'z'), connection('d', 'b', 'z'), connection('e', 'a', 'b')]);
     const page = await pageOf(s, null);
     expect(page.lines.map((l) => l.members.map((m) => m.id))).toEqual([['c', 'd']]);
+  });
+  it('bends a line between processes on each page by the vertices of that page', async () => {
+    const c = connection('c', 'z', 'a', line({ vertices: [[5, 5]], source_vertices: [[6, 6]], target_vertices: [[7, -8]] }));
+    const s = system([[group('a', 10, 20)], [group('z', 0, 0)]], [c, connection('d', 'z', 'a'), connection('e', 'z', 'a')]);
+    const [ofTarget, ofSource, ofSystem] = [await pageOf(s, s.processes[0]!), await pageOf(s, s.processes[1]!), await pageOf(s, null)];
+    expect([ofTarget, ofSource, ofSystem].map((p) => [p.lines[0]!.list, p.lines[0]!.vertices])).toEqual([['target_vertices', [{ x: 14, y: -16 }]], ['source_vertices', [{ x: 12, y: 12 }]], ['vertices', [{ x: 10, y: 10 }]]]);
+    // Those that are bent in the same way stay one line.
+    expect(ofSystem.lines.map((l) => l.members.map((m) => m.id))).toEqual([['c'], ['d', 'e']]);
+    const points = pointsOf(ofSystem.lines[0]!, ofSystem.boxes[1]!, ofSystem.boxes[0]!);
+    expect(points).toHaveLength(3);
+    expect(points[1]).toEqual({ x: 10, y: 10 });
+  });
+  it('puts a phantom where the file says, and meets it at the side of the next vertex', async () => {
+    const s = system([[group('a', 10, 20)], [group('z', 0, 0)]], [connection('c', 'z', 'a', line({ target_vertices: [[200, 105]] }))]);
+    s.processes[0]!.phantoms = [{ group: 'z', x: 10, y: 100 }];
+    const page = await pageOf(s, s.processes[0]!);
+    const z = page.boxes[1]!;
+    expect([z.phantom, z.box.x, z.box.y]).toEqual([true, 20, 200]);
+    expect(pointsOf(page.lines[0]!, z, page.boxes[0]!)[0]).toEqual({ x: z.box.x + z.box.width, y: 210 });
+  });
+  it('has the comments of a page, apart from its lines', async () => {
+    const s = system([[group('a', 10, 20)]], []);
+    const comment = { id: 'k', text: 'Why', color: '', icon: { x: 1, y: 2, width: 30, height: 40 } };
+    s.processes[0]!.comments = [comment];
+    expect((await pageOf(s, s.processes[0]!)).boxes[1]).toMatchObject({ id: 'k', comment: true, box: { x: 2, y: 4, width: 60, height: 80 } });
+    expect((await pageOf(s, null)).boxes.some((b) => b.comment)).toBe(false);
   });
   it('places boxes that the file does not place, without moving the others', async () => {
     const s = system([[group('a', 10, 20), group('b', null)]], []);

@@ -16,6 +16,7 @@ vi.stubGlobal('navigator', {});
 const { editing } = await import('../../src/edit/document.svelte');
 const { connect, setParameter } = await import('../../src/edit/operations');
 const { copy, cut, paste, withConnections } = await import('../../src/edit/clipboard');
+const { addComment, inkOn, write } = await import('../../src/edit/comments');
 const { tools } = await import('../../src/edit/tool.svelte');
 const { model } = await import('../../src/stores/model.svelte');
 const { selection } = await import('../../src/stores/selection.svelte');
@@ -30,8 +31,9 @@ beforeEach(() => {
   editing.message = { type: 'document', file: '/a.iqr', shipped: false, dirty: false, problems: [], outside: null, undo: null, redo: null };
   model.system = {
     type: 'system', name: 's', file: '/a.iqr', note: '', cycles_per_second: 25, seconds_per_cycle: 0.04,
-    processes: [{ id: 'p', name: 'P', color: '', note: '', icon: null, linked: false, enabled: true, module: null, groups: ['a', 'b', 'c'].map(group) }],
+    processes: [{ id: 'p', name: 'P', color: '', note: '', icon: null, linked: false, enabled: true, module: null, groups: ['a', 'b', 'c'].map(group), comments: [], phantoms: [] }],
     connections: [line('ab', 'a', 'b'), line('bc', 'b', 'c')],
+    comments: [],
   };
   selection.set([]);
   selection.process = 'p';
@@ -55,6 +57,32 @@ describe('edits', () => {
     editing.message = { ...editing.message!, problems: [{ message: 'x', item: 'a' }, { message: 'y', item: null }, { message: 'z', item: 'a', severity: 'warning' }] };
     expect([editing.of('a').length, editing.of('b').length, editing.errors]).toEqual([2, 0, 2]);
   });
+});
+
+describe('comments', () => {
+  const comment = { id: 'k', text: 'Comment', color: '', icon: { x: 0, y: 0, width: 90, height: 30 } };
+  it('are made and written in one step, and grow with their text', async () => {
+    answers.edit = { ids: ['k'] };
+    await addComment('p', [1, 2]);
+    expect(tools.renaming).toBe('k');
+    write(comment, 'Two\nlines  ', 44);
+    const [made, written] = sent;
+    expect(made).toMatchObject({ title: 'Add a comment', operations: [{ do: 'add_comment', process: 'p', x: 1, y: 2, text: 'Comment' }] });
+    expect(written).toMatchObject({ title: 'Add a comment', merge: made!.merge, operations: [{ do: 'comment', id: 'k', text: 'Two\nlines', height: 44 }] });
+    expect(tools.renaming).toBeNull();
+    write({ ...comment, text: 'Two' }, 'Three', 10);
+    expect(sent[2]).toEqual({ name: 'edit', operations: [{ do: 'comment', id: 'k', text: 'Three' }] });
+  });
+  it('without a text go, and a new one that is given up was never there', async () => {
+    write(comment, ' \n', 10);
+    expect(sent).toEqual([{ name: 'edit', operations: [{ do: 'remove', ids: ['k'] }] }]);
+    await addComment(null, [0, 0]);
+    write(comment, null, 10);
+    expect(sent[2]).toEqual({ name: 'undo' });
+    write(comment, null, 10);
+    expect(sent).toHaveLength(3);
+  });
+  it('have an ink that can be read', () => expect(['#ffffff', '#fdf3c7', '#000000', '#202060'].map(inkOn)).toEqual(['#141414', '#141414', '#ffffff', '#ffffff']));
 });
 
 describe('the clipboard', () => {
