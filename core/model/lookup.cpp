@@ -1,5 +1,6 @@
 #include "core/model/lookup.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -90,13 +91,12 @@ std::string first_words(std::string_view text) {
     constexpr std::size_t most = 32;
     std::string_view line = trim(trim(text).substr(0, trim(text).find('\n')));
     if (line.size() <= most && line.size() == trim(text).size()) return std::string(line);
-    line = line.substr(0, most);
-    // A character of several bytes is not divided.
-    while (line.size() == most && (static_cast<unsigned char>(line.back()) & 0xC0) == 0x80)
-        line.remove_suffix(1);
-    if (line.size() < most && !line.empty() && static_cast<unsigned char>(line.back()) >= 0xC0)
-        line.remove_suffix(1);
-    return std::string(line) + "...";
+    std::size_t end = std::min(line.size(), most);
+    const auto continues = [&](std::size_t at) {
+        return (static_cast<unsigned char>(line[at]) & 0xC0) == 0x80;
+    };
+    while (end > 0 && end < line.size() && continues(end)) --end;  // a character has up to four bytes
+    return std::string(line.substr(0, end)) + "...";
 }
 
 std::string resolved(const std::string& path, const Location& at) {

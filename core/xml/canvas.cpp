@@ -37,7 +37,7 @@ std::optional<std::vector<model::Point>> canvas_points(std::string_view list) {
     }
 }
 
-/// The attributes of an element, of which `read` takes those that it knows.
+/// The attributes of an element, of which canvas_part_of() takes those that it knows.
 struct CanvasAttributes {
     const tinyxml2::XMLElement& element;
     int taken = 0;
@@ -139,12 +139,10 @@ std::string write_canvas_part(const CanvasPart& part) {
 }
 
 std::string canvas_forms() {
-    return "the parts are " +
-           fmt::format(
-               "{}, {} and {}",
-               "forage:comment with id, x, y, width, height, color and text in a <System> or <Process>",
-               "forage:phantom with group, x and y in a <Process>",
-               "forage:vertices with page and points in a <DiagramLine>");
+    return "there are forage:comment with id, x, y, width, height, color and text in a <System> or "
+           "<Process>, "
+           "forage:phantom with group, x and y in a <Process>, and forage:vertices with page and points in a "
+           "<DiagramLine>";
 }
 
 }  // namespace forage::xml

@@ -5,6 +5,7 @@
 
 #include "core/model/build.h"
 #include "core/model/changes.h"
+#include "core/model/lookup.h"
 #include "core/model/merge.h"
 #include "neurons/neurons.h"
 #include "synapses/synapses.h"
@@ -310,4 +311,11 @@ TEST_CASE("comments and phantoms are merged, too") {
           std::vector<std::string>{"the text of the comment 'Why it...'"});
     remove(theirs, "far");
     CHECK(merge(base, mine, theirs).system.processes[0].phantoms.empty());
+}
+
+TEST_CASE("messages name a text by its first words, without a part of a character") {
+    CHECK(first_words(" Why ") == "Why");
+    CHECK(first_words("Why\nnot") == "Why...");
+    CHECK(first_words("0123456789012345678901234567890ö and more") == "0123456789012345678901234567890...");
+    CHECK(first_words("012345678901234567890123456789ö and more") == "012345678901234567890123456789ö...");
 }

@@ -1,0 +1,226 @@
+// Comments, phantoms and lines between processes on the canvas, in Chromium against the real program: node canvas_test.mjs FORAGE SOURCES
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { join, resolve } from 'node:path';
+import { inBrowser } from './support.mjs';
+
+const [forage, sources] = process.argv.slice(2).map((p) => resolve(p));
+const step = (text) => console.log(text);
+
+await inBrowser(sources, async ({ folder, context, start, until }) => {
+  await context.grantPermissions(['clipboard-read', 'clipboard-write']);
+  const faults = [];
+  const file = join(folder, 'systems/reactive_foraging.iqr');
+  const original = readFileSync(file, 'utf8');
+  const studio = start(forage, ['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
+  const page = await context.newPage();
+  page.setDefaultTimeout(20000);
+  page.on('pageerror', (e) => faults.push(e.message));
+  page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
+  await page.goto(await studio.address);
+  const diagram = page.getByRole('group', { name: 'Diagram' });
+  const canvas = diagram.getByRole('application', { name: 'Canvas' });
+  const inspector = page.getByRole('region', { name: 'Inspector' });
+  const comments = diagram.locator('.svelte-flow__node-comment');
+  const writing = page.getByLabel('Text of the comment');
+  const tab = (name) => diagram.getByRole('group', { name: 'Processes' }).getByRole('button', { name, exact: true }).click();
+  const many = (n) => until(page, `${n} comments`, (k) => document.querySelectorAll('.svelte-flow__node-comment').length === k, n);
+  /** Saves, and looks for a pattern in the file. */
+  const inFile = async (what, pattern) => {
+    await canvas.focus();
+    await page.keyboard.press('Control+s');
+    await until(page, `${what} is saved`, () => !document.title.startsWith('●'));
+    assert.match(readFileSync(file, 'utf8'), pattern, what);
+  };
+  const dirty = () => until(page, 'a change', () => document.title.startsWith('●'));
+  /** The saved text without the comments that hold parts of the diagram. */
+  const others = () => readFileSync(file, 'utf8').replace(/\n *<!-- forage:[^]*?-->/g, '');
+  /** An empty place of the canvas, below everything. */
+  const empty = async () => {
+    const all = await canvas.boundingBox();
+    return [all.x + all.width * 0.25, all.y + all.height - 90];
+  };
+  const along = (connection, part) => page.evaluate(([c, p]) => {
+    const path = document.querySelector(`g[data-connection="${c}"] .wide`);
+    const at = path.getPointAtLength(path.getTotalLength() * p).matrixTransform(path.getScreenCTM());
+    return [at.x, at.y];
+  }, [connection, part]);
+  const bend = async (connection, part = 0.5) => {
+    await page.keyboard.down('Control');
+    await page.mouse.click(...(await along(connection, part)));
+    await page.keyboard.up('Control');
+  };
+  const drag = async (from, to) => {
+    await page.mouse.move(...from);
+    await page.mouse.down();
+    await page.mouse.move((from[0] + to[0]) / 2, (from[1] + to[1]) / 2, { steps: 3 });
+    await page.mouse.move(...to, { steps: 3 });
+    await page.mouse.up();
+  };
+  const place = (locator) => locator.evaluate((e) => e.style.transform);
+  const leaves = (selector, from) => until(page, `${selector} moves`, ([s, was]) => document.querySelector(s)?.style.transform !== was, [selector, from]);
+  const returns = (selector, to) => until(page, `${selector} is back`, ([s, was]) => document.querySelector(s)?.style.transform === was, [selector, to]);
+
+  await page.getByRole('group', { name: 'Arena' }).waitFor();
+  await page.keyboard.press('Control+k');
+  await page.keyboard.type('layout: build');
+  await page.keyboard.press('Enter');
+  await tab('Selection');
+
+  step('a comment is placed by a click and written; it is one step, and nothing else in the file changes');
+  await diagram.getByRole('button', { name: 'Comment', exact: true }).click();
+  await page.mouse.click(...(await empty()));
+  await writing.waitFor();
+  await page.keyboard.type('Approach wins -- so "Explore" rests');
+  await page.keyboard.press('Enter');
+  await page.keyboard.type('until it is over');
+  await page.keyboard.press('Control+Enter');
+  await writing.waitFor({ state: 'detached' });
+  await comments.getByText('until it is over').waitFor();
+  await inFile('the comment', /<!-- forage:comment id="comment" x="-?\d+" y="-?\d+" width="90" height="\d+" text="Approach wins -&#45; so &quot;Explore&quot; rests\nuntil it is over" -->\n {2}<\/Process>/);
+  assert.equal(others(), original);
+  await page.keyboard.press('Control+z');
+  await many(0);
+  await page.keyboard.press('Control+Shift+z');
+  await many(1);
+
+  step('it is dragged, moved and resized by keys and by its corner, coloured, and all of it undone');
+  const it = '.svelte-flow__node-comment';
+  await comments.first().click();
+  let was = await place(comments.first());
+  const box = await comments.first().boundingBox();
+  await drag([box.x + 20, box.y + 10], [box.x + 80, box.y + 20]);
+  await leaves(it, was);
+  await page.keyboard.press('Control+z');
+  await returns(it, was);
+  await canvas.focus();
+  await page.keyboard.press('Shift+ArrowRight');
+  await leaves(it, was);
+  await page.waitForTimeout(600); // the arrows are sent together, shortly after the last one
+  await page.keyboard.press('Control+Shift+ArrowRight');
+  await inspector.getByLabel('Width').waitFor();
+  await until(page, 'it is wider', () => document.querySelector('[aria-label="Inspector"] input[type=number]')?.value === '100');
+  const corner = await page.locator('.svelte-flow__resize-control.handle.bottom.right').boundingBox();
+  await drag([corner.x + 3, corner.y + 3], [corner.x + 63, corner.y + 43]);
+  await until(page, 'it is wider still', () => Number(document.querySelector('[aria-label="Inspector"] input[type=number]')?.value) > 100);
+  await inspector.getByLabel('Colour').fill('#204060');
+  await until(page, 'its colour', () => getComputedStyle(document.querySelector('.svelte-flow__node-comment .comment')).color === 'rgb(255, 255, 255)');
+  await inFile('the colour', /forage:comment [^>]*color="#204060"/);
+  await canvas.focus();
+  for (let i = 0; i < 4; i++) await page.keyboard.press('Control+z');
+  await returns(it, was);
+
+  step('it is written anew by keys, given up by Escape, copied, pasted, and deleted');
+  await comments.first().click();
+  await canvas.focus();
+  await page.keyboard.press('Enter');
+  await writing.waitFor();
+  await page.keyboard.type('nonsense');
+  await page.keyboard.press('Escape');
+  await writing.waitFor({ state: 'detached' });
+  await comments.getByText('until it is over').waitFor();
+  await page.keyboard.press('F2');
+  await writing.waitFor();
+  await page.keyboard.type('Shorter');
+  await page.keyboard.press('Control+Enter');
+  await comments.getByText('Shorter', { exact: true }).waitFor();
+  await page.keyboard.press('Control+c');
+  await page.getByText('Copied.').first().waitFor();
+  await tab('System');
+  await many(0);
+  await canvas.focus();
+  await page.keyboard.press('Control+v');
+  await many(1);
+  await inFile('a comment of the system', /<!-- forage:comment [^>]*text="Shorter" -->\n<\/System>/);
+  await page.keyboard.press('Delete');
+  await many(0);
+
+  step('the keyboard alone: C, a text, Escape for none; a double click does the same');
+  await page.keyboard.press('c');
+  await writing.waitFor();
+  await page.keyboard.press('Escape');
+  await many(0);
+  await canvas.focus();
+  await page.keyboard.press('c');
+  await writing.waitFor();
+  await page.keyboard.type('By keys');
+  await page.keyboard.press('Control+Enter');
+  await comments.getByText('By keys', { exact: true }).waitFor();
+  await page.mouse.dblclick(...(await empty()));
+  await writing.waitFor();
+  await page.keyboard.type('By a double click');
+  await diagram.getByRole('button', { name: 'View', exact: true }).focus(); // what is left is kept
+  await comments.getByText('By a double click', { exact: true }).waitFor();
+  await many(2);
+
+  step('a phantom is dragged; its place is in the file, and undone');
+  await tab('Selection');
+  const ids = await page.evaluate(() => [...document.querySelectorAll('.svelte-flow__node:has(.phantom)')].map((n) => n.dataset.id));
+  assert.ok(ids.length === 2, ids.join());
+  const far = `.svelte-flow__node[data-id="${ids[0]}"]`;
+  was = await place(page.locator(far));
+  const dashed = await page.locator(far).boundingBox();
+  await drag([dashed.x + 10, dashed.y + 8], [dashed.x - 50, dashed.y + 60]);
+  await leaves(far, was);
+  await dirty();
+  await inFile('the place of the phantom', new RegExp(`<!-- forage:phantom group="${ids[0]}" x="-?\\d+" y="-?\\d+" -->`));
+  const moved = await place(page.locator(far));
+  await tab('System');
+  await tab('Selection');
+  assert.equal(await place(page.locator(far)), moved);
+  await canvas.focus();
+  await page.keyboard.press('Control+z');
+  await returns(far, was);
+
+  step('a line between processes is bent on the page of its target, and on that of the system; by keys, too');
+  const across = 'c.reactive_approach-approach';
+  await bend(across);
+  const vertex = page.getByRole('button', { name: 'Vertex 1 of Reactive Approach to Approach' });
+  await vertex.waitFor();
+  const v = await vertex.boundingBox();
+  await drag([v.x + 4, v.y + 4], [v.x + 54, v.y + 4]);
+  await until(page, 'the vertex', (x) => document.querySelector('.vertex')?.getBoundingClientRect().x > x, v.x + 30);
+  await inFile('the vertex of the page', /<!-- forage:vertices page="target" points="-?\d+,-?\d+" -->/);
+  await vertex.focus();
+  await page.keyboard.press('Delete');
+  await vertex.waitFor({ state: 'detached' });
+  await page.locator(`g[data-connection="${across}"]`).focus();
+  await page.keyboard.press('v');
+  await vertex.waitFor();
+  await until(page, 'the vertex has the focus', () => document.activeElement?.classList.contains('vertex'));
+  await tab('System');
+  await bend(across);
+  await vertex.waitFor();
+  await inFile('the vertex of the page of the system', /<DiagramLine [^>]*>\s*<Point x="-?\d+" y="-?\d+"\/>\s*<!-- forage:vertices page="target"/);
+  await tab('Reactive Layer');
+  await vertex.waitFor({ state: 'detached' });
+
+  step('a type that changed outside and a parameter that changed here are in conflict: the page asks');
+  await diagram.locator('.svelte-flow__node', { hasText: 'US' }).first().click();
+  const gain = page.locator('[id="Reactive Layer/US.excGain"]');
+  await gain.fill('4');
+  await gain.press('Enter');
+  await dirty();
+  const text = readFileSync(file, 'utf8');
+  const at = text.indexOf('neuronLinearThreshold', text.indexOf('name="US"'));
+  writeFileSync(file, `${text.slice(0, at)}neuronSigmoid${text.slice(at + 'neuronLinearThreshold'.length)}`);
+  await page.getByRole('button', { name: 'Merge both' }).click();
+  const banner = page.getByRole('alert').filter({ hasText: 'was changed by another program' });
+  await banner.getByText(/both have changed the type of group 'US' or its parameters/).waitFor();
+  await banner.getByRole('button', { name: 'Merge both' }).waitFor({ state: 'detached' });
+  await banner.getByRole('button', { name: 'Keep mine' }).click();
+  await banner.waitFor({ state: 'detached' });
+  await inFile('mine', /name="excGain" value="4"/);
+
+  step('axe finds no serious fault of accessibility');
+  await tab('System');
+  await comments.first().click();
+  await inspector.getByLabel('Text', { exact: true }).waitFor();
+  await page.evaluate(readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8'));
+  const serious = () => page.evaluate(async () => (await window.axe.run({ exclude: ['.dv-tab'] }, { resultTypes: ['violations'] })).violations.filter((f) => ['serious', 'critical'].includes(f.impact)).map((f) => `${f.id}: ${f.nodes.slice(0, 3).map((n) => n.html.slice(0, 160)).join(' | ')}`));
+  assert.deepEqual(await serious(), []);
+
+  assert.deepEqual(faults, []);
+  console.log('all fine');
+});
