@@ -62,6 +62,39 @@ TEST_CASE("A synapse's strength is what it delivers") {
     CHECK_THROWS_AS(synapses(file, "nothing", 1), InputError);
 }
 
+TEST_CASE("A diagram has the comments, phantoms and vertices of its page, and of no other page") {
+    SystemFile file = echo();
+    auto& s = file.model;
+    const auto q = model::add_process(s, "Body");
+    const auto far = model::add_group(s, q, "Arm", 1, 1, "neuronLinearThreshold");
+    const auto c =
+        model::add_connection(s, s.connections[0].target, far, InputKind::excitatory, "synapseFixedWeight");
+    model::complete(s.processes, s.connections);
+    const auto pages = [&] {
+        return std::vector{diagram(file, {}, "svg"), diagram(file, "Brain", "svg"),
+                           diagram(file, "Body", "svg")};
+    };
+    const auto differ = [&, before = pages()](bool brain, bool body) {
+        const auto now = pages();
+        return now[0] != before[0] && (now[1] != before[1]) == brain && (now[2] != before[2]) == body;
+    };
+    const SystemFile plain = file;
+    model::add_canvas_comment(s, s.processes[0].id, {"", "Why it\necho", "#204060", {0, 200, 90, 30}, {}});
+    CHECK(differ(true, false));
+    file = plain;
+    s.processes[1].phantoms = {{s.connections[0].target, 300, 40}};
+    CHECK(differ(false, true));
+    file = plain;
+    model::find_connection(s, c)->line->source_vertices = {{-40, -40, {}}};
+    CHECK(differ(true, false));
+    file = plain;
+    model::find_connection(s, c)->line->vertices = {{-40, -40, {}}};
+    CHECK(differ(false, false));
+    file = plain;
+    model::add_canvas_comment(s, {}, {"", "All", "", {0, 200, 90, 30}, {}});
+    CHECK(differ(false, false));
+}
+
 TEST_CASE("A diagram has the formats of pictures") {
     CHECK(diagram(echo(), "Brain", "svg").find("<svg") != std::string::npos);
     CHECK_THROWS_AS(diagram(echo(), {}, "bmp"), InputError);

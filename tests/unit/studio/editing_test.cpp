@@ -271,6 +271,61 @@ TEST_CASE("another type outside and another parameter here are a conflict, and b
     CHECK(e.last["document"]["outside"] == "changed");
 }
 
+TEST_CASE("comments, phantoms and lines between processes are edited without building the run anew") {
+    Editor e;
+    const std::string before = e.content();
+    const std::string page = e.last["system"]["processes"][2]["id"];
+    const auto ids = e.edit({{{"do", "add_comment"},
+                              {"process", page},
+                              {"x", 1},
+                              {"y", 2.4},
+                              {"width", 90},
+                              {"height", 30},
+                              {"text", "Why"}},
+                             {{"do", "add_comment"}, {"text", "All"}}});
+    const auto comments = [&] { return e.last["system"]["processes"][2]["comments"]; };
+    CHECK(comments()[0] == json({{"id", ids[0]},
+                                 {"text", "Why"},
+                                 {"color", ""},
+                                 {"icon", {{"x", 1}, {"y", 2}, {"width", 90}, {"height", 30}}}}));
+    CHECK(e.last["system"]["comments"][0]["text"] == "All");
+    CHECK(e.last["document"]["running_is_current"] == true);
+    e.edit({{{"do", "comment"}, {"id", ids[0]}, {"text", "Why not"}, {"width", 40}}});
+    CHECK(e.last["action"]["title"] == "change comment 'Why'");
+    e.edit({{{"do", "place"}, {"id", ids[0]}, {"x", 7}, {"y", 8}},
+            {{"do", "set"}, {"id", ids[0]}, {"property", "color"}, {"value", "#FFFFFF"}}});
+    CHECK(comments()[0]["icon"] == json({{"x", 7}, {"y", 8}, {"width", 40}, {"height", 30}}));
+    const json item = e.result({{"command", "item"}, {"item", ids[0]}});
+    CHECK((item["kind"] == "comment" && item["content"] == "Why not" && item["color"] == "#FFFFFF"));
+    CHECK(item["text"].get<std::string>().starts_with("<!-- forage:comment id="));
+    const json copied = e.result({{"command", "copy"}, {"ids", {ids[0]}}});
+    e.edit({{{"do", "paste"}, {"text", copied["text"]}, {"process", page}, {"x", 0}, {"y", 0}}});
+    CHECK(comments().size() == 2);
+
+    json across;
+    for (const auto& c : e.last["system"]["connections"])
+        if (c["name"] == "Reactive Approach to Approach") across = c;
+    e.edit({{{"do", "phantom"}, {"process", page}, {"group", across["source"]}, {"x", -5}, {"y", 6}},
+            {{"do", "line"},
+             {"id", across["id"]},
+             {"vertices", {{1, 2}}},
+             {"target_vertices", {{3, 4}, {5, 6}}}}});
+    CHECK(e.last["action"]["title"] == "move the phantom of Reactive Layer/Approach and 1 more");
+    CHECK(e.last["system"]["processes"][2]["phantoms"] ==
+          json::array({{{"group", across["source"]}, {"x", -5}, {"y", 6}}}));
+    for (const auto& c : e.last["system"]["connections"])
+        if (c["id"] == across["id"]) {
+            CHECK(c["line"]["vertices"] == json::array({{1, 2}}));
+            CHECK(c["line"]["target_vertices"] == json::array({{3, 4}, {5, 6}}));
+        }
+    CHECK(e.last["document"]["problems"] == json::array());
+    CHECK(e.ask({{"command", "edit"}, {"operations", {{{"do", "comment"}, {"id", "none"}}}}})["ok"] == false);
+    e.edit({{{"do", "remove"}, {"ids", {ids[0]}}}});
+    CHECK(comments().size() == 1);
+    for (int i = 0; i < 6; ++i) e.result({{"command", "undo"}});
+    CHECK(e.text() == before);
+}
+
 TEST_CASE("items tell what their forms show, and the synapses of a pattern are told before it is set") {
     Editor e;
     const auto connection = e.last["system"]["connections"][0];
