@@ -172,6 +172,11 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await canvas.focus();
   await page.keyboard.press('Control+z');
   await returns(far, was);
+  await page.locator(far).click();
+  await canvas.focus();
+  await page.keyboard.press('Delete');
+  await page.getByText('A phantom stands for a group of another process').first().waitFor();
+  assert.equal(await page.locator(far).count(), 1);
 
   step('a line between processes is bent on the page of its target, and on that of the system; by keys, too');
   const across = 'c.reactive_approach-approach';
