@@ -21,6 +21,19 @@ enum class ValueKind {
     any,      ///< texts and elements that are checked only by their reader
 };
 
+/// What a text names.
+enum class Names {
+    nothing,
+    neuron,     ///< a neuron type
+    synapse,    ///< a synapse type
+    module,     ///< a module type
+    parameter,  ///< a parameter of the type in whose element it stands
+    value,      ///< the value of this parameter
+    port,       ///< a cross reference of this type
+    group,      ///< the id of a group
+    target,     ///< what is connected to a port: a group of the process, or a state of the target's cells
+};
+
 /// The values that an attribute or an element may have.
 struct ValueRule {
     ValueKind kind = ValueKind::text;
@@ -40,6 +53,7 @@ struct ValueRule {
     Exception exception = {};
     std::string unit = {};       ///< of numbers; empty when they have none
     std::string otherwise = {};  ///< the value that holds where the file has none; empty when it has no text
+    Names names = Names::nothing;
 };
 
 struct AttributeRule {
@@ -125,6 +139,12 @@ inline AttributeRule in(std::string unit, AttributeRule rule) {
 /// The value that holds where the file does not have the attribute.
 inline AttributeRule otherwise(std::string value, AttributeRule rule) {
     rule.value.otherwise = std::move(value);
+    return rule;
+}
+
+/// A rule whose text names something.
+inline AttributeRule naming(Names what, AttributeRule rule) {
+    rule.value.names = what;
     return rule;
 }
 

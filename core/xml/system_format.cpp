@@ -24,7 +24,9 @@ AttributeRule coordinate(std::string name, std::string doc) {
 }
 AttributeRule id() { return required(text("id", "unique in the file")); }
 AttributeRule name() { return required(text("name", "as shown to people")); }
-AttributeRule type_name(std::string doc) { return required(text("name", std::move(doc))); }
+AttributeRule name_of(Names what, std::string doc) {
+    return naming(what, required(text("name", std::move(doc))));
+}
 AttributeRule port() { return text("port", "port of the original's remote control; without effect"); }
 AttributeRule color() { return text("color", "#RRGGBB, a colour of the original's diagram; without effect"); }
 
@@ -65,11 +67,12 @@ std::vector<ElementRule> elements() {
         {"Module",
          "what ties the process to the outside",
          "Parameter XRefHolder Note?",
-         {type_name("the module type")}},
+         {name_of(Names::module, "the module type")}},
         {"Parameter",
          "a parameter of a type",
          "",
-         {type_name("as the type declares it"), required(text("value", "its value"))}},
+         {name_of(Names::parameter, "as the type declares it"),
+          naming(Names::value, required(text("value", "its value")))}},
         {"XRefHolder",
          "a list of cross references",
          "XRef",
@@ -79,8 +82,10 @@ std::vector<ElementRule> elements() {
         {"XRef",
          "a port of the type and what is connected to it",
          "",
-         {type_name("as the type declares it"),
-          required(text("target", "id of a group, or a state of the target's neuron; empty: unset"))}},
+         {name_of(Names::port, "as the type declares it"),
+          naming(
+              Names::target,
+              required(text("target", "id of a group, or a state of the target's neuron; empty: unset")))}},
         {"Note", "a text for people", ":text"},
         {"DiagramIcon",
          "place of an icon in the diagram",
@@ -105,11 +110,15 @@ std::vector<ElementRule> elements() {
          "",
          {decisive(coordinate("x", "column of a cell, from 1; of a vertex: pixels")),
           decisive(coordinate("y", "row of a cell, from 1; of a vertex: pixels"))}},
-        {"Neuron", "the type of a group's cells", "Parameter Note?", {type_name("the neuron type")}},
+        {"Neuron",
+         "the type of a group's cells",
+         "Parameter Note?",
+         {name_of(Names::neuron, "the neuron type")}},
         {"Connection",
          "synapses from one group to another",
          "Pattern? Arborization? AttenuationFunction? DelayFunction? Synapse? Note? DiagramLine?",
-         {id(), name(), required(text("source", "id of a group")), required(text("target", "id of a group")),
+         {id(), name(), naming(Names::group, required(text("source", "id of a group"))),
+          naming(Names::group, required(text("target", "id of a group"))),
           otherwise("excitatory", choice("type", "how it acts on its target",
                                          {"excitatory", "inhibitory", "modulatory"}))}},
         {"Pattern", "which cells are paired", "PatternMapped PatternForeach PatternTuples", {}, 1},
@@ -167,7 +176,7 @@ std::vector<ElementRule> elements() {
         {"Synapse",
          "the type of a connection's synapses",
          "Parameter XRefHolder Note?",
-         {type_name("the synapse type")}},
+         {name_of(Names::synapse, "the synapse type")}},
         {"DiagramLine",
          "the line that draws a connection",
          "Point",

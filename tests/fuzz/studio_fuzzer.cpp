@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "core/base/text_file.h"
 #include "core/xml/panel.h"
 #include "core/xml/plot_config.h"
 #include "tests/fuzz/holds.h"
@@ -16,6 +17,7 @@ using namespace forage::studio;
 
 struct Small {
     int replies = 0;
+    std::string text = read_file(input().system);
     Session session;
 
     Small()
@@ -36,8 +38,8 @@ bool left_out(std::string_view message) {
     const auto command = json::parse(message, nullptr, false);
     if (!command.is_object()) return false;
     const auto name = command.value("command", json());
-    for (const char* other :
-         {"sample", "layout_write", "panel_write", "parameters_write", "open", "step", "run"})
+    for (const char* other : {"sample", "layout_write", "panel_write", "parameters_write", "save",
+                              "world_save", "export", "open", "step", "run"})
         if (name == other) return true;
     return false;
 }
@@ -66,6 +68,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         text.remove_prefix(std::min(end + 1, text.size()));
     }
+    // Each input begins with the same text.
+    small.session.execute(-1, {{"command", "text_edit"}, {"text", small.text}});
     small.session.work(0);
     return 0;
 }

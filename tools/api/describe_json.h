@@ -26,6 +26,9 @@ nlohmann::json describe_parameters(Run& run, std::string_view item);
 /// The types of neurons, synapses and modules, and the forms of arborizations and functions, with their
 /// parameters: everything that a form needs.
 nlohmann::json describe_types(const Registry& registry);
+/// What may stand in a system file: its elements with their attributes and values, from the tables of which
+/// the check and the schema are made. With describe_types(), everything that an editor of the text needs.
+nlohmann::json describe_vocabulary();
 /// The parameters of a type in a system that is edited, with the values of `use`. `saved` is the same use in
 /// the saved file, or null. `owner` begins the names of assignments.
 nlohmann::json describe_settings(const model::TypeUse& use, const model::TypeUse* saved,

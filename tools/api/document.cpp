@@ -1,6 +1,7 @@
 #include "tools/api/document.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -47,6 +48,17 @@ Document Document::open(const std::string& path, bool lenient) {
     return out;
 }
 
+Document Document::open_text(const std::string& path, bool lenient) {
+    Document out;
+    out.path_ = path;
+    out.lenient_ = lenient;
+    out.system_.id = "system";
+    out.read(content_of(path), Accept::any);
+    out.saved_ = out.text_, out.saved_system_ = out.system_;
+    out.stamp_ = stamp_of(path);
+    return out;
+}
+
 Document Document::unsaved(std::string path, std::string text, bool lenient) {
     Document out;
     out.path_ = std::move(path);
@@ -74,33 +86,35 @@ Document::Stamp Document::stamp_of(const std::string& path) {
     return failed ? Stamp() : out;
 }
 
-void Document::read(std::string text) {
+void Document::read(std::string text, Accept accept) {
     Diagnostics diagnostics;
     diagnostics.lenient = lenient_;
     auto system = xml::parse_system(shown(path_), text, diagnostics);
-    if (!system) throw InputError(std::move(diagnostics));
-    system_ = *std::move(system);
+    if (!system && accept == Accept::system) throw InputError(std::move(diagnostics));
+    readable_ = system.has_value();
+    if (system) system_ = *std::move(system);
     diagnostics_ = std::move(diagnostics);
     text_ = std::move(text);
 }
 
 std::vector<Document::Problem> Document::problems(const Registry& registry, Environment* environment) const {
     Diagnostics all = diagnostics_;
-    model::validate(system_, registry, all, environment);
+    if (readable_) model::validate(system_, registry, all, environment);
     return located(all);
 }
 
 std::vector<Document::Problem> Document::located(const Diagnostics& diagnostics) const {
     std::vector<Problem> out;
     if (diagnostics.all().empty()) return out;
-    const auto root = xml::scan(text_);
+    // Only a text that is well-formed has a tree.
+    const auto root = readable_ ? xml::scan(text_) : xml::SourceElement();
     std::vector<std::size_t> line_starts{0};
     for (std::size_t i = 0; i < text_.size(); ++i)
         if (text_[i] == '\n') line_starts.push_back(i + 1);
     for (const Diagnostic& d : diagnostics.all()) {
         const auto line = static_cast<std::size_t>(d.where.line);
-        const bool here =
-            d.where.file && d.where.file->path == shown(path_) && line >= 1 && line <= line_starts.size();
+        const bool here = readable_ && d.where.file && d.where.file->path == shown(path_) && line >= 1 &&
+                          line <= line_starts.size();
         const auto column = static_cast<std::size_t>(std::max(d.where.column, 1)) - 1;
         out.push_back({d, here ? xml::item_at(root, line_starts[line - 1] + column) : std::string()});
     }
@@ -115,47 +129,102 @@ void Document::push(std::string before, const std::string& title, const std::str
     for (; bytes > most_bytes && undo_.size() > 1; undo_.pop_front()) bytes -= undo_.front().text.size();
 }
 
+bool Document::joins(const std::string& merge) const {
+    return !merge.empty() && !undo_.empty() && undo_.back().merge == merge && redo_.empty();
+}
+
 bool Document::edit(const Edit& change, const std::string& title, const std::string& merge) {
+    if (!readable_)
+        throw InputError("the text of the system has mistakes that hide its meaning",
+                         "correct them in the XML of the system first");
     model::System wanted = system_;
     change(wanted);
     auto patch = xml::patch(shown(path_), text_, system_, wanted, lenient_);
     if (!patch.system) throw InputError(std::move(patch.diagnostics));
     if (patch.text == text_) return false;
-    const bool joins = !merge.empty() && !undo_.empty() && undo_.back().merge == merge && redo_.empty();
-    if (!joins) push(std::move(text_), title, merge);
+    const bool joined = joins(merge);
+    if (!joined) push(std::move(text_), title, merge);
     text_ = std::move(patch.text);
     system_ = *std::move(patch.system);
     diagnostics_ = std::move(patch.diagnostics);
-    return !joins;
+    return !joined;
+}
+
+bool Document::replace(std::string text, Accept accept, const std::string& title, const std::string& merge) {
+    if (text == text_) return false;
+    std::string before = text_;
+    read(std::move(text), accept);
+    const bool joined = joins(merge);
+    if (!joined) push(std::move(before), title, merge);
+    return !joined;
 }
 
 bool Document::replace_text(std::string text, const std::string& title) {
-    if (text == text_) return false;
-    std::string before = text_;
-    read(std::move(text));
-    push(std::move(before), title, {});
-    return true;
+    return replace(std::move(text), Accept::system, title, {});
 }
 
-std::string Document::item_text(std::string_view id) const {
-    if (id == system_.id) return text_;
-    const auto place = xml::find_item(xml::scan(text_), id);
-    if (!place) throw InputError(fmt::format("there is no item with the id '{}' in this file", id));
-    return std::string(place->of(text_));
+bool Document::write_text(std::string text, const std::string& title, const std::string& merge) {
+    return replace(std::move(text), Accept::any, title, merge);
 }
+
+xml::Span Document::place_of(std::string_view id) const {
+    if (id == system_.id) return {0, text_.size()};
+    const auto place = readable_ ? xml::find_item(xml::scan(text_), id) : std::nullopt;
+    if (!place)
+        throw InputError(fmt::format("there is no item with the id '{}' in this file", id),
+                         readable_ ? "" : "correct the mistakes in the XML of the system first");
+    return *place;
+}
+
+std::string Document::item_text(std::string_view id) const { return std::string(place_of(id).of(text_)); }
 
 bool Document::replace_item_text(std::string_view id, const std::string& text, const std::string& title) {
-    if (id == system_.id) return replace_text(text, title);
-    const auto place = xml::find_item(xml::scan(text_), id);
-    if (!place) throw InputError(fmt::format("there is no item with the id '{}' in this file", id));
-    return replace_text(text_.substr(0, place->begin) + text + text_.substr(place->end), title);
+    const auto place = place_of(id);
+    return replace_text(text_.substr(0, place.begin) + text + text_.substr(place.end), title);
+}
+
+Diagnostics Document::check_item_text(std::string_view id, const std::string& text, const Registry& registry,
+                                      Environment* environment) const {
+    const auto place = place_of(id);
+    const std::string before = text_.substr(0, place.begin);
+    Diagnostics all;
+    all.lenient = lenient_;
+    const auto system = xml::parse_system(shown(path_), before + text + text_.substr(place.end), all);
+    if (system) model::validate(*system, registry, all, environment);
+    std::set<std::string> known;
+    for (const auto& p : problems(registry, environment)) known.insert(p.diagnostic.message);
+
+    const auto lines = [](std::string_view t) { return static_cast<int>(std::ranges::count(t, '\n')); };
+    const auto last_line = [](std::string_view t) {
+        return static_cast<int>(t.size() - (t.rfind('\n') + 1));
+    };
+    const int first = lines(before) + 1, last = first + lines(text);
+    const int begin = last_line(before);  // bytes before the text on its first line
+    const int end = last_line(text) + (first == last ? begin : 0);
+    Diagnostics out;
+    for (Diagnostic d : all.all()) {
+        const auto [line, column] = std::pair(d.where.line, d.where.column);
+        const bool here = d.where.file && d.where.file->path == shown(path_) && line >= first &&
+                          line <= last && (line > first || column > begin) &&
+                          (line < last || column <= end + 1);
+        if (here) {
+            d.where.line -= first - 1;
+            if (line == first) d.where.column -= begin;
+        } else if (known.contains(d.message)) {
+            continue;
+        } else {
+            d.where.line = d.where.column = 0;
+        }
+        out.add(std::move(d));
+    }
+    return out;
 }
 
 void Document::swap_step(std::deque<Step>& from, std::deque<Step>& to) {
     Step step = std::move(from.back());
     from.pop_back();
     std::string now = text_;
-    read(std::move(step.text));
+    read(std::move(step.text), Accept::any);
     to.push_back({std::move(now), std::move(step.title), {}});
 }
 
@@ -180,7 +249,7 @@ void Document::save(const std::string& path, const Registry& registry, bool over
     if (!overwrite && !same && fs::exists(to))
         throw InputError(fmt::format("'{}' exists", to), "overwrite it, or choose another name");
     std::string text = text_;
-    if (!same && !path_.empty()) {
+    if (!same && !path_.empty() && readable_) {
         model::System moved = system_;
         model::move_files(moved, path_, to, registry);
         if (!xml::same_content(moved, system_)) text = xml::patch(to, text_, system_, moved, lenient_).text;
@@ -193,7 +262,7 @@ void Document::save(const std::string& path, const Registry& registry, bool over
     path_ = to;
     saved_ = text_;
     stamp_ = stamp_of(path_);
-    if (renamed) read(text_);  // messages name the file, and links begin in its folder
+    if (renamed) read(text_, Accept::any);  // messages name the file, and links begin in its folder
     saved_system_ = system_;
 }
 
@@ -217,7 +286,7 @@ bool Document::reload(Keep keep) {
     const bool changed = [&] {
         if (keep == Keep::mine) return false;
         if (keep == Keep::theirs) {
-            const bool step = replace_text(theirs, "the text of the file");
+            const bool step = write_text(theirs, "the text of the file");
             saved_system_ = system_;
             return step;
         }
@@ -226,6 +295,9 @@ bool Document::reload(Keep keep) {
         const auto base = xml::parse_system(path_, saved_, diagnostics);
         const auto there = xml::parse_system(path_, theirs, diagnostics);
         if (!base || !there) throw InputError(std::move(diagnostics));
+        if (!readable_)
+            throw InputError("a text with mistakes that hide its meaning cannot be merged",
+                             "keep yours, or take the text of the file");
         const auto merged = model::merge(*base, system_, *there);
         if (!merged.conflicts.empty())
             throw InputError(fmt::format("both have changed {}", fmt::join(merged.conflicts, ", ")),
@@ -258,7 +330,7 @@ void Document::checkpoint(Archive& archive) {
     Diagnostics ignored;
     if (auto saved = xml::parse_system(shown(path_), saved_, ignored)) saved_system_ = *std::move(saved);
     std::string text = std::move(text_);
-    read(std::move(text));
+    read(std::move(text), Accept::any);
     stamp_ = {};
 }
 

@@ -17,6 +17,7 @@
 #include "core/model/system.h"
 #include "core/run/input_error.h"
 #include "core/types/registry.h"
+#include "core/xml/source_tree.h"
 
 namespace forage {
 
@@ -34,6 +35,9 @@ class Document {
     Document() = default;  ///< only to read a checkpoint into it
     /// Reads the file `path`. Throws InputError when its text has no system; other mistakes are problems.
     static Document open(const std::string& path, bool lenient = false);
+    /// Reads the file `path`, whatever its text is: a text without a system is a problem that can be
+    /// corrected. Throws InputError when the file cannot be read.
+    static Document open_text(const std::string& path, bool lenient = false);
     /// A text that has not been saved, of a file that `path` names, or of none when it is empty. Throws
     /// InputError.
     static Document unsaved(std::string path, std::string text, bool lenient = false);
@@ -42,6 +46,9 @@ class Document {
 
     const std::string& path() const { return path_; }  ///< empty before the first save
     const std::string& text() const { return text_; }
+    /// Whether the text has a system. When it has none, system() is the last one that it had, or one without
+    /// content.
+    bool readable() const { return readable_; }
     const model::System& system() const { return system_; }
     const model::System& saved_system() const {
         return saved_system_;
@@ -56,14 +63,21 @@ class Document {
 
     /// Changes the system, as one step that can be undone. With the same `merge`, which is not empty, a step
     /// joins the one before it. Returns whether there is a new step: not when it joins, or changes nothing.
-    /// Throws what `edit` throws, and InputError when the result cannot be read; the document then stays.
+    /// Throws what `edit` throws, and InputError when the text or the result cannot be read; the document
+    /// then stays.
     bool edit(const Edit& edit, const std::string& title, const std::string& merge = {});
     /// Replaces the whole text, as one step. Throws InputError when the text has no system.
     bool replace_text(std::string text, const std::string& title);
+    /// Replaces the whole text by one that may have no system. Steps join as in edit().
+    bool write_text(std::string text, const std::string& title, const std::string& merge = {});
     /// The text of the element of an item; of the whole system for its id. Throws InputError.
     std::string item_text(std::string_view id) const;
     /// Replaces the text of the element of an item, as one step.
     bool replace_item_text(std::string_view id, const std::string& text, const std::string& title);
+    /// What would be wrong if the element of an item had this text, apart from what is wrong elsewhere
+    /// already. Lines and columns are those of `text`; a mistake elsewhere has no place. Throws InputError.
+    Diagnostics check_item_text(std::string_view id, const std::string& text, const Registry& registry,
+                                Environment* environment = nullptr) const;
 
     /// The titles of the steps that undo() and redo() would take; null when there is none.
     const std::string* undo_title() const { return undo_.empty() ? nullptr : &undo_.back().title; }
@@ -81,8 +95,8 @@ class Document {
 
     enum class Keep { mine, theirs, merge };
     /// Goes on after a change outside: with this text, with that of the file, or with the file's text and the
-    /// changes of this document in it. Throws InputError when the text of the file has no system, or when
-    /// both have changed the same thing.
+    /// changes of this document in it. Throws InputError when texts without a system should be merged, or
+    /// when both have changed the same thing.
     bool reload(Keep keep);
 
     /// The changes since the last save, as `diff -u` prints them.
@@ -97,12 +111,18 @@ class Document {
         std::string text, title, merge;  ///< the text before it, or after it
         void checkpoint(Archive& archive) { archive(text, title, merge); }
     };
-    void read(std::string text);  ///< throws InputError
+    enum class Accept { system, any };
+    /// Makes `text` the text. Throws InputError when it has no system, unless any text is accepted.
+    void read(std::string text, Accept accept = Accept::system);
+    /// Replaces the text by another one, as a step.
+    bool replace(std::string text, Accept accept, const std::string& title, const std::string& merge);
+    xml::Span place_of(std::string_view id) const;  ///< of an item's element; throws InputError
+    bool joins(const std::string& merge) const;     ///< whether a step joins the one before it
     void push(std::string before, const std::string& title, const std::string& merge);
     void swap_step(std::deque<Step>& from, std::deque<Step>& to);
 
     std::string path_, text_, saved_;
-    bool lenient_ = false;
+    bool lenient_ = false, readable_ = true;
     struct Stamp {
         std::filesystem::file_time_type time = {};
         std::uintmax_t size = 0;

@@ -23,8 +23,14 @@ int studio(const StudioCommand& command) {
     try {
         studio::serve(
             options,
-            [&](const std::string& address, const std::string& note) {
-                if (!note.empty()) fmt::print(stderr, "note: {}\n", note);
+            [&](const studio::Ready& studio) {
+                const std::string& address = studio.address;
+                fmt::print(stderr, "{}", format(studio.mistakes));
+                if (studio.mistakes.failed())
+                    fmt::print(
+                        stderr,
+                        "note: the system runs when this is corrected, in the studio or in the file\n");
+                if (!studio.note.empty()) fmt::print(stderr, "note: {}\n", studio.note);
                 fmt::print(
                     "The studio is at\n\n  {}\n\nOpen it with a browser on this machine; Ctrl-C ends it.\n",
                     address);

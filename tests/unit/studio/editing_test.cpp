@@ -199,8 +199,186 @@ TEST_CASE("a file whose system cannot run is opened to be corrected") {
     e.edit(
         {{{"do", "type"}, {"id", problem["item"]}, {"part", "neuron"}, {"type", "neuronLinearThreshold"}}});
     CHECK(e.last["document"]["running_is_current"] == true);
-    std::ofstream(e.file) << "<System";
-    CHECK(e.ask({{"command", "open"}, {"system", e.file}})["ok"] == false);
+    CHECK(e.last["document"]["opened_with_mistakes"] == false);
+    CHECK(e.last["world"]["robots"].size() == 1);
+}
+
+TEST_CASE("a file that is not even XML is opened, corrected in its text, and runs") {
+    Editor e;
+    const std::string sound = e.content();
+    const auto at = sound.find("</Group>");
+    const std::string broken = sound.substr(0, at) + "</Grup>" + sound.substr(at + 8);
+    std::ofstream(e.file) << broken;
+    e.result({{"command", "open"},
+              {"system", e.file},
+              {"world", FORAGE_SOURCE_DIR "/systems/worlds/basic_arena.world"}});
+    CHECK(e.last["document"]["readable"] == false);
+    CHECK(e.last["document"]["opened_with_mistakes"] == true);
+    CHECK(e.last["document"]["running_is_current"] == false);
+    CHECK(e.last["document"]["dirty"] == false);
+    CHECK(e.last["system"]["processes"].empty());
+    REQUIRE(e.last["document"]["problems"].size() == 1);
+    const json problem = e.last["document"]["problems"][0];
+    CHECK(problem["line"] == 1 + std::count(broken.begin(), broken.begin() + static_cast<long>(at), '\n'));
+    CHECK(problem["file"] == e.file);
+    CHECK(e.text() == broken);
+
+    // What is not the text is refused, and nothing stops.
+    for (const json& command :
+         {json{{"command", "edit"}, {"operations", {{{"do", "system"}, {"name", "x"}}}}},
+          json{{"command", "item_text"}, {"item", "bug"}, {"text", "<Process/>"}},
+          json{{"command", "item_check"}, {"item", "bug"}, {"text", "<Process/>"}},
+          json{{"command", "export"}, {"process", "bug"}, {"file", (e.folder / "x.iqrProcess").string()}}}) {
+        const json reply = e.ask(command);
+        INFO(command.dump());
+        CHECK(reply["ok"] == false);
+        CHECK(reply["problems"][0]["hint"].get<std::string>().find("correct") != std::string::npos);
+    }
+    e.result({{"command", "step"}, {"cycles", 3}});
+    e.result({{"command", "stop"}});
+
+    // A text that is still wrong is saved as its author wrote it.
+    const auto write = [&](const std::string& text) {
+        e.result({{"command", "text_edit"}, {"text", text}, {"merge", "m"}});
+    };
+    write(broken + "<!-- mine -->\n");
+    CHECK(e.last["document"]["problems"][0] == problem);
+    e.result({{"command", "save"}});
+    CHECK(e.content() == broken + "<!-- mine -->\n");
+    e.result({{"command", "stop"}});
+
+    write(sound + "<!-- mine -->\n");
+    CHECK(e.last["document"]["problems"].empty());
+    CHECK(e.last["document"]["running_is_current"] == true);
+    CHECK(e.last["document"]["opened_with_mistakes"] == false);
+    CHECK(e.last["system"]["processes"].size() == 3);
+    CHECK(e.last["world"]["robots"].size() == 1);
+    e.session->work(10);
+    CHECK(e.last["status"]["cycle"] == 0);
+    e.result({{"command", "step"}});
+    e.result({{"command", "stop"}});
+    CHECK(e.last["system"]["processes"].size() == 3);
+    e.result({{"command", "save"}});
+    CHECK(e.content() == sound + "<!-- mine -->\n");
+
+    // Both texts were one step, which is undone and done again; the run of the sound text goes on meanwhile.
+    e.result({{"command", "undo"}});
+    CHECK(e.text() == broken);
+    CHECK(e.last["document"]["readable"] == false);
+    CHECK(e.last["document"]["opened_with_mistakes"] == false);
+    CHECK(e.last["system"]["processes"].size() == 3);
+    e.result({{"command", "step"}});
+    e.result({{"command", "save"}});
+    e.result({{"command", "stop"}});  // the file has mistakes now; what runs has none
+    CHECK(e.last["system"]["processes"].size() == 3);
+    e.result({{"command", "redo"}});
+    CHECK(e.text() == sound + "<!-- mine -->\n");
+    CHECK(e.last["document"]["running_is_current"] == true);
+}
+
+TEST_CASE("a session begins with a file that has mistakes, and keeps what it was asked for") {
+    Editor e;
+    const std::string sound = e.content();
+    std::ofstream(e.file) << "<System \xff";
+    e.session.reset();
+    RunInput input;
+    input.system = e.file;
+    input.world = FORAGE_SOURCE_DIR "/systems/worlds/basic_arena.world";
+    input.settings.push_back({"Bug/Motor.threshold=0.25"});
+    const auto send = [&](int, bool binary, const std::string& data) {
+        if (binary) return;
+        json message = json::parse(data);
+        e.last[message["type"].get<std::string>()] = message;
+    };
+    e.session.emplace(input, send);
+    CHECK(e.session->mistakes().errors() == 1);
+    e.session->keep();
+    e.session->connect(1);
+    e.result({{"command", "text_edit"}, {"text", "<System"}});
+    CHECK(e.last["document"]["opened_with_mistakes"] == true);
+    e.session->work(100), e.session->work(200);
+
+    // It is killed, and goes on as it was.
+    e.session.reset();
+    e.session.emplace(input, send);
+    e.session->keep();
+    e.session->connect(1);
+    e.session->recover();
+    CHECK(e.text() == "<System");
+    e.result({{"command", "text_edit"}, {"text", sound}});
+    CHECK(e.last["document"]["running_is_current"] == true);
+    CHECK(e.session->mistakes().errors() == 0);
+    const json parameters = e.result({{"command", "parameters"}, {"item", "Bug/Motor"}})["parameters"];
+    const auto threshold =
+        std::ranges::find_if(parameters, [](const json& p) { return p["name"] == "threshold"; });
+    CHECK((*threshold)["value"] == 0.25);
+    e.session->end();
+
+    // What cannot be corrected in the text is an error, as before.
+    std::ofstream(e.file) << sound;
+    input.settings = {{"Bug/Nothing.threshold=0.25"}};
+    CHECK_THROWS_AS(Session(input, send), InputError);
+    input.settings.clear();
+    input.system = (e.folder / "none.iqr").string();
+    CHECK_THROWS_AS(Session(input, send), InputError);
+    input.system = e.file, input.world = (e.folder / "none.world").string();
+    CHECK_THROWS_AS(Session(input, send), InputError);
+}
+
+TEST_CASE("the text of an item is checked as it is written, line by line") {
+    Editor e;
+    const auto item = e.result({{"command", "item"}, {"item", "bug.motor"}});
+    const auto text = item["text"].get<std::string>();
+    const auto check = [&](const std::string& draft) {
+        return e.result({{"command", "item_check"}, {"item", "bug.motor"}, {"text", draft}})["problems"];
+    };
+    const auto with = [&](const std::string& old, const std::string& now) {
+        std::string draft = text;
+        return draft.replace(draft.find(old), old.size(), now);
+    };
+    CHECK(check(text).empty());
+    const auto wrong = check(with("neuronLinearThreshold", "neuronLinearTreshold"));
+    REQUIRE(wrong.size() == 1);
+    const auto before = text.substr(0, text.find("\"neuronLinearThreshold"));
+    CHECK(wrong[0]["line"] == 1 + std::count(before.begin(), before.end(), '\n'));
+    CHECK(wrong[0]["column"] == static_cast<int>(before.size() - before.rfind('\n') - 1) + 2);
+    CHECK(wrong[0]["hint"] == "did you mean 'neuronLinearThreshold'?");
+    CHECK(check(with("name=\"Motor\"", "nam=\"Motor\""))[0]["line"] == 1);
+    // The first line does not begin at the left.
+    CHECK(check(with("name=\"Motor\"", "nam=\"Motor\""))[0]["column"].get<int>() < 60);
+    // What becomes wrong elsewhere has no place in this text.
+    const auto elsewhere = check(with("\"bug.motor\"", "\"bug.engine\""));
+    REQUIRE(!elsewhere.empty());
+    CHECK(elsewhere[0]["line"] == 0);
+    CHECK(e.text() == e.content());
+    CHECK(e.ask({{"command", "item_check"}, {"item", "nothing"}, {"text", ""}})["ok"] == false);
+}
+
+TEST_CASE("the vocabulary has every element of the check, and names what its texts refer to") {
+    Editor e;
+    const json vocabulary = e.result({{"command", "vocabulary"}});
+    CHECK(vocabulary["root"] == "System");
+    const auto element = [&](const std::string& name) {
+        const auto& all = vocabulary["elements"];
+        const auto it = std::ranges::find_if(all, [&](const json& v) { return v["name"] == name; });
+        REQUIRE(it != all.end());
+        return *it;
+    };
+    const json group = element("Group");
+    CHECK(group["children"][0] == json{{"name", "Topology"}, {"several", false}, {"required", true}});
+    CHECK(element("Topology")["choose"] == 1);
+    CHECK(element("Note")["text"] == true);
+    const json width = element("TopologyRect")["attributes"][0];
+    CHECK(width["name"] == "hcount");
+    CHECK(width["low"] == 1);
+    CHECK(width["unit"] == "cells");
+    for (const auto& [name, attribute, names] :
+         {std::tuple("Neuron", 0, "neuron"), std::tuple("Parameter", 0, "parameter"),
+          std::tuple("Parameter", 1, "value"), std::tuple("Connection", 2, "group"),
+          std::tuple("XRef", 0, "port"), std::tuple("XRef", 1, "target")})
+        CHECK(element(name)["attributes"][static_cast<std::size_t>(attribute)]["names"] == names);
+    for (const auto& e1 : vocabulary["elements"])
+        for (const auto& c : e1["children"]) element(c["name"].get<std::string>());
 }
 
 TEST_CASE("a new system is built from nothing, saved under a name, and opened again") {

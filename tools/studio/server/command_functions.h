@@ -116,8 +116,13 @@ struct Commands {
     /// The number of synapses of a connection of the document; 0 when it cannot be built.
     std::size_t synapses_of(const std::string& connection);
     json item_text();
+    json item_check();
+    json text_edit();
+    /// Whether the last step is one of the document alone, so that the next one may join it.
+    bool joins_document() const;
     json copy();
     json types();
+    json vocabulary();
     json preview();
 
     // ---- the document ----

@@ -14,6 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t most_text = 4u << 20;  ///< bytes of a text that a page edits
+
 /// What a page opens or writes: systems, worlds, and what is beside them.
 bool is_shown(const fs::path& file) {
     constexpr std::string_view endings[] = {".iqr",  ".iqrProcess", ".world", ".sdf",  ".xml",
@@ -34,7 +36,11 @@ model::ProcessFile process_file(const std::string& path) {
 json Commands::document_read() {
     s.look_outside();
     json out = s.document_message();
-    out["text"] = document().text();
+    if (document().text().size() > most_text)
+        throw InputError(
+            fmt::format("the text has {} MB, too many for a page", document().text().size() >> 20),
+            "open the file in an editor; the studio notices when it changes");
+    out["text"] = document().text(), out["generation"] = s.generation_;
     out.erase("type");
     return out;
 }
@@ -63,7 +69,10 @@ json Commands::save() {
         throw InputError(fmt::format("'{}' comes with Forage and stays as it is", to),
                          "save it in a folder of your own");
     document().save(file, run().registry(), c.value("overwrite", false));
+    // The file now has a text that does not run.
+    if (!s.current_ && s.input_.text.empty()) s.input_.text = s.begun_.text;
     s.input_.system = document().path();
+    if (s.wanted_) s.wanted_->system = document().path();
     s.outside_ = false;
     if (s.current_) s.built_ = document().system();
     note_recent(document().path());
@@ -114,6 +123,8 @@ json Commands::export_process() {
     const auto path = c.at("file").get<std::string>();
     if (fs::path(path).extension() != ".iqrProcess")
         throw InputError(fmt::format("'{}' is not a name of a process", path), "it ends with .iqrProcess");
+    if (!document().readable())
+        throw InputError("the text of the system has mistakes that hide its meaning", "correct them first");
     if (!c.value("overwrite", false) && fs::exists(path))
         throw InputError(fmt::format("'{}' exists", path), "overwrite it, or choose another name");
     write_file(path, xml::write_process(

@@ -9,6 +9,7 @@
 #include "tools/studio/server/command_functions.h"
 #include "tools/studio/server/forms.h"
 #include "tools/studio/server/operations.h"
+#include "tools/studio/server/problems.h"
 
 namespace forage::studio {
 namespace {
@@ -149,6 +150,10 @@ json Commands::edited(const std::string& title) {
     return {{"generation", s.generation_}};
 }
 
+bool Commands::joins_document() const {
+    return s.undo_.empty() || (s.undo_.back().document && s.undo_.back().undo.is_null());
+}
+
 json Commands::edit() {
     const auto& operations = c.at("operations");
     if (!operations.is_array() || operations.empty()) throw InputError("there is no operation");
@@ -157,14 +162,13 @@ json Commands::edit() {
         title = title_of(operations.front(), document().system());
         if (operations.size() > 1) title += fmt::format(" and {} more", operations.size() - 1);
     }
-    const bool joins = !s.undo_.empty() && s.undo_.back().document && s.undo_.back().undo.is_null();
     json ids = json::array();
     const std::string before = document().text();
     const bool step = document().edit(
         [&](model::System& system) {
             for (const auto& o : operations) ids.push_back(carry_out(o, system, run().registry()));
         },
-        title, joins || s.undo_.empty() ? c.value("merge", "") : "");
+        title, joins_document() ? c.value("merge", "") : "");
     if (step) {
         edited(title);
     } else if (document().text() != before) {  // it joined the step before
@@ -215,7 +219,8 @@ json Commands::item() {
         linked = found.process->linked();
     }
     out["id"] = id;
-    out["text"] = linked ? "" : document().item_text(id == "system" ? system.id : id);
+    const bool here = !linked && (document().readable() || out["kind"] == "system");
+    out["text"] = here ? document().item_text(id == "system" ? system.id : id) : "";
     return out;
 }
 
@@ -228,12 +233,34 @@ json Commands::item_text() {
     return edited(title);
 }
 
+json Commands::item_check() {
+    const auto id = c.at("item").get<std::string>();
+    const auto found =
+        document().check_item_text(id == "system" ? document().system().id : id,
+                                   c.at("text").get<std::string>(), run().registry(), run().environment());
+    return {{"problems", problems_of(found)}};
+}
+
+json Commands::text_edit() {
+    const std::string title = "edit the text of the system", before = document().text();
+    const bool step = document().write_text(c.at("text").get<std::string>(), title,
+                                            joins_document() ? c.value("merge", "") : "");
+    if (step) return edited(title);
+    if (document().text() != before) {  // it joined the step before
+        s.follow_document(title);
+        s.tell_document();
+    }
+    return {{"generation", s.generation_}};
+}
+
 json Commands::copy() {
     const auto ids = c.at("ids").get<std::vector<std::string>>();
     return {{"text", xml::write_system(model::copy(document().system(), ids))}};
 }
 
 json Commands::types() { return describe_types(run().registry()); }
+
+json Commands::vocabulary() { return describe_vocabulary(); }
 
 json Commands::preview() {
     model::System system = document().system();

@@ -54,10 +54,13 @@ plot::Picture floor_picture(const bug::World& world) {
 }  // namespace
 
 Session::Session(RunInput input, Send send, const std::string& plot_config, std::string shipped)
-    : send_(std::move(send)), shipped_(std::move(shipped)) {
-    open(std::move(input));
-    begin_document(input_);
-    if (!plot_config.empty()) layout_ = read_layout(*run_, plot_config);
+    : send_(std::move(send)), shipped_(std::move(shipped)), plot_config_(plot_config) {
+    open_any(input);
+    read_plot_config(*run_);
+}
+
+void Session::read_plot_config(const Run& run) {
+    if (!plot_config_.empty()) layout_ = read_layout(run, plot_config_);
 }
 
 std::pair<std::unique_ptr<Run>, Touches*> Session::make_run(const RunInput& input, std::string* files) {
@@ -123,7 +126,10 @@ void Session::rewound() {
 
 void Session::connect(int client) {
     clients_[client];
-    const auto send = [&](const json& message) { send_(client, false, message.dump()); };
+    // A file with mistakes may hold anything, also what is not UTF-8.
+    const auto send = [&](const json& message) {
+        send_(client, false, message.dump(-1, ' ', false, json::error_handler_t::replace));
+    };
     send({{"type", "hello"},
           {"protocol", 1},
           {"version", FORAGE_VERSION},

@@ -33,7 +33,9 @@ class Session {
     /// Sends a message to a page: JSON, or a frame when `binary`.
     using Send = std::function<void(int client, bool binary, std::string data)>;
 
-    /// Opens the system. `shipped` is the folder of the systems that come with Forage. Throws InputError.
+    /// Opens the system, also one with mistakes: its document is then corrected, and until it is, a system
+    /// without content runs. `shipped` is the folder of the systems that come with Forage. Throws InputError
+    /// when the file cannot be read, or something else than the system's files is wrong.
     Session(RunInput input, Send send, const std::string& plot_config = {}, std::string shipped = {});
 
     /// Keeps the session in the user's folder of states from now on, so that a killed program loses at most
@@ -45,6 +47,8 @@ class Session {
     /// What is left of a session of this system that was killed: {"cycle", "seconds", "saved"}, the last in
     /// seconds since 1970; null without one.
     const json& killed() const { return killed_; }
+    /// What was wrong with the system when it was opened; empty when it runs.
+    const Diagnostics& mistakes() const { return mistakes_; }
     /// The user ends the session: nothing of it is kept.
     void end();
 
@@ -101,10 +105,11 @@ class Session {
         std::optional<observe::Recorder> recorder;
     };
 
-    void add_undo(Undo step);  ///< the last step; what was undone before cannot be done again
-    void trim_undo();          ///< drops the oldest steps
-    void save();               ///< into the folder of states; notes what goes wrong
-    void keep_anew();          ///< under the name that the system has now
+    void add_undo(Undo step);               ///< the last step; what was undone before cannot be done again
+    void trim_undo();                       ///< drops the oldest steps
+    void read_plot_config(const Run& run);  ///< throws InputError
+    void save();                            ///< into the folder of states; notes what goes wrong
+    void keep_anew();                       ///< under the name that the system has now
     void look_for_killed();
     /// A started run of the system, with the touches of pages. Throws InputError.
     std::pair<std::unique_ptr<Run>, Touches*> make_run(const RunInput& input, std::string* files = nullptr);
@@ -137,8 +142,12 @@ class Session {
     // ---- the document (session_document.cpp) ----
     /// Edits the system that `input` names; what was edited before is forgotten.
     void begin_document(const RunInput& input);
-    /// Opens another system, also one that cannot run, and tells the pages. Throws InputError when it cannot
-    /// even be edited.
+    /// Opens a system, also one that cannot run or be read, as the constructor does.
+    void open_any(const RunInput& input);
+    /// Opens the document of a system whose files have the mistakes `found`, and runs a system without
+    /// content until they are corrected. Throws InputError when nothing can be corrected in it.
+    void open_with_mistakes(const RunInput& input, const Diagnostics& found);
+    /// Opens another system, and tells the pages. Throws InputError, and leaves everything as it is then.
     void open_document(const RunInput& input);
     /// Makes the run what the document says, as far as that can run, and tells the pages.
     void follow_document(const std::string& title);
@@ -160,14 +169,17 @@ class Session {
     void set_speed(const std::string& mode, double value);
     double rate() const;  ///< cycles per second that are wanted; 0: as many as possible
 
-    RunInput input_, begun_;  ///< as the system was opened; and with the parameters of the last stop
+    RunInput input_, begun_;          ///< as the system was opened; and with the parameters of the last stop
+    std::optional<RunInput> wanted_;  ///< as a system with mistakes was opened, until it runs
+    Diagnostics mistakes_;
     Send send_;
     /// Whether a path is one of a system that the page opened from those that come with Forage. They are not
     /// written, so that the next reader of the tutorial finds them as they are.
     bool comes_with_forage(const std::string& path) const;
     std::string shipped_;
-    json layout_;  ///< the layout that pages begin with; null for none
-    json panels_;  ///< the arrangement that a page had last; null for none
+    std::string plot_config_;  ///< the file of the layout; may be empty
+    json layout_;              ///< the layout that pages begin with; null for none
+    json panels_;              ///< the arrangement that a page had last; null for none
     std::unique_ptr<Run> run_;
     Touches* touches_ = nullptr;
     History history_;

@@ -22,6 +22,16 @@ bool has_errors(const std::vector<Document::Problem>& problems) {
                                [](const auto& p) { return p.diagnostic.severity == Severity::error; });
 }
 
+/// Whether an error is in the file of a system, or in one that it links.
+bool is_in_system(const Diagnostics& diagnostics, const std::string& system) {
+    const auto ending = std::filesystem::path(system).extension();
+    if (ending != ".iqr" && ending != ".xml") return false;
+    return std::ranges::any_of(diagnostics.all(), [&](const Diagnostic& d) {
+        return d.severity == Severity::error && d.where.file &&
+               (d.where.file->path == system || d.where.file->path.ends_with(".iqrProcess"));
+    });
+}
+
 json json_of(const std::vector<Document::Problem>& problems) {
     json out = json::array();
     for (const auto& p : problems) {
@@ -55,30 +65,44 @@ void Session::begin_document(const RunInput& input) {
     changed_.clear(), undo_.clear(), redo_.clear();
 }
 
-void Session::open_document(const RunInput& input) {
+void Session::open_any(const RunInput& input) {
     try {
         open(input);
         begin_document(input_);
+        wanted_.reset(), mistakes_ = {};
     } catch (const InputError& e) {
-        if (!input.text.empty() || std::filesystem::path(input.system).extension() != ".iqr") throw;
-        std::optional<Document> document;
-        try {
-            document = Document::open(input.system, input.lenient);
-        } catch (const InputError&) {
-            throw e;
-        }
-        // Until it can run, a system without content runs.
-        RunInput nothing = input;
-        model::System empty;
-        empty.id = document->system().id, empty.name = document->system().name;
-        empty.cycles_per_second = document->system().cycles_per_second;
-        nothing.text = xml::write_system(empty);
-        open(nothing);
-        begin_document(nothing);
-        document_ = std::move(document);
-        current_ = false;
-        problems_ = document_->located(e.diagnostics());
+        if (!input.text.empty() || !is_in_system(e.diagnostics(), input.system)) throw;
+        open_with_mistakes(input, e.diagnostics());
     }
+}
+
+void Session::open_with_mistakes(const RunInput& input, const Diagnostics& found) {
+    Document document;
+    try {
+        document = Document::open_text(input.system, input.lenient);
+    } catch (const InputError&) {
+        throw InputError(found);
+    }
+    RunInput nothing = input;
+    nothing.more.clear(), nothing.settings.clear(), nothing.robots.clear(), nothing.replay.clear();
+    model::System empty;
+    empty.id = document.system().id, empty.name = document.system().name;
+    empty.cycles_per_second = document.system().cycles_per_second;
+    nothing.text = xml::write_system(empty);
+    try {
+        open(nothing);
+    } catch (const InputError&) {  // the world is wrong, too
+        throw InputError(found);
+    }
+    begin_document(nothing);
+    document_ = std::move(document);
+    current_ = false;
+    problems_ = document_->located(found);
+    wanted_ = input, mistakes_ = found;
+}
+
+void Session::open_document(const RunInput& input) {
+    open_any(input);
     sampler_waits_ = nullptr;
     if (kept_) keep_anew();
     // The page arranges its panels when it has the system, and an arena is one of them.
@@ -125,6 +149,8 @@ json Session::document_message() const {
             {"shipped", comes_with_forage(document_->path())},
             {"name", document_->system().name},
             {"dirty", document_->dirty()},
+            {"readable", document_->readable()},
+            {"opened_with_mistakes", wanted_.has_value()},
             {"problems", json_of(problems_)},
             {"outside", outside_ ? json("changed") : json(nullptr)},
             {"undo", title(undo_)},
@@ -171,7 +197,11 @@ void Session::follow_document(const std::string& title) {
     const auto& now = document_->system();
     const auto changes = model::parameter_changes(built_, now, run_->registry());
     const auto before = generation_;
-    if (changes) {
+    const bool waited = wanted_.has_value();
+    if (!document_->readable()) {
+        problems_ = document_->problems(run_->registry(), run_->environment());
+        current_ = false;
+    } else if (changes && !wanted_) {
         problems_ = document_->problems(run_->registry(), run_->environment());
         current_ = !has_errors(problems_);
         if (current_) {
@@ -206,10 +236,11 @@ void Session::follow_document(const std::string& title) {
     }
     status_due_ = true;
     tell(system_message());
+    if (waited && !wanted_) tell(world_message());
 }
 
 bool Session::rebuild() {
-    RunInput input = input_;
+    RunInput input = wanted_ ? *wanted_ : input_;
     input.text = document_->text();
     Diagnostics diagnostics;
     const Sources sources = read_sources(input, diagnostics);
@@ -230,7 +261,7 @@ bool Session::rebuild() {
     };
     try {
         try {
-            build(failed_.empty() && run_->cycle() > 0);
+            build(failed_.empty() && run_->cycle() > 0 && !wanted_);
         } catch (const ArchiveError&) {  // other modules sense the world in another way: it begins anew
             diagnostics = {};
             build(false);
@@ -261,6 +292,11 @@ bool Session::rebuild() {
     touches_ = touches;
     failed_.clear();
     files_ = digest_of_files(input, sources);
+    if (wanted_) {
+        input_ = input, others_ = sources.more;
+        wanted_.reset(), mistakes_ = {};
+        read_plot_config(*run);
+    }
     begun_ = std::move(input);
     history_.begin(*run_);
     if (anew) rewound();  // a run that has failed does not go on

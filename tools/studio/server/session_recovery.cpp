@@ -110,7 +110,10 @@ void Session::save() {
                                .dump(-1, ' ', false, json::error_handler_t::replace);
         archive(head);
         archive_input(archive, opened), archive_input(archive, begun);
-        archive(rest, *document_, current_);
+        bool waits = wanted_.has_value();
+        RunInput wanted = wanted_.value_or(RunInput());
+        archive(rest, *document_, current_, waits);
+        if (waits) archive_input(archive, wanted);
         history_.save(archive, run_->cycle());
         if (reference_) reference_->past.save(archive, run_->cycle());
         kept_->write(archive.bytes());
@@ -143,8 +146,10 @@ void Session::recover() {
     archive_input(archive, opened), archive_input(archive, begun);
     std::string text;
     Document document;
-    bool current = true;
-    archive(text, document, current);
+    bool current = true, waits = false;
+    archive(text, document, current, waits);
+    RunInput wanted;
+    if (waits) archive_input(archive, wanted);
     const json rest = json::parse(text);
     History past;
     past.load(archive);
@@ -168,6 +173,7 @@ void Session::recover() {
     history_ = std::move(past);
     replay(head.cycle);
     begin_document(begun_);
+    wanted_ = waits ? std::optional(std::move(wanted)) : std::nullopt;
     if (current) built_ = document.system();
     document_ = std::move(document), current_ = current;
     problems_ = document_->problems(run_->registry(), run_->environment());

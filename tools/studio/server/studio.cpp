@@ -31,8 +31,7 @@ std::string keep(Session& session, bool recover) {
 
 }  // namespace
 
-void serve(const StudioOptions& options,
-           const std::function<void(const std::string&, const std::string&)>& ready,
+void serve(const StudioOptions& options, const std::function<void(const Ready&)>& ready,
            const std::function<bool()>& interrupted) {
     std::unique_ptr<HttpServer> server;
     Session session(
@@ -42,6 +41,7 @@ void serve(const StudioOptions& options,
         },
         options.plot_config, options.shipped);
     const std::string note = keep(session, options.recover);
+    const Diagnostics mistakes = session.mistakes();
     std::unique_ptr<EngineThread> engine;
     HttpServer::Options wanted;
     wanted.port = options.port;
@@ -68,7 +68,7 @@ void serve(const StudioOptions& options,
     server = std::make_unique<HttpServer>(std::move(wanted));
     engine = std::make_unique<EngineThread>(session);
     std::thread network([&] { server->run(); });
-    ready(fmt::format("http://127.0.0.1:{}/?token={}", server->port(), token), note);
+    ready({fmt::format("http://127.0.0.1:{}/?token={}", server->port(), token), note, mistakes});
     while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
     server->stop();
     network.join();

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "core/base/diagnostic.h"
 #include "core/run/run_spec.h"
 
 namespace forage::studio {
@@ -18,11 +19,17 @@ struct StudioOptions {
     std::string shipped;      ///< the folder of the systems that come with Forage; may be empty
 };
 
+/// A studio whose pages can be opened.
+struct Ready {
+    std::string address;
+    std::string note;      ///< a session that was killed, or why nothing is kept of this one; may be empty
+    Diagnostics mistakes;  ///< those of a system that must be corrected before it runs; else empty
+};
+
 /// Opens the system and serves it until `interrupted` returns true, which is called ten times a second. Calls
-/// `ready` with the address, when pages can be opened, and what the user should know: a session that was
-/// killed, or why nothing is kept of this one. Throws InputError and std::runtime_error.
-void serve(const StudioOptions& options,
-           const std::function<void(const std::string& address, const std::string& note)>& ready,
+/// `ready` when pages can be opened. A system file with mistakes is opened, too. Throws InputError and
+/// std::runtime_error.
+void serve(const StudioOptions& options, const std::function<void(const Ready&)>& ready,
            const std::function<bool()>& interrupted);
 
 }  // namespace forage::studio
