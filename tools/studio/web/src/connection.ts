@@ -15,7 +15,11 @@ export interface ConnectionEvents {
 
 /** A command that the server refused. */
 export class CommandError extends Error {
-  constructor(readonly problems: Problem[]) {
+  constructor(
+    readonly problems: Problem[],
+    /** Whether another page has changed the run since. */
+    readonly conflict = false,
+  ) {
     super(problems.map(problemText).join('\n') || 'the server refused this');
   }
 }
@@ -80,7 +84,7 @@ export class Connection {
     const waiting = this.waiting.get(message.id);
     this.waiting.delete(message.id);
     if (message.ok) waiting?.resolve(message.result);
-    else waiting?.reject(new CommandError(message.problems ?? []));
+    else waiting?.reject(new CommandError(message.problems ?? [], message.conflict));
   }
 
   private keep(buffer: ArrayBuffer): void {

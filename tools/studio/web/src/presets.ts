@@ -40,7 +40,7 @@ const tutorialWidth = () => Math.round(Math.min(440, Math.max(300, (dock.api?.wi
 const kindOf = (panel: { params?: unknown }) => (panel.params as PanelState).kind;
 
 /** Whether a panel shows a part of the system. */
-export const isPlot = (panel: PanelState): boolean => !['arena', 'diagram', 'tutorial', 'log'].includes(panel.kind);
+export const isPlot = (panel: PanelState): boolean => !['arena', 'diagram', 'tutorial', 'log', 'text'].includes(panel.kind);
 
 /** Closes the panels that show a part of the system. */
 export function closePlots(): void {

@@ -11,6 +11,8 @@ class DocumentState {
   shipped = $derived(this.message?.shipped ?? false);
   dirty = $derived(this.message?.dirty ?? false);
   problems = $derived<DocumentProblem[]>(this.message?.problems ?? []);
+  /** Whether the text has a system that forms can change. */
+  readable = $derived(this.message?.readable ?? true);
   /** Whether the server can edit. */
   editable = $derived(this.message !== null);
   errors = $derived(this.problems.filter((p) => p.severity !== 'warning').length);
@@ -26,6 +28,10 @@ class DocumentState {
 }
 
 export const editing = new DocumentState();
+
+/** What must reach the server before the document is saved, such as a text that is being written. */
+export const unsent = new Set<() => Promise<unknown>>();
+export const sendAll = () => Promise.all([...unsent].map((send) => send()));
 
 /** The name of a file without its folders. */
 export const baseName = (file: string): string => file.split('/').pop() ?? file;

@@ -4,7 +4,7 @@ import { actions } from '../stores/actions.svelte';
 import { model } from '../stores/model.svelte';
 import { command, request } from '../studio';
 import { CommandError } from '../connection';
-import { editing } from './document.svelte';
+import { editing, sendAll } from './document.svelte';
 
 export type FileAction = 'open' | 'save as' | 'import' | 'link' | 'export' | 'new' | 'save the world';
 
@@ -56,6 +56,7 @@ class FileDialog {
       new: () => request('new', { name: this.name.trim() || 'New system', world: this.world.trim() }),
     };
     try {
+      if (action === 'save as') await sendAll();
       await steps[action]();
       this.action = null;
       if (action.startsWith('save')) actions.tell('info', `Saved as ${file.split('/').pop()}.`);
@@ -71,6 +72,7 @@ export const fileDialog = new FileDialog();
 export const mayLeave = () => !editing.dirty || confirm('The system has changes that are not saved. Leave them?');
 
 export async function save(): Promise<void> {
+  await sendAll();
   if (!editing.file || editing.shipped) return fileDialog.open('save as');
   if (await command('save')) actions.tell('info', 'Saved.');
 }

@@ -39,6 +39,7 @@ export const kinds: Record<string, PanelKind> = {
   chosen: { title: () => 'Chosen parameters', load: () => import('./Chosen.svelte') },
   tutorial: { title: () => 'Tutorial', load: () => import('./Tutorial.svelte') },
   world: { title: () => 'World', load: () => import('./World.svelte') },
+  text: { title: () => 'XML', load: () => import('./Text.svelte') },
   problems: { title: () => 'Problems', load: () => import('./Problems.svelte') },
   difference: { title: () => 'Changes', load: () => import('./Difference.svelte') },
   log: { title: () => 'Log', load: () => import('./Log.svelte') },

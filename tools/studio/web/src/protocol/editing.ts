@@ -11,6 +11,10 @@ export interface DocumentMessage {
   /** Whether the file comes with Forage: it is not written. */
   shipped: boolean;
   dirty: boolean;
+  /** Whether the text has a system; without one, the items are those of the last text that had one. */
+  readable: boolean;
+  /** Whether the system was opened with mistakes that must be corrected before it runs for the first time. */
+  opened_with_mistakes: boolean;
   problems: DocumentProblem[];
   /** "changed" when another program wrote the file. */
   outside: string | null;
@@ -70,7 +74,9 @@ export interface FormParameter {
   options?: string[];
   category?: string;
 }
-export interface TypeInfo { type: string; label?: string; doc?: string; parameters: FormParameter[]; states?: State[]; inputs?: { name: string }[]; outputs?: { name: string }[] }
+/** A cross reference of a type. */
+export interface TypePort { name: string; label?: string; doc?: string; optional?: boolean; required?: boolean }
+export interface TypeInfo { type: string; label?: string; doc?: string; parameters: FormParameter[]; states?: State[]; inputs?: TypePort[]; outputs?: TypePort[]; feedback?: TypePort[] }
 export interface TypesResult { neurons: TypeInfo[]; synapses: TypeInfo[]; modules: TypeInfo[]; arborizations: TypeInfo[]; functions: TypeInfo[] }
 
 export interface PreviewResult { synapses: number; source: number[]; target: number[] }

@@ -86,7 +86,7 @@ class Dock {
 
   /** Opens a plot where the other plots are, or at the right side. */
   plot(panel: PanelState): string | null {
-    const others = this.api?.panels.filter((p) => !['arena', 'diagram', 'log', 'tutorial'].includes((p.params as PanelState).kind)) ?? [];
+    const others = this.api?.panels.filter((p) => !['arena', 'diagram', 'log', 'tutorial', 'text'].includes((p.params as PanelState).kind)) ?? [];
     const last = others[others.length - 1];
     if (!last) return this.open(panel, frame.small ? { beside: this.api?.activePanel?.id } : {});
     const roomy = last.api.height > 420 && !frame.small;

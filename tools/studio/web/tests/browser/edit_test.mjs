@@ -153,11 +153,13 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await inspector.getByLabel('Neuron', { exact: true }).waitFor();
   await inspector.getByText('XML', { exact: true }).click();
   const xml = inspector.getByLabel('XML of the item');
+  await xml.waitFor();
+  const written = (await xml.locator('.cm-line').allInnerTexts()).join('\n');
   await xml.fill('<Group id="selection.approach" name="Approach">');
   await xml.press('Control+Enter');
   await inspector.getByRole('alert').waitFor();
   await inspector.getByRole('button', { name: 'Discard' }).click();
-  await xml.fill((await xml.inputValue()).replace('neuronLinearThreshold', 'neuronLinearTreshold'));
+  await xml.fill(written.replace('neuronLinearThreshold', 'neuronLinearTreshold'));
   await xml.press('Control+Enter');
   await page.getByRole('button', { name: /problem/ }).click();
   const problems = page.getByRole('group', { name: 'Problems' });

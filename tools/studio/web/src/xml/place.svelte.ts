@@ -1,0 +1,28 @@
+// The panel with the text of the system, and the place in it that is asked for.
+import { dock } from '../stores/dock.svelte';
+
+class TextPlace {
+  /** Counts from 1, the column in bytes; `key` differs each time. */
+  wanted = $state.raw<{ line: number; column: number; key: number } | null>(null);
+  private key = 0;
+  go(line: number, column: number): void {
+    this.wanted = { line, column, key: ++this.key };
+  }
+}
+export const textPlace = new TextPlace();
+
+const narrow = () => matchMedia('(max-width: 720px)').matches;
+
+/** Opens the text of the system, at a place of it. */
+export function openText(at?: { line?: number; column?: number }): string | null {
+  if (at?.line) textPlace.go(at.line, at.column ?? 1);
+  return dock.openBeside({ kind: 'text' }, 'diagram');
+}
+
+/** The text, with the list of what is wrong with it. */
+export function openMistakes(): void {
+  const text = openText();
+  if (!text) return;
+  dock.open({ kind: 'problems' }, narrow() ? { beside: text, inactive: true } : { beside: text, direction: 'below', height: 170 });
+  dock.api?.getPanel(text)?.api.setActive();
+}

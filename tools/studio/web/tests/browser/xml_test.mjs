@@ -1,0 +1,212 @@
+// Systems with mistakes, and the XML editor, in Chromium against the real program: node xml_test.mjs FORAGE SOURCES [SCREENSHOTS]
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { join, resolve } from 'node:path';
+import { inBrowser } from './support.mjs';
+
+const [forage, sources, pictures] = process.argv.slice(2).map((p) => resolve(p));
+const step = (text) => console.log(text);
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+
+await inBrowser(sources, async ({ folder, context, start, until }) => {
+  const faults = [];
+  const file = join(folder, 'systems/reactive_foraging.iqr');
+  const sound = readFileSync(file, 'utf8');
+  // Lines of a file from Windows, some of them: they stay.
+  const author = sound.replace('\n', '\r\n').replace('<System', '<!-- Größe, 😀 -->\n<System');
+  const wrongLine = author.split('\n').findIndex((l) => l.includes('</Group>'));
+  const broken = author.replace('</Group>', '</Grup>');
+  writeFileSync(file, broken);
+  const studio = start(forage, ['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
+  let printed = '';
+  studio.child.stderr.on('data', (d) => (printed += d));
+  const page = await context.newPage();
+  page.setDefaultTimeout(20000);
+  page.on('pageerror', (e) => faults.push(e.message));
+  page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
+  const serious = async () => {
+    await page.evaluate(axe);
+    return page.evaluate(async () => (await window.axe.run({ exclude: ['.dv-tab'] }, { resultTypes: ['violations'] })).violations.filter((v) => ['serious', 'critical'].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 200)).join(' | ')}`));
+  };
+  const look = async (name) => {
+    if (pictures) await page.screenshot({ path: join(pictures, `${name}.png`) });
+  };
+  const panel = page.getByRole('group', { name: 'XML of the system' });
+  const text = panel.getByRole('textbox', { name: 'XML of the system' });
+  const status = panel.getByRole('status');
+  const list = page.getByRole('listbox', { name: 'Completions' });
+  const option = (name) => list.getByRole('option', { name });
+  const problems = page.getByRole('group', { name: 'Problems' });
+  const palette = async (name) => {
+    await page.keyboard.press('Control+k');
+    await page.keyboard.type(name);
+    await page.keyboard.press('Enter');
+  };
+  const line = () => page.evaluate(() => getSelection().anchorNode?.parentElement?.closest('.cm-line')?.textContent);
+
+  step('a file that is not XML opens with its text, its mistake and the list of them');
+  await page.goto(await studio.address);
+  await text.waitFor();
+  assert.match(printed, new RegExp(`reactive_foraging\\.iqr:${wrongLine + 1}:\\d+: error: .*Grup`));
+  await status.getByText('1 mistake: corrected, the system runs').waitFor();
+  await panel.locator('.cm-lintRange-error').filter({ hasText: 'Grup' }).waitFor();
+  await problems.getByRole('button', { name: /Grup/ }).waitFor();
+  assert.deepEqual(await serious(), []);
+  await look('broken');
+
+  step('a click on the problem leads to its line; it is corrected by the keyboard, and the system runs');
+  await problems.getByRole('button', { name: /Grup/ }).click();
+  assert.match(await line(), /<\/Grup>/);
+  await page.keyboard.press('End');
+  for (let i = 0; i < '</Grup>'.length; ++i) await page.keyboard.press('Backspace');
+  await page.keyboard.type('</');
+  await option('Group').waitFor();
+  await page.keyboard.press('Enter');
+  assert.match(await line(), /^\s*<\/Group>$/);
+  await status.getByText('No mistakes').waitFor();
+  await page.getByRole('navigation').getByText('Approach', { exact: true }).first().waitFor();
+  await page.keyboard.press('Control+s');
+  await page.getByText('Saved.').waitFor();
+  assert.equal(readFileSync(file, 'utf8'), author);
+
+  step('elements, attributes and values are completed, with what they mean');
+  await page.keyboard.press('Control+Home');
+  await page.keyboard.press('Control+f');
+  await page.keyboard.type('<Connection');
+  await page.keyboard.press('Escape');
+  await text.press('Home');
+  await page.keyboard.type('<');
+  await option(/^Process/).waitFor();
+  await page.keyboard.type('Conn');
+  await page.keyboard.press('Enter');
+  await page.keyboard.type('new');
+  await page.keyboard.press('Tab');
+  await page.keyboard.type('New');
+  await page.keyboard.press('Tab');
+  await page.keyboard.press('Control+Space');
+  await option(/Bug\/Light/).waitFor();
+  await page.keyboard.type('bug/light');
+  await page.keyboard.press('Enter');
+  await page.keyboard.press('Tab');
+  await page.keyboard.press('Control+Space');
+  await page.keyboard.type('selection/ur');
+  await option(/Selection\/UR/).waitFor();
+  await page.keyboard.press('Enter');
+  assert.match(await line(), /<Connection id="new" name="New" source="bug\.light" target="selection\.ur"><\/Connection>/);
+  await page.keyboard.press('Tab');
+  await page.keyboard.type('<Syn');
+  await option(/Synapse/).waitFor();
+  await page.keyboard.press('Enter');
+  await page.keyboard.press('Control+Space');
+  await page.keyboard.type('Fixed');
+  await option(/synapseFixedWeight/).waitFor();
+  await page.keyboard.press('Enter');
+  await page.keyboard.press('Tab');
+  await page.keyboard.type('<Par');
+  await option(/Parameter/).waitFor();
+  await page.keyboard.press('Enter');
+  await page.keyboard.press('Control+Space');
+  await option(/weight/).waitFor();
+  await page.locator('.cm-completionInfo').getByText(/default 1/).waitFor();
+  await look('completion');
+  assert.deepEqual(await serious(), []);
+  await page.keyboard.press('Enter');
+  await page.keyboard.press('Tab');
+  await page.keyboard.type('0.5');
+  assert.match(await line(), /<Synapse name="synapseFixedWeight"><Parameter name="weight" value="0\.5"\/><\/Synapse>/);
+  await status.getByText('No mistakes').waitFor();
+  await page.getByRole('navigation').getByText('New', { exact: true }).waitFor();
+
+  step('a mistake is marked as it is written; F8 leads to it; undo takes it back');
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('Home');
+  await page.keyboard.type('<Nonsense/>');
+  await panel.locator('.cm-lintRange-error').filter({ hasText: '<Nonsense' }).waitFor();
+  await status.getByText(/1 mistake: the last system without them runs on/).waitFor();
+  await page.keyboard.press('Control+Home');
+  await page.keyboard.press('F8');
+  await page.locator('.cm-tooltip-lint').getByText(/Nonsense/).waitFor();
+  assert.match(await line(), /<Nonsense/);
+  await page.keyboard.press('Escape');
+  await page.evaluate(() => document.documentElement.classList.add('dark'));
+  await look('dark');
+  assert.deepEqual(await serious(), []);
+  await page.evaluate(() => document.documentElement.classList.remove('dark'));
+  for (let i = 0; i < 3 && /Nonsense|</.test((await line()) ?? '') && (await panel.locator('.cm-lintRange-error').count()); ++i) {
+    await page.keyboard.press('Control+z');
+    await page.waitForTimeout(700);
+  }
+  await status.getByText('No mistakes').waitFor();
+
+  step('Tab writes, and after Escape it leaves the editor');
+  const inside = () => page.evaluate(() => !!document.activeElement?.closest('.cm-editor'));
+  assert.equal(await inside(), true);
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('Tab');
+  assert.equal(await inside(), false);
+
+  step('an edit of the diagram appears in the text, and a step of the text is undone like others');
+  await palette('Approach Inhibition');
+  const inspector = page.getByRole('region', { name: 'Inspector' });
+  await inspector.getByLabel('Name', { exact: true }).fill('Renamed here');
+  await inspector.getByLabel('Name', { exact: true }).press('Enter');
+  await palette('Edit the XML');
+  await page.keyboard.press('Escape');
+  await text.press('Control+Home');
+  await page.keyboard.press('Control+f');
+  await page.keyboard.type('Renamed here');
+  await panel.locator('.cm-searchMatch').first().waitFor();
+  await page.keyboard.press('Escape');
+
+  step('the XML of an item: marks while it is written, completion, and what is taken over');
+  await palette('US to Approach');
+  await inspector.getByText('XML', { exact: true }).click();
+  const item = inspector.getByRole('textbox', { name: 'XML of the item' });
+  await item.waitFor();
+  const written = (await item.locator('.cm-line').allInnerTexts()).join('\n');
+  await item.fill(written.replace('excitatory', 'excited'));
+  await inspector.locator('.cm-lintRange-error').filter({ hasText: 'excited' }).waitFor();
+  assert.deepEqual(await serious(), []);
+  await item.fill(written.replace('excitatory', 'inhibitory'));
+  await inspector.locator('.cm-lintRange-error').waitFor({ state: 'detached' });
+  await item.press('Control+Enter');
+  await inspector.getByText(/^inhibitory,/).waitFor();
+
+  step('opening a file with mistakes from the menu shows them, and a small window too');
+  writeFileSync(join(folder, 'systems/other.iqr'), '<System id="s" name="Other">\n  <Process id="p" name="P"/>\n  <Proces id="q" name="Q"/>\n</System>\n');
+  await page.keyboard.press('Control+s');
+  await page.getByText('Saved.').last().waitFor();
+  await page.keyboard.press('Control+o');
+  const dialog = page.getByRole('dialog', { name: 'Open a system' });
+  await dialog.getByRole('button', { name: 'other.iqr' }).click();
+  await dialog.getByRole('button', { name: 'Open', exact: true }).click();
+  await dialog.waitFor({ state: 'detached' });
+  await panel.locator('.cm-lintRange-error').filter({ hasText: 'Proces' }).waitFor();
+  await page.setViewportSize({ width: 420, height: 800 });
+  await text.waitFor();
+  await look('small');
+  await page.setViewportSize({ width: 1400, height: 900 });
+  await text.fill('<System id="s" name="Other">\n  <Process id="p" name="P"/>\n</System>\n');
+  await status.getByText('No mistakes').waitFor();
+  await page.keyboard.press('Control+s');
+  await until(page, 'the saved file', () => !document.title.startsWith('●'));
+  assert.equal(readFileSync(join(folder, 'systems/other.iqr'), 'utf8'), '<System id="s" name="Other">\n  <Process id="p" name="P"/>\n</System>\n');
+
+  step('the first page of a sound system loads no editor');
+  const loaded = [];
+  const second = start(forage, ['systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
+  const other = await context.newPage();
+  other.on('request', (r) => loaded.push(r.url()));
+  await other.goto(await second.address);
+  await other.getByRole('group', { name: 'Arena' }).waitFor();
+  assert.deepEqual(loaded.filter((u) => /XmlEditor/.test(u)), []);
+  await other.keyboard.press('Control+k');
+  await other.keyboard.type('edit the xml');
+  await other.keyboard.press('Enter');
+  await other.getByRole('textbox', { name: 'XML of the system' }).waitFor();
+  assert.equal(loaded.filter((u) => /XmlEditor\.js/.test(u)).length, 1);
+
+  assert.deepEqual(faults, []);
+  console.log('all fine');
+});
