@@ -408,6 +408,29 @@ class Editing(unittest.TestCase):
             self.assertFalse(page.last('document')['dirty'])
             page.close()
 
+    def test_a_file_with_mistakes_is_opened_and_corrected(self):
+        sound = self.mine.read_text()
+        self.mine.write_text(sound.replace('</Process>', '</Proces>', 1))
+        checked = subprocess.run([forage, 'check', str(self.mine), '--world', world], capture_output=True, text=True)
+        self.assertEqual(checked.returncode, 2)
+        mistakes = checked.stderr[:checked.stderr.rindex(f'{self.mine}:')]  # without the counts at the end
+        with Studio(forage, str(self.mine), '--world', world, state=self.folder.name) as studio:
+            page = Page(studio)
+            page.do('pause')
+            self.assertFalse(page.last('document')['readable'])
+            self.assertIn(page.last('document')['problems'][0]['message'], mistakes)
+            page.do('text_edit', text=sound)
+            self.assertTrue(page.last('document')['running_is_current'])
+            page.do('step', cycles=10)
+            page.do('save')
+            self.assertEqual(self.mine.read_text(), sound)
+            page.close()
+            studio.child.terminate()
+            self.assertTrue(studio.child.stderr.read().startswith(mistakes))
+        for arguments in ([str(self.mine) + 'x'], [str(self.mine), '--world', 'none.world'], [str(self.mine), '--set', 'Nothing.here=1']):
+            done = subprocess.run([forage, 'studio', *arguments], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stdout), (2, ''), arguments)
+
     def described(self):
         return subprocess.run([forage, 'describe', str(self.mine)], capture_output=True, text=True, check=True).stdout
 

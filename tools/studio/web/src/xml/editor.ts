@@ -48,7 +48,7 @@ const colours = HighlightStyle.define([
 
 // The colours are those of the page, so light and dark need no theme each.
 const look = EditorView.theme({
-  '&': { height: '100%', fontSize: '12px', color: 'var(--ink)', backgroundColor: 'var(--raised)' },
+  '&': { fontSize: '12px', color: 'var(--ink)', backgroundColor: 'var(--raised)' },
   '&.cm-focused': { outline: '2px solid var(--accent)', outlineOffset: '-2px' },
   '.cm-scroller': { fontFamily: 'var(--mono)', lineHeight: '1.45' },
   '.cm-content': { caretColor: 'var(--ink)' },
@@ -70,7 +70,8 @@ const look = EditorView.theme({
   '.cm-lintRange-error': { backgroundImage: 'none', textDecoration: 'underline wavy var(--bad)', textUnderlineOffset: '3px' },
   '.cm-lintRange-warning': { backgroundImage: 'none', textDecoration: 'underline wavy var(--warn)', textUnderlineOffset: '3px' },
   '.cm-panels': { backgroundColor: 'var(--panel)', color: 'var(--ink)' },
-  '.cm-panel.cm-search': { display: 'flex', flexWrap: 'wrap', gap: '4px', alignItems: 'center', padding: '6px 26px 6px 8px' },
+  '.cm-panel.cm-search': { display: 'flex', flexWrap: 'wrap', gap: '4px', alignItems: 'center', padding: '6px 26px 6px 8px', fontSize: '12px' },
+  '.cm-panel.cm-search :is(input, button, label)': { fontSize: '12px', margin: '0' },
   '.cm-button': { backgroundImage: 'none', backgroundColor: 'var(--raised)', border: '1px solid var(--line)', borderRadius: '6px', color: 'var(--ink)' },
   '.cm-textfield': { backgroundColor: 'var(--raised)', border: '1px solid var(--line)', color: 'var(--ink)' },
   '.cm-panel.cm-panel-lint ul [aria-selected]': { backgroundColor: 'var(--accent-soft)', color: 'var(--ink)' },
@@ -129,7 +130,8 @@ export function makeEditor(parent: HTMLElement, options: EditorOptions): XmlEdit
         autocompletion({ override: [source(options)], icons: false }),
         keymap.of([...closeBracketsKeymap, ...completionKeymap, ...lintKeymap, ...historyKeymap, ...defaultKeymap, indentWithTab]),
         look,
-        EditorView.contentAttributes.of({ 'aria-label': options.label, 'aria-describedby': options.description, spellcheck: 'false' }),
+        EditorView.theme({ '&': options.whole ? { height: '100%' } : { maxHeight: '420px' } }),
+        EditorView.contentAttributes.of({ 'aria-label': options.label, 'aria-describedby': options.description, spellcheck: 'false', tabindex: '0' }),
         EditorView.updateListener.of((update) => {
           if (update.docChanged && !update.transactions.some((t) => t.annotation(outside))) options.changed(update.state.doc.toString());
         }),

@@ -1,6 +1,6 @@
 // An editor counts every line end as one character. A file keeps its own.
 
-/** `edited`, whose lines end with \n, with the line ends of `original` where lines are the same, and its first one elsewhere. */
+/** `edited`, whose lines end with \n, with the line ends of `original`: where lines differ, those of the lines that stood there. */
 export function withLineEnds(original: string, edited: string): string {
   if (!original.includes('\r')) return edited;
   const split = (text: string) => text.match(/[^\r\n]*(\r\n|\r|\n)|[^\r\n]+$/g) ?? [];
@@ -16,7 +16,7 @@ export function withLineEnds(original: string, edited: string): string {
   return is
     .map((line, i) => {
       if (i === is.length - 1) return line;
-      const old = i < first ? was[i] : i >= is.length - more - last ? was[was.length - (is.length - more - i)] : undefined;
+      const old = i < first ? was[i] : i >= is.length - more - last ? was[was.length - (is.length - more - i)] : was[Math.min(i, was.length - 1 - last)];
       return line + ((old && old.slice(bare(old).length)) || usual);
     })
     .join('');

@@ -1,4 +1,5 @@
 // The panel with the text of the system, and the place in it that is asked for.
+import { editing } from '../edit/document.svelte';
 import { dock } from '../stores/dock.svelte';
 
 class TextPlace {
@@ -19,9 +20,9 @@ export function openText(at?: { line?: number; column?: number }): string | null
   return dock.openBeside({ kind: 'text' }, 'diagram');
 }
 
-/** The text, with the list of what is wrong with it. */
+/** The text at its first mistake, with the list of all. */
 export function openMistakes(): void {
-  const text = openText();
+  const text = openText(editing.problems.find((p) => p.line && p.file === editing.file));
   if (!text) return;
   dock.open({ kind: 'problems' }, narrow() ? { beside: text, inactive: true } : { beside: text, direction: 'below', height: 170 });
   dock.api?.getPanel(text)?.api.setActive();

@@ -27,6 +27,8 @@ export interface Suggestions {
 
 const range = (low: number | null | undefined, high: number | null | undefined) => (low != null && high != null ? `${low} to ${high}` : low != null ? `at least ${low}` : high != null ? `at most ${high}` : '');
 const sentence = (...parts: (string | undefined | false)[]) => parts.filter(Boolean).join('; ');
+/** What something means, and below it the facts. */
+const meaning = (doc: string | undefined, facts: string) => [doc, facts].filter(Boolean).join('\n');
 const wholeDoc = (label: string | undefined, doc: string | undefined) => [label, doc].filter(Boolean).join(': ');
 
 const parameterFacts = (p: FormParameter) => sentence(p.kind === 'text' ? '' : p.kind, p.unit && `in ${p.unit}`, range(p.low, p.high) && `usually ${range(p.low, p.high)}`, `default ${p.default === '' ? 'empty' : p.default}`);
@@ -82,7 +84,7 @@ function attributes(tag: Tag, after: string, { vocabulary }: Knowledge): Suggest
   // Attributes that follow in the same tag.
   const rest = /^[^<>]*/.exec(after)![0].matchAll(/([\w:.-]+)\s*=/g);
   const there = new Set([...tag.attributes.map((a) => a.name), ...[...rest].map((m) => m[1]!)]);
-  return (elementRule(vocabulary, tag.name)?.attributes ?? []).filter((a) => !there.has(a.name)).map((a) => ({ text: a.name, template: `${a.name}="#{}"`, detail: a.required ? 'required' : a.default, doc: sentence(a.doc, attributeFacts(a)), first: a.required }));
+  return (elementRule(vocabulary, tag.name)?.attributes ?? []).filter((a) => !there.has(a.name)).map((a) => ({ text: a.name, template: `${a.name}="#{}"`, detail: a.required ? 'required' : a.default, doc: meaning(a.doc, attributeFacts(a)), first: a.required }));
 }
 
 const typesOf = (types: TypesResult, owner: string | undefined): TypeInfo[] => ({ Neuron: types.neurons, Synapse: types.synapses, Module: types.modules })[owner ?? ''] ?? [];
@@ -106,7 +108,7 @@ function values(tag: Tag, attribute: string, text: string, known: Knowledge): Su
       return typeList(types.modules);
     case 'parameter': {
       const there = new Set((holder?.children ?? []).filter((c) => c !== tag).map((c) => valueOf(c, 'name')));
-      return (type?.parameters ?? []).filter((p) => !there.has(p.name)).map((p) => ({ text: p.name, detail: `${p.default}${p.unit ? ` ${p.unit}` : ''}`, doc: sentence(wholeDoc(p.label === p.name ? '' : p.label, p.doc), parameterFacts(p)), words: p.label }));
+      return (type?.parameters ?? []).filter((p) => !there.has(p.name)).map((p) => ({ text: p.name, detail: `${p.default}${p.unit ? ` ${p.unit}` : ''}`, doc: meaning(wholeDoc(p.label === p.name ? '' : p.label, p.doc), parameterFacts(p)), words: p.label }));
     }
     case 'value': {
       const p = type?.parameters.find((q) => q.name === valueOf(tag, 'name'));
@@ -124,7 +126,7 @@ function values(tag: Tag, attribute: string, text: string, known: Knowledge): Su
 }
 
 function parameterValues(p: FormParameter): Suggestion[] {
-  const doc = sentence(p.doc, parameterFacts(p));
+  const doc = meaning(p.doc, parameterFacts(p));
   const out: Suggestion[] = [{ text: String(p.default), detail: 'default', doc, first: true }];
   const add = (text: string, detail: string) => out.some((s) => s.text === text) || out.push({ text, detail, doc });
   if (p.kind === 'boolean') ['true', 'false'].forEach((t) => add(t, ''));
@@ -138,7 +140,7 @@ function choices(tag: Tag, rule: AttributeRule): Suggestion[] {
   let possible = rule.choices ?? (rule.default ? [rule.default] : []);
   // The holders of a synapse and of a module differ.
   if (rule.kind === 'choice' && tag.name === 'XRefHolder') possible = possible.filter((c) => (c === 'Freedback') === (tag.parent?.name === 'Synapse') || !tag.parent);
-  return possible.map((c) => ({ text: c, detail: c === rule.default ? 'default' : undefined, doc: sentence(rule.doc, attributeFacts(rule)) }));
+  return possible.map((c) => ({ text: c, detail: c === rule.default ? 'default' : undefined, doc: meaning(rule.doc, attributeFacts(rule)) }));
 }
 
 function ports(tag: Tag, type: TypeInfo | undefined): Suggestion[] {

@@ -22,7 +22,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   let printed = '';
   studio.child.stderr.on('data', (d) => (printed += d));
   const page = await context.newPage();
-  page.setDefaultTimeout(20000);
+  page.setDefaultTimeout(10000);
   page.on('pageerror', (e) => faults.push(e.message));
   page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
   const serious = async () => {
@@ -37,13 +37,23 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   const status = panel.getByRole('status');
   const list = page.getByRole('listbox', { name: 'Completions' });
   const option = (name) => list.getByRole('option', { name });
+  // The editor takes no Enter within a moment after its list appears.
+  const accept = async (name) => {
+    await list.getByRole('option', { name, selected: true }).waitFor();
+    await page.waitForTimeout(150);
+    await page.keyboard.press('Enter');
+    await list.waitFor({ state: 'detached' });
+  };
   const problems = page.getByRole('group', { name: 'Problems' });
   const palette = async (name) => {
     await page.keyboard.press('Control+k');
     await page.keyboard.type(name);
     await page.keyboard.press('Enter');
   };
-  const line = () => page.evaluate(() => getSelection().anchorNode?.parentElement?.closest('.cm-line')?.textContent);
+  const line = () => page.evaluate(() => {
+    const node = getSelection().anchorNode;
+    return (node instanceof Element ? node : node?.parentElement)?.closest('.cm-line')?.textContent ?? '';
+  });
 
   step('a file that is not XML opens with its text, its mistake and the list of them');
   await page.goto(await studio.address);
@@ -60,26 +70,27 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   assert.match(await line(), /<\/Grup>/);
   await page.keyboard.press('End');
   for (let i = 0; i < '</Grup>'.length; ++i) await page.keyboard.press('Backspace');
-  await page.keyboard.type('</');
-  await option('Group').waitFor();
-  await page.keyboard.press('Enter');
+  await page.keyboard.type('</'); // the editor ends what is open
   assert.match(await line(), /^\s*<\/Group>$/);
   await status.getByText('No mistakes').waitFor();
   await page.getByRole('navigation').getByText('Approach', { exact: true }).first().waitFor();
   await page.keyboard.press('Control+s');
   await page.getByText('Saved.').waitFor();
-  assert.equal(readFileSync(file, 'utf8'), author);
+  const saved = readFileSync(file, 'utf8').split('\n');
+  assert.deepEqual(author.split('\n').flatMap((l, i) => (l === saved[i] ? [] : [[l, saved[i]]])), []);
+  assert.equal(readFileSync(file, 'utf8').length, author.length);
 
   step('elements, attributes and values are completed, with what they mean');
   await page.keyboard.press('Control+Home');
   await page.keyboard.press('Control+f');
   await page.keyboard.type('<Connection');
+  await page.keyboard.press('Enter');
   await page.keyboard.press('Escape');
   await text.press('Home');
   await page.keyboard.type('<');
   await option(/^Process/).waitFor();
   await page.keyboard.type('Conn');
-  await page.keyboard.press('Enter');
+  await accept(/^Connection/);
   await page.keyboard.type('new');
   await page.keyboard.press('Tab');
   await page.keyboard.type('New');
@@ -87,36 +98,32 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.keyboard.press('Control+Space');
   await option(/Bug\/Light/).waitFor();
   await page.keyboard.type('bug/light');
-  await page.keyboard.press('Enter');
+  await accept(/Bug\/Light/);
   await page.keyboard.press('Tab');
   await page.keyboard.press('Control+Space');
   await page.keyboard.type('selection/ur');
-  await option(/Selection\/UR/).waitFor();
-  await page.keyboard.press('Enter');
+  await accept(/Selection\/UR/);
   assert.match(await line(), /<Connection id="new" name="New" source="bug\.light" target="selection\.ur"><\/Connection>/);
   await page.keyboard.press('Tab');
   await page.keyboard.type('<Syn');
-  await option(/Synapse/).waitFor();
-  await page.keyboard.press('Enter');
+  await accept(/Synapse/);
   await page.keyboard.press('Control+Space');
   await page.keyboard.type('Fixed');
-  await option(/synapseFixedWeight/).waitFor();
-  await page.keyboard.press('Enter');
+  await accept(/synapseFixedWeight/);
   await page.keyboard.press('Tab');
   await page.keyboard.type('<Par');
-  await option(/Parameter/).waitFor();
-  await page.keyboard.press('Enter');
+  await accept(/Parameter/);
   await page.keyboard.press('Control+Space');
   await option(/weight/).waitFor();
   await page.locator('.cm-completionInfo').getByText(/default 1/).waitFor();
   await look('completion');
   assert.deepEqual(await serious(), []);
-  await page.keyboard.press('Enter');
+  await accept(/weight/);
   await page.keyboard.press('Tab');
   await page.keyboard.type('0.5');
   assert.match(await line(), /<Synapse name="synapseFixedWeight"><Parameter name="weight" value="0\.5"\/><\/Synapse>/);
   await status.getByText('No mistakes').waitFor();
-  await page.getByRole('navigation').getByText('New', { exact: true }).waitFor();
+  await page.getByRole('navigation').getByText('11', { exact: true }).waitFor(); // connections
 
   step('a mistake is marked as it is written; F8 leads to it; undo takes it back');
   await page.keyboard.press('Escape');
@@ -133,7 +140,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await look('dark');
   assert.deepEqual(await serious(), []);
   await page.evaluate(() => document.documentElement.classList.remove('dark'));
-  for (let i = 0; i < 3 && /Nonsense|</.test((await line()) ?? '') && (await panel.locator('.cm-lintRange-error').count()); ++i) {
+  for (let i = 0; i < 3 && (await panel.locator('.cm-lintRange-error').count()); ++i) {
     await page.keyboard.press('Control+z');
     await page.waitForTimeout(700);
   }
@@ -156,6 +163,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await text.press('Control+Home');
   await page.keyboard.press('Control+f');
   await page.keyboard.type('Renamed here');
+  await page.keyboard.press('Enter');
   await panel.locator('.cm-searchMatch').first().waitFor();
   await page.keyboard.press('Escape');
 
@@ -171,7 +179,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await item.fill(written.replace('excitatory', 'inhibitory'));
   await inspector.locator('.cm-lintRange-error').waitFor({ state: 'detached' });
   await item.press('Control+Enter');
-  await inspector.getByText(/^inhibitory,/).waitFor();
+  await inspector.getByText(/inhibitory, \d/).waitFor();
 
   step('opening a file with mistakes from the menu shows them, and a small window too');
   writeFileSync(join(folder, 'systems/other.iqr'), '<System id="s" name="Other">\n  <Process id="p" name="P"/>\n  <Proces id="q" name="Q"/>\n</System>\n');

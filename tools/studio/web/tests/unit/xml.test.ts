@@ -67,7 +67,7 @@ describe('suggestions', () => {
   it('are the attributes that a tag does not have yet, before or after the cursor', () => {
     expect(names('<Group |')).toEqual(['id', 'name', 'color']);
     expect(names('<Group id="g" | name="x">')).toEqual(['color']);
-    expect(at('<TopologyRect h|')[0]).toEqual({ text: 'hcount', template: 'hcount="#{}"', detail: 'required', first: true, doc: 'doc of hcount; required; whole number; in cells; 1 to 100000' });
+    expect(at('<TopologyRect h|')[0]).toEqual({ text: 'hcount', template: 'hcount="#{}"', detail: 'required', first: true, doc: 'doc of hcount\nrequired; whole number; in cells; 1 to 100000' });
   });
   it('end what is open', () => {
     expect(at('<System><Note></|')).toEqual([{ text: 'Note', template: 'Note>' }]);
@@ -79,7 +79,7 @@ describe('suggestions', () => {
     expect(names('<Process><Module name=\'|')).toEqual(['moduleBug']);
   });
   it('are parameters with default, range, unit and meaning, and their values', () => {
-    expect(at('<Neuron name="neuronLinear"><Parameter name="|"')[0]).toEqual({ text: 'gain', detail: '1 mV', words: 'Gain', doc: 'Gain: Factor of the input.; real; in mV; usually 0 to 10; default 1' });
+    expect(at('<Neuron name="neuronLinear"><Parameter name="|"')[0]).toEqual({ text: 'gain', detail: '1 mV', words: 'Gain', doc: 'Gain: Factor of the input.\nreal; in mV; usually 0 to 10; default 1' });
     expect(names('<Neuron name="neuronLinear"><Parameter name="gain" value="2"/><Parameter name="|"')).toEqual(['clip']);
     expect(names('<Neuron name="neuronLinear"><Parameter name="gain" value="|"')).toEqual(['1', '0', '10']);
     expect(names('<Neuron name="neuronLinear"><Parameter name="clip" value="|"')).toEqual(['false', 'true']);
@@ -160,6 +160,7 @@ describe('line ends', () => {
     expect(withLineEnds('a\r\nb\r\n', 'a\nb\n')).toBe('a\r\nb\r\n');
     expect(withLineEnds('a\r\nb\nc\r\nd', 'a\nb\nx\ny\nd')).toBe('a\r\nb\nx\r\ny\r\nd');
     expect(withLineEnds('a\r\nb\nc\n', 'x\nb\nc\n')).toBe('x\r\nb\nc\n');
+    expect(withLineEnds('a\r\nb\nc\n', 'a\nx\ny\nc\n')).toBe('a\r\nx\ny\nc\n');
     expect(withLineEnds('a\r\n', 'a')).toBe('a');
     expect(withLineEnds('a\r\nb', 'a\nb\n')).toBe('a\r\nb\r\n');
   });
