@@ -26,8 +26,8 @@ export interface EditorOptions {
 
 export interface XmlEditor {
   text(): string;
-  /** Replaces what differs, without a step of undo. */
-  setText(text: string): void;
+  /** Replaces what differs, without a step of undo. Returns whether anything does. */
+  setText(text: string): boolean;
   setProblems(problems: Problem[]): void;
   goTo(line: number, column: number): void;
   next(): void;
@@ -144,12 +144,13 @@ export function makeEditor(parent: HTMLElement, options: EditorOptions): XmlEdit
     setText(now) {
       const was = text();
       const wanted = now.replace(/\r\n?/g, '\n');
-      if (was === wanted) return;
+      if (was === wanted) return false;
       let from = 0;
       while (from < Math.min(was.length, wanted.length) && was[from] === wanted[from]) from += 1;
       let end = 0;
       while (end < Math.min(was.length, wanted.length) - from && was[was.length - 1 - end] === wanted[wanted.length - 1 - end]) end += 1;
       view.dispatch({ changes: { from, to: was.length - end, insert: wanted.slice(from, wanted.length - end) }, annotations: [outside.of(true), Transaction.addToHistory.of(false)] });
+      return true;
     },
     setProblems(problems) {
       view.dispatch(setDiagnostics(view.state, marksOf(text(), problems)));

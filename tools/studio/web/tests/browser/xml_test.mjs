@@ -25,9 +25,9 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   page.setDefaultTimeout(10000);
   page.on('pageerror', (e) => faults.push(e.message));
   page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
-  const serious = async () => {
-    await page.evaluate(axe);
-    return page.evaluate(async () => (await window.axe.run({ exclude: ['.dv-tab'] }, { resultTypes: ['violations'] })).violations.filter((v) => ['serious', 'critical'].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 200)).join(' | ')}`));
+  const serious = async (which = page) => {
+    await which.evaluate(axe);
+    return which.evaluate(async () => (await window.axe.run({ exclude: ['.dv-tab'] }, { resultTypes: ['violations'] })).violations.filter((v) => ['serious', 'critical'].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 200)).join(' | ')}`));
   };
   const look = async (name) => {
     if (pictures) await page.screenshot({ path: join(pictures, `${name}.png`) });
@@ -42,7 +42,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
     await list.getByRole('option', { name, selected: true }).waitFor();
     await page.waitForTimeout(150);
     await page.keyboard.press('Enter');
-    await list.waitFor({ state: 'detached' });
+    await list.getByRole('option', { name, selected: true }).waitFor({ state: 'detached' });
   };
   const problems = page.getByRole('group', { name: 'Problems' });
   const palette = async (name) => {
@@ -182,7 +182,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await inspector.getByText(/inhibitory, \d/).waitFor();
 
   step('opening a file with mistakes from the menu shows them, and a small window too');
-  writeFileSync(join(folder, 'systems/other.iqr'), '<System id="s" name="Other">\n  <Process id="p" name="P"/>\n  <Proces id="q" name="Q"/>\n</System>\n');
+  writeFileSync(join(folder, 'systems/other.iqr'), '<System id="s" name="Other">\n  <Process id="p" name="P"><DiagramIcon x="9" y="9"/></Process>\n  <Proces id="q" name="Q"/>\n</System>\n');
   await page.keyboard.press('Control+s');
   await page.getByText('Saved.').last().waitFor();
   await page.keyboard.press('Control+o');
@@ -191,15 +191,18 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await dialog.getByRole('button', { name: 'Open', exact: true }).click();
   await dialog.waitFor({ state: 'detached' });
   await panel.locator('.cm-lintRange-error').filter({ hasText: 'Proces' }).waitFor();
-  await page.setViewportSize({ width: 420, height: 800 });
-  await text.waitFor();
-  await look('small');
-  await page.setViewportSize({ width: 1400, height: 900 });
-  await text.fill('<System id="s" name="Other">\n  <Process id="p" name="P"/>\n</System>\n');
+  const small = await context.newPage();
+  await small.setViewportSize({ width: 420, height: 800 });
+  await small.goto(new URL(await studio.address).origin);
+  await small.locator('.cm-lintRange-error').filter({ hasText: 'Proces' }).waitFor();
+  if (pictures) await small.screenshot({ path: join(pictures, 'small.png') });
+  assert.deepEqual(await serious(small), []);
+  await small.close();
+  await text.fill('<System id="s" name="Other">\n  <Process id="p" name="P"><DiagramIcon x="9" y="9"/></Process>\n</System>\n');
   await status.getByText('No mistakes').waitFor();
   await page.keyboard.press('Control+s');
   await until(page, 'the saved file', () => !document.title.startsWith('●'));
-  assert.equal(readFileSync(join(folder, 'systems/other.iqr'), 'utf8'), '<System id="s" name="Other">\n  <Process id="p" name="P"/>\n</System>\n');
+  assert.equal(readFileSync(join(folder, 'systems/other.iqr'), 'utf8'), '<System id="s" name="Other">\n  <Process id="p" name="P"><DiagramIcon x="9" y="9"/></Process>\n</System>\n');
 
   step('the first page of a sound system loads no editor');
   const loaded = [];
