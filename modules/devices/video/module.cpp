@@ -120,7 +120,7 @@ void VideoModule::check(const ModulePorts&, Diagnostics& diagnostics) const {
 
 void VideoModule::open() {
     position_ = 0;
-    source_ = is_camera() ? open_camera({device, image_width, image_height, fps})
+    source_ = is_camera()                                ? open_camera(camera())
               : std::filesystem::is_directory(file_name) ? open_folder(file_name)
                                                          : open_film(file_name);
 }
@@ -128,7 +128,11 @@ void VideoModule::open() {
 void VideoModule::start(const ModulePorts& ports) {
     for (std::size_t i = 0; i < end_of_video; ++i) shapes_.push_back(ports.outputs[i].shape);
     over_ = false, waited_ = 0, due_ = 0;
-    open();
+    // A camera is opened by the first cycle: when the studio builds a run anew, the run before still has it.
+    if (is_camera())
+        check_camera(camera());
+    else
+        open();
     begun_ = std::chrono::steady_clock::now();
 }
 
@@ -143,6 +147,7 @@ std::optional<Picture> VideoModule::take(std::int64_t pictures) {
 
 void VideoModule::update(ModuleFrame& frame) {
     if (over_) return;
+    if (!source_) open();
     std::optional<Picture> picture;
     std::int64_t wanted = step;
     if (real_time && is_camera()) {

@@ -23,6 +23,7 @@ class VideoModule {
   private:
     void open();
     bool is_camera() const { return file_name.empty(); }
+    CameraSettings camera() const { return {device, image_width, image_height, fps}; }
     std::optional<Picture> take(std::int64_t pictures);
     void show(const Picture& picture, ModuleFrame& frame);
 
@@ -37,7 +38,7 @@ class VideoModule {
     int input = 0, standard = 0, auto_gain = 0;
     bool info_window = false, show_output = false;
 
-    std::unique_ptr<Source> source_;
+    std::unique_ptr<Source> source_;  ///< null until a camera is opened
     std::vector<GroupShape> shapes_;
     std::int64_t position_ = 0;  ///< number of pictures that the source has given since its beginning
     bool over_ = false;          ///< whether there are no more pictures

@@ -113,7 +113,7 @@ std::unique_ptr<Source> open_film(const std::string& file) {
                                                                     "file:" + fs::absolute(file).string()});
 }
 
-std::unique_ptr<Source> open_camera(const CameraSettings& s) {
+void check_camera(const CameraSettings& s) {
     if (access(s.device.c_str(), R_OK) != 0)
         throw std::runtime_error(
             fs::exists(s.device)
@@ -121,6 +121,10 @@ std::unique_ptr<Source> open_camera(const CameraSettings& s) {
                 : fmt::format(
                       "there is no camera '{}'; 'File Name' plays a film or a folder of pictures instead",
                       s.device));
+    const ChildProcess answers({"ffmpeg", "-version"});
+}
+
+std::unique_ptr<Source> open_camera(const CameraSettings& s) {
     return std::make_unique<Decoded>(
         s.device,
         std::vector<std::string>{"-f", "v4l2", "-framerate", fmt::format("{}", s.fps), "-video_size",

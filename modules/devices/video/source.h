@@ -32,6 +32,8 @@ struct CameraSettings {
 std::unique_ptr<Source> open_folder(const std::string& folder);
 /// A film, decoded by ffmpeg. Throws std::runtime_error.
 std::unique_ptr<Source> open_film(const std::string& file);
+/// Throws std::runtime_error when there is no such camera, or no program that reads it. Does not open it.
+void check_camera(const CameraSettings& settings);
 /// A camera (Video4Linux), read by ffmpeg. Throws std::runtime_error.
 std::unique_ptr<Source> open_camera(const CameraSettings& settings);
 
