@@ -2,346 +2,229 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "bug_interface/world/sdf_format.h"
+#include "bug_interface/world/sdf_new_items.h"
+#include "bug_interface/world/sdf_properties.h"
+#include "bug_interface/world/sdf_unpack.h"
 #include "core/base/number.h"
 #include "core/xml/check.h"
-#include "core/xml/source_tree.h"
 
 namespace forage::bug {
 namespace {
 
 using xml::SourceElement;
-using xml::Span;
 
-const SourceElement* child(const SourceElement& e, std::string_view name) {
-    const auto it = std::ranges::find(e.children, name, &SourceElement::name);
-    return it == e.children.end() ? nullptr : &*it;
-}
+/// A text as its tree and entries; it must not change meanwhile.
+struct Opened {
+    Opened(const std::string& text, ModelTexts& models)
+        : tree(text), entries(entries_of(text, tree, models)) {}
+    WorldTree tree;
+    std::vector<Entry> entries;
 
-std::string_view trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t\r\n");
-    if (first == text.npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t\r\n") + 1 - first);
-}
-
-std::string decoded(std::string_view text) {
-    std::string out(text);
-    for (const auto& [entity, character] : {std::pair<std::string_view, std::string_view>{"&lt;", "<"},
-                                            {"&gt;", ">"},
-                                            {"&quot;", "\""},
-                                            {"&apos;", "'"},
-                                            {"&amp;", "&"}})
-        for (auto at = out.find(entity); at != out.npos; at = out.find(entity, at + 1))
-            out.replace(at, entity.size(), character);
-    return out;
-}
-
-/// A length or angle, to a micrometre.
-std::string number(double value) {
-    if (!std::isfinite(value) || std::abs(value) > 1e6)
-        throw std::invalid_argument("a place or a size is a number from -1e6 to 1e6");
-    return fmt::format("{}", std::round(value * 1e6) / 1e6 + 0.0);
-}
-
-std::string_view content(std::string_view text, const SourceElement* e) {
-    return e ? trimmed(e->content.of(text)) : std::string_view();
-}
-
-std::string name_of(std::string_view text, const SourceElement& e) {
-    if (e.name != "include") return decoded(e.value("name"));
-    const auto name = content(text, child(e, "name"));
-    if (!name.empty()) return decoded(name);
-    const auto uri = content(text, child(e, "uri"));  // then it has the name of its model
-    return decoded(uri.substr(std::min(uri.rfind('/') + 1, uri.size())));
-}
-
-/// The words of a list with the places at which they stand in the text.
-std::vector<Span> words(std::string_view text, Span span) {
-    std::vector<Span> out;
-    for (auto at = text.find_first_not_of(" \t\r\n", span.begin); at < span.end;
-         at = text.find_first_not_of(" \t\r\n", at)) {
-        const auto end = std::min(text.find_first_of(" \t\r\n", at), span.end);
-        out.push_back({at, end});
-        at = end;
+    const Entry& find(std::string_view id) const {
+        const auto it = std::ranges::find(entries, id, &Entry::id);
+        if (it == entries.end())
+            throw std::invalid_argument(fmt::format("nothing in the world is called '{}'", id));
+        return *it;
     }
-    return out;
-}
-
-std::vector<double> numbers(std::string_view text, const SourceElement* e) {
-    std::vector<double> out;
-    if (e)
-        for (const Span& w : words(text, e->content))
-            out.push_back(parse_number<double>(w.of(text)).value_or(0));
-    return out;
-}
-
-/// The elements with this name at any depth.
-void collect(const SourceElement& e, std::string_view name, std::vector<const SourceElement*>& out) {
-    for (const auto& c : e.children) {
-        if (c.name == name) out.push_back(&c);
-        collect(c, name, out);
+    bool has(std::string_view name) const {
+        return std::ranges::find(entries, name, &Entry::name) != entries.end();
     }
-}
-std::vector<const SourceElement*> all(const SourceElement& e, std::string_view name) {
-    std::vector<const SourceElement*> out;
-    collect(e, name, out);
-    return out;
-}
-
-/// The element <world>, in the file's tree.
-const SourceElement* world_of(const SourceElement& root) {
-    return root.name == "world" ? &root : child(root, "world");
-}
-
-bool is_item(const SourceElement& e) { return e.name == "include" || e.name == "model" || e.name == "light"; }
-
-std::string kind_of(std::string_view text, const SourceElement& e, const WorldItem& item) {
-    const auto says = [&](std::string_view word) {
-        return item.uri.find(word) != std::string::npos || item.name.find(word) != std::string::npos;
-    };
-    if (item.name.starts_with("Reset_")) return "start";
-    if (e.name == "light" || says("sun")) return "sun";
-    if (says("loor") || says("round")) return "floor";
-    if (e.name == "include") {
-        if (says("arget") || says("ight")) return "light";
-        if (says("wall") || says("Wall")) return "wall";
-        return says("bug") || says("Bug") ? "robot" : "other";
+    bool has_form(Entry::Form form) const {
+        return std::ranges::find(entries, form, &Entry::form) != entries.end();
     }
-    for (const auto* plugin : all(e, "plugin"))
-        if (plugin->value("filename") == "libvel_plugin.so") return "robot";
-    if (content(text, child(e, "static")) != "true" && content(text, child(e, "static")) != "1")
-        return "object";
-    if (all(e, "collision").empty()) return "patch";
-    return says("arget") ? "light" : "wall";
-}
-
-struct Found {
-    SourceElement root;
-    const SourceElement* item;
 };
 
-Found found(const std::string& text, std::string_view name) {
-    Found out{xml::scan(text), nullptr};
-    if (const auto* world = world_of(out.root))
-        for (const auto& e : world->children)
-            if (is_item(e) && name_of(text, e) == name) {
-                out.item = &e;
-                return out;
-            }
-    throw std::invalid_argument(fmt::format("nothing in the world is called '{}'", name));
+std::vector<ItemPart> parts_of(const Entry& e) {
+    std::vector<ItemPart> out;
+    if (e.body.element && e.body.element->name == "light") return out;
+    auto forms = e.kind == "floor" ? std::vector<Form>() : forms_of(e.body, "visual");
+    if (forms.empty()) forms = forms_of(e.body, "collision");
+    for (const auto& f : forms) {
+        ItemPart part{f.pose.x, f.pose.y, f.pose.yaw, extents(e.body.text, *f.shape), {}};
+        if (part.size.empty()) continue;
+        part.size.resize(f.shape->name == "box" && part.size.size() == 3 ? 2 : 1);
+        if (f.owner->name == "visual") part.color = colour_of(e.body.text, *f.owner);
+        out.push_back(std::move(part));
+    }
+    return out;
 }
 
-std::string colour(const std::string& text) {
-    const auto hex = [&](std::size_t at) {
-        unsigned value = 0;
-        for (const char c : text.substr(at, 2)) {
-            if (!std::isxdigit(static_cast<unsigned char>(c)))
-                throw std::invalid_argument(fmt::format("'{}' is not a colour such as #ff8000", text));
-            value = value * 16 + static_cast<unsigned>(c <= '9' ? c - '0' : (c | 32) - 'a' + 10);
-        }
-        return value / 255.0;
+/// A name that nothing in the world has.
+std::string free_name(const Opened& here, const std::string& kind) {
+    const auto first_free = [&](const std::string& stem, int from, int to) {
+        for (int n = from; n < to; ++n)
+            if (auto name = fmt::format("{}{}", stem, n); !here.has(name)) return name;
+        throw std::invalid_argument(fmt::format("there are already {} of this kind", to - from));
     };
-    if (text.size() != 7 || text[0] != '#')
-        throw std::invalid_argument(fmt::format("'{}' is not a colour such as #ff8000", text));
-    return fmt::format("{:.3g} {:.3g} {:.3g} 1", hex(1), hex(3), hex(5));
+    if (kind == "start") return first_free("Reset_", 0, 10);
+    if (kind == "home") {
+        for (const char* name : {"Home_A", "Home_B"})
+            if (!here.has(name)) return name;
+        throw std::invalid_argument("there are already two homes");
+    }
+    if (kind == "floor") return "GroundPlane";
+    std::string stem = kind;
+    if (!stem.empty()) stem[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(stem[0])));
+    return here.has(stem) ? first_free(stem + "_", 2, 100'000) : stem;
 }
 
-struct Body {
-    std::string geometry, pose;  ///< of both
-    bool collides = true, paints = true, moves = false;
-};
-
-std::string model_text(const NewItem& item, const Body& body) {
-    const std::string name = xml::encoded(item.name), colours = colour(item.color);
-    std::string out = fmt::format("<model name=\"{}\"><pose>{} {} 0 0 0 {}</pose>", name, number(item.x),
-                                  number(item.y), number(item.yaw));
-    if (!body.moves) out += "<static>true</static>";
-    out += fmt::format("<link name=\"body\"><pose>{}</pose>", body.pose);
-    if (body.moves) out += "<inertial><mass>0.05</mass></inertial>";
-    if (body.collides)
-        out +=
-            fmt::format("<collision name=\"collision\"><geometry>{}</geometry></collision>", body.geometry);
-    if (body.paints)
-        out += fmt::format(
-            "<visual "
-            "name=\"visual\"><geometry>{}</geometry><material><ambient>{}</ambient><diffuse>{}</diffuse>"
-            "</material></visual>",
-            body.geometry, colours, colours);
-    return out + "</link></model>";
+/// Reports what a world has only once.
+void check_single(const Opened& here, const std::string& kind) {
+    const bool taken =
+        kind == "game" ? here.has_form(Entry::Form::game)
+        : kind == "trials"
+            ? here.has_form(Entry::Form::trials)
+            : kind == "sun" && std::ranges::find(here.entries, "sun", &Entry::kind) != here.entries.end();
+    if (taken)
+        throw std::invalid_argument(kind == "sun" ? "there is already a sun"
+                                                  : fmt::format("there are already rules of {}",
+                                                                kind == "game" ? "a game" : "trials"));
 }
 
-std::string included(const NewItem& item, const std::string& uri) {
-    return fmt::format("<include><name>{}</name><uri>{}</uri><pose>{} {} 0 0 0 {}</pose></include>",
-                       xml::encoded(item.name), xml::encoded(uri), number(item.x), number(item.y),
-                       number(item.yaw));
+/// The value as it is written, when it fits the property.
+std::string checked(const ItemProperty& p, const std::string& value) {
+    if (p.kind == "color") return colour_text(value), value;
+    if (p.kind == "boolean") return value == "1" || value == "true" ? "1" : "0";
+    if (p.kind == "text" || p.kind == "choice") {
+        if (value.empty()) throw std::invalid_argument(fmt::format("'{}' is empty", p.label));
+        return value;
+    }
+    const auto v = parse_number<double>(value);
+    if (!v || (p.low && *v < *p.low) || (p.high && *v > *p.high) ||
+        (p.kind == "integer" && *v != std::round(*v)))
+        throw std::invalid_argument(
+            p.low && p.high ? fmt::format("'{}' is a number from {:g} to {:g}", p.label, *p.low, *p.high)
+                            : fmt::format("'{}' is a number", p.label));
+    return value;
 }
 
-std::string item_text(const NewItem& item) {
-    const auto box = [&](const char* height) {
-        return fmt::format("<box><size>{} {} {}</size></box>", number(item.width), number(item.depth),
-                           height);
-    };
-    const auto radius = number(item.radius);
-    const auto cylinder = [&](const char* length) {
-        return fmt::format("<cylinder><radius>{}</radius><length>{}</length></cylinder>", radius, length);
-    };
-    if (item.kind == "wall") return model_text(item, {box("0.25"), "0 0 0.125 0 0 0"});
-    if (item.kind == "pillar") return model_text(item, {cylinder("0.25"), "0 0 0.125 0 0 0"});
-    // A patch is paint just above the floor.
-    if (item.kind == "patch") return model_text(item, {box("0.002"), "0 0 0.002 0 0 0", false});
-    if (item.kind == "ball")
-        return model_text(item, {fmt::format("<sphere><radius>{}</radius></sphere>", radius),
-                                 fmt::format("0 0 {} 0 0 0", radius), true, true, true});
-    if (item.kind == "light") return included(item, "model://target");
-    if (item.kind == "start") return included(item, "model://start_disc");
-    if (item.kind == "robot") return included(item, item.uri);
-    throw std::invalid_argument(fmt::format("'{}' is not a kind of item", item.kind));
+bool same(const ItemProperty& p, const std::string& value) {
+    if (p.kind != "number" && p.kind != "integer") return p.value == value;
+    return parse_number<double>(p.value) == parse_number<double>(value);
 }
 
 }  // namespace
 
-std::vector<std::string> kinds_of_items() {
-    return {"wall", "pillar", "patch", "ball", "light", "start", "robot"};
-}
-
-std::vector<WorldItem> items_of_world(std::string_view text) {
+std::vector<WorldItem> items_of_world(std::string_view text, ModelTexts& models) {
+    const WorldTree tree(text);
     std::vector<WorldItem> out;
-    const auto root = xml::scan(text);
-    const auto* world = world_of(root);
-    if (!world) return out;
-    for (const auto& e : world->children) {
-        if (!is_item(e)) continue;
-        WorldItem item;
-        item.name = name_of(text, e);
-        item.uri = decoded(content(text, child(e, "uri")));
-        if (auto pose = numbers(text, child(e, "pose")); pose.size() == 6)
-            item.x = pose[0], item.y = pose[1], item.z = pose[2], item.yaw = pose[5];
-        item.kind = kind_of(text, e, item);
-        const auto geometries = all(e, "geometry");
-        if (!geometries.empty() && !geometries.front()->children.empty()) {
-            const auto& form = geometries.front()->children.front();
-            const auto size = numbers(text, child(form, "size"));
-            if (form.name == "box" && size.size() == 3)
-                item.size = {size[0], size[1]};
-            else if (form.name == "cylinder" || form.name == "sphere")
-                item.size = numbers(text, child(form, "radius"));
-        }
-        out.push_back(std::move(item));
+    for (const auto& e : entries_of(text, tree, models)) {
+        const auto pose = e.placed() ? e.pose(text) : PoseText();
+        out.push_back({e.id, e.name, e.kind, e.placed(), may_unpack(text, e), pose.x, pose.y, pose.z,
+                       pose.yaw, parts_of(e), properties_of(text, e, models)});
     }
     return out;
 }
 
-std::string add_to_world(const std::string& text, NewItem item, std::string& name) {
-    const auto items = items_of_world(text);
-    const auto taken = [&](const std::string& wanted) {
-        return std::ranges::any_of(items, [&](const auto& i) { return i.name == wanted; });
-    };
-    if (item.name.empty()) {
-        const bool start = item.kind == "start";
-        std::string stem = start ? "Reset_" : item.kind;
-        if (!start && !stem.empty())
-            stem[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(stem[0])));
-        int n = start ? 0 : 1;
-        do item.name = start ? fmt::format("{}{}", stem, n) : n == 1 ? stem : fmt::format("{}_{}", stem, n);
-        while (++n, taken(item.name));
-    }
-    if (taken(item.name)) throw std::invalid_argument(fmt::format("there is already a '{}'", item.name));
-    const std::string added = item_text(item);
-    const auto root = xml::scan(text);
-    const auto* world = world_of(root);
-    if (!world) throw std::invalid_argument("the file has no <world>");
-    const SourceElement* after = nullptr;
-    for (const auto& e : world->children)
-        if (is_item(e)) after = &e;
-    const auto piece = xml::scan(added);
+std::string add_to_world(const std::string& text, NewItem item, ModelTexts& models, std::string& id) {
+    const Opened here(text, models);
+    if (!here.tree.world) throw std::invalid_argument("the file has no <world>");
+    check_single(here, item.kind);
+    if (item.name.empty()) item.name = free_name(here, item.kind);
+    if (item.kind != "site" && here.has(item.name))
+        throw std::invalid_argument(fmt::format("there is already a '{}'", item.name));
+    std::string added = new_item_text(item, models);
+    const auto game = std::ranges::find(here.entries, Entry::Form::game, &Entry::form);
+    const bool site = item.kind == "site", of_game = site && game != here.entries.end();
+    if (site && !of_game)
+        added = "<plugin name=\"game\" filename=\"libforage_game.so\">" + added + "</plugin>";
     xml::TextEdits edits;
-    xml::insert_into(edits, text, *world, after, xml::layout_of(text, root), {{added, &piece}});
-    name = item.name;
-    return edits.applied(text);
-}
-
-std::string removed_from_world(const std::string& text, std::string_view name) {
-    const auto here = found(text, name);
-    xml::TextEdits edits;
-    edits.cut(text, here.item->whole);
-    return edits.applied(text);
-}
-
-std::string moved_in_world(const std::string& text, std::string_view name, double x, double y,
-                           std::optional<double> yaw) {
-    const auto here = found(text, name);
-    xml::TextEdits edits;
-    const auto* pose = child(*here.item, "pose");
-    const auto old = pose ? words(text, pose->content) : std::vector<Span>();
-    if (old.size() == 6) {
-        const auto set = [&](std::size_t i, double value) {
-            if (parse_number<double>(old[i].of(text)) != value) edits.replace(old[i], number(value));
-        };
-        set(0, x), set(1, y);
-        if (yaw) set(5, *yaw);
+    if (of_game) {
+        append(edits, text, here.tree.layout, *game->element, added);
     } else {
-        const std::string added =
-            fmt::format("<pose>{} {} 0 0 0 {}</pose>", number(x), number(y), number(yaw.value_or(0)));
-        if (pose) {
-            edits.replace(pose->whole, added);
-        } else {
-            const auto piece = xml::scan(added);
-            const SourceElement* last = nullptr;
-            if (here.item->name == "include" && !here.item->children.empty())
-                last = &here.item->children.back();
-            xml::insert_into(edits, text, *here.item, last, xml::layout_of(text, here.root),
-                             {{added, &piece}});
-        }
-    }
-    return edits.applied(text);
-}
-
-std::string resized_in_world(const std::string& text, std::string_view name,
-                             const std::vector<double>& size) {
-    const auto here = found(text, name);
-    for (const double s : size)
-        if (!(s > 0)) throw std::invalid_argument("a size is above 0");
-    xml::TextEdits edits;
-    for (const auto* geometry : all(*here.item, "geometry"))
-        for (const auto& form : geometry->children) {
-            if (form.name == "box" && size.size() == 2) {
-                if (const auto* extent = child(form, "size")) {
-                    const auto old = words(text, extent->content);
-                    for (std::size_t i = 0; i < 2 && old.size() == 3; ++i)
-                        edits.replace(old[i], number(size[i]));
-                }
-            } else if (form.name != "box" && size.size() == 1) {
-                if (const auto* radius = child(form, "radius"))
-                    edits.replace(radius->content, number(size[0]));
-            }
-        }
-    if (edits.empty())
-        throw std::invalid_argument(
-            fmt::format("'{}' has no such size in this file", name) +
-            (here.item->name == "include" ? ": the size of an included model is that of its file" : ""));
-    return edits.applied(text);
-}
-
-std::string renamed_in_world(const std::string& text, std::string_view name, const std::string& new_name) {
-    const auto here = found(text, name);
-    for (const auto& i : items_of_world(text))
-        if (i.name == new_name) throw std::invalid_argument(fmt::format("there is already a '{}'", new_name));
-    xml::TextEdits edits;
-    if (here.item->name != "include") {
-        if (const auto* a = here.item->attribute("name")) edits.replace(a->inside, xml::encoded(new_name));
-    } else if (const auto* e = child(*here.item, "name")) {
-        edits.replace(e->content, xml::encoded(new_name));
-    } else {
-        const std::string added = "<name>" + xml::encoded(new_name) + "</name>";
+        const SourceElement* after = nullptr;
+        for (const auto& e : here.entries)
+            if (e.form != Entry::Form::world && e.form != Entry::Form::site) after = e.element;
         const auto piece = xml::scan(added);
-        xml::insert_into(edits, text, *here.item, nullptr, xml::layout_of(text, here.root),
-                         {{added, &piece}});
+        xml::insert_into(edits, text, *here.tree.world, after, here.tree.layout, {{added, &piece}});
+    }
+    auto out = edits.applied(text);
+    const Opened now(out, models);
+    // The new one is the last of its kind in the file.
+    for (const auto& e : now.entries)
+        if (site                                           ? e.form == Entry::Form::site
+            : item.kind == "game" || item.kind == "trials" ? e.kind == item.kind
+                                                           : e.name == item.name)
+            id = e.id;
+    return out;
+}
+
+std::string removed_from_world(const std::string& text, std::string_view id, ModelTexts& models) {
+    const Opened here(text, models);
+    const auto& e = here.find(id);
+    if (e.form == Entry::Form::world) throw std::invalid_argument("the world itself cannot be removed");
+    xml::TextEdits edits;
+    edits.cut(text, e.element->whole);
+    return edits.applied(text);
+}
+
+std::string moved_in_world(const std::string& text, std::string_view id, double x, double y,
+                           std::optional<double> yaw, ModelTexts& models) {
+    const Opened here(text, models);
+    const auto& e = here.find(id);
+    if (!e.placed()) throw std::invalid_argument(fmt::format("'{}' has no place", id));
+    xml::TextEdits edits;
+    if (e.form == Entry::Form::site) {
+        const auto at = words(text, e.element->content);
+        if (at.size() >= 2) edits.replace(at[0], number_text(x)), edits.replace(at[1], number_text(y));
+    } else {
+        auto pose = e.pose(text);
+        pose.x = x, pose.y = y, pose.yaw = yaw.value_or(pose.yaw);
+        set_pose(edits, text, here.tree.layout, *e.element, pose);
     }
     return edits.applied(text);
+}
+
+std::string set_in_world(const std::string& text, std::string& id, std::string_view property,
+                         const std::string& value, ModelTexts& models) {
+    const Opened here(text, models);
+    const auto& e = here.find(id);
+    const auto index = static_cast<std::size_t>(&e - here.entries.data());
+    const auto properties = properties_of(text, e, models);
+    const auto p = std::ranges::find(properties, property, &ItemProperty::name);
+    if (p == properties.end()) throw std::invalid_argument(fmt::format("'{}' has no '{}'", id, property));
+    const auto wanted = checked(*p, value);
+    if (same(*p, wanted)) return text;
+    if (property == "name" && here.has(wanted))
+        throw std::invalid_argument(fmt::format("there is already a '{}'", wanted));
+    const auto write = [&](const std::string& from, const Opened& now) {
+        xml::TextEdits edits;
+        write_property(edits, from, now.tree, now.entries[index], *p, wanted);
+        return edits.applied(from);
+    };
+    std::string out;
+    if (is_own(e, property)) {
+        out = write(text, here);
+    } else {
+        const auto own = with_own_model(text, here.tree, e);
+        out = write(own, Opened(own, models));
+    }
+    id = Opened(out, models).entries[index].id;
+    return out;
+}
+
+std::string unpacked_in_world(const std::string& text, std::string_view id, ModelTexts& models,
+                              std::vector<std::string>& ids) {
+    const Opened here(text, models);
+    const auto& e = here.find(id);
+    if (!may_unpack(text, e)) throw std::invalid_argument(fmt::format("'{}' has no parts of its own", id));
+    const auto index = static_cast<std::size_t>(&e - here.entries.data());
+    std::string out = e.form == Entry::Form::include ? with_own_model(text, here.tree, e) : text;
+    const Opened now(out, models);
+    std::set<std::string> taken;
+    for (const auto& other : now.entries) taken.insert(other.name);
+    std::size_t models_now = 1;
+    auto split = split_model(out, now.tree, now.entries[index], taken, models_now);
+    const Opened last(split, models);
+    ids.clear();
+    for (std::size_t i = 0; i < models_now; ++i) ids.push_back(last.entries[index + i].id);
+    return split;
 }
 
 void check_world_text(const std::string& path, const std::string& text, Diagnostics& diagnostics) {

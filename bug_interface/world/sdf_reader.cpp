@@ -20,9 +20,9 @@ class Reader {
     Reader(const std::string& path, Diagnostics& diagnostics, const std::vector<std::string>& extra)
         : path_(path), diagnostics_(diagnostics), in_(path, diagnostics, extra) {}
 
-    std::optional<WorldDescription> read() {
+    std::optional<WorldDescription> read(const std::string& text) {
         const int errors_before = diagnostics_.errors();
-        const xml::Element root = in_.open(path_);
+        const xml::Element root = text.empty() ? in_.open(path_) : in_.parse(path_, text);
         if (!root) return {};
         const xml::Element world_element = root.child("world");
         if (!world_element) {
@@ -253,9 +253,10 @@ bool is_a_folder(const std::string& path, Diagnostics& diagnostics) {
 }  // namespace
 
 std::optional<WorldDescription> read_world(const std::string& path, Diagnostics& diagnostics,
-                                           const std::vector<std::string>& extra_model_dirs) {
+                                           const std::vector<std::string>& extra_model_dirs,
+                                           const std::string& text) {
     if (is_a_folder(path, diagnostics)) return {};
-    return Reader(path, diagnostics, extra_model_dirs).read();
+    return Reader(path, diagnostics, extra_model_dirs).read(text);
 }
 
 }  // namespace forage::bug

@@ -34,7 +34,15 @@ Eigen::Quaterniond rotation(double roll, double pitch, double yaw) {
 
 xml::Element SdfSource::open(const std::string& path) {
     const int errors_before = diagnostics.errors();
-    auto document = xml::open(path, sdf_format(), diagnostics);
+    return checked(xml::open(path, sdf_format(), diagnostics), errors_before);
+}
+
+xml::Element SdfSource::parse(const std::string& path, const std::string& text) {
+    const int errors_before = diagnostics.errors();
+    return checked(xml::open(path, text, sdf_format(), diagnostics), errors_before);
+}
+
+xml::Element SdfSource::checked(std::unique_ptr<const xml::Document> document, int errors_before) {
     if (document) xml::check(*document, sdf_format(), diagnostics);
     if (diagnostics.errors() > errors_before) return {};
     return files_.emplace_back(std::move(document))->root();

@@ -21,6 +21,8 @@ class SdfSource {
     /// The outermost element of the SDF file `path`; it is valid as long as this object lives. When the file
     /// cannot be read or breaks the format, reports errors and returns an element that is false.
     xml::Element open(const std::string& path);
+    /// The same of a text that the file `path` may hold.
+    xml::Element parse(const std::string& path, const std::string& text);
 
     /// Reads the <pose> in `parent`.
     Pose pose_of(const xml::Element& parent);
@@ -29,6 +31,7 @@ class SdfSource {
     ModelFolders folders;
 
   private:
+    xml::Element checked(std::unique_ptr<const xml::Document> document, int errors_before);
     void check_angles(const xml::Element& pose, const std::vector<double>& numbers);
 
     std::vector<std::unique_ptr<const xml::Document>> files_;

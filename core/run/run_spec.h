@@ -30,6 +30,8 @@ struct RunInput {
     bool game = false;          ///< play the challenge's game
     /// The text of `system` when it is not a file but a system that was built in code; otherwise empty.
     std::string text = {};
+    /// The text of `world` when it is not that of the file; otherwise empty.
+    std::string world_text = {};
 };
 
 /// The options of all recordings of a run.

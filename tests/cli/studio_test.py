@@ -573,8 +573,8 @@ class Crashes(unittest.TestCase):
 
     def test_a_world_that_was_not_saved_is_kept(self):
         studio, page = self.start()
-        item = page.do('world_document')['items'][0]['name']
-        page.do('world_edit', operations=[{'do': 'rename', 'name': item, 'to': 'another'}])
+        item = next(i['id'] for i in page.do('world_document')['items'] if i['kind'] == 'robot')
+        page.do('world_edit', operations=[{'do': 'set', 'id': item, 'property': 'name', 'value': 'another'}])
         page.do('step', cycles=2)
         self.kill(studio, page)
         _, page = self.start('--recover')

@@ -210,10 +210,12 @@ Registry known_types(const std::vector<plugin::Plugin>& plugins) {
     return registry;
 }
 
-Sources with_first_system(Sources sources, const RunInput& input, Diagnostics& diagnostics) {
-    auto& system = sources.system = input.text.empty()
-                                        ? read_any(input.system, diagnostics)
-                                        : xml::parse_system(input.system, input.text, diagnostics);
+namespace {
+
+/// The sources with this first system, which is empty when it could not be read.
+Sources joined(Sources sources, std::optional<model::System> first, const RunInput& input,
+               Diagnostics& diagnostics) {
+    auto& system = sources.system = std::move(first);
     for (const auto& other : sources.more) {
         if (!system) continue;
         if (other.cycles_per_second != system->cycles_per_second)
@@ -229,14 +231,32 @@ Sources with_first_system(Sources sources, const RunInput& input, Diagnostics& d
     return sources;
 }
 
-Sources read_sources(const RunInput& input, Diagnostics& diagnostics) {
+/// What a run reads besides its first system.
+Sources read_others(const RunInput& input, Diagnostics& diagnostics) {
     diagnostics.lenient = input.lenient;
     Sources out;
     for (const std::string& path : input.more)
         if (auto other = read_any(path, diagnostics)) out.more.push_back(std::move(*other));
-    if (!input.world.empty()) out.world = bug::read_world(input.world, diagnostics);
+    if (!input.world.empty()) out.world = bug::read_world(input.world, diagnostics, {}, input.world_text);
     out.replay = read_table(input.replay, diagnostics);
-    return with_first_system(std::move(out), input, diagnostics);
+    return out;
+}
+
+}  // namespace
+
+Sources with_first_system(Sources sources, const RunInput& input, Diagnostics& diagnostics) {
+    auto first = input.text.empty() ? read_any(input.system, diagnostics)
+                                    : xml::parse_system(input.system, input.text, diagnostics);
+    return joined(std::move(sources), std::move(first), input, diagnostics);
+}
+
+Sources read_sources(const RunInput& input, Diagnostics& diagnostics) {
+    auto others = read_others(input, diagnostics);  // the order of the messages is that of reading
+    return with_first_system(std::move(others), input, diagnostics);
+}
+
+Sources read_sources(const RunInput& input, model::System first, Diagnostics& diagnostics) {
+    return joined(read_others(input, diagnostics), std::move(first), input, diagnostics);
 }
 
 std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Diagnostics& diagnostics) {

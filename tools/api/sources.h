@@ -50,6 +50,8 @@ Registry known_types(const std::vector<plugin::Plugin>& plugins);
 
 /// Reads the files. Reports those that cannot be read.
 Sources read_sources(const RunInput& input, Diagnostics& diagnostics);
+/// The same for a first system that has been read.
+Sources read_sources(const RunInput& input, model::System first, Diagnostics& diagnostics);
 /// The sources of a run whose input differs from that of `sources` only in its first system. Only this and
 /// its plugins are read.
 Sources with_first_system(Sources sources, const RunInput& input, Diagnostics& diagnostics);

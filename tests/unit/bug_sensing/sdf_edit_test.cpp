@@ -42,88 +42,258 @@ std::size_t different_lines(const std::string& a, const std::string& b) {
     return out;
 }
 
+/// The world as it is read; the models are those of the file's place.
+WorldDescription read_text_of_world(const fs::path& beside, const std::string& text) {
+    const auto file = beside.parent_path() / ("." + beside.stem().string() + "-edit-test.world");
+    write_file(file.string(), text);
+    Diagnostics diagnostics;
+    auto world = read_world(file.string(), diagnostics, {});
+    fs::remove(file);
+    INFO(format(diagnostics));
+    REQUIRE(world);
+    return *world;
+}
+
+/// All collisions of a world in its frame, in order: what bodies and rays meet.
+std::vector<Pose> places_of_collisions(const WorldDescription& world) {
+    std::vector<Pose> out;
+    for (const auto& model : world.models)
+        for (const auto& link : model.links)
+            for (const auto& c : link.collisions) out.push_back(model.pose * link.pose * c.pose);
+    return out;
+}
+
+/// Another value that fits a property.
+std::string other_value(const ItemProperty& p) {
+    if (p.kind == "text") return "A <new> & name";
+    if (p.kind == "boolean") return p.value == "1" ? "0" : "1";
+    if (p.kind == "color") return p.value == "#3366cc" ? "#336699" : "#3366cc";
+    if (p.kind == "choice") return p.choices.front() == p.value ? p.choices.back() : p.choices.front();
+    if (p.kind == "integer") return std::to_string(std::stoi(p.value) + 1);
+    const double v = std::stod(p.value);
+    return p.high && v + 0.5 > *p.high ? std::to_string((*p.low + v) / 2) : std::to_string(v + 0.5);
+}
+
+const WorldItem& find_item(const std::vector<WorldItem>& items, std::string_view id) {
+    const auto it = std::ranges::find(items, id, &WorldItem::id);
+    REQUIRE(it != items.end());
+    return *it;
+}
+
+const ItemProperty& find_property(const WorldItem& item, std::string_view name) {
+    const auto it = std::ranges::find(item.properties, name, &ItemProperty::name);
+    INFO(item.id << " " << name);
+    REQUIRE(it != item.properties.end());
+    return *it;
+}
+
 }  // namespace
 
-TEST_CASE("what stands in a world is moved, added and removed, in every file, and nothing else changes") {
-    CHECK(worlds().size() >= 5);
+TEST_CASE("everything in every world is found, moved and removed, and nothing else changes") {
+    CHECK(worlds().size() >= 8);
     for (const auto& file : worlds()) {
         INFO(file.string());
         const std::string text = read_file(file.string());
-        const auto items = items_of_world(text);
-        CHECK(items.size() > 2);
+        ModelTexts models(file.string());
+        const auto items = items_of_world(text, models);
+        CHECK(items.size() > 3);
+        CHECK(items.front().kind == "world");
         for (const auto& item : items) {
-            INFO(item.name);
-            if (std::ranges::count(items, item.name, &WorldItem::name) > 1)
-                continue;  // repeated in an original
-            const auto moved = moved_in_world(text, item.name, item.x + 0.5, item.y, std::nullopt);
-            CHECK(lines(moved) <= lines(text) + 1);
-            if (lines(moved) == lines(text)) CHECK(different_lines(text, moved) <= 1);
-            const auto after = items_of_world(moved);
-            const auto it = std::ranges::find(after, item.name, &WorldItem::name);
-            CHECK(it->x == Approx(item.x + 0.5).margin(1e-6));
-            CHECK(it->yaw == Approx(item.yaw).margin(1e-9));
-            CHECK(it->kind == item.kind);
-            CHECK(items_of_world(removed_from_world(text, item.name)).size() == items.size() - 1);
-            if (!item.size.empty()) {
-                auto size = item.size;
-                size.front() *= 2;
-                const auto other = items_of_world(resized_in_world(text, item.name, size));
-                CHECK(std::ranges::find(other, item.name, &WorldItem::name)->size == size);
+            INFO(item.id);
+            CHECK(item.kind != "other");
+            CHECK_FALSE(item.properties.empty());
+            CHECK(std::ranges::count(items, item.id, &WorldItem::id) == 1);
+            if (item.placed) {
+                const auto moved = moved_in_world(text, item.id, item.x + 0.5, item.y, std::nullopt, models);
+                CHECK(lines(moved) <= lines(text) + 1);
+                if (lines(moved) == lines(text)) CHECK(different_lines(text, moved) <= 1);
+                const auto after = items_of_world(moved, models);
+                CHECK(find_item(after, item.id).x == Approx(item.x + 0.5).margin(1e-6));
+                CHECK(find_item(after, item.id).yaw == Approx(item.yaw).margin(1e-9));
+                CHECK(find_item(after, item.id).kind == item.kind);
             }
-            CHECK(items_of_world(renamed_in_world(text, item.name, "A <new> name")).size() == items.size());
-        }
-        for (const auto& kind : kinds_of_items()) {
-            std::string name;
-            const auto more = add_to_world(text, {.kind = kind, .name = "", .x = 1, .y = 2}, name);
-            INFO(kind << " " << name);
-            Diagnostics diagnostics;
-            check_world_text(file.string(), more, diagnostics);
-            CHECK_FALSE(diagnostics.failed());
-            CHECK(items_of_world(more).size() == items.size() + 1);
-            CHECK(removed_from_world(more, name) == text);
+            if (item.kind == "world") continue;
+            const auto rest = items_of_world(removed_from_world(text, item.id, models), models);
+            const auto sites = std::ranges::count(items, "site", &WorldItem::kind);
+            CHECK(rest.size() ==
+                  items.size() - 1 - static_cast<std::size_t>(item.kind == "game" ? sites : 0));
         }
     }
 }
 
+TEST_CASE("every property of everything in every world takes another value, which is read back") {
+    for (const auto& file : worlds()) {
+        INFO(file.string());
+        const std::string text = read_file(file.string());
+        ModelTexts models(file.string());
+        for (const auto& item : items_of_world(text, models))
+            for (const auto& p : item.properties) {
+                INFO(item.id << " " << p.name << " " << p.value);
+                std::string id = item.id;
+                CHECK(set_in_world(text, id, p.name, p.value, models) == text);  // no change, no other byte
+                const auto wanted = other_value(p);
+                INFO(wanted);
+                const auto changed = set_in_world(text, id, p.name, wanted, models);
+                Diagnostics diagnostics;
+                check_world_text(file.string(), changed, diagnostics);
+                INFO(format(diagnostics));
+                CHECK_FALSE(diagnostics.failed());
+                const auto after = items_of_world(changed, models);
+                const auto& now = find_property(find_item(after, id), p.name).value;
+                if (p.kind == "number")
+                    CHECK(std::stod(now) == Approx(std::stod(wanted)).margin(0.02));
+                else
+                    CHECK(now == wanted);
+                // The other items stay as they are.
+                for (const auto& other : items_of_world(text, models))
+                    if (other.id != item.id && p.name != "name")  // repeated names are numbered
+                        CHECK(find_item(after, other.id).parts.size() == other.parts.size());
+            }
+    }
+}
+
+TEST_CASE(
+    "every kind of item is added to every world and edited, and the world without it has the bytes of "
+    "before") {
+    for (const auto& file : worlds()) {
+        INFO(file.string());
+        const std::string text = read_file(file.string());
+        ModelTexts models(file.string());
+        const auto before = items_of_world(text, models);
+        for (const auto& [kind, title] : kinds_of_items()) {
+            INFO(kind);
+            CHECK_FALSE(title.empty());
+            std::string id;
+            const bool single =
+                kind == "sun" || kind == "game" || kind == "trials" || kind == "floor" || kind == "home";
+            std::string more;
+            try {
+                more =
+                    add_to_world(text, {.kind = std::string(kind), .name = "", .x = 1, .y = 2}, models, id);
+            } catch (const std::invalid_argument&) {
+                CHECK(single);  // the world has one
+                continue;
+            }
+            INFO(id);
+            const auto items = items_of_world(more, models);
+            const bool game =
+                kind == "site" && std::ranges::find(before, "game", &WorldItem::kind) == before.end();
+            CHECK(items.size() == before.size() + (game ? 2 : 1));
+            const auto& item = find_item(items, id);
+            const std::string expected = kind == "pillar" || kind == "wall"  ? "wall"
+                                         : kind == "disc"                    ? "patch"
+                                         : kind == "ball" || kind == "crate" ? "object"
+                                         : kind == "goal"                    ? "light"
+                                                                             : std::string(kind);
+            if (kind != "model") CHECK(item.kind == expected);
+            if (item.placed) CHECK((item.x == 1 && item.y == 2));
+            for (const auto& p : item.properties) {
+                INFO(p.name);
+                std::string other = id;
+                Diagnostics diagnostics;
+                check_world_text(file.string(), set_in_world(more, other, p.name, other_value(p), models),
+                                 diagnostics);
+                INFO(format(diagnostics));
+                CHECK_FALSE(diagnostics.failed());
+            }
+            CHECK(removed_from_world(more, game ? "Game" : id, models) == text);
+        }
+    }
+}
+
+TEST_CASE("an unpacked world is the same world, in which each wall can be edited") {
+    for (const auto& file : worlds()) {
+        INFO(file.string());
+        std::string text = read_file(file.string());
+        ModelTexts models(file.string());
+        const auto before = read_text_of_world(file, text);
+        for (;;) {
+            const auto items = items_of_world(text, models);
+            const auto it = std::ranges::find_if(items, &WorldItem::unpacks);
+            if (it == items.end()) break;
+            INFO(it->id);
+            std::vector<std::string> ids;
+            text = unpacked_in_world(text, it->id, models, ids);
+            CHECK_FALSE(ids.empty());
+        }
+        const auto after = read_text_of_world(file, text);
+        const auto places = places_of_collisions(before), now = places_of_collisions(after);
+        REQUIRE(places.size() == now.size());
+        for (std::size_t i = 0; i < places.size(); ++i) CHECK(places[i].isApprox(now[i], 1e-6));
+        CHECK((before.sun.has_value() == after.sun.has_value()));
+        for (const auto& item : items_of_world(text, models))
+            if (item.kind == "wall") {
+                INFO(item.id);
+                CHECK(item.parts.size() >= 1);
+                find_property(item, "color");
+            }
+    }
+}
+
 TEST_CASE("an edited world is read as what it says") {
-    const auto folder = fs::temp_directory_path() / "forage-sdf-edit";
-    fs::create_directories(folder);
-    std::string text = read_file((paths::source_dir() / "systems/worlds/basic_arena.world").string()), name;
-    text = add_to_world(text, {.kind = "wall", .name = "East", .x = 2, .y = 0, .yaw = 1.5, .width = 3}, name);
+    const auto file = paths::source_dir() / "systems/worlds/basic_arena.world";
+    std::string text = read_file(file.string()), id;
+    ModelTexts models(file.string());
+    text = add_to_world(text, {.kind = "wall", .name = "East", .x = 2, .y = 0, .yaw = 1.5, .width = 3},
+                        models, id);
     text = add_to_world(
         text,
         {.kind = "patch", .name = "Red", .x = 1, .y = 1, .width = 0.5, .depth = 0.5, .color = "#ff0000"},
-        name);
-    text = add_to_world(text, {.kind = "ball", .name = "Ball", .x = 0.5, .y = 1, .radius = 0.1}, name);
-    text = moved_in_world(text, "Bug", 0.25, -1.5, 0.5);
-    text = removed_from_world(text, "Wall");
-    write_file((folder / "edited.world").string(), text);
-    Diagnostics diagnostics;
-    const auto world = read_world((folder / "edited.world").string(), diagnostics,
-                                  {(paths::source_dir() / "systems/worlds/models").string()});
-    INFO(format(diagnostics));
-    REQUIRE(world);
+        models, id);
+    text = add_to_world(text, {.kind = "ball", .name = "Ball", .x = 0.5, .y = 1, .radius = 0.1}, models, id);
+    text = set_in_world(text, id, "radius", "0.2", models);
+    text = add_to_world(text, {.kind = "light", .name = "Lamp", .x = -1, .y = 1}, models, id);
+    text = moved_in_world(text, "Bug", 0.25, -1.5, 0.5, models);
+    text = set_in_world(text, id = "Bug", "color", "#00ff00", models);
+    text = set_in_world(text, id = "GroundPlane", "width", "6", models);
+    text = removed_from_world(text, "Wall", models);
+    const auto world = read_text_of_world(file, text);
     const auto find = [&](const char* wanted) {
-        const auto it = std::ranges::find(world->models, wanted, &Model::name);
-        return it == world->models.end() ? nullptr : &*it;
+        const auto* out = find_model(world, wanted);
+        INFO(wanted);
+        REQUIRE(out);
+        return out;
     };
-    CHECK_FALSE(find("Wall"));
-    REQUIRE((find("East") && find("Red") && find("Ball") && find("Bug")));
+    CHECK_FALSE(find_model(world, "Wall"));
     CHECK(find("East")->is_static);
     CHECK(find("Red")->links.front().collisions.empty());
-    CHECK_FALSE(find("Ball")->is_static);
-    CHECK(find("Bug")->pose.translation().x() == Approx(0.25));
-    fs::remove_all(folder);
+    const auto* ball = find("Ball");
+    CHECK_FALSE(ball->is_static);
+    CHECK(ball->links.front().collisions.front().shape.size.x() == Approx(0.4));
+    CHECK(ball->links.front().pose.translation().z() == Approx(0.2));  // still on the floor
+    const auto* bug = find("Bug");
+    CHECK(bug->pose.translation().x() == Approx(0.25));
+    CHECK(yaw_of(bug->pose) == Approx(0.5));
+    const auto& visuals = bug->links.front().visuals;
+    CHECK(visuals.at(0).material.diffuse.isApprox(Colour(0, 1, 0)));
+    CHECK(visuals.at(1).material.diffuse.isApprox(Colour(0.7f, 0.7f, 0.7f)));  // its front stays grey
+    CHECK(bug->links.front().range_sensors.size() == 2);
+    CHECK(bug->plugins.size() == 2);
+    CHECK(find("GroundPlane")->links.front().collisions.back().shape.size.x() == Approx(6));
+    CHECK_FALSE(find("GroundPlane")->links.front().visuals.front().material.texture.empty());
 }
 
 TEST_CASE("what cannot be done to a world is said") {
-    const std::string text = read_file((paths::source_dir() / "systems/worlds/basic_arena.world").string());
-    std::string name;
-    CHECK_THROWS_AS(moved_in_world(text, "Nothing", 0, 0, 0), std::invalid_argument);
-    CHECK_THROWS_AS(add_to_world(text, {.kind = "tree", .name = ""}, name), std::invalid_argument);
-    CHECK_THROWS_AS(add_to_world(text, {.kind = "wall", .name = "Bug"}, name), std::invalid_argument);
-    CHECK_THROWS_AS(add_to_world(text, {.kind = "patch", .name = "", .color = "red"}, name),
+    const auto file = paths::source_dir() / "systems/worlds/basic_arena.world";
+    const std::string text = read_file(file.string());
+    ModelTexts models(file.string());
+    std::string id;
+    std::vector<std::string> ids;
+    const auto set = [&](const char* item, const char* property, const char* value) {
+        return set_in_world(text, id = item, property, value, models);
+    };
+    CHECK_THROWS_AS(moved_in_world(text, "Nothing", 0, 0, 0, models), std::invalid_argument);
+    CHECK_THROWS_AS(moved_in_world(text, "Sun", 0, 0, 0, models), std::invalid_argument);
+    CHECK_THROWS_AS(add_to_world(text, {.kind = "tree", .name = ""}, models, id), std::invalid_argument);
+    CHECK_THROWS_AS(add_to_world(text, {.kind = "wall", .name = "Bug"}, models, id), std::invalid_argument);
+    CHECK_THROWS_AS(add_to_world(text, {.kind = "sun", .name = ""}, models, id), std::invalid_argument);
+    CHECK_THROWS_AS(add_to_world(text, {.kind = "patch", .name = "", .color = "red"}, models, id),
                     std::invalid_argument);
-    CHECK_THROWS_AS(resized_in_world(text, "Wall", {1, 1}), std::invalid_argument);
-    CHECK_THROWS_AS(renamed_in_world(text, "Wall", "Bug"), std::invalid_argument);
+    CHECK_THROWS_AS(set("Wall", "width", "0"), std::invalid_argument);
+    CHECK_THROWS_AS(set("Wall", "width", "wide"), std::invalid_argument);
+    CHECK_THROWS_AS(set("Wall", "wheels", "4"), std::invalid_argument);
+    CHECK_THROWS_AS(set("Wall", "name", "Bug"), std::invalid_argument);
+    CHECK_THROWS_AS(set("Wall", "color", "blue"), std::invalid_argument);
+    CHECK_THROWS_AS(removed_from_world(text, "basic_arena", models), std::invalid_argument);
+    CHECK_THROWS_AS(unpacked_in_world(text, "basic_arena", models, ids), std::invalid_argument);
 }

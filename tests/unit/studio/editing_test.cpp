@@ -578,11 +578,11 @@ TEST_CASE("a world is edited, undone, saved, and the run begins anew in it") {
     ::setenv("FORAGE_MODEL_PATH", FORAGE_SOURCE_DIR "/systems/worlds/models", 1);
     Editor e;
     CHECK(e.result({{"command", "world_document"}})["dirty"] == false);
-    const auto names = e.result({{"command", "world_edit"},
-                                 {"operations",
-                                  {{{"do", "add"}, {"kind", "wall"}, {"x", 1}, {"y", 1}, {"width", 2}},
-                                   {{"do", "move"}, {"name", "Bug"}, {"x", 0.25}, {"y", -1.5}}}}})["names"];
-    CHECK(names[0] == "Wall_2");
+    const auto ids = e.result({{"command", "world_edit"},
+                               {"operations",
+                                {{{"do", "add"}, {"kind", "wall"}, {"x", 1}, {"y", 1}, {"width", 2}},
+                                 {{"do", "move"}, {"id", "Bug"}, {"x", 0.25}, {"y", -1.5}}}}})["ids"];
+    CHECK(ids[0] == "Wall_2");
     CHECK(e.last["world_document"]["dirty"] == true);
     CHECK(e.last["document"]["undo"] == "add in the world");
     e.result({{"command", "undo"}});
@@ -593,6 +593,174 @@ TEST_CASE("a world is edited, undone, saved, and the run begins anew in it") {
     CHECK(e.last["world"]["file"] == file);
     CHECK(e.session->run().environment()->pose(0).x == Approx(0.25));
     CHECK(e.ask({{"command", "world_edit"},
-                 {"operations", {{{"do", "move"}, {"name", "Nothing"}, {"x", 0}, {"y", 0}}}}})["ok"] ==
-          false);
+                 {"operations", {{{"do", "move"}, {"id", "Nothing"}, {"x", 0}, {"y", 0}}}}})["ok"] == false);
+}
+
+TEST_CASE("items of a world are described as forms, and take what is written there") {
+    ::setenv("FORAGE_MODEL_PATH", FORAGE_SOURCE_DIR "/systems/worlds/models", 1);
+    Editor e;
+    const auto set = [&](const char* id, const char* property, const json& value) {
+        return e.result(
+            {{"command", "world_edit"},
+             {"operations",
+              {{{"do", "set"}, {"id", id}, {"property", property}, {"value", value}}}}})["ids"][0];
+    };
+    const auto property = [&](const char* id, const char* name) {
+        const json document = e.result({{"command", "world_document"}});
+        for (const auto& item : document["items"])
+            if (item["id"] == id)
+                for (const auto& p : item["properties"])
+                    if (p["name"] == name) return p;
+        return json();
+    };
+    CHECK(property("Wall", "width")["value"] == 8);
+    CHECK(set("Wall", "width", 6) == "Wall");
+    CHECK(property("Wall", "width")["value"] == 6);
+    CHECK(property("Bug", "color")["value"] == "#ff0000");
+    set("Bug", "color", "#00ff00");
+    CHECK(property("Bug", "color")["value"] == "#00ff00");
+    CHECK(set("Bug", "name", "Beetle") == "Beetle");
+    set("Wall", "movable", true);
+    CHECK(property("Wall", "movable")["value"] == true);
+    CHECK(property("basic_arena", "rate")["value"] == 2000);
+    set("basic_arena", "ambient", 0.6);
+    for (int i = 0; i < 5; ++i) e.result({{"command", "undo"}});
+    CHECK(e.last["world_document"]["dirty"] == false);
+}
+
+TEST_CASE("a world that cannot run is not saved, and the error names the place") {
+    ::setenv("FORAGE_MODEL_PATH", FORAGE_SOURCE_DIR "/systems/worlds/models", 1);
+    Editor e;
+    const auto cycle = [&] { return e.session->run().cycle(); };
+    e.result({{"command", "step"}, {"cycles", 5}});
+    REQUIRE(cycle() == 5);
+    e.result({{"command", "world_edit"},
+              {"operations",
+               {{{"do", "set"}, {"id", "Bug"}, {"property", "model"}, {"value", "model://no_bug"}}}}});
+    const auto file = e.folder / "mine.world";
+    const auto refused = e.ask({{"command", "world_save"}, {"file", file.string()}});
+    REQUIRE(refused["ok"] == false);
+    INFO(refused.dump(1));
+    const auto& problem = refused["problems"][0];
+    CHECK(problem["file"] == file.string());
+    CHECK(problem["line"].get<int>() > 1);
+    CHECK(problem["message"].get<std::string>().find("no_bug") != std::string::npos);
+    for (const auto& entry : fs::directory_iterator(e.folder)) CHECK(entry.path().extension() != ".world");
+    CHECK(cycle() == 5);  // the run goes on in the old world
+    CHECK(e.result({{"command", "world_document"}})["dirty"] == true);
+    e.result({{"command", "undo"}});
+    // A world without the robot of the system cannot run, either, and an older file keeps its content.
+    e.result({{"command", "world_save"}, {"file", file.string()}});
+    const auto before = read_file(file.string());
+    e.result({{"command", "world_edit"}, {"operations", {{{"do", "remove"}, {"id", "Bug"}}}}});
+    CHECK(e.ask({{"command", "world_save"}})["ok"] == false);
+    CHECK(read_file(file.string()) == before);
+    CHECK(e.last["world"]["file"] == file.string());
+}
+
+namespace {
+
+/// A program ffmpeg that plays a camera, in front of PATH while the object exists. It notes when it is
+/// started while another one runs: most cameras can be opened once only.
+struct FakeCamera {
+    fs::path folder = fs::temp_directory_path() / ("forage-camera-test-" + std::to_string(::getpid()));
+    std::string path = std::getenv("PATH");
+
+    FakeCamera() {
+        fs::create_directories(folder / "bin");
+        write("video0", "");
+        const auto program = folder / "bin/ffmpeg";
+        write("bin/ffmpeg", "#!/bin/sh\n[ \"$1\" = -version ] && exit 0\ncd " + folder.string() + R"(
+for other in running.*; do
+  [ -e "$other" ] && kill -0 "${other##*.}" 2>/dev/null && echo >>twice
+done
+: >running.$$
+echo >>opened
+while printf 'P6\n1 1\n255\nabc'; do sleep 0.01; done
+)");
+        fs::permissions(program, fs::perms::owner_all);
+        ::setenv("PATH", ((folder / "bin").string() + ":" + path).c_str(), 1);
+    }
+    ~FakeCamera() {
+        ::setenv("PATH", path.c_str(), 1);
+        fs::remove_all(folder);
+    }
+    void write(const char* name, const std::string& text) const { std::ofstream(folder / name) << text; }
+    std::size_t lines(const char* name) const {
+        return fs::exists(folder / name) ? read_file((folder / name).string()).size() : 0;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("a camera is open once at a time when a system is edited") {
+    const FakeCamera camera;
+    Editor e("reactive_foraging.iqr", false);
+    std::ofstream(e.file)
+        << "<System id=\"s\" name=\"Seeing\" cylesPerSecond=\"25\"><Process id=\"p\" name=\"P\">"
+           "<Module name=\"moduleVideo\"><Parameter name=\"DeviceName\" value=\""
+        << (camera.folder / "video0").string()
+        << "\"/><XRefHolder name=\"OutputToGroup\"><XRef name=\"videoOutputRed\" target=\"g\"/>"
+           "</XRefHolder></Module><Group id=\"g\" name=\"G\"><Topology><TopologyRect "
+           "hcount=\"1\" vcount=\"1\"/></Topology><Neuron name=\"neuronNumeric\"/></Group>"
+           "</Process></System>\n";
+    e.result({{"command", "open"}, {"system", e.file}});
+    CHECK(camera.lines("opened") == 0);
+    const auto seen = [&] {
+        e.result({{"command", "step"}, {"cycles", 3}});
+        return e.result({{"command", "read"}, {"source", "P/G"}})["values"][0].get<double>();
+    };
+    CHECK(seen() > 0);
+    CHECK(camera.lines("opened") == 1);
+    e.edit({{{"do", "add_group"}, {"process", "p"}, {"name", "Another"}}});
+    CHECK(seen() > 0);
+    CHECK(camera.lines("opened") == 2);
+    e.result({{"command", "stop"}});
+    CHECK(seen() > 0);
+    CHECK(camera.lines("opened") == 3);
+    CHECK(camera.lines("twice") == 0);
+}
+
+TEST_CASE("what can be undone of a world is bounded in bytes") {
+    ::setenv("FORAGE_MODEL_PATH", FORAGE_SOURCE_DIR "/systems/worlds/models", 1);
+    Editor e;
+    const auto file = e.folder / "large.world";
+    const auto text = read_file(FORAGE_SOURCE_DIR "/systems/worlds/basic_arena.world");
+    const std::size_t padding = 1u << 20;  // two texts of a megabyte per step
+    std::ofstream(file) << text << "<!--" << std::string(padding, '.') << "-->";
+    e.result({{"command", "open"}, {"system", e.file}, {"world", file.string()}});
+    for (int i = 0; i < 8; ++i)
+        e.result({{"command", "world_edit"},
+                  {"operations", {{{"do", "move"}, {"id", "Bug"}, {"x", 0.1 * i}, {"y", 0}}}}});
+    int undone = 0;
+    while (e.ask({{"command", "undo"}})["ok"] == true) ++undone;
+    CHECK(undone >= 3);
+    CHECK(undone < 8);
+}
+
+TEST_CASE("edits of a world that were not saved survive the death of the program") {
+    ::setenv("FORAGE_MODEL_PATH", FORAGE_SOURCE_DIR "/systems/worlds/models", 1);
+    Editor e;
+    e.session->keep();
+    e.session->work(1000);
+    json ids;
+    for (const char* kind : {"goal", "home", "site", "disc", "resource", "trials"})
+        ids.push_back(
+            e.result({{"command", "world_edit"},
+                      {"operations", {{{"do", "add"}, {"kind", kind}, {"x", 1}, {"y", 1}}}}})["ids"][0]);
+    e.result(
+        {{"command", "world_edit"},
+         {"operations", {{{"do", "set"}, {"id", ids[0]}, {"property", "color"}, {"value", "#123456"}}}}});
+    const auto before = e.result({{"command", "world_document"}});
+    CHECK(before["items"].dump().find("#123456") != std::string::npos);
+    e.session->work(1031);  // it keeps what has changed, and dies without end()
+    RunInput input = e.session->input();
+    input.text.clear();
+    e.session.emplace(input, [](int, bool, const std::string&) {});
+    e.session->keep();
+    REQUIRE_FALSE(e.session->killed().is_null());
+    e.session->recover();
+    CHECK(e.result({{"command", "world_document"}}) == before);
+    e.result({{"command", "undo"}});
+    CHECK(e.result({{"command", "world_document"}})["items"].dump().find("#123456") == std::string::npos);
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "bug_interface/world/sdf_edit.h"
+#include "core/base/number.h"
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
 #include "tools/studio/server/command_functions.h"
@@ -11,40 +12,76 @@
 namespace forage::studio {
 namespace {
 
-json json_of(const bug::WorldItem& i) {
-    return {{"name", i.name}, {"kind", i.kind}, {"uri", i.uri}, {"x", i.x},
-            {"y", i.y},       {"z", i.z},       {"yaw", i.yaw}, {"size", i.size}};
+json json_of(const bug::ItemProperty& p) {
+    const auto limit = [](const std::optional<double>& v) { return v ? json(*v) : json(nullptr); };
+    json value = p.value;
+    if (p.kind == "number" || p.kind == "integer") value = parse_number<double>(p.value).value_or(0);
+    if (p.kind == "boolean") value = p.value == "1";
+    return {
+        {"name", p.name},      {"label", p.label},      {"kind", p.kind},      {"value", std::move(value)},
+        {"low", limit(p.low)}, {"high", limit(p.high)}, {"choices", p.choices}};
 }
 
-/// Carries out an operation on the text of a world. Returns the name of what is added, or null.
-json carry_out_in_world(const json& o, std::string& text) {
+json json_of(const bug::WorldItem& i) {
+    json parts = json::array(), properties = json::array();
+    for (const auto& p : i.parts)
+        parts.push_back({{"x", p.x}, {"y", p.y}, {"yaw", p.yaw}, {"size", p.size}, {"color", p.color}});
+    for (const auto& p : i.properties) properties.push_back(json_of(p));
+    return {{"id", i.id},
+            {"name", i.name},
+            {"kind", i.kind},
+            {"placed", i.placed},
+            {"unpacks", i.unpacks},
+            {"x", i.x},
+            {"y", i.y},
+            {"z", i.z},
+            {"yaw", i.yaw},
+            {"parts", std::move(parts)},
+            {"properties", std::move(properties)}};
+}
+
+std::optional<double> number_in(const json& o, const char* name) {
+    const auto it = o.find(name);
+    return it == o.end() || it->is_null() ? std::nullopt : std::optional(it->get<double>());
+}
+
+/// The value of a property as a text.
+std::string value_of(const json& v) {
+    if (v.is_boolean()) return v.get<bool>() ? "1" : "0";
+    return v.is_string()   ? v.get<std::string>()
+           : v.is_number() ? fmt::format("{}", v.get<double>())
+                           : v.dump();
+}
+
+/// Carries out an operation on the text of a world. Returns the ids of what it adds or changes.
+std::vector<std::string> carry_out_in_world(const json& o, std::string& text, bug::ModelTexts& models) {
     const auto what = o.at("do").get<std::string>();
-    const auto name = o.value("name", "");
     if (what == "add") {
-        bug::NewItem item{.kind = o.at("kind"), .name = name, .x = o.at("x"), .y = o.at("y")};
-        item.yaw = o.value("yaw", item.yaw), item.width = o.value("width", item.width);
-        item.depth = o.value("depth", item.depth), item.radius = o.value("radius", item.radius);
+        bug::NewItem item{.kind = o.at("kind"), .name = o.value("name", ""), .x = o.at("x"), .y = o.at("y")};
+        item.yaw = o.value("yaw", item.yaw), item.width = number_in(o, "width");
+        item.depth = number_in(o, "depth"), item.radius = number_in(o, "radius");
         item.color = o.value("color", item.color), item.uri = o.value("uri", item.uri);
-        std::string made;
-        text = bug::add_to_world(text, std::move(item), made);
-        return made;
+        std::string id;
+        text = bug::add_to_world(text, std::move(item), models, id);
+        return {id};
     }
+    auto id = o.at("id").get<std::string>();
     if (what == "move") {
-        const auto yaw = o.find("yaw");
-        text = bug::moved_in_world(
-            text, name, o.at("x"), o.at("y"),
-            yaw == o.end() || yaw->is_null() ? std::nullopt : std::optional(yaw->get<double>()));
-    } else if (what == "resize") {
-        text = bug::resized_in_world(text, name, o.at("size").get<std::vector<double>>());
-    } else if (what == "rename") {
-        text = bug::renamed_in_world(text, name, o.at("to").get<std::string>());
+        text = bug::moved_in_world(text, id, o.at("x"), o.at("y"), number_in(o, "yaw"), models);
+    } else if (what == "set") {
+        text =
+            bug::set_in_world(text, id, o.at("property").get<std::string>(), value_of(o.at("value")), models);
+    } else if (what == "unpack") {
+        std::vector<std::string> ids;
+        text = bug::unpacked_in_world(text, id, models, ids);
+        return ids;
     } else if (what == "remove") {
-        text = bug::removed_from_world(text, name);
+        text = bug::removed_from_world(text, id, models);
+        return {};
     } else {
-        throw InputError(fmt::format("there is no operation '{}'", what),
-                         "add, move, resize, rename or remove");
+        throw InputError(fmt::format("there is no operation '{}'", what), "add, move, set, unpack or remove");
     }
-    return nullptr;
+    return {id};
 }
 
 }  // namespace
@@ -61,21 +98,29 @@ Session::WorldText& Commands::world_text() {
 json Commands::world_document() {
     const auto& world = world_text();
     json items = json::array();
-    for (const auto& i : bug::items_of_world(world.text)) items.push_back(json_of(i));
+    bug::ModelTexts models(world.path);
+    for (const auto& i : bug::items_of_world(world.text, models)) items.push_back(json_of(i));
     return {{"type", "world_document"},
             {"file", world.path},
             {"dirty", world.text != world.saved},
             {"items", std::move(items)}};
 }
 
-json Commands::world_types() { return {{"kinds", bug::kinds_of_items()}}; }
+json Commands::world_types() {
+    json kinds = json::array();
+    for (const auto& [kind, title] : bug::kinds_of_items())
+        kinds.push_back({{"kind", kind}, {"title", title}});
+    return {{"kinds", std::move(kinds)}};
+}
 
 json Commands::world_edit() {
     const auto& operations = c.at("operations");
     if (!operations.is_array() || operations.empty()) throw InputError("there is no operation");
     std::string text = world_text().text;
-    json names = json::array();
-    for (const auto& o : operations) names.push_back(carry_out_in_world(o, text));
+    bug::ModelTexts models(world_text().path);
+    json ids = json::array();
+    for (const auto& o : operations)
+        for (auto& id : carry_out_in_world(o, text, models)) ids.push_back(std::move(id));
     Diagnostics diagnostics;
     bug::check_world_text(world_text().path, text, diagnostics);
     throw_errors(diagnostics);
@@ -92,12 +137,13 @@ json Commands::world_edit() {
         s.add_undo({{{"command", "world_text"}, {"text", world_text().text}}, redo, title, false});
     s.redo_.clear();
     set_world_text(text);
-    return {{"names", std::move(names)}, {"generation", s.generation_}};
+    return {{"ids", std::move(ids)}, {"generation", s.generation_}};
 }
 
 void Commands::set_world_text(const std::string& text) {
     world_text().text = text;
     ++s.generation_;
+    s.saved_version_.reset();  // it is kept for the case of a crash, also while nothing runs
     s.tell(world_document());
     s.tell_document();  // what can be undone
 }
@@ -113,6 +159,9 @@ json Commands::world_save() {
         if (file != world.path && std::filesystem::exists(file))
             throw InputError(fmt::format("'{}' exists", file), "overwrite it, or choose another name");
     }
+    RunInput wanted = s.input_;
+    wanted.world = file, wanted.world_text = world.text;
+    s.make_run(wanted);  // a world in which the system cannot run is not written
     write_file(file, world.text);
     world.saved = world.text, world.path = file;
     const auto before = std::exchange(s.input_.world, file);

@@ -1,19 +1,25 @@
 // The map of a world on the screen: x to the right, y upwards, metres.
-import type { WorldItem } from '../protocol/editing';
+import type { WorldItem, WorldPart } from '../protocol/editing';
 
 export interface View { x: number; y: number; width: number; height: number }
 
-const reach = (i: WorldItem): number => Math.max(0.3, ...i.size) / 2 + 0.2;
+/** How far an item reaches from its place. */
+export const reach = (i: WorldItem): number => Math.max(0.15, ...i.parts.map((p) => Math.hypot(p.x, p.y) + Math.hypot(...p.size) / (p.size.length === 1 ? 1 : 2)));
 
-/** What the map shows at first: all items but endless floors, and the view of the run's world. */
+/** What the map shows at first: all items but floors, and the view of the run's world. */
 export function viewOf(items: WorldItem[], shown: [number, number, number, number] | undefined): View {
-  const placed = items.filter((i) => !['floor', 'sun', 'other'].includes(i.kind));
-  const left = Math.min(shown?.[0] ?? -2.5, ...placed.map((i) => i.x - reach(i)));
-  const bottom = Math.min(shown?.[1] ?? -2.5, ...placed.map((i) => i.y - reach(i)));
-  const right = Math.max(shown?.[2] ?? 2.5, ...placed.map((i) => i.x + reach(i)));
-  const top = Math.max(shown?.[3] ?? 2.5, ...placed.map((i) => i.y + reach(i)));
+  const placed = items.filter((i) => i.placed && i.kind !== 'floor');
+  const margin = (i: WorldItem) => reach(i) + 0.2;
+  const left = Math.min(shown?.[0] ?? -2.5, ...placed.map((i) => i.x - margin(i)));
+  const bottom = Math.min(shown?.[1] ?? -2.5, ...placed.map((i) => i.y - margin(i)));
+  const right = Math.max(shown?.[2] ?? 2.5, ...placed.map((i) => i.x + margin(i)));
+  const top = Math.max(shown?.[3] ?? 2.5, ...placed.map((i) => i.y + margin(i)));
   return { x: left, y: -top, width: right - left, height: top - bottom };
 }
+
+/** The items of the map, the largest first, so that they lie below. A floor without bounds has no end, and is not drawn. */
+export const drawn = (items: WorldItem[]): WorldItem[] =>
+  items.filter((i) => i.placed && !(i.kind === 'floor' && i.parts.length === 0)).sort((a, b) => Number(b.kind === 'floor') - Number(a.kind === 'floor') || reach(b) - reach(a));
 
 /** The view zoomed by a factor around a place of the screen's coordinates (y downwards). */
 export function zoomed(v: View, factor: number, x: number, y: number): View {
@@ -21,14 +27,11 @@ export function zoomed(v: View, factor: number, x: number, y: number): View {
 }
 
 export const rounded = (v: number): number => Math.round(v * 100) / 100;
+export const degrees = (yaw: number): number => Math.round((yaw * 18000) / Math.PI) / 100;
 
-/** The points of an item's outline on the screen, around its place; null for a circle. */
-export function outline(i: WorldItem): string | null {
-  if (i.kind === 'start') return '0.22,0 -0.14,0.13 -0.14,-0.13';
-  if (i.size.length < 2) return null;
-  const [w, d] = [i.size[0]! / 2, i.size[1]! / 2];
+/** The points of a box on the screen, around its middle; null for a circle. */
+export function corners(p: WorldPart): string | null {
+  if (p.size.length < 2) return null;
+  const [w, d] = [p.size[0]! / 2, p.size[1]! / 2];
   return `${-w},${-d} ${w},${-d} ${w},${d} ${-w},${d}`;
 }
-
-/** The radius of an item that is a circle. */
-export const radius = (i: WorldItem): number => (i.size.length === 1 ? i.size[0]! : i.kind === 'robot' ? 0.2 : 0.15);

@@ -88,6 +88,10 @@ export type Change = (part: Partial<EditItem>, operation: Operation | Operation[
 /** One change of the document; `do` says which. */
 export type Operation = { do: string } & Record<string, unknown>;
 
-export interface WorldItem { name: string; kind: string; uri: string; x: number; y: number; z: number; yaw: number; size: number[] }
+/** A shape of an item, in its frame: width and depth of a box, or a radius. */
+export interface WorldPart { x: number; y: number; yaw: number; size: number[]; color: string }
+export interface WorldProperty { name: string; label: string; kind: 'text' | 'number' | 'integer' | 'boolean' | 'choice' | 'color'; value: string | number | boolean; low: number | null; high: number | null; choices: string[] }
+export interface WorldItem { id: string; name: string; kind: string; placed: boolean; unpacks: boolean; x: number; y: number; z: number; yaw: number; parts: WorldPart[]; properties: WorldProperty[] }
+export interface WorldKind { kind: string; title: string }
 /** The items of the world's file. The server sends it after each change of it. */
 export interface WorldDocument { type: 'world_document'; file: string; dirty: boolean; items: WorldItem[] }

@@ -58,6 +58,69 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.keyboard.press('Control+z');
   await until(page, 'it is back', (n) => document.querySelectorAll('[aria-label="Map of the world"] .item').length === n, items + 2);
 
+  step('every kind is added, and every item of the world can be chosen, and has a form');
+  const count = (n) => until(page, `${n} items`, (wanted) => document.querySelectorAll('[aria-label="Item"] option').length === wanted, n);
+  const list = world.getByLabel('Item', { exact: true });
+  let all = await list.locator('option').count();
+  const kinds = await world.getByRole('toolbar').getByRole('button').allTextContents();
+  for (const kind of ['wall', 'pillar', 'patch', 'disc', 'ball', 'crate', 'light', 'goal', 'resource', 'home', 'site', 'start', 'robot', 'floor', 'sun', 'trials', 'game', 'model']) assert.ok(kinds.includes(kind), `${kind} cannot be added`);
+  for (const kind of kinds.filter((k) => !['floor', 'sun', 'game'].includes(k))) { // the world has a floor and a sun, and a site brings a game
+    await world.getByRole('button', { name: kind, exact: true }).focus();
+    await page.keyboard.press('Enter');
+    all += kind === 'site' ? 2 : 1;
+    await count(all);
+  }
+  for (const id of await list.locator('option').evaluateAll((options) => options.map((o) => o.value))) {
+    await list.selectOption(id);
+    await world.getByRole('group', { name: `Properties of ${id}`, exact: true }).waitFor();
+    assert.ok((await world.getByRole('group', { name: `Properties of ${id}`, exact: true }).locator('input, select').count()) > 0, id);
+  }
+
+  const undo = async (times = 1) => {
+    await page.evaluate(() => document.activeElement?.blur());
+    for (let i = 0; i < times; i++) await page.keyboard.press('Control+z');
+  };
+  await undo(kinds.length - 3);
+  await count(all - (kinds.length - 3) - 1);
+
+  step('colours, lengths and rules are edited in the form, and undone');
+  const value = (label, wanted) => until(page, `${label} is ${wanted}`, ([l, w]) => [...document.querySelectorAll('[aria-label^="Properties of"] .field')].some((f) => f.querySelector('label').textContent === l && f.querySelector('input').value === w), [label, wanted]);
+  await list.selectOption('Bug');
+  await field('Colour').fill('#00ff80');
+  await value('Colour', '#00ff80');
+  await until(page, 'the robot is painted', () => getComputedStyle(document.querySelector('.item.robot [style*="--paint"]')).getPropertyValue('--paint') === '#00ff80');
+  await undo();
+  await value('Colour', '#ff0000');
+  await world.getByRole('button', { name: 'trials', exact: true }).click();
+  await list.selectOption('Trials');
+  await field('Reach, m').fill('0.8');
+  await field('Reach, m').press('Enter');
+  await value('Reach, m', '0.8');
+  await list.selectOption('basic_arena');
+  await field('Ambient light').fill('0.6');
+  await field('Ambient light').press('Enter');
+  await value('Ambient light', '0.6');
+
+  step('an included model is unpacked, and takes another width');
+  await list.selectOption('Wall');
+  await world.getByRole('button', { name: 'Unpack' }).click();
+  await until(page, 'it has no model any more', () => ![...document.querySelectorAll('[aria-label="Properties of Wall"] label')].some((l) => l.textContent === 'Model'));
+  await field('Width, m').fill('7');
+  await field('Width, m').press('Enter');
+  await value('Width, m', '7');
+  await undo(2);
+  await world.getByLabel('Model', { exact: true }).waitFor();
+
+  step('a world that cannot run is not saved');
+  await list.selectOption('Bug');
+  await world.getByRole('button', { name: 'Delete' }).click();
+  await until(page, 'the robot is gone', () => ![...document.querySelectorAll('[aria-label="Item"] option')].some((o) => o.value === 'Bug'));
+  await world.getByRole('button', { name: 'Save', exact: true }).click();
+  await page.getByRole('alert').filter({ hasText: 'Bug' }).first().waitFor();
+  assert.equal(readFileSync(join(folder, file), 'utf8'), original);
+  await undo();
+  await until(page, 'the robot is back', () => [...document.querySelectorAll('[aria-label="Item"] option')].some((o) => o.value === 'Bug'));
+
   step('axe finds no serious fault of accessibility');
   await page.evaluate(readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8'));
   const serious = await page.evaluate(async () => (await window.axe.run({ exclude: ['.dv-tab'] }, { resultTypes: ['violations'] })).violations.filter((v) => ['serious', 'critical'].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 160)).join(' | ')}`));

@@ -1,15 +1,16 @@
 import { describe, expect, it } from 'vitest';
-import { outline, radius, viewOf, zoomed } from '../../src/edit/world_map';
-import type { WorldItem } from '../../src/protocol/editing';
+import { corners, degrees, drawn, reach, viewOf, zoomed } from '../../src/edit/world_map';
+import type { WorldItem, WorldPart } from '../../src/protocol/editing';
 
-const item = (kind: string, x: number, y: number, size: number[] = []): WorldItem => ({ name: kind, kind, uri: '', x, y, z: 0, yaw: 0, size });
+const part = (x: number, y: number, size: number[]): WorldPart => ({ x, y, yaw: 0, size, color: '#ff0000' });
+const item = (kind: string, x: number, y: number, parts: WorldPart[] = [], placed = true): WorldItem => ({ id: kind, name: kind, kind, placed, unpacks: false, x, y, z: 0, yaw: 0, parts, properties: [] });
 
 describe('the map of a world', () => {
-  it('shows what the run shows, and every item, with y upwards', () => {
+  it('shows what the run shows, and every item but floors, with y upwards', () => {
     expect(viewOf([], [-2, -1, 2, 3])).toEqual({ x: -2, y: -3, width: 4, height: 4 });
-    const v = viewOf([item('wall', 0, 5, [2, 0.2]), item('floor', 900, 900, [9, 9])], [-2, -1, 2, 3]);
+    const v = viewOf([item('pillar', 0, 5, [part(0, 0, [0.8])]), item('floor', 900, 900, [part(0, 0, [9, 9])]), item('sun', 900, 0, [], false)], [-2, -1, 2, 3]);
     expect([v.x, v.width]).toEqual([-2, 4]);
-    expect(v.y).toBeCloseTo(-6.2);
+    expect(v.y).toBeCloseTo(-6);
     expect(v.y + v.height).toBeCloseTo(1);
   });
   it('zooms around a place, which stays where it is', () => {
@@ -18,7 +19,14 @@ describe('the map of a world', () => {
     expect((2 - v.x) / v.width).toBeCloseTo(0.2);
   });
   it('draws boxes as rectangles, and others as circles', () => {
-    expect(outline(item('wall', 1, 1, [2, 1]))).toBe('-1,-0.5 1,-0.5 1,0.5 -1,0.5');
-    expect([outline(item('patch', 0, 0, [0.3])), radius(item('patch', 0, 0, [0.3])), radius(item('robot', 0, 0))]).toEqual([null, 0.3, 0.2]);
+    expect(corners(part(1, 1, [2, 1]))).toBe('-1,-0.5 1,-0.5 1,0.5 -1,0.5');
+    expect(corners(part(0, 0, [0.3]))).toBeNull();
   });
+  it('puts floors and what reaches far below the rest, and leaves out what has no place', () => {
+    const walls = item('wall', 0, 0, [part(3, 4, [0.5])]);
+    expect(reach(walls)).toBeCloseTo(5.5);
+    const all = [item('robot', 0, 0), walls, item('sun', 0, 0, [], false), item('floor', 0, 0, [part(0, 0, [1, 1])]), { ...item('floor', 0, 0), id: 'endless' }];
+    expect(drawn(all).map((i) => i.id)).toEqual(['floor', 'wall', 'robot']);
+  });
+  it('shows headings in degrees', () => expect(degrees(1.57079)).toBe(90));
 });

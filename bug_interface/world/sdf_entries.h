@@ -1,0 +1,59 @@
+// What an editor of a world file works on: its models, lights, rules, and the world itself, with their
+// places.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bug_interface/world/model_texts.h"
+#include "bug_interface/world/sdf_text.h"
+
+namespace forage::bug {
+
+/// The element that says what an item is: it stands in the world's text, or in that of an included model.
+struct Body {
+    std::string_view text;
+    xml::SourceElement root;  ///< of the model's file; unused when the element stands in the world
+    const xml::SourceElement* element = nullptr;  ///< a <model> or <light>; null when the model is not found
+    Body() = default;
+    Body(Body&&) = default;  // a copy would point into the tree of the original
+    Body& operator=(Body&&) = default;
+};
+
+struct Entry {
+    enum class Form { include, model, light, game, trials, site, world } form = Form::model;
+    std::string id;  ///< its name; with a number when several have the same one
+    std::string name;
+    std::string kind;  ///< see WorldItem::kind
+    const xml::SourceElement* element = nullptr;
+    Body body = {};  ///< of a model or light
+
+    /// Whether it stands at a place of the floor.
+    bool placed() const {
+        return form == Form::include ? kind != "sun" : form == Form::model || form == Form::site;
+    }
+    bool is_model() const { return form == Form::include || form == Form::model; }
+    /// The pose in the world: its own, or that of the included model's file.
+    PoseText pose(std::string_view text) const;
+};
+
+/// The world itself, and what is in it, in file order. The text and the tree must outlive the result.
+std::vector<Entry> entries_of(std::string_view text, const WorldTree& tree, ModelTexts& models);
+
+/// A shape of a model in its frame.
+struct Form {
+    const xml::SourceElement* link;
+    const xml::SourceElement* owner;  ///< its <collision> or <visual>
+    const xml::SourceElement* shape;  ///< <box>, <cylinder> or <sphere>
+    PoseText pose;                    ///< in the model; without the tilt of the link
+};
+/// The shapes of a model's own links, without planes: of the elements `owner`, "collision" or "visual".
+std::vector<Form> forms_of(const Body& body, std::string_view owner);
+/// The extents of a shape: three of a box; the radius, and of a cylinder the length.
+std::vector<double> extents(std::string_view text, const xml::SourceElement& shape);
+
+/// The colour of a <visual> as #rrggbb; empty when its surface is a picture.
+std::string colour_of(std::string_view text, const xml::SourceElement& visual);
+
+}  // namespace forage::bug

@@ -1,0 +1,334 @@
+#include "bug_interface/world/sdf_properties.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "core/base/number.h"
+
+namespace forage::bug {
+namespace {
+
+using xml::SourceElement;
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double thinnest = 1e-6, longest = 1e4;  // m, of a shape
+
+/// A number in an element of its own, below the element of the item.
+struct ValueRow {
+    std::string_view name, label, path;
+    double otherwise, low, high;  ///< `otherwise` is what counts without the element
+    bool whole = false;
+};
+
+constexpr ValueRow world_rows[] = {
+    {"ambient", "Ambient light", "scene/ambient", 0.4, 0, 1},
+    {"step", "Step, s", "physics type=\"ode\"/max_step_size", 0.001, 1e-6, 1},
+    {"rate", "Steps per second", "physics type=\"ode\"/real_time_update_rate", 1000, 1e-6, 1e6},
+};
+constexpr ValueRow trial_rows[] = {
+    {"reach", "Reach, m", "reach", 0.45, 0.2, 100},
+    {"duration", "Longest trial, s", "duration", 1e6, 1e-3, 1e6},
+    {"heading", "Deviation of headings, rad", "heading", 0.01, 0, 3.2},
+};
+constexpr ValueRow game_rows[] = {
+    {"duration", "Duration, s", "duration", 300, 1e-6, 1e6},
+    {"stale_after", "Stale after, s", "stale_after", 30, 1e-6, 1e6},
+    {"dissolves_after", "Dissolves after, s", "dissolves_after", 50, 1e-6, 1e6},
+    {"points", "Points", "points", 2, -200, 200, true},
+    {"penalty", "Points when stale", "penalty", -1, -200, 200, true},
+    {"most", "Most resources", "most", 16, 1, 200, true},
+};
+
+std::vector<ValueRow> rows_of(const Entry& e) {
+    const auto list = [](const auto& table) {
+        return std::vector<ValueRow>(std::begin(table), std::end(table));
+    };
+    if (e.form == Entry::Form::world) return list(world_rows);
+    if (e.form == Entry::Form::trials) return list(trial_rows);
+    if (e.form == Entry::Form::game) return list(game_rows);
+    return {};
+}
+
+/// A number as a form shows it.
+std::string shown(double value, double unit = 1e-6) {
+    return fmt::format("{:.10g}", std::round(value / unit) * unit + 0.0);
+}
+
+ItemProperty number(std::string_view name, std::string_view label, double value,
+                    std::optional<double> low = {}, std::optional<double> high = {}) {
+    return {std::string(name), std::string(label), "number", shown(value), low, high, {}};
+}
+
+/// All shapes of a model; of a floor, those that bound it.
+std::vector<Form> solid_forms(const Entry& e) {
+    auto out = forms_of(e.body, "collision");
+    if (e.kind == "floor") return out;
+    for (auto& f : forms_of(e.body, "visual")) out.push_back(f);
+    return out;
+}
+
+/// A length of a shape: a word of the content of an element in it.
+struct Length {
+    std::string_view name, label, element;
+    std::size_t word = 0;
+    bool vertical = false;
+};
+std::vector<Length> lengths_of(std::string_view shape) {
+    if (shape == "box")
+        return {{"width", "Width, m", "size", 0},
+                {"depth", "Depth, m", "size", 1},
+                {"height", "Height, m", "size", 2, true}};
+    if (shape == "cylinder")
+        return {{"radius", "Radius, m", "radius"}, {"height", "Height, m", "length", 0, true}};
+    return {{"radius", "Radius, m", "radius"}};
+}
+std::optional<double> length_of(std::string_view text, const Form& f, const Length& length) {
+    const auto v = numbers_in(text, child(*f.shape, length.element));
+    return length.word < v.size() ? std::optional(v[length.word]) : std::nullopt;
+}
+
+/// The lengths that all shapes of a model have in common. A robot has none: its sensors depend on its size.
+std::vector<std::pair<Length, double>> common_lengths(const Entry& e) {
+    std::vector<std::pair<Length, double>> out;
+    const auto forms = solid_forms(e);
+    if (forms.empty() || e.kind == "robot" || e.kind == "other") return out;
+    for (const auto& length : lengths_of(forms.front().shape->name)) {
+        if (length.vertical &&
+            (e.kind == "floor" || e.kind == "patch" || e.kind == "start" || e.kind == "home"))
+            continue;  // paint
+        const auto value = length_of(e.body.text, forms.front(), length);
+        if (value && std::ranges::all_of(forms, [&](const Form& f) {
+                return f.shape->name == forms.front().shape->name &&
+                       length_of(e.body.text, f, length) == value;
+            }))
+            out.emplace_back(length, *value);
+    }
+    return out;
+}
+
+/// The visuals of a model's own links, with their colours; without those that show a picture.
+std::vector<std::pair<const SourceElement*, std::string>> painted(const Body& body) {
+    std::vector<std::pair<const SourceElement*, std::string>> out;
+    if (!body.element || body.element->name != "model") return out;
+    for (const auto& link : body.element->children)
+        for (const auto& e : link.children)
+            if (link.name == "link" && e.name == "visual")
+                if (auto colour = colour_of(body.text, e); !colour.empty()) out.emplace_back(&e, colour);
+    return out;
+}
+
+std::vector<const SourceElement*> collisions(const Entry& e) {
+    return e.body.element ? all(*e.body.element, "collision") : std::vector<const SourceElement*>();
+}
+
+/// Where a directional light comes from.
+struct Sun {
+    double azimuth = 0, elevation = 90;  ///< degrees: to the left of x, and above the floor
+};
+Sun sun_of(const Body& body) {
+    const auto d = numbers_in(body.text, child(*body.element, "direction"));
+    if (d.size() != 3) return {};
+    const double along = std::hypot(d[0], d[1]);
+    return {along > 0 ? std::atan2(-d[1], -d[0]) / degree : 0, std::atan2(-d[2], along) / degree};
+}
+
+bool may_move(const Entry& e) {
+    return e.is_model() && (e.kind == "wall" || e.kind == "object" || e.kind == "resource") &&
+           !collisions(e).empty();
+}
+
+void add_model_properties(const Entry& e, std::vector<ItemProperty>& out) {
+    for (const auto& [length, value] : common_lengths(e)) {
+        auto p = number(length.name, length.label, value, thinnest, longest);
+        if (e.kind == "floor") p.label = length.word == 0 ? "Bounds along x, m" : "Bounds along y, m";
+        out.push_back(std::move(p));
+    }
+    if (const auto visuals = painted(e.body); !visuals.empty())
+        out.push_back({"color", "Colour", "color", visuals.front().second, {}, {}, {}});
+    if (may_move(e)) {
+        out.push_back({"movable", "Can be pushed", "boolean", e.kind == "wall" ? "0" : "1", {}, {}, {}});
+        const auto* mu = at_path(*collisions(e).front(), "surface/friction/ode/mu");
+        const auto friction = numbers_in(e.body.text, mu);
+        out.push_back(number("friction", "Friction", friction.size() == 1 ? friction[0] : 1, 0, 1000));
+    }
+    if (e.kind == "object" || e.kind == "resource") {
+        const auto mass = numbers_in(e.body.text, at_path(*e.body.element, "link/inertial/mass"));
+        out.push_back(number("mass", "Mass, kg", mass.size() == 1 ? mass[0] : 1, 1e-6, 1e6));
+    }
+}
+
+void write_length(xml::TextEdits& edits, std::string_view text, const Entry& e, const Length& length,
+                  double old, double value) {
+    for (const auto& f : solid_forms(e)) {
+        const auto* element = child(*f.shape, length.element);
+        edits.replace(words(text, element->content)[length.word], number_text(value));
+    }
+    const bool ball = solid_forms(e).front().shape->name == "sphere";
+    if (!length.vertical && !ball) return;
+    // What stands on the floor stays there.
+    const double half = ball ? 1 : 0.5;
+    for (const auto& link : e.body.element->children) {
+        const auto* pose = link.name == "link" ? child(link, "pose") : nullptr;
+        const auto at = pose ? words(text, pose->content) : std::vector<xml::Span>();
+        if (at.size() >= 6 && std::abs(pose_of(text, link).z - half * old) < 1e-9)
+            edits.replace(at[2], number_text(half * value));
+    }
+}
+
+/// Paints the visuals that have the colour of the first; others, such as the front of a robot, keep theirs.
+void write_colour(xml::TextEdits& edits, std::string_view text, const WorldTree& tree, const Entry& e,
+                  const std::string& hex) {
+    const auto value = colour_text(hex);
+    const auto visuals = painted(e.body);
+    for (const auto& [visual, colour] : visuals) {
+        if (colour != visuals.front().second) continue;
+        const std::string plain = fmt::format("<ambient>{0}</ambient><diffuse>{0}</diffuse>", value);
+        const auto* material = child(*visual, "material");
+        const auto* script = material ? child(*material, "script") : nullptr;
+        if (!material) {
+            append(edits, text, tree.layout, *visual, "<material>" + plain + "</material>");
+        } else if (script && !child(*material, "ambient") && !child(*material, "diffuse")) {
+            edits.replace(script->whole, plain);
+        } else {
+            for (const char* name : {"ambient", "diffuse"})
+                set_value(edits, text, tree.layout, *material, name, value);
+        }
+    }
+}
+
+void write_sun(xml::TextEdits& edits, std::string_view text, const WorldTree& tree, const Entry& e, Sun sun) {
+    const double a = sun.azimuth * degree, h = sun.elevation * degree;
+    const auto part = [](double v) { return number_text(std::round(v * 1e6) / 1e6); };
+    set_value(edits, text, tree.layout, *e.element, "direction",
+              fmt::format("{} {} {}", part(-std::cos(a) * std::cos(h)), part(-std::sin(a) * std::cos(h)),
+                          part(-std::sin(h))));
+}
+
+void write_site(xml::TextEdits& edits, std::string_view text, const Entry& e, std::size_t word,
+                double value) {
+    const auto at = words(text, e.element->content);
+    if (word < at.size()) edits.replace(at[word], number_text(value));
+}
+
+void write_name(xml::TextEdits& edits, std::string_view text, const WorldTree& tree, const Entry& e,
+                const std::string& name) {
+    const auto value = xml::encoded(name);
+    if (e.form != Entry::Form::include) {
+        if (const auto* a = e.element->attribute("name")) edits.replace(a->inside, value);
+    } else if (child(*e.element, "name")) {
+        set_value(edits, text, tree.layout, *e.element, "name", value);
+    } else {
+        const std::string added = "<name>" + value + "</name>";
+        const auto piece = xml::scan(added);
+        xml::insert_into(edits, text, *e.element, nullptr, tree.layout, {{added, &piece}});
+    }
+}
+
+}  // namespace
+
+std::string colour_text(const std::string& hex) {
+    const auto digit = [](char c) { return c <= '9' ? c - '0' : (c | 32) - 'a' + 10; };
+    if (hex.size() != 7 || hex[0] != '#' || hex.find_first_not_of("0123456789abcdefABCDEF", 1) != hex.npos)
+        throw std::invalid_argument(fmt::format("'{}' is not a colour such as #ff8000", hex));
+    const auto part = [&](std::size_t at) { return (digit(hex[at]) * 16 + digit(hex[at + 1])) / 255.0; };
+    return fmt::format("{:.3g} {:.3g} {:.3g} 1", part(1), part(3), part(5));
+}
+
+std::vector<ItemProperty> properties_of(std::string_view text, const Entry& e, const ModelTexts& models) {
+    std::vector<ItemProperty> out;
+    const bool ruled = e.form == Entry::Form::game || e.form == Entry::Form::trials;
+    if (!ruled && e.form != Entry::Form::site) out.push_back({"name", "Name", "text", e.name, {}, {}, {}});
+    if (e.form == Entry::Form::include)
+        out.push_back({"model",
+                       "Model",
+                       "choice",
+                       decoded(content(text, child(*e.element, "uri"))),
+                       {},
+                       {},
+                       models.uris()});
+    if (e.placed()) {
+        const auto pose = e.pose(text);
+        out.push_back(number("x", "x, m", pose.x, -1000, 1000));
+        out.push_back(number("y", "y, m", pose.y, -1000, 1000));
+        if (e.is_model()) {
+            auto heading = number("heading", "Heading, °", 0);
+            heading.value = shown(pose.yaw / degree, 0.01);
+            out.push_back(std::move(heading));
+            out.push_back(number("z", "Above the floor, m", pose.z, -1000, 1000));
+        }
+    }
+    if (e.form == Entry::Form::site) {
+        const auto v = numbers_in(text, e.element);
+        out.push_back(number("chance", "Chance in a second", v.size() == 3 ? v[2] : 0, 0, 1));
+    }
+    for (const ValueRow& r : rows_of(e)) {
+        const auto v = numbers_in(text, at_path(*e.element, r.path));
+        auto p = number(r.name, r.label, v.empty() ? r.otherwise : v[0], r.low, r.high);
+        if (r.whole) p.kind = "integer";
+        out.push_back(std::move(p));
+    }
+    if (e.body.element && e.body.element->name == "light") {
+        const auto sun = sun_of(e.body);
+        for (auto [name, label, value, low, high] :
+             {std::tuple{"azimuth", "Comes from, °", sun.azimuth, -180.0, 180.0},
+              {"elevation", "Elevation, °", sun.elevation, 0.0, 90.0}}) {
+            auto p = number(name, label, 0, low, high);
+            p.value = shown(value, 0.01);
+            out.push_back(std::move(p));
+        }
+    } else if (e.is_model() && e.body.element) {
+        add_model_properties(e, out);
+    }
+    return out;
+}
+
+bool is_own(const Entry& e, std::string_view property) {
+    if (e.form != Entry::Form::include) return true;
+    constexpr std::string_view own[] = {"name", "model", "x", "y", "z", "heading", "movable"};
+    return std::ranges::find(own, property) != std::end(own);
+}
+
+void write_property(xml::TextEdits& edits, std::string_view text, const WorldTree& tree, const Entry& e,
+                    const ItemProperty& p, const std::string& value) {
+    const double v = parse_number<double>(value).value_or(0);
+    const auto& name = p.name;
+    if (e.form == Entry::Form::site)
+        return write_site(edits, text, e, name == "x" ? 0 : name == "y" ? 1 : 2, v);
+    if (name == "name") return write_name(edits, text, tree, e, value);
+    if (name == "model") return set_value(edits, text, tree.layout, *e.element, "uri", xml::encoded(value));
+    if (name == "color") return write_colour(edits, text, tree, e, value);
+    if (name == "movable")
+        return set_value(edits, text, tree.layout, *e.element, "static", value == "1" ? "false" : "true");
+    if (name == "mass")
+        return set_value(edits, text, tree.layout, *e.element, "link/inertial/mass", number_text(v));
+    if (name == "friction") {
+        for (const auto* c : collisions(e))
+            set_value(edits, text, tree.layout, *c, "surface/friction/ode/mu", number_text(v));
+        return;
+    }
+    if (name == "azimuth" || name == "elevation") {
+        auto sun = sun_of(e.body);
+        (name == "azimuth" ? sun.azimuth : sun.elevation) = v;
+        return write_sun(edits, text, tree, e, sun);
+    }
+    for (const ValueRow& r : rows_of(e))
+        if (r.name == name) {
+            const auto one = number_text(v);
+            return set_value(edits, text, tree.layout, *e.element, r.path,
+                             name == "ambient" ? fmt::format("{0} {0} {0} 1", one) : one);
+        }
+    for (const auto& [length, old] : common_lengths(e))
+        if (length.name == name) return write_length(edits, text, e, length, old, v);
+    auto pose = e.pose(text);
+    if (name == "x") pose.x = v;
+    if (name == "y") pose.y = v;
+    if (name == "z") pose.z = v;
+    if (name == "heading") pose.yaw = v * degree;
+    set_pose(edits, text, tree.layout, *e.element, pose);
+}
+
+}  // namespace forage::bug

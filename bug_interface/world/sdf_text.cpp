@@ -1,0 +1,183 @@
+#include "bug_interface/world/sdf_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "core/base/number.h"
+
+namespace forage::bug {
+namespace {
+
+using xml::SourceElement;
+using xml::Span;
+
+constexpr std::string_view blanks = " \t\r\n";
+
+void collect(const SourceElement& e, std::string_view name, std::vector<const SourceElement*>& out) {
+    for (const auto& c : e.children) {
+        if (c.name == name) out.push_back(&c);
+        collect(c, name, out);
+    }
+}
+
+/// Takes the first word of a path off it.
+std::string_view take_word(std::string_view& path) {
+    const auto end = std::min(path.find('/'), path.size());
+    const auto out = path.substr(0, end);
+    path.remove_prefix(std::min(end + 1, path.size()));
+    return out;
+}
+
+}  // namespace
+
+const SourceElement* child(const SourceElement& e, std::string_view name) {
+    const auto it = std::ranges::find(e.children, name, &SourceElement::name);
+    return it == e.children.end() ? nullptr : &*it;
+}
+
+const SourceElement* at_path(const SourceElement& e, std::string_view path) {
+    const auto* out = &e;
+    while (out && !path.empty()) {
+        const auto word = take_word(path);
+        out = child(*out, word.substr(0, word.find(' ')));
+    }
+    return out;
+}
+
+std::vector<const SourceElement*> all(const SourceElement& e, std::string_view name) {
+    std::vector<const SourceElement*> out;
+    collect(e, name, out);
+    return out;
+}
+
+std::string_view content(std::string_view text, const SourceElement* e) {
+    if (!e) return {};
+    const auto inside = e->content.of(text);
+    const auto first = inside.find_first_not_of(blanks);
+    if (first == inside.npos) return {};
+    return inside.substr(first, inside.find_last_not_of(blanks) + 1 - first);
+}
+
+bool says_yes(std::string_view text, const SourceElement* e) {
+    const auto value = content(text, e);
+    return value == "true" || value == "1";
+}
+
+std::string decoded(std::string_view text) {
+    std::string out(text);
+    for (const auto& [entity, character] : {std::pair<std::string_view, std::string_view>{"&lt;", "<"},
+                                            {"&gt;", ">"},
+                                            {"&quot;", "\""},
+                                            {"&apos;", "'"},
+                                            {"&amp;", "&"}})
+        for (auto at = out.find(entity); at != out.npos; at = out.find(entity, at + 1))
+            out.replace(at, entity.size(), character);
+    return out;
+}
+
+std::vector<Span> words(std::string_view text, Span span) {
+    std::vector<Span> out;
+    for (auto at = text.find_first_not_of(blanks, span.begin); at < span.end;
+         at = text.find_first_not_of(blanks, at)) {
+        const auto end = std::min(text.find_first_of(blanks, at), span.end);
+        out.push_back({at, end});
+        at = end;
+    }
+    return out;
+}
+
+std::vector<double> numbers_in(std::string_view text, const SourceElement* e) {
+    std::vector<double> out;
+    if (e)
+        for (const Span& w : words(text, e->content))
+            out.push_back(parse_number<double>(w.of(text)).value_or(0));
+    return out;
+}
+
+std::string number_text(double value) {
+    if (!std::isfinite(value) || std::abs(value) > 1e6)
+        throw std::invalid_argument("a number of a world is from -1e6 to 1e6");
+    return fmt::format("{}", std::round(value * 1e9) / 1e9 + 0.0);
+}
+
+PoseText pose_of(std::string_view text, const SourceElement& parent) {
+    const auto* e = child(parent, "pose");
+    const auto v = numbers_in(text, e);
+    if (v.size() == 7)  // a quaternion x y z w; only the direction in the plane is of interest
+        return {v[0], v[1], v[2],
+                0,    0,    std::atan2(2 * (v[6] * v[5] + v[3] * v[4]), 1 - 2 * (v[4] * v[4] + v[5] * v[5]))};
+    if (v.size() != 6) return {};
+    const auto degrees = e->value("degrees");
+    const double unit = degrees == "true" || degrees == "1" ? std::numbers::pi / 180 : 1;
+    return {v[0], v[1], v[2], unit * v[3], unit * v[4], unit * v[5]};
+}
+
+void append(xml::TextEdits& edits, std::string_view text, const xml::Layout& layout,
+            const SourceElement& parent, std::string_view added) {
+    const auto piece = xml::scan(added);
+    const auto* last = parent.children.empty() ? nullptr : &parent.children.back();
+    xml::insert_into(edits, text, parent, last, layout, {{added, &piece}});
+}
+
+void set_value(xml::TextEdits& edits, std::string_view text, const xml::Layout& layout,
+               const SourceElement& parent, std::string_view path, std::string_view value) {
+    const auto* e = &parent;
+    std::string_view word;
+    for (std::string_view rest = path; !rest.empty(); path = rest) {
+        word = take_word(rest);
+        const auto* next = child(*e, word.substr(0, word.find(' ')));
+        if (!next) break;
+        e = next;
+    }
+    if (path.empty()) {
+        if (e->closed)
+            edits.replace(e->content, std::string(value));
+        else
+            edits.replace(e->whole, fmt::format("<{0}>{1}</{0}>", e->name, value));
+        return;
+    }
+    std::string before, after;
+    while (!path.empty()) {
+        word = take_word(path);
+        before += fmt::format("<{}>", word);
+        after = fmt::format("</{}>", word.substr(0, word.find(' '))) + after;
+    }
+    append(edits, text, layout, *e, before + std::string(value) + after);
+}
+
+void set_pose(xml::TextEdits& edits, std::string_view text, const xml::Layout& layout,
+              const SourceElement& parent, const PoseText& pose) {
+    const auto* e = child(parent, "pose");
+    const auto old = e ? words(text, e->content) : std::vector<Span>();
+    const auto was = pose_of(text, parent);
+    if (old.size() != 6 && old.size() != 7) {
+        const std::string value = fmt::format("{} {} {} 0 0 {}", number_text(pose.x), number_text(pose.y),
+                                              number_text(pose.z), number_text(pose.yaw));
+        if (e || parent.name == "include") return set_value(edits, text, layout, parent, "pose", value);
+        const std::string added = "<pose>" + value + "</pose>";  // of a model, a pose is the first element
+        const auto piece = xml::scan(added);
+        return xml::insert_into(edits, text, parent, nullptr, layout, {{added, &piece}});
+    }
+    const auto set = [&](std::size_t i, double value) {
+        if (parse_number<double>(old[i].of(text)) != value) edits.replace(old[i], number_text(value));
+    };
+    set(0, pose.x), set(1, pose.y), set(2, pose.z);
+    if (pose.yaw == was.yaw) return;
+    if (old.size() == 7) {
+        set(3, 0), set(4, 0), set(5, std::sin(pose.yaw / 2)), set(6, std::cos(pose.yaw / 2));
+    } else {
+        const auto degrees = e->value("degrees");
+        set(5, degrees == "true" || degrees == "1" ? pose.yaw * 180 / std::numbers::pi : pose.yaw);
+    }
+}
+
+WorldTree::WorldTree(std::string_view text) : root(xml::scan(text)) {
+    world = root.name == "world" ? &root : child(root, "world");
+    layout = xml::layout_of(text, root);
+}
+
+}  // namespace forage::bug
