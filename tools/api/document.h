@@ -50,6 +50,8 @@ class Document {
     /// content.
     bool readable() const { return readable_; }
     const model::System& system() const { return system_; }
+    /// What the reader said of the text.
+    const Diagnostics& reading() const { return diagnostics_; }
     const model::System& saved_system() const {
         return saved_system_;
     }                                               ///< that of the file, as last read or saved

@@ -77,6 +77,7 @@ class Session {
         json undo, redo;  ///< commands that change the run; null when the document alone says what changes
         std::string title;
         bool document = false;  ///< whether it is a step of the document, too
+        std::size_t bytes() const;  ///< of the texts that it holds
     };
     struct Change {
         std::string assignment;

@@ -115,9 +115,26 @@ void Session::add_undo(Undo step) {
     trim_undo();
 }
 
+std::size_t Session::Undo::bytes() const {
+    std::size_t out = 0;
+    for (const auto* command : {&undo, &redo})
+        if (command->is_object())
+            if (const auto it = command->find("text"); it != command->end() && it->is_string())
+                out += it->get_ref<const std::string&>().size();
+    return out;
+}
+
 void Session::trim_undo() {
     constexpr std::size_t most_undone = 500;
     if (undo_.size() > most_undone) undo_.erase(undo_.begin(), undo_.end() - most_undone);
+    // Steps of the world hold its text before and after them; the document bounds its own steps.
+    constexpr std::size_t most_bytes = 8u << 20;
+    std::size_t bytes = 0;
+    for (auto it = undo_.rbegin(); it != undo_.rend(); ++it)
+        if ((bytes += it->bytes()) > most_bytes && it != undo_.rbegin()) {
+            undo_.erase(undo_.begin(), it.base());
+            break;
+        }
     // A step of the document can be undone while the document has it.
     std::size_t steps = document_->steps();
     for (auto it = undo_.rbegin(); it != undo_.rend(); ++it)
@@ -242,8 +259,8 @@ void Session::follow_document(const std::string& title) {
 bool Session::rebuild() {
     RunInput input = wanted_ ? *wanted_ : input_;
     input.text = document_->text();
-    Diagnostics diagnostics;
-    const Sources sources = read_sources(input, diagnostics);
+    Diagnostics diagnostics = document_->reading();
+    const Sources sources = read_sources(input, document_->system(), diagnostics);
     std::optional<Run> run;
     Touches* touches = nullptr;
     const auto build = [&](bool go_on) {
@@ -263,7 +280,7 @@ bool Session::rebuild() {
         try {
             build(failed_.empty() && run_->cycle() > 0 && !wanted_);
         } catch (const ArchiveError&) {  // other modules sense the world in another way: it begins anew
-            diagnostics = {};
+            diagnostics = document_->reading();
             build(false);
         }
     } catch (const std::exception& e) {
