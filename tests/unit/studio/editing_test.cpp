@@ -695,7 +695,7 @@ while printf 'P6\n1 1\n255\nabc'; do sleep 0.01; done
 
 TEST_CASE("a camera is open once at a time when a system is edited") {
     const FakeCamera camera;
-    Editor e("reactive_foraging.iqr", false);
+    Editor e;
     std::ofstream(e.file)
         << "<System id=\"s\" name=\"Seeing\" cylesPerSecond=\"25\"><Process id=\"p\" name=\"P\">"
            "<Module name=\"moduleVideo\"><Parameter name=\"DeviceName\" value=\""

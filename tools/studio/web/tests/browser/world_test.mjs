@@ -100,6 +100,8 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await field('Ambient light').fill('0.6');
   await field('Ambient light').press('Enter');
   await value('Ambient light', '0.6');
+  await undo();
+  await value('Ambient light', '0.4');
 
   step('an included model is unpacked, and takes another width');
   await list.selectOption('Wall');
