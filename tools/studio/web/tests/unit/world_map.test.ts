@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { corners, degrees, drawn, reach, viewOf, zoomed } from '../../src/edit/world_map';
+import { corners, degrees, drawn, ends, reach, viewOf, zoomed } from '../../src/edit/world_map';
 import type { WorldItem, WorldPart } from '../../src/protocol/editing';
 
 const part = (x: number, y: number, size: number[]): WorldPart => ({ x, y, yaw: 0, size, color: '#ff0000' });
@@ -12,6 +12,10 @@ describe('the map of a world', () => {
     expect([v.x, v.width]).toEqual([-2, 4]);
     expect(v.y).toBeCloseTo(-6);
     expect(v.y + v.height).toBeCloseTo(1);
+  });
+  it('knows where turned items end', () => {
+    const turned = { ...item('wall', 1, 2, [part(3, 0, [2, 0.5])]), yaw: Math.PI / 2 };
+    [0.75, 1.85, 1.25, 6].forEach((end, k) => expect(ends(turned)[k]).toBeCloseTo(end));
   });
   it('zooms around a place, which stays where it is', () => {
     const v = zoomed({ x: 0, y: 0, width: 10, height: 10 }, 0.5, 2, 4);
