@@ -136,7 +136,8 @@ Sun sun_of(const Body& body) {
     return {along > 0 ? std::atan2(-d[1], -d[0]) / degree : 0, std::atan2(-d[2], along) / degree};
 }
 
-bool may_move(const Entry& e) {
+/// Whether robots meet it, and it is none of them.
+bool is_solid(const Entry& e) {
     return e.is_model() && (e.kind == "wall" || e.kind == "object" || e.kind == "resource") &&
            !collisions(e).empty();
 }
@@ -149,8 +150,9 @@ void add_model_properties(const Entry& e, std::vector<ItemProperty>& out) {
     }
     if (const auto visuals = painted(e.body); !visuals.empty())
         out.push_back({"color", "Colour", "color", visuals.front().second, {}, {}, {}});
-    if (may_move(e)) {
-        out.push_back({"movable", "Can be pushed", "boolean", e.kind == "wall" ? "0" : "1", {}, {}, {}});
+    if (is_solid(e)) {
+        if (e.kind != "resource")
+            out.push_back({"movable", "Can be pushed", "boolean", e.kind == "wall" ? "0" : "1", {}, {}, {}});
         const auto* mu = at_path(*collisions(e).front(), "surface/friction/ode/mu");
         const auto friction = numbers_in(e.body.text, mu);
         out.push_back(number("friction", "Friction", friction.size() == 1 ? friction[0] : 1, 0, 1000));
