@@ -131,7 +131,8 @@ std::vector<Form> forms_of(const Body& body, std::string_view owner) {
 std::vector<double> extents(std::string_view text, const SourceElement& shape) {
     if (shape.name == "box") return numbers_in(text, child(shape, "size"));
     auto out = numbers_in(text, child(shape, "radius"));
-    if (const auto length = numbers_in(text, child(shape, "length")); !length.empty()) out.push_back(length[0]);
+    if (const auto length = numbers_in(text, child(shape, "length")); !length.empty())
+        out.push_back(length[0]);
     return out;
 }
 

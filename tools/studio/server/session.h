@@ -76,7 +76,7 @@ class Session {
     struct Undo {
         json undo, redo;  ///< commands that change the run; null when the document alone says what changes
         std::string title;
-        bool document = false;  ///< whether it is a step of the document, too
+        bool document = false;      ///< whether it is a step of the document, too
         std::size_t bytes() const;  ///< of the texts that it holds
     };
     struct Change {
