@@ -56,7 +56,7 @@ struct Icon {
 /// A text that stands on a page of the diagram, apart from any item.
 struct CanvasComment {
     std::string id, text;
-    std::string color;  ///< #RRGGBB; empty for the usual colour
+    std::string color;  ///< Six hexadecimal digits after a number sign; empty for the usual colour
     Icon box{0, 0, 80, 30};
     Location at;
     friend bool operator==(const CanvasComment&, const CanvasComment&) = default;
