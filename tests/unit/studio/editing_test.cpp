@@ -325,6 +325,35 @@ TEST_CASE("a session begins with a file that has mistakes, and keeps what it was
     CHECK_THROWS_AS(Session(input, send), InputError);
 }
 
+TEST_CASE("a system that is corrected shows the plots that it was begun with") {
+    Editor e;
+    const std::string sound = e.content();
+    std::ofstream(e.file) << "<System";
+    const std::string plots = (e.folder / "mine.conf").string();
+    std::ofstream(plots) << R"(<iqrDataManagerConfiguration><DataClient type="PlotTypeGroup" ID="x">
+<Position x="1" y="1"/><StateVariableDisplay><StateVariableDisplays ID="1" itemID="bug.motor" indices="">
+<Average>false</Average><SelectedStates>act;</SelectedStates></StateVariableDisplays></StateVariableDisplay>
+</DataClient></iqrDataManagerConfiguration>
+)";
+    e.session.reset();
+    RunInput input;
+    input.system = e.file;
+    input.world = FORAGE_SOURCE_DIR "/systems/worlds/basic_arena.world";
+    const auto send = [&](int, bool binary, const std::string& data) {
+        if (binary) return;
+        json message = json::parse(data);
+        e.last[message["type"].get<std::string>()] = message;
+    };
+    e.session.emplace(input, send, plots);
+    e.session->connect(1);
+    CHECK(e.last["hello"]["layout"]["plots"].empty());
+    e.result({{"command", "text_edit"}, {"text", sound}});
+    CHECK(e.last["document"]["running_is_current"] == true);
+    e.session->connect(2);
+    REQUIRE(e.last["hello"]["layout"]["plots"].size() == 1);
+    CHECK(e.last["hello"]["layout"]["plots"][0]["item"] == "Bug/Motor");
+}
+
 TEST_CASE("the text of an item is checked as it is written, line by line") {
     Editor e;
     const auto item = e.result({{"command", "item"}, {"item", "bug.motor"}});

@@ -283,6 +283,10 @@ bool Session::rebuild() {
             diagnostics = document_->reading();
             build(false);
         }
+        if (run && wanted_) read_plot_config(*run);
+    } catch (const InputError& e) {
+        for (const auto& d : e.diagnostics().all()) diagnostics.add(d);
+        run.reset();
     } catch (const std::exception& e) {
         diagnostics.error({}, e.what());
         run.reset();
@@ -312,7 +316,6 @@ bool Session::rebuild() {
     if (wanted_) {
         input_ = input, others_ = sources.more;
         wanted_.reset(), mistakes_ = {};
-        read_plot_config(*run);
     }
     begun_ = std::move(input);
     history_.begin(*run_);
