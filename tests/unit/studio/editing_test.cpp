@@ -354,6 +354,27 @@ TEST_CASE("a system that is corrected shows the plots that it was begun with") {
     CHECK(e.last["hello"]["layout"]["plots"][0]["item"] == "Bug/Motor");
 }
 
+TEST_CASE("a system that is corrected runs in the world and with the seed that were chosen meanwhile") {
+    Editor e;
+    const std::string sound = e.content();
+    std::ofstream(e.file) << "<System";
+    e.result({{"command", "open"},
+              {"system", e.file},
+              {"world", FORAGE_SOURCE_DIR "/systems/worlds/basic_arena.world"}});
+    const std::string world = (e.folder / "mine.world").string();
+    ::setenv("FORAGE_MODEL_PATH", FORAGE_SOURCE_DIR "/systems/worlds/models", 1);
+    e.result({{"command", "world_edit"},
+              {"operations", {{{"do", "add"}, {"kind", "pillar"}, {"x", 1}, {"y", 1}}}}});
+    e.result({{"command", "world_save"}, {"file", world}});
+    e.result({{"command", "restart"}, {"seed", 7}});
+    e.result({{"command", "text_edit"}, {"text", sound}});
+    CHECK(e.last["document"]["running_is_current"] == true);
+    CHECK(e.last["world"]["file"] == world);
+    e.result({{"command", "stop"}});
+    e.session->work(10);
+    CHECK(e.last["status"]["seed"] == 7);
+}
+
 TEST_CASE("the text of an item is checked as it is written, line by line") {
     Editor e;
     const auto item = e.result({{"command", "item"}, {"item", "bug.motor"}});

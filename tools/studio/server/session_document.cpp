@@ -258,6 +258,8 @@ void Session::follow_document(const std::string& title) {
 
 bool Session::rebuild() {
     RunInput input = wanted_ ? *wanted_ : input_;
+    // What was chosen while the system waited for its corrections.
+    if (wanted_) input.world = input_.world, input.seed = input_.seed;
     input.text = document_->text();
     Diagnostics diagnostics = document_->reading();
     const Sources sources = read_sources(input, document_->system(), diagnostics);
