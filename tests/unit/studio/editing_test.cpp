@@ -375,6 +375,23 @@ TEST_CASE("a system that is corrected runs in the world and with the seed that w
     CHECK(e.last["status"]["seed"] == 7);
 }
 
+TEST_CASE("a text that was begun before another system was opened does not replace this one") {
+    Editor e;
+    const json begun = e.result({{"command", "document"}});
+    const std::string other = (e.folder / "other.iqr").string();
+    fs::copy_file(FORAGE_SOURCE_DIR "/systems/dac_foraging.iqr", other);
+    e.result({{"command", "open"},
+              {"system", other},
+              {"world", FORAGE_SOURCE_DIR "/systems/worlds/basic_arena.world"}});
+    const std::string text = e.text();
+    const json reply = e.ask({{"command", "text_edit"},
+                              {"text", begun["text"].get<std::string>() + "<!-- more -->"},
+                              {"generation", begun["generation"]}});
+    CHECK(reply["ok"] == false);
+    CHECK(reply["conflict"] == true);
+    CHECK(e.text() == text);
+}
+
 TEST_CASE("the text of an item is checked as it is written, line by line") {
     Editor e;
     const auto item = e.result({{"command", "item"}, {"item", "bug.motor"}});

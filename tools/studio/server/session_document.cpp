@@ -103,6 +103,7 @@ void Session::open_with_mistakes(const RunInput& input, const Diagnostics& found
 
 void Session::open_document(const RunInput& input) {
     open_any(input);
+    ++generation_;  // what pages write of the system before does not get into this one
     sampler_waits_ = nullptr;
     if (kept_) keep_anew();
     // The page arranges its panels when it has the system, and an arena is one of them.

@@ -167,6 +167,23 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await panel.locator('.cm-searchMatch').first().waitFor();
   await page.keyboard.press('Escape');
 
+  step('what is done with the run meanwhile is no conflict with what is written');
+  const done = await page.evaluate(() => new Promise((answer) => {
+    const socket = new WebSocket(`ws://${location.host}/ws`);
+    socket.onopen = () => socket.send(JSON.stringify({ id: 1, command: 'manipulate', group: 'Bug/Motor', patterns: [Array(81).fill(0)] }));
+    socket.onmessage = ({ data }) => {
+      const message = typeof data === 'string' ? JSON.parse(data) : {};
+      if (message.type === 'reply') answer(message.ok), socket.close();
+    };
+  }));
+  assert.equal(done, true);
+  await text.press('Control+End');
+  await page.keyboard.type('<!-- meanwhile -->');
+  await page.keyboard.press('Control+s');
+  await until(page, 'the saved file', () => !document.title.startsWith('●'));
+  assert.equal(await panel.getByRole('alert').count(), 0);
+  assert.match(readFileSync(file, 'utf8'), /<!-- meanwhile -->/);
+
   step('the XML of an item: marks while it is written, completion, and what is taken over');
   await palette('US to Approach');
   await inspector.getByText('XML', { exact: true }).click();
