@@ -193,6 +193,8 @@ void write_colour(xml::TextEdits& edits, std::string_view text, const WorldTree&
         const auto* script = material ? child(*material, "script") : nullptr;
         if (!material) {
             append(edits, text, tree.layout, *visual, "<material>" + plain + "</material>");
+        } else if (!material->closed) {
+            edits.replace(material->whole, "<material>" + plain + "</material>");
         } else if (script && !child(*material, "ambient") && !child(*material, "diffuse")) {
             edits.replace(script->whole, plain);
         } else {
@@ -220,7 +222,9 @@ void write_name(xml::TextEdits& edits, std::string_view text, const WorldTree& t
                 const std::string& name) {
     const auto value = xml::encoded(name);
     if (e.form != Entry::Form::include) {
-        if (const auto* a = e.element->attribute("name")) edits.replace(a->inside, value);
+        // With its quotes: the name may hold those that the author has.
+        if (const auto* a = e.element->attribute("name"))
+            edits.replace(a->whole, fmt::format("name=\"{}\"", value));
     } else if (child(*e.element, "name")) {
         set_value(edits, text, tree.layout, *e.element, "name", value);
     } else {

@@ -56,7 +56,8 @@ std::string with_own_model(const std::string& text, const WorldTree& tree, const
     const auto& model = *e.body.element;
     const auto layout = xml::layout_of(e.body.text, e.body.root);
     xml::TextEdits edits;
-    if (const auto* name = model.attribute("name")) edits.replace(name->inside, xml::encoded(e.name));
+    if (const auto* name = model.attribute("name"))
+        edits.replace(name->whole, fmt::format("name=\"{}\"", xml::encoded(e.name)));
     for (const char* element : {"pose", "static"}) {  // those of the <include> count
         const auto* set = child(*e.element, element);
         if (!set) continue;

@@ -297,3 +297,24 @@ TEST_CASE("what cannot be done to a world is said") {
     CHECK_THROWS_AS(removed_from_world(text, "basic_arena", models), std::invalid_argument);
     CHECK_THROWS_AS(unpacked_in_world(text, "basic_arena", models, ids), std::invalid_argument);
 }
+
+TEST_CASE("a name may hold the quotes of the author, and an empty material is painted") {
+    ModelTexts models("none.world");
+    std::string text =
+        "<sdf version=\"1.5\"><world name=\"w\">\n<model name='Box'><pose>1 1 0 0 0 0</pose>"
+        "<static>true</static><link name='l'><visual name='v'><geometry><box><size>1 1 1</size></box>"
+        "</geometry><material/></visual></link></model>\n</world></sdf>\n";
+    std::string id = "Box";
+    text = set_in_world(text, id, "color", "#ff0000", models);
+    text = set_in_world(text, id, "name", "Tom's \"box\"", models);
+    CHECK(id == "Tom's \"box\"");
+    Diagnostics diagnostics;
+    check_world_text("w.world", text, diagnostics);
+    INFO(format(diagnostics) << text);
+    CHECK_FALSE(diagnostics.failed());
+    const auto items = items_of_world(text, models);
+    REQUIRE(items.size() == 2);
+    REQUIRE(items[1].parts.size() == 1);
+    CHECK(items[1].name == id);
+    CHECK(items[1].parts[0].color == "#ff0000");
+}
