@@ -728,7 +728,7 @@ TEST_CASE("a world that cannot run is not saved, and the error names the place")
 namespace {
 
 /// A program ffmpeg that plays a camera, in front of PATH while the object exists. It notes when it is
-/// started while another one runs: most cameras can be opened once only.
+/// started while another one runs: most cameras can be opened once only. With a file `once`, it ends then.
 struct FakeCamera {
     fs::path folder = fs::temp_directory_path() / ("forage-camera-test-" + std::to_string(::getpid()));
     std::string path = std::getenv("PATH");
@@ -739,7 +739,7 @@ struct FakeCamera {
         const auto program = folder / "bin/ffmpeg";
         write("bin/ffmpeg", "#!/bin/sh\n[ \"$1\" = -version ] && exit 0\ncd " + folder.string() + R"(
 for other in running.*; do
-  [ -e "$other" ] && kill -0 "${other##*.}" 2>/dev/null && echo >>twice
+  [ -e "$other" ] && kill -0 "${other##*.}" 2>/dev/null && echo >>twice && [ -e once ] && exit 1
 done
 : >running.$$
 echo >>opened
@@ -753,6 +753,17 @@ while printf 'P6\n1 1\n255\nabc'; do sleep 0.01; done
         fs::remove_all(folder);
     }
     void write(const char* name, const std::string& text) const { std::ofstream(folder / name) << text; }
+    /// A system that looks through it.
+    void write_system(const std::string& file) const {
+        std::ofstream(file)
+            << "<System id=\"s\" name=\"Seeing\" cylesPerSecond=\"25\"><Process id=\"p\" name=\"P\">"
+               "<Module name=\"moduleVideo\"><Parameter name=\"DeviceName\" value=\""
+            << (folder / "video0").string()
+            << "\"/><XRefHolder name=\"OutputToGroup\"><XRef name=\"videoOutputRed\" target=\"g\"/>"
+               "</XRefHolder></Module><Group id=\"g\" name=\"G\"><Topology><TopologyRect "
+               "hcount=\"1\" vcount=\"1\"/></Topology><Neuron name=\"neuronNumeric\"/></Group>"
+               "</Process></System>\n";
+    }
     std::size_t lines(const char* name) const {
         return fs::exists(folder / name) ? read_file((folder / name).string()).size() : 0;
     }
@@ -763,14 +774,7 @@ while printf 'P6\n1 1\n255\nabc'; do sleep 0.01; done
 TEST_CASE("a camera is open once at a time when a system is edited") {
     const FakeCamera camera;
     Editor e;
-    std::ofstream(e.file)
-        << "<System id=\"s\" name=\"Seeing\" cylesPerSecond=\"25\"><Process id=\"p\" name=\"P\">"
-           "<Module name=\"moduleVideo\"><Parameter name=\"DeviceName\" value=\""
-        << (camera.folder / "video0").string()
-        << "\"/><XRefHolder name=\"OutputToGroup\"><XRef name=\"videoOutputRed\" target=\"g\"/>"
-           "</XRefHolder></Module><Group id=\"g\" name=\"G\"><Topology><TopologyRect "
-           "hcount=\"1\" vcount=\"1\"/></Topology><Neuron name=\"neuronNumeric\"/></Group>"
-           "</Process></System>\n";
+    camera.write_system(e.file);
     e.result({{"command", "open"}, {"system", e.file}});
     CHECK(camera.lines("opened") == 0);
     const auto seen = [&] {
@@ -786,6 +790,23 @@ TEST_CASE("a camera is open once at a time when a system is edited") {
     CHECK(seen() > 0);
     CHECK(camera.lines("opened") == 3);
     CHECK(camera.lines("twice") == 0);
+}
+
+TEST_CASE("a comparison that cannot begin leaves the run as it is") {
+    const FakeCamera camera;
+    camera.write("once", "");
+    Editor e;
+    camera.write_system(e.file);
+    e.result({{"command", "open"}, {"system", e.file}});
+    e.result({{"command", "step"}, {"cycles", 3}});
+    const auto* run = &e.session->run();
+    CHECK(e.ask({{"command", "compare"}})["ok"] == false);  // the second run cannot open the camera
+    CHECK(&e.session->run() == run);
+    CHECK(e.session->run().cycle() == 3);
+    e.session->work(10);
+    CHECK(e.last["status"]["compare"].is_null());
+    e.result({{"command", "step"}, {"cycles", 3}});
+    CHECK(e.result({{"command", "read"}, {"source", "P/G"}})["values"][0].get<double>() > 0);
 }
 
 TEST_CASE("what can be undone of a world is bounded in bytes") {

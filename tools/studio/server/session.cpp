@@ -288,10 +288,7 @@ void Session::go_to(std::uint64_t cycle) {
             history_ = std::move(past);
         }
         replay(cycle);
-        if (!reference_) return;
-        swap_reference();
-        replay(cycle);
-        swap_reference();
+        if (reference_) with_reference([&] { replay(cycle); });
         return;
     }
     while (run_->cycle() < cycle) this->cycle();

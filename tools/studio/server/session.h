@@ -120,6 +120,8 @@ class Session {
     void repeat_actions();
     /// Lets the session work on the reference instead of its run.
     void swap_reference();
+    /// Does something with the second run in the place of the run. When that fails, the second run ends.
+    void with_reference(const std::function<void()>& act);
     void step_reference();
     void begin_reference(std::uint64_t cycle);
     /// Lets a second run with this past go beside the run, from `cycle` on. Its run is made here.

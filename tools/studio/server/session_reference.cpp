@@ -1,5 +1,7 @@
 // Two runs side by side: the run that pages touch, and the course that it took before, or would take
 // untouched.
+#include <functional>
+
 #include "core/base/archive.h"
 #include "tools/studio/server/session.h"
 
@@ -10,6 +12,18 @@ void Session::swap_reference() {
     std::swap(touches_, reference_->touches);
     std::swap(history_, reference_->past);
     std::swap(changed_, reference_->changed);
+}
+
+void Session::with_reference(const std::function<void()>& act) {
+    swap_reference();
+    try {
+        act();
+    } catch (...) {
+        swap_reference();
+        end_reference();
+        throw;
+    }
+    swap_reference();
 }
 
 void Session::begin_reference(std::uint64_t cycle) {
@@ -26,18 +40,16 @@ void Session::run_beside(Reference made, std::uint64_t cycle) {
     end_reference();
     std::tie(made.run, made.touches) = make_run(begun_);
     reference_.emplace(std::move(made));
-    swap_reference();
-    replay(cycle);
-    swap_reference();
+    with_reference([&] { replay(cycle); });
     status_due_ = true;
 }
 
 void Session::step_reference() {
-    swap_reference();
-    repeat_actions();
-    run_->step();
-    history_.after_cycle(*run_);
-    swap_reference();
+    with_reference([this] {
+        repeat_actions();
+        run_->step();
+        history_.after_cycle(*run_);
+    });
 }
 
 void Session::end_reference() {
