@@ -222,6 +222,8 @@ TEST_CASE("comments on a page are added, changed, copied, pasted and removed") {
     set_comment(s.system, one, {.text = "One", .width = 70});
     CHECK(*find_canvas_comment(s.system, one) == CanvasComment{one, "One", "#123456", {20, 30, 70, 20}, {}});
     CHECK_THROWS_AS(set_comment(s.system, one, {.height = 0}), std::invalid_argument);
+    CHECK_THROWS_AS(set_comment(s.system, one, {.text = std::string("a\0b", 3)}), std::invalid_argument);
+    CHECK_NOTHROW(set_comment(s.system, one, {.text = "One\n\ttwo"}));
     CHECK_THROWS_AS(set_comment(s.system, "a", {}), std::invalid_argument);
     auto changes = parameter_changes(Small().system, s.system, s.registry);
     CHECK((changes && changes->empty()));
