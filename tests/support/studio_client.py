@@ -127,7 +127,7 @@ class Page:
         self.number += 1
         self.send(json.dumps({'id': self.number, 'command': command, **members}))
         while self.number not in self.replies:
-            assert self.receive(), f'no reply to {command}'
+            assert self.receive(60), f'no reply to {command}'  # a busy machine needs seconds for many cycles
         return self.replies.pop(self.number)
 
     def do(self, command, **members):
