@@ -8,6 +8,7 @@ import { search, searchKeymap } from '@codemirror/search';
 import { Annotation, EditorState, Prec, Transaction, type Extension } from '@codemirror/state';
 import { drawSelection, EditorView, keymap, lineNumbers } from '@codemirror/view';
 import { tags } from '@lezer/highlight';
+import { overClosingTags } from './closing';
 import { marksOf, unitsBefore } from './marks';
 import type { Problem } from '../protocol/messages';
 import { suggest, type Suggestion, type Suggestions } from './suggest';
@@ -124,6 +125,7 @@ export function makeEditor(parent: HTMLElement, options: EditorOptions): XmlEdit
         bracketMatching(),
         closeBrackets(),
         new LanguageSupport(xmlLanguage),
+        overClosingTags,
         autoCloseTags,
         indentUnit.of(unit(options.text)),
         syntaxHighlighting(colours),

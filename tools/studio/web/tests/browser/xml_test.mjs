@@ -81,6 +81,22 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   assert.deepEqual(author.split('\n').flatMap((l, i) => (l === saved[i] ? [] : [[l, saved[i]]])), []);
   assert.equal(readFileSync(file, 'utf8').length, author.length);
 
+  step('a closing tag that is typed in full stands there once');
+  await page.keyboard.press('Control+Home');
+  await page.keyboard.press('Control+f');
+  await page.keyboard.type('<Connection');
+  await page.keyboard.press('Enter');
+  await page.keyboard.press('Escape');
+  await text.press('Home');
+  const typed = '<Topology><TopologyRect hcount="2" vcount="2"/></Topology><A><B></B></A>';
+  await page.keyboard.type(typed);
+  assert.equal((await line()).trim().split('<Connection')[0], typed);
+  for (let i = 0; i < '</A>'.length; ++i) await page.keyboard.press('Backspace');
+  await page.keyboard.type('</A>');
+  assert.equal((await line()).trim().split('<Connection')[0], typed);
+  for (let i = 0; i < typed.length; ++i) await page.keyboard.press('Backspace');
+  assert.match(await line(), /^\s*<Connection [^<]*$/);
+
   step('elements, attributes and values are completed, with what they mean');
   await page.keyboard.press('Control+Home');
   await page.keyboard.press('Control+f');

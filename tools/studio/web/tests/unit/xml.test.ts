@@ -1,6 +1,7 @@
 // What the XML editor suggests, where it marks mistakes, and what it leaves of a file's line ends.
 import { describe, expect, it } from 'vitest';
 import type { TypesResult } from '../../src/protocol/editing';
+import { closingAhead } from '../../src/xml/closing';
 import { withLineEnds } from '../../src/xml/line_ends';
 import { extent, marksOf, unitsBefore } from '../../src/xml/marks';
 import { scan } from '../../src/xml/scan';
@@ -163,5 +164,21 @@ describe('line ends', () => {
     expect(withLineEnds('a\r\nb\nc\n', 'a\nx\ny\nc\n')).toBe('a\r\nx\ny\nc\n');
     expect(withLineEnds('a\r\n', 'a')).toBe('a');
     expect(withLineEnds('a\r\nb', 'a\nb\n')).toBe('a\r\nb\r\n');
+  });
+});
+
+describe('a closing tag that stands ahead', () => {
+  const ahead = (text: string) => {
+    const [before, after] = text.split('|') as [string, string];
+    return closingAhead(before, after);
+  };
+  it('is found when it ends the open element, also on the next line', () => {
+    expect(ahead('<A><B/>|</A>')).toEqual({ from: 0, to: 4, name: 'A' });
+    expect(ahead('<A>\n  |\n</A>')).toEqual({ from: 1, to: 5, name: 'A' });
+  });
+  it('is not found when it ends another element, or is not the next', () => {
+    expect(ahead('<A><B>|</A>')).toBeNull();
+    expect(ahead('<A>|<B/></A>')).toBeNull();
+    expect(ahead('<A x="|</A>')).toBeNull();
   });
 });
