@@ -17,8 +17,8 @@ export const removeItems = (ids: string[]) => edit({ do: 'remove', ids });
 /** Opens the inspector on an item and puts the cursor into its first field. */
 export function properties(id: string): void {
   selection.select(id);
-  frame.inspector = true;
-  tools.asked += 1;
+  frame.openInspector();
+  tools.asked = id;
 }
 
 /** Begins to write the name of an item: in its box, or in the inspector if no box shows it. */

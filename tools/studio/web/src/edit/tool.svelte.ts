@@ -1,5 +1,5 @@
 // What a click in the diagram does, and the connection that is being drawn. All panes share it, so that a connection may begin in one and end in another.
-import type { ConnectionKind } from '../protocol/messages';
+import type { CanvasComment, ConnectionKind } from '../protocol/messages';
 import type { Point } from '../panels/line';
 
 export type Tool = 'select' | 'add' | 'comment' | ConnectionKind;
@@ -21,13 +21,13 @@ class Tools {
   pending = $state.raw<Pending | null>(null);
   /** The item whose name, or the comment whose text, is written in its box. */
   renaming = $state<string | null>(null);
-  /** The comment that was just made. Writing its text joins the step that made it. */
-  fresh = $state.raw<{ id: string; step: string } | null>(null);
+  /** A new comment, which the document has when it has a text, and the pane and the page on which it is written. */
+  draft = $state.raw<{ comment: CanvasComment; pane: string; process: string | null } | null>(null);
   /** Groups between which the dialog connects; null when it is closed. */
   dialog = $state.raw<{ source: string | null; kind: ConnectionKind } | null>(null);
 
-  /** How often the properties of an item were asked for. */
-  asked = $state(0);
+  /** The item whose form is to have the cursor, when it is there. */
+  asked = $state<string | null>(null);
 
   connecting = $derived(this.current !== 'select' && this.current !== 'add' && this.current !== 'comment');
 

@@ -43,6 +43,8 @@ const toBox = (icon: Icon): Box => ({ x: icon.x * scale, y: icon.y * scale, widt
 /** Where a place of the page is in the file. */
 export const toFile = (p: Point): [number, number] => [Math.round(p.x / scale), Math.round(p.y / scale)];
 
+export const commentBox = (item: CanvasComment): PageBox => ({ id: item.id, item, comment: true, phantom: false, placed: true, box: toBox(item.icon) });
+
 /** The connections of a page, with the boxes at which they end there. */
 function linksOf(system: SystemMessage, process: Process | null): { connection: Connection; source: string; target: string }[] {
   if (process) {
@@ -71,7 +73,7 @@ export async function pageOf(system: SystemMessage, process: Process | null): Pr
   await placeOthers(boxes, links);
   if (process) boxes.push(...phantoms(system, process, boxes, links));
   const lines = linesOf(process, boxes, links);
-  boxes.push(...(process ?? system).comments.map((item) => ({ id: item.id, item, comment: true, phantom: false, placed: true, box: toBox(item.icon) })));
+  boxes.push(...(process ?? system).comments.map(commentBox));
   return { boxes, lines };
 }
 

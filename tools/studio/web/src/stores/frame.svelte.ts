@@ -30,6 +30,17 @@ class Frame {
   closeDrawers(): void {
     this.tree = this.inspector = false;
   }
+  private before: Element | null = null;
+  /** Opens the inspector for writing. */
+  openInspector(): void {
+    this.before = document.activeElement;
+    this.inspector = true;
+  }
+  /** Closes the drawers by a key: the focus goes back to where it was before the inspector was opened. */
+  leaveDrawers(): void {
+    this.closeDrawers();
+    if (this.before?.isConnected) (this.before as HTMLElement).focus({ preventScroll: true });
+  }
 }
 
 export const frame = new Frame();

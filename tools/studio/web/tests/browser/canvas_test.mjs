@@ -137,11 +137,14 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await many(0);
 
   step('the keyboard alone: C, a text, Escape for none; a double click does the same');
+  await page.keyboard.press('Control+z');
+  await many(1);
   await page.keyboard.press('c');
   await writing.waitFor();
   await page.keyboard.press('Escape');
+  await many(1);
+  await page.keyboard.press('Control+Shift+z'); // what is given up leaves undo and redo as they were
   await many(0);
-  await canvas.focus();
   await page.keyboard.press('c');
   await writing.waitFor();
   await page.keyboard.type('By keys');
@@ -200,6 +203,36 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await inFile('the vertex of the page of the system', /<DiagramLine [^>]*>\s*<Point x="-?\d+" y="-?\d+"\/>\s*<!-- forage:vertices page="target"/);
   await tab('Reactive Layer');
   await vertex.waitFor({ state: 'detached' });
+
+  step('a double click beside a thin line means the line, on a small page, too');
+  await tab('Selection');
+  const before = await comments.count();
+  const zoom = () => page.evaluate(() => Number(/scale\(([\d.]+)\)/.exec(document.querySelector('.svelte-flow__viewport').style.transform)[1]));
+  while ((await zoom()) > 0.4) {
+    const was = await zoom();
+    await diagram.getByRole('button', { name: 'Zoom Out' }).click();
+    await until(page, 'a smaller page', (z) => Number(/scale\(([\d.]+)\)/.exec(document.querySelector('.svelte-flow__viewport').style.transform)[1]) < z, was);
+    await page.waitForTimeout(300);
+  }
+  const beside = await page.evaluate(() => {
+    // A place 4 pixels beside a line at which only the line is near.
+    for (const path of document.querySelectorAll('g[data-connection] .wide'))
+      for (let part = 0.1; part < 0.9; part += 0.02) {
+        const point = (p) => path.getPointAtLength(path.getTotalLength() * p).matrixTransform(path.getScreenCTM());
+        const [a, b] = [point(part), point(part + 0.01)];
+        const length = Math.hypot(b.x - a.x, b.y - a.y);
+        const at = [a.x - (4 * (b.y - a.y)) / length, a.y + (4 * (b.x - a.x)) / length];
+        if (!document.elementsFromPoint(...at).some((e) => e.closest('.svelte-flow__node, .svelte-flow__panel'))) return at;
+      }
+    return null;
+  });
+  await page.mouse.dblclick(...beside);
+  await inspector.getByLabel('From', { exact: true }).waitFor();
+  assert.equal(await writing.count(), 0);
+  assert.equal(await comments.count(), before);
+  await canvas.focus();
+  await page.keyboard.press('f');
+  await tab('Reactive Layer');
 
   step('a type that changed outside and a parameter that changed here are in conflict: the page asks');
   await diagram.locator('.svelte-flow__node', { hasText: 'US' }).first().click();

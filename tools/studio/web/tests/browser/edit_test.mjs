@@ -126,6 +126,38 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   for (let i = 0; i < 3; i++) await page.keyboard.press('Control+z');
   await until(page, 'the lines as before', (n) => document.querySelectorAll('g[data-connection]').length === n, connections);
 
+  step('keys act on the box that has the focus, whatever is selected');
+  await node('selection.explore').click();
+  await node('selection.ur').focus();
+  const looks = (id) => node(id).evaluate((e) => [getComputedStyle(e).outlineStyle, getComputedStyle(e.querySelector('.item')).outlineStyle]);
+  await page.keyboard.press('Shift+Tab');
+  await page.keyboard.press('Tab');
+  assert.deepEqual([await looks('selection.ur'), await looks('selection.explore')], [['dashed', 'none'], ['none', 'solid']]);
+  const rests = await place('selection.explore'), goes = await place('selection.ur');
+  await page.keyboard.press('ArrowLeft');
+  await moved('selection.ur', goes);
+  assert.deepEqual(await place('selection.explore'), rests);
+  await page.waitForTimeout(600);
+  await page.keyboard.press('Control+z');
+  await undone('selection.ur', goes);
+  await page.keyboard.press('e');
+  const ends = page.getByRole('dialog', { name: /Connect/ });
+  assert.equal(await ends.getByLabel('From', { exact: true }).inputValue(), 'selection.ur');
+  await page.keyboard.press('Escape');
+  await ends.waitFor({ state: 'detached' });
+  await node('selection.ur').focus();
+  await page.keyboard.press('Delete');
+  await node('selection.ur').waitFor({ state: 'detached' });
+  await node('selection.explore').waitFor();
+  await canvas.focus();
+  await page.keyboard.press('Control+z');
+  await node('selection.ur').waitFor();
+
+  step('the bar of the diagram is not cut');
+  const bar = diagram.getByRole('toolbar', { name: 'Editing' });
+  const room = await bar.evaluate((e) => [e.scrollWidth, e.clientWidth]);
+  assert.ok(room[0] <= room[1], room.join());
+
   step('groups are selected by a rubber band, copied with their connection, pasted and deleted');
   const first = await node('selection.approach_inhibition').boundingBox(), second = await node('selection.explore').boundingBox();
   await page.keyboard.press('Escape');
@@ -192,6 +224,35 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.getByRole('menuitem', { name: 'Save as' }).click();
   await page.getByRole('dialog', { name: 'Save as' }).waitFor();
   assert.deepEqual(await serious(), []);
+
+  step('in a small window, Enter leads into the form of a box, and Escape back to it');
+  const small = await context.newPage();
+  small.setDefaultTimeout(20000);
+  await small.setViewportSize({ width: 420, height: 800 });
+  await small.goto(new URL(await studio.address).origin);
+  await small.keyboard.press('Control+k');
+  await small.keyboard.type('diagram');
+  await small.keyboard.press('Enter');
+  await small.getByRole('group', { name: 'Processes' }).getByRole('button', { name: 'System', exact: true }).click();
+  await small.locator('.svelte-flow__node .process').first().waitFor();
+  await small.locator('.svelte-flow__node').first().focus();
+  await small.keyboard.press('Enter');
+  const drawer = small.getByRole('region', { name: 'Inspector' });
+  const focusIn = (selector) => until(small, `the focus in ${selector}`, (s) => document.activeElement?.closest(s) != null, selector);
+  await focusIn('aside .form');
+  await small.keyboard.press('Escape');
+  await drawer.waitFor({ state: 'detached' });
+  await focusIn('.svelte-flow__node');
+  await small.keyboard.press('Enter'); // the process is selected: its page opens, and nothing lies over it
+  await small.locator('.svelte-flow__node canvas').first().waitFor();
+  await focusIn('.flow');
+  assert.equal(await drawer.count(), 0);
+  await small.locator('.svelte-flow__node:not(:has(.phantom))').first().click();
+  await drawer.waitFor();
+  await small.locator('.svelte-flow__node:not(:has(.phantom))').first().focus();
+  await small.keyboard.press('Escape');
+  await drawer.waitFor({ state: 'detached' });
+  await small.close();
 
   assert.deepEqual(faults, []);
   console.log('all fine');

@@ -16,7 +16,7 @@ vi.stubGlobal('navigator', {});
 const { editing } = await import('../../src/edit/document.svelte');
 const { connect, setParameter } = await import('../../src/edit/operations');
 const { copy, cut, paste, withConnections } = await import('../../src/edit/clipboard');
-const { addComment, inkOn, write } = await import('../../src/edit/comments');
+const { draftComment, inkOn, write } = await import('../../src/edit/comments');
 const { tools } = await import('../../src/edit/tool.svelte');
 const { model } = await import('../../src/stores/model.svelte');
 const { selection } = await import('../../src/stores/selection.svelte');
@@ -63,24 +63,25 @@ describe('comments', () => {
   const comment = { id: 'k', text: 'Comment', color: '', icon: { x: 0, y: 0, width: 90, height: 30 } };
   it('are made and written in one step, and grow with their text', async () => {
     answers.edit = { ids: ['k'] };
-    await addComment('p', [1, 2]);
-    expect(tools.renaming).toBe('k');
-    write(comment, 'Two\nlines  ', 44);
-    const [made, written] = sent;
-    expect(made).toMatchObject({ title: 'Add a comment', operations: [{ do: 'add_comment', process: 'p', x: 1, y: 2, text: 'Comment' }] });
-    expect(written).toMatchObject({ title: 'Add a comment', merge: made!.merge, operations: [{ do: 'comment', id: 'k', text: 'Two\nlines', height: 44 }] });
-    expect(tools.renaming).toBeNull();
-    write({ ...comment, text: 'Two' }, 'Three', 10);
-    expect(sent[2]).toEqual({ name: 'edit', operations: [{ do: 'comment', id: 'k', text: 'Three' }] });
+    draftComment('pane', 'p', [1, 2]);
+    const draft = tools.draft!.comment;
+    expect(tools.renaming).toBe(draft.id);
+    expect(await write(draft, 'Two\nlines  ', 44)).toBe('k');
+    expect(sent).toEqual([{ name: 'edit', operations: [{ do: 'add_comment', process: 'p', x: 1, y: 2, width: 90, height: 44, text: 'Two\nlines' }] }]);
+    expect([tools.renaming, tools.draft]).toEqual([null, null]);
+    await write({ ...comment, text: 'Two' }, 'Three', 10);
+    expect(sent[1]).toEqual({ name: 'edit', operations: [{ do: 'comment', id: 'k', text: 'Three' }] });
   });
-  it('without a text go, and a new one that is given up was never there', async () => {
-    write(comment, ' \n', 10);
+  it('without a text go, and of a new one that is given up the document never hears', async () => {
+    await write(comment, ' \n', 10);
     expect(sent).toEqual([{ name: 'edit', operations: [{ do: 'remove', ids: ['k'] }] }]);
-    await addComment(null, [0, 0]);
-    write(comment, null, 10);
-    expect(sent[2]).toEqual({ name: 'undo' });
-    write(comment, null, 10);
-    expect(sent).toHaveLength(3);
+    for (const given of [null, ' ']) {
+      draftComment('pane', null, [0, 0]);
+      expect(await write(tools.draft!.comment, given, 10)).toBeNull();
+      expect(tools.draft).toBeNull();
+    }
+    await write(comment, null, 10);
+    expect(sent).toHaveLength(1);
   });
   it('have an ink that can be read', () => expect(['#ffffff', '#fdf3c7', '#000000', '#202060'].map(inkOn)).toEqual(['#141414', '#141414', '#ffffff', '#ffffff']));
 });
