@@ -6,6 +6,9 @@ import { tools } from './tool.svelte';
 /** The size of a new comment, in the units of the file. */
 export const newSize = { width: 90, height: 30 };
 
+/** The colour of a comment that has none of its own. */
+export const paper = (dark: boolean): string => (dark ? '#413a1d' : '#fdf3c7');
+
 let drafts = 0;
 /** Lets a new comment be written at a place of the file, in one pane. The document has it with its first text. */
 export function draftComment(pane: string, process: string | null, at: [number, number]): void {

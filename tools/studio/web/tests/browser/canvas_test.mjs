@@ -104,6 +104,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   const corner = await page.locator('.svelte-flow__resize-control.handle.bottom.right').boundingBox();
   await drag([corner.x + 3, corner.y + 3], [corner.x + 63, corner.y + 43]);
   await until(page, 'it is wider still', () => Number(document.querySelector('[aria-label="Inspector"] input[type=number]')?.value) > 100);
+  assert.equal(await inspector.getByLabel('Colour').inputValue(), '#fdf3c7'); // as it is seen
   await inspector.getByLabel('Colour').fill('#204060');
   await until(page, 'its colour', () => getComputedStyle(document.querySelector('.svelte-flow__node-comment .comment')).color === 'rgb(255, 255, 255)');
   await inFile('the colour', /forage:comment [^>]*color="#204060"/);
