@@ -79,6 +79,7 @@ function receive(message: ServerMessage): void {
       break;
     case 'world':
       model.world = message.file === null ? null : message;
+      void worldFile.load(); // another world, another file; what is not saved of it is shown everywhere
       break;
     case 'status':
       // What was refused may be there after a change.

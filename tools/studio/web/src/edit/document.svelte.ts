@@ -35,3 +35,6 @@ export const sendAll = () => Promise.all([...unsent].map((send) => send()));
 
 /** The name of a file without its folders. */
 export const baseName = (file: string): string => file.split('/').pop() ?? file;
+
+/** The folder of a file, as its path says it. */
+export const folderOf = (file: string): string => (file.includes('/') ? file.replace(/\/[^/]*$/, '') || '/' : '.');

@@ -1,10 +1,12 @@
 // New, open, save and the others: what they do, and which dialog is open.
 import type { FilesResult } from '../protocol/editing';
 import { actions } from '../stores/actions.svelte';
+import { dock } from '../stores/dock.svelte';
 import { model } from '../stores/model.svelte';
 import { command, request } from '../studio';
 import { CommandError } from '../connection';
-import { editing, sendAll } from './document.svelte';
+import { baseName, editing, folderOf, sendAll } from './document.svelte';
+import { worldFile } from './world.svelte';
 
 export type FileAction = 'open' | 'save as' | 'import' | 'link' | 'export' | 'new' | 'save the world';
 
@@ -18,17 +20,21 @@ class FileDialog {
   /** The world of a system that is opened or begun; empty for none. */
   world = $state('');
   error = $state('');
+  /** The file that is there already, and can be replaced. */
+  taken = $state('');
 
   open(action: FileAction, process: string | null = null): void {
     this.action = action;
     this.process = process;
     this.error = '';
+    this.taken = '';
     this.world = model.world?.file ?? '';
     const item = model.find(process);
     this.name = action === 'export' && item?.kind === 'process' ? `${item.process.name}.iqrProcess` : action === 'save as' ? editing.file.split('/').pop() || `${model.system?.name || 'system'}.iqr` : '';
-    if (action === 'save the world') this.name = model.world?.file?.split('/').pop() ?? 'arena.world';
-    // What comes with Forage is saved where the studio was started.
-    if (action !== 'new') void this.list(action === 'save as' && editing.shipped ? '.' : '');
+    const world = worldFile.document?.file ?? '';
+    if (action === 'save the world') this.name = baseName(world);
+    // A world finds its models from its own folder. A system that comes with Forage is saved where the studio was started.
+    if (action !== 'new') void this.list(action === 'save the world' ? folderOf(world) : action === 'save as' && editing.shipped ? '.' : '');
     if (action === 'open') void request<{ files: string[] }>('recent').then((r) => (this.recent = r.files), () => {});
   }
   async list(folder: string): Promise<void> {
@@ -51,31 +57,47 @@ class FileDialog {
       'save as': () => request('save', { file: /\.iqr$|\.xml$/.test(file) ? file : `${file}.iqr`, overwrite }),
       import: () => request('import', { file, link: false }),
       link: () => request('import', { file, link: true }),
-      export: () => request('export', { process: this.process, file }),
+      export: () => request('export', { process: this.process, file, overwrite }),
       'save the world': () => request('world_save', { file: /\.world$/.test(file) ? file : `${file}.world`, overwrite }),
       new: () => request('new', { name: this.name.trim() || 'New system', world: this.world.trim() }),
     };
     try {
       if (action === 'save as') await sendAll();
-      await steps[action]();
+      const done = (await steps[action]()) as { file?: string } | undefined;
       this.action = null;
-      if (action.startsWith('save')) actions.tell('info', `Saved as ${file.split('/').pop()}.`);
+      if (action.startsWith('save')) actions.tell('info', `Saved as ${baseName(done?.file ?? file)}.`);
     } catch (e) {
       this.error = e instanceof CommandError ? e.message : String(e);
+      if (e instanceof CommandError && e.problems.some((p) => p.hint?.startsWith('overwrite it'))) this.taken = file;
     }
   }
 }
 
 export const fileDialog = new FileDialog();
 
-/** Whether the present document may be left: it is saved, or the user agrees to lose what changed. */
-export const mayLeave = () => !editing.dirty || confirm('The system has changes that are not saved. Leave them?');
+/** Whether the system or its world has changes that are not saved. */
+export const unsaved = () => editing.dirty || worldFile.dirty;
+
+/** Whether the present system and world may be left: they are saved, or the user agrees to lose what changed. */
+export function mayLeave(): boolean {
+  const what = editing.dirty && worldFile.dirty ? 'The system and its world have' : editing.dirty ? 'The system has' : 'The world has';
+  return !unsaved() || confirm(`${what} changes that are not saved. Leave them?`);
+}
 
 export async function save(): Promise<void> {
   await sendAll();
   if (!editing.file || editing.shipped) return fileDialog.open('save as');
-  if (await command('save')) actions.tell('info', 'Saved.');
+  if (await command('save')) actions.tell('info', worldFile.dirty ? 'The system is saved, its world is not.' : 'Saved.');
 }
+
+export async function saveWorld(): Promise<void> {
+  if (await command('world_save')) actions.tell('info', 'The world is saved; the run begins anew in it.');
+}
+
+/** What the key saves: the world while its panel is the active one, else the system. */
+const inWorld = () => worldFile.document !== null && dock.shows('world');
+export const saveActive = () => (inWorld() && worldFile.dirty ? saveWorld() : save());
+export const saveActiveAs = () => fileDialog.open(inWorld() ? 'save the world' : 'save as');
 
 export async function openFile(file: string): Promise<void> {
   if (mayLeave()) await command('open', { system: file });

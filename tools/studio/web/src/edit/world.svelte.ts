@@ -6,6 +6,7 @@ class WorldFile {
   document = $state.raw<WorldDocument | null>(null);
   /** Why there is none. */
   missing = $state('');
+  dirty = $derived(this.document?.dirty ?? false);
 
   async load(): Promise<void> {
     try {

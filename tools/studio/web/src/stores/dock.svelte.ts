@@ -45,6 +45,11 @@ class Dock {
     return id;
   }
 
+  /** Whether the active panel is of this kind. */
+  shows(kind: string): boolean {
+    return (this.api?.activePanel?.params as PanelState | undefined)?.kind === kind;
+  }
+
   /** Opens a panel as a tab beside one of another kind. */
   openBeside(panel: PanelState, kind: string): string | null {
     return this.open(panel, { beside: this.api?.panels.find((p) => (p.params as PanelState).kind === kind)?.id });
