@@ -28,12 +28,22 @@ export function applyPreset(preset: Preset): void {
   arrange([...spaces.map((g) => ({ kind: 'space', item: g.path })), ...times.map((g) => ({ kind: 'time', sources: [`mean(${g.path})`] }))]);
 }
 
+// The tutorial as its button closed it: it opens again at the part that was read.
+let tutorial: PanelState = { kind: 'tutorial' };
+
 /** Opens the tutorial at the left, or below on a small window. */
 export function openTutorial(): void {
   // It takes the place of the tree, and on a middling window that of the inspector.
   frame.tree = false;
   if (innerWidth < 1500) frame.inspector = false;
-  dock.open({ kind: 'tutorial' }, frame.small ? { direction: 'below' } : { direction: 'left', width: tutorialWidth() });
+  dock.open(tutorial, frame.small ? { direction: 'below' } : { direction: 'left', width: tutorialWidth() });
+}
+/** Opens the tutorial, or closes it when it is seen. */
+export function toggleTutorial(): void {
+  const shown = dock.api?.panels.find((p) => kindOf(p) === 'tutorial' && p.api.isVisible);
+  if (!shown) return openTutorial();
+  tutorial = { ...(shown.params as PanelState) };
+  dock.api!.removePanel(shown);
 }
 const tutorialWidth = () => Math.round(Math.min(440, Math.max(300, (dock.api?.width ?? 0) * 0.36)));
 

@@ -85,8 +85,34 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.getByRole('button', { name: 'Undo' }).click();
   await page.getByRole('button', { name: 'Redo' }).click();
   await tutorial.locator('[data-open="1"]').click();
-  await tutorial.getByRole('button', { name: 'Drop the changes, and set it up' }).click();
+  const drop = tutorial.getByRole('button', { name: 'Drop the changes, and set it up' });
+  await drop.waitFor();
+  await tutorial.getByRole('button', { name: 'Cancel' }).click();
+  assert.equal(await drop.count(), 0);
+  await tutorial.locator('[data-open="1"]').click();
+  await tutorial.getByRole('button', { name: 'Save first' }).click();
+  await page.getByRole('dialog', { name: 'Save as' }).getByLabel('Name').fill('changed.iqr');
+  await page.keyboard.press('Enter');
+  await page.getByText('Saved as changed.iqr.').waitFor();
+  await page.getByTitle(/^Undo: /).waitFor();
+  await tutorial.locator('[data-open="1"]').click();
   await tutorial.locator('.setup.active [data-open="1"]').waitFor();
+  assert.equal(await drop.count(), 0, 'what is saved is not lost');
+  await tutorial.locator('[data-open="0"]').click();
+  await tutorial.locator('.setup.active [data-open="0"]').waitFor();
+  await tutorial.getByRole('button', { name: 'Adaptive.eta = 0.005' }).first().click();
+  await page.getByTitle(/^Undo: Adaptive.eta = 0.005/).waitFor();
+  await page.getByRole('button', { name: 'Undo' }).click();
+  await page.getByRole('button', { name: 'Redo' }).click();
+  await tutorial.locator('[data-open="1"]').click();
+  await drop.click();
+  await tutorial.locator('.setup.active [data-open="1"]').waitFor();
+
+  step('its button closes the tutorial, and opens it again');
+  await page.getByRole('button', { name: 'Tutorial', exact: true }).click();
+  await tutorial.waitFor({ state: 'detached' });
+  await page.getByRole('button', { name: 'Tutorial', exact: true }).click();
+  await tutorial.waitFor();
 
   step('links lead to other parts; after loading anew the same part is shown');
   await page.reload();
