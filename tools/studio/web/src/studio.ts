@@ -44,6 +44,16 @@ export async function command<T = unknown>(name: string, details: object = {}): 
 /** Sends a command; the caller shows what goes wrong. */
 export const request = <T = unknown>(name: string, details: object = {}): Promise<T> => connection.request<T>(name, details);
 
+/** Takes the last step back, or does it again. That there is none is no error. */
+export async function step(back: boolean): Promise<void> {
+  try {
+    await connection.request(back ? 'undo' : 'redo');
+  } catch (error) {
+    const text = (error as Error).message;
+    actions.tell(text.startsWith('there is nothing to') ? 'info' : 'error', text);
+  }
+}
+
 export const toggleRun = () => command(run.status?.running ? 'pause' : 'run');
 
 function receive(message: ServerMessage): void {

@@ -40,6 +40,13 @@ try {
   await page.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
   await page.getByRole('navigation').getByText('Head Direction Cells').waitFor();
 
+  step('all buttons of the diagram have room; that there is nothing to undo is told, and is no error');
+  const cut = await page.getByRole('toolbar', { name: 'Editing' }).evaluate((bar) => [...bar.querySelectorAll('button')].filter((b) => b.getBoundingClientRect().right > bar.getBoundingClientRect().right).map((b) => b.textContent));
+  assert.deepEqual(cut, []);
+  await page.keyboard.press('Control+z');
+  await page.locator('.notice.info').filter({ hasText: 'there is nothing to undo' }).waitFor();
+  assert.equal(await page.locator('.notice.error').count(), 0);
+
   step('run: the cycle grows, plot and arena change');
   const light = '[aria-label="Space plot of Bug/Light"] canvas.heat';
   await page.getByRole('button', { name: '4×' }).click();
