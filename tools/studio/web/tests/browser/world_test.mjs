@@ -31,6 +31,9 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
     return [box.x + box.width * x, box.y + box.height * y];
   };
 
+  step('what the map says about itself does not cover it');
+  assert.ok((await map.boundingBox()).y + (await map.boundingBox()).height <= (await world.getByText('Drag to move').boundingBox()).y);
+
   step('a wall is added by a click, dragged, and given numbers');
   const items = await map.getByRole('button').count();
   await world.getByRole('button', { name: 'wall', exact: true }).click();
@@ -177,6 +180,13 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.getByText('The world is saved').waitFor();
   await until(page, 'the mark is gone', () => !document.title.startsWith('●'));
   assert.notEqual(readFileSync(path, 'utf8'), saved.join('\n'));
+
+  step('Enter opens the file that was clicked, without a question when all is saved');
+  await page.keyboard.press('Control+o');
+  await page.getByRole('dialog', { name: 'Open a system' }).getByRole('button', { name: 'dac_foraging.iqr', exact: true }).first().click();
+  await page.keyboard.press('Enter');
+  await until(page, 'the other system', () => document.title.startsWith('DAC foraging'));
+  assert.equal(asked.length, 2);
   assert.deepEqual(faults, []);
   console.log('all fine');
 });
