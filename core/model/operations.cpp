@@ -188,7 +188,7 @@ void set_comment(System& system, std::string_view id, CommentChange change) {
     if (!c) missing("comment", id);
     for (const auto& side : {change.width, change.height})
         if (side && *side < 1) refuse("a comment is at least 1 wide and high");
-    const auto no_text = [](unsigned char c) { return c < ' ' && c != '\t' && c != '\n' && c != '\r'; };
+    const auto no_text = [](unsigned char b) { return b < ' ' && b != '\t' && b != '\n' && b != '\r'; };
     if (change.text && std::ranges::any_of(*change.text, no_text))
         refuse("a comment cannot hold control characters, as XML has none");
     if (change.text) c->text = *std::move(change.text);

@@ -207,11 +207,11 @@ json Commands::item() {
         out["synapses"] = synapses_of(id);
     } else if (const auto* comment = with_id(system.canvas_comments, id)) {
         out = description.of(*comment, false);
-    } else if (const auto p = std::ranges::find_if(
+    } else if (const auto owner = std::ranges::find_if(
                    system.processes, [&](const auto& q) { return with_id(q.canvas_comments, id); });
-               p != system.processes.end()) {
-        linked = p->linked();
-        out = description.of(*with_id(p->canvas_comments, id), linked);
+               owner != system.processes.end()) {
+        linked = owner->linked();
+        out = description.of(*with_id(owner->canvas_comments, id), linked);
     } else {
         const auto found = model::GroupIndex(system).find(id);
         if (!found.group) throw InputError(fmt::format("there is no item with the id '{}'", id));

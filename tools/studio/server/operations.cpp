@@ -93,7 +93,9 @@ struct Operation {
         return out;
     }
     json add_comment() {
-        const auto made = add_canvas_comment(system, text("process", ""), {.id = text("id", "")});
+        CanvasComment comment;
+        comment.id = text("id", "");
+        const auto made = add_canvas_comment(system, text("process", ""), std::move(comment));
         set_comment(system, made, comment_change());
         return made;
     }
