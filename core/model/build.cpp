@@ -49,19 +49,6 @@ void forget_groups(System& system, const std::set<std::string, std::less<>>& ids
     }
 }
 
-/// Forgets the places of phantoms that no page shows any more.
-void forget_phantoms(System& system) {
-    const GroupIndex groups(system);
-    std::set<std::pair<const Process*, std::string_view>> shown;
-    for (const auto& c : system.connections) {
-        const auto source = groups.find(c.source), target = groups.find(c.target);
-        if (!source.group || !target.group) continue;
-        shown.emplace(source.process, c.target), shown.emplace(target.process, c.source);
-    }
-    for (auto& p : system.processes)
-        std::erase_if(p.phantoms, [&](const Phantom& f) { return !shown.contains({&p, f.group}); });
-}
-
 /// Throws for a linked process: its content is in its own file, so changes would be lost.
 void refuse_linked(const Process& p) {
     if (p.linked())
@@ -142,6 +129,21 @@ CanvasComment* find_canvas_comment(System& system, std::string_view id) {
     for (auto& p : system.processes)
         if (auto* c = find_in(p.canvas_comments, id)) return c;
     return find_in(system.canvas_comments, id);
+}
+
+void forget_phantoms(System& system) {
+    const GroupIndex groups(system);
+    std::set<std::pair<const Process*, std::string_view>> shown;
+    for (const auto& c : system.connections) {
+        const auto source = groups.find(c.source), target = groups.find(c.target);
+        if (!source.group || !target.group) continue;
+        shown.emplace(source.process, c.target), shown.emplace(target.process, c.source);
+    }
+    for (auto& p : system.processes) {
+        const auto is_gone = [&](const Phantom& f) { return !shown.contains({&p, f.group}); };
+        std::erase_if(p.phantoms, is_gone);
+        for (auto& in_this_file : p.placeholder) std::erase_if(in_this_file.phantoms, is_gone);
+    }
 }
 
 void set_parameter(TypeUse& use, std::string name, std::string value) {

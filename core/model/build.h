@@ -46,6 +46,9 @@ void set_parameter(TypeUse& use, std::string name, std::string value);
 /// connection needs any more are forgotten. Throws std::invalid_argument when there is no such item.
 void remove(System& system, std::string_view id);
 
+/// Forgets the places of phantoms that no page shows any more.
+void forget_phantoms(System& system);
+
 /// Renames a process, group or connection. Throws std::invalid_argument when there is none with this id.
 void rename(System& system, std::string_view id, std::string name);
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/model/build.h"
 #include "core/model/lookup.h"
 
 namespace forage::model {
@@ -210,11 +211,10 @@ Merge merge(const System& base, const System& mine, const System& theirs) {
     merger.items(base.connections, mine.connections, s.connections);
     merger.items(base.canvas_comments, mine.canvas_comments, s.canvas_comments);
     const GroupIndex groups(s);
-    for (auto& p : s.processes)
-        std::erase_if(p.phantoms, [&](const Phantom& f) { return !groups.find(f.group).group; });
     std::erase_if(s.connections, [&](const Connection& c) {  // a group of it was removed here, or there
         return !groups.find(c.source).group || !groups.find(c.target).group;
     });
+    forget_phantoms(s);
     return out;
 }
 

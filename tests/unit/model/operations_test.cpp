@@ -272,6 +272,17 @@ TEST_CASE("phantoms have places, and vertices stay on the pages on which they ar
     remove(s.system, "c");
     CHECK((s.system.processes[0].phantoms.empty() && s.system.processes[1].phantoms.empty()));
 
+    // What the file says of a linked process is in its placeholder.
+    Small linked;
+    add_process(linked.system, "Q", "q");
+    reroute(linked.system, "c", "", add_group(linked.system, "q", "C", 1, 1, "neuronLinearThreshold", "far"));
+    Process& q = linked.system.processes[1];
+    q.placeholder.push_back(q);
+    place_phantom(linked.system, "q", "a", 5, 6);
+    CHECK(q.placeholder.front().phantoms == std::vector<Phantom>{{"a", 5, 6}});
+    remove(linked.system, "c");
+    CHECK(q.placeholder.front().phantoms.empty());
+
     // A copied process keeps phantoms of what is copied with it.
     const auto d = add_connection(s.system, "a", "far", InputKind::excitatory, "synapseFixedWeight");
     set_line(s.system, d, {.vertices = bend, .source_vertices = bend});
