@@ -1,6 +1,7 @@
 // The panel with the text of the system, and the place in it that is asked for.
 import { editing } from '../edit/document.svelte';
 import { dock } from '../stores/dock.svelte';
+import { frame } from '../stores/frame.svelte';
 
 class TextPlace {
   /** Counts from 1, the column in bytes; `key` differs each time. */
@@ -12,8 +13,6 @@ class TextPlace {
 }
 export const textPlace = new TextPlace();
 
-const narrow = () => matchMedia('(max-width: 720px)').matches;
-
 /** Opens the text of the system, at a place of it. */
 export function openText(at?: { line?: number; column?: number }): string | null {
   if (at?.line) textPlace.go(at.line, at.column ?? 1);
@@ -24,6 +23,6 @@ export function openText(at?: { line?: number; column?: number }): string | null
 export function openMistakes(): void {
   const text = openText(editing.problems.find((p) => p.line && p.file === editing.file));
   if (!text) return;
-  dock.open({ kind: 'problems' }, narrow() ? { beside: text, inactive: true } : { beside: text, direction: 'below', height: 170 });
+  dock.open({ kind: 'problems' }, frame.small ? { beside: text, inactive: true } : { beside: text, direction: 'below', height: 170 });
   dock.api?.getPanel(text)?.api.setActive();
 }

@@ -77,13 +77,16 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.getByRole('button', { name: 'Pause', exact: true }).click();
 
   step('a choice of the tutorial is a parameter of the run; changes of the user are not dropped without asking');
+  const change = async () => {
+    await tutorial.locator('[data-open="0"]').click();
+    await tutorial.locator('.setup.active [data-open="0"]').waitFor();
+    await tutorial.getByRole('button', { name: 'Adaptive.eta = 0.005' }).first().click();
+    await page.getByTitle(/^Undo: Adaptive.eta = 0.005/).waitFor();
+    await page.getByRole('button', { name: 'Undo' }).click();
+    await page.getByRole('button', { name: 'Redo' }).click();
+  };
   await tutorial.getByRole('button', { name: '3', exact: true }).click();
-  await tutorial.locator('[data-open="0"]').click();
-  await tutorial.locator('.setup.active [data-open="0"]').waitFor();
-  await tutorial.getByRole('button', { name: 'Adaptive.eta = 0.005' }).first().click();
-  await page.getByTitle(/^Undo: Adaptive.eta = 0.005/).waitFor();
-  await page.getByRole('button', { name: 'Undo' }).click();
-  await page.getByRole('button', { name: 'Redo' }).click();
+  await change();
   await tutorial.locator('[data-open="1"]').click();
   const drop = tutorial.getByRole('button', { name: 'Drop the changes, and set it up' });
   await drop.waitFor();
@@ -98,12 +101,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await tutorial.locator('[data-open="1"]').click();
   await tutorial.locator('.setup.active [data-open="1"]').waitFor();
   assert.equal(await drop.count(), 0, 'what is saved is not lost');
-  await tutorial.locator('[data-open="0"]').click();
-  await tutorial.locator('.setup.active [data-open="0"]').waitFor();
-  await tutorial.getByRole('button', { name: 'Adaptive.eta = 0.005' }).first().click();
-  await page.getByTitle(/^Undo: Adaptive.eta = 0.005/).waitFor();
-  await page.getByRole('button', { name: 'Undo' }).click();
-  await page.getByRole('button', { name: 'Redo' }).click();
+  await change();
   await tutorial.locator('[data-open="1"]').click();
   await drop.click();
   await tutorial.locator('.setup.active [data-open="1"]').waitFor();

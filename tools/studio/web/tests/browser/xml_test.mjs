@@ -82,12 +82,15 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   assert.equal(readFileSync(file, 'utf8').length, author.length);
 
   step('a closing tag that is typed in full stands there once');
-  await page.keyboard.press('Control+Home');
-  await page.keyboard.press('Control+f');
-  await page.keyboard.type('<Connection');
-  await page.keyboard.press('Enter');
-  await page.keyboard.press('Escape');
-  await text.press('Home');
+  const beforeFirstConnection = async () => {
+    await page.keyboard.press('Control+Home');
+    await page.keyboard.press('Control+f');
+    await page.keyboard.type('<Connection');
+    await page.keyboard.press('Enter');
+    await page.keyboard.press('Escape');
+    await text.press('Home');
+  };
+  await beforeFirstConnection();
   const typed = '<Topology><TopologyRect hcount="2" vcount="2"/></Topology><A><B></B></A>';
   await page.keyboard.type(typed);
   assert.equal((await line()).trim().split('<Connection')[0], typed);
@@ -98,12 +101,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   assert.match(await line(), /^\s*<Connection [^<]*$/);
 
   step('elements, attributes and values are completed, with what they mean');
-  await page.keyboard.press('Control+Home');
-  await page.keyboard.press('Control+f');
-  await page.keyboard.type('<Connection');
-  await page.keyboard.press('Enter');
-  await page.keyboard.press('Escape');
-  await text.press('Home');
+  await beforeFirstConnection();
   await page.keyboard.type('<');
   await option(/^Process/).waitFor();
   await page.keyboard.type('Conn');
