@@ -29,7 +29,7 @@ class DocumentState {
 
 export const editing = new DocumentState();
 
-/** What must reach the server before the document is saved, such as a text that is being written. */
+/** What must reach the server before the document is saved, such as a text that is being written. It throws an Error that says why it cannot. */
 export const unsent = new Set<() => Promise<unknown>>();
 export const sendAll = () => Promise.all([...unsent].map((send) => send()));
 

@@ -67,7 +67,7 @@ class FileDialog {
       this.action = null;
       if (action.startsWith('save')) actions.tell('info', `Saved as ${baseName(done?.file ?? file)}.`);
     } catch (e) {
-      this.error = e instanceof CommandError ? e.message : String(e);
+      this.error = (e as Error).message;
       if (e instanceof CommandError && e.problems.some((p) => p.hint?.startsWith('overwrite it'))) this.taken = file;
     }
   }
@@ -85,7 +85,11 @@ export function mayLeave(): boolean {
 }
 
 export async function save(): Promise<void> {
-  await sendAll();
+  try {
+    await sendAll();
+  } catch (e) {
+    return actions.tell('error', (e as Error).message);
+  }
   if (!editing.file || editing.shipped) return fileDialog.open('save as');
   if (await command('save')) actions.tell('info', worldFile.dirty ? 'The system is saved, its world is not.' : 'Saved.');
 }
