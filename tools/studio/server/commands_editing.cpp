@@ -15,7 +15,7 @@ namespace forage::studio {
 namespace {
 
 constexpr std::size_t most_pairs = 200'000;  ///< in a reply
-constexpr const char* kinds[] = {"excitatory", "inhibitory", "modulatory"};
+constexpr const char* signs[] = {"excitatory", "inhibitory", "modulatory"};
 
 std::string trimmed(const std::string& text) { return std::string(model::trim(text)); }
 
@@ -96,7 +96,7 @@ struct Description {
                     {"note", c.note.value_or("")},
                     {"source", c.source},
                     {"target", c.target},
-                    {"sign", kinds[static_cast<int>(c.kind)]},
+                    {"sign", signs[static_cast<int>(c.kind)]},
                     {"synapse", c.synapse ? c.synapse->type : ""},
                     {"pattern", json_of(c.pattern)},
                     {"arborization", json_of(c.arborization)},

@@ -53,7 +53,7 @@ plot::Picture floor_picture(const bug::World& world) {
 
 }  // namespace
 
-Session::Session(RunInput input, Send send, const std::string& plot_config, std::string shipped)
+Session::Session(const RunInput& input, Send send, const std::string& plot_config, std::string shipped)
     : send_(std::move(send)), shipped_(std::move(shipped)), plot_config_(plot_config) {
     open_any(input);
     read_plot_config(*run_);

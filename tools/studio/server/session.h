@@ -36,7 +36,7 @@ class Session {
     /// Opens the system, also one with mistakes: its document is then corrected, and until it is, a system
     /// without content runs. `shipped` is the folder of the systems that come with Forage. Throws InputError
     /// when the file cannot be read, or something else than the system's files is wrong.
-    Session(RunInput input, Send send, const std::string& plot_config = {}, std::string shipped = {});
+    Session(const RunInput& input, Send send, const std::string& plot_config = {}, std::string shipped = {});
 
     /// Keeps the session in the user's folder of states from now on, so that a killed program loses at most
     /// half a minute. Throws std::runtime_error.

@@ -156,9 +156,10 @@ void Session::recover() {
     const json compare = rest.value("compare", json());
     std::optional<Reference> reference;
     if (!compare.is_null()) {
-        reference.emplace();
-        reference->from = compare.at("from"), reference->changed = changes_of(compare.at("changed"));
-        reference->past.load(archive);
+        Reference made;
+        made.from = compare.at("from"), made.changed = changes_of(compare.at("changed"));
+        made.past.load(archive);
+        reference = std::move(made);
     }
     Diagnostics diagnostics;
     const Sources sources = read_sources(begun, diagnostics);
