@@ -365,7 +365,10 @@ std::vector<std::string> paste(System& system, System content, std::string_view 
     for (const auto* all : {&comments, &content.canvas_comments})
         for (const auto& c : *all) look(c.box);
     if (left == std::numeric_limits<int>::max()) left = x, top = y;  // nothing has a place
-    const auto shift = [&](auto& at) { at.x += x - left, at.y += y - top; };
+    const auto shift = [&](auto& at) {
+        const auto within = [](int v) { return std::clamp(v, -farthest_coordinate, farthest_coordinate); };
+        at.x = within(at.x + x - left), at.y = within(at.y + y - top);
+    };
     std::vector<std::string> ids;
     for (auto& p : content.processes) {
         if (p.id != loose_id) {

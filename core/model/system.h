@@ -47,6 +47,9 @@ struct ModuleUse : TypeUse {
     friend bool operator==(const ModuleUse&, const ModuleUse&) = default;
 };
 
+/// The largest coordinate of a place in the diagram, to either side.
+inline constexpr int farthest_coordinate = 1'000'000;
+
 /// The position and size of an icon in the diagram, in the diagram's units.
 struct Icon {
     int x = 0, y = 0, width = 50, height = 50;

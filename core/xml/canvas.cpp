@@ -12,12 +12,12 @@ namespace forage::xml {
 namespace {
 
 constexpr std::string_view canvas_blanks = " \t\r\n", canvas_prefix = "forage:";
-constexpr int canvas_farthest = 1'000'000;  ///< as for icons
 
-std::optional<int> canvas_number(std::string_view text, int lowest = -canvas_farthest) {
+std::optional<int> canvas_number(std::string_view text, int lowest = -model::farthest_coordinate) {
     int out = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-    if (error != std::errc() || end != text.data() + text.size() || out < lowest || out > canvas_farthest)
+    if (error != std::errc() || end != text.data() + text.size() || out < lowest ||
+        out > model::farthest_coordinate)
         return std::nullopt;
     return out;
 }
@@ -49,7 +49,7 @@ struct CanvasAttributes {
         right &= value || !required;
         return value ? value : "";
     }
-    int number(const char* name, int lowest = -canvas_farthest) {
+    int number(const char* name, int lowest = -model::farthest_coordinate) {
         const auto value = canvas_number(text(name), lowest);
         right &= value.has_value();
         return value.value_or(0);

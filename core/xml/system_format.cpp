@@ -1,4 +1,5 @@
 // The elements and attributes of system and process files, with the original's spellings.
+#include "core/model/system.h"
 #include "core/xml/rules.h"
 
 namespace forage::xml {
@@ -20,7 +21,8 @@ AttributeRule decisive(AttributeRule rule) {
     return rule;
 }
 AttributeRule coordinate(std::string name, std::string doc) {
-    return required(whole(std::move(name), std::move(doc), -1e6));
+    return required(
+        whole(std::move(name), std::move(doc), -model::farthest_coordinate, model::farthest_coordinate));
 }
 AttributeRule id() { return required(text("id", "unique in the file")); }
 AttributeRule name() { return required(text("name", "as shown to people")); }

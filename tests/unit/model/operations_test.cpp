@@ -78,6 +78,9 @@ TEST_CASE("what is copied is pasted with new ids and names, with the connections
     CHECK(find_connection(s.system, ids[2])->source == ids[0]);
     CHECK(find_connection(s.system, ids[2])->line->vertices[0].x == 150);
     CHECK(paste(s.system, both, "p", 0, 0)[0] == "CB2a");
+    // What would lie farther out than a file can say lies on the border.
+    const auto far = paste(s.system, both, "p", farthest_coordinate - 1, 0);
+    CHECK(find_group(s.system, far[1])->icon->x == farthest_coordinate);
     System mixed = both;  // loose groups before whole processes, none of them with a place
     for (int i = 0; i < 8; ++i) {
         Process process;
