@@ -107,9 +107,15 @@ std::string number_text(double value) {
 PoseText pose_of(std::string_view text, const SourceElement& parent) {
     const auto* e = child(parent, "pose");
     const auto v = numbers_in(text, e);
-    if (v.size() == 7)  // a quaternion x y z w; only the direction in the plane is of interest
-        return {v[0], v[1], v[2],
-                0,    0,    std::atan2(2 * (v[6] * v[5] + v[3] * v[4]), 1 - 2 * (v[4] * v[4] + v[5] * v[5]))};
+    if (v.size() == 7) {  // a quaternion x y z w
+        const double x = v[3], y = v[4], z = v[5], w = v[6];
+        return {v[0],
+                v[1],
+                v[2],
+                std::atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)),
+                std::asin(std::clamp(2 * (w * y - z * x), -1., 1.)),
+                std::atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))};
+    }
     if (v.size() != 6) return {};
     const auto degrees = e->value("degrees");
     const double unit = degrees == "true" || degrees == "1" ? std::numbers::pi / 180 : 1;
@@ -167,8 +173,11 @@ void set_pose(xml::TextEdits& edits, std::string_view text, const xml::Layout& l
     };
     set(0, pose.x), set(1, pose.y), set(2, pose.z);
     if (pose.yaw == was.yaw) return;
-    if (old.size() == 7) {
-        set(3, 0), set(4, 0), set(5, std::sin(pose.yaw / 2)), set(6, std::cos(pose.yaw / 2));
+    if (old.size() == 7) {  // turned about the vertical, so that a tilt stays
+        const double s = std::sin((pose.yaw - was.yaw) / 2), c = std::cos((pose.yaw - was.yaw) / 2);
+        const auto q = numbers_in(text, e);
+        set(3, c * q[3] - s * q[4]), set(4, c * q[4] + s * q[3]);
+        set(5, c * q[5] + s * q[6]), set(6, c * q[6] - s * q[5]);
     } else {
         const auto degrees = e->value("degrees");
         set(5, degrees == "true" || degrees == "1" ? pose.yaw * 180 / std::numbers::pi : pose.yaw);

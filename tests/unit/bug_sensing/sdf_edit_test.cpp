@@ -230,6 +230,41 @@ TEST_CASE("an unpacked world is the same world, in which each wall can be edited
     }
 }
 
+TEST_CASE("a tilt that a quaternion says stays when its model is split, and when its part is turned") {
+    const auto file = paths::source_dir() / "systems/worlds/basic_arena.world";
+    ModelTexts models(file.string());
+    const std::string box =
+        "<collision name='c'><geometry><box><size>1 2 0.1</size></box></geometry></collision>";
+    // Rolled by 0.3, then turned by 0.4.
+    std::string text =
+        "<sdf version='1.6'><world name='w'><model name='Ramps'><pose>1 0 0 0 0 0.5</pose><static>1</static>"
+        "<link name='a'><pose rotation_format='quat_xyzw'>1 2 0.5 0.146459319 0.029688774 0.196438488 "
+        "0.969061487</pose>" +
+        box +
+        "</link>"
+        "<link name='b'><pose>0 0 0.5 0 0.2 0</pose>" +
+        box + "</link></model></world></sdf>";
+    const auto before = places_of_collisions(read_text_of_world(file, text));
+    std::vector<std::string> ids;
+    const auto split = unpacked_in_world(text, "Ramps", models, ids);
+    CHECK(ids == std::vector<std::string>{"Ramps_a", "Ramps_b"});
+    const auto after = places_of_collisions(read_text_of_world(file, split));
+    REQUIRE(after.size() == before.size());
+    for (std::size_t i = 0; i < before.size(); ++i) CHECK(after[i].isApprox(before[i], 1e-6));
+
+    const auto world = [&](const std::string& pose) {
+        return "<sdf version='1.6'><world name='w'><model name='Ramp'><pose" + pose +
+               "</pose><static>1</static><link name='a'>" + box + "</link></model></world></sdf>";
+    };
+    const auto turned = moved_in_world(
+        world(" rotation_format='quat_xyzw'>1 2 0.5 0.146459319 0.029688774 0.196438488 0.969061487"), "Ramp",
+        1, 2, 1.0, models);
+    const auto wanted = places_of_collisions(read_text_of_world(file, world(">1 2 0.5 0.3 0 1")));
+    const auto now = places_of_collisions(read_text_of_world(file, turned));
+    REQUIRE(now.size() == 1);
+    CHECK(now[0].isApprox(wanted[0], 1e-6));
+}
+
 TEST_CASE("an edited world is read as what it says") {
     const auto file = paths::source_dir() / "systems/worlds/basic_arena.world";
     std::string text = read_file(file.string()), id;
