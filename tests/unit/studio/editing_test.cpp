@@ -645,6 +645,8 @@ TEST_CASE("a world is edited, undone, saved, and the run begins anew in it") {
     ::setenv("FORAGE_MODEL_PATH", FORAGE_SOURCE_DIR "/systems/worlds/models", 1);
     Editor e;
     CHECK(e.result({{"command", "world_document"}})["dirty"] == false);
+    std::ofstream(e.file)
+        << "<System";  // the system is changed outside, and the run is that of the text before
     const auto ids = e.result({{"command", "world_edit"},
                                {"operations",
                                 {{{"do", "add"}, {"kind", "wall"}, {"x", 1}, {"y", 1}, {"width", 2}},
@@ -659,6 +661,7 @@ TEST_CASE("a world is edited, undone, saved, and the run begins anew in it") {
     e.result({{"command", "world_save"}, {"file", file}});
     CHECK(e.last["world"]["file"] == file);
     CHECK(e.session->run().environment()->pose(0).x == Approx(0.25));
+    CHECK(e.result({{"command", "read"}, {"source", "Bug/Light"}}).is_object());
     CHECK(e.ask({{"command", "world_edit"},
                  {"operations", {{{"do", "move"}, {"id", "Nothing"}, {"x", 0}, {"y", 0}}}}})["ok"] == false);
 }

@@ -159,7 +159,7 @@ json Commands::world_save() {
         if (file != world.path && std::filesystem::exists(file))
             throw InputError(fmt::format("'{}' exists", file), "overwrite it, or choose another name");
     }
-    RunInput wanted = s.input_;
+    RunInput wanted = s.begun_;  // with the text that the system had: its file may have changed
     wanted.world = file, wanted.world_text = world.text;
     s.make_run(wanted);  // a world in which the system cannot run is not written
     write_file(file, world.text);

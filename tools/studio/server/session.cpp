@@ -99,6 +99,7 @@ void Session::open(RunInput input) {
 void Session::reset() {
     const auto touched = touches_->groups();
     RunInput input = input_;
+    if (input.text.empty()) input.text = begun_.text;  // its file may have changed outside
     for (const auto& [name, change] : changed_) {
         Diagnostics not_here;  // what the document has, it says itself
         const auto where = name.substr(0, name.rfind('.'));
