@@ -112,6 +112,9 @@ class Session {
     void save();                            ///< into the folder of states; notes what goes wrong
     void keep_anew();                       ///< under the name that the system has now
     void look_for_killed();
+    struct Killed;
+    /// Reads what was kept of a session. Throws InputError when it cannot go on.
+    static Killed read_killed(std::string_view content);
     /// A started run of the system, with the touches of pages. Throws InputError.
     std::pair<std::unique_ptr<Run>, Touches*> make_run(const RunInput& input, std::string* files = nullptr);
     void open(RunInput input);  ///< throws InputError, and leaves the run as it is then

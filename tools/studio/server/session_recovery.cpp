@@ -125,6 +125,64 @@ void Session::save() {
     status_due_ = true;
 }
 
+/// What the file of a killed session holds.
+struct Session::Killed {
+    RunInput opened, begun;
+    std::optional<RunInput> wanted;
+    std::uint64_t cycle = 0;
+    Document document;
+    bool current = true;
+    History past;
+    std::optional<Reference> reference;
+    Changes changed;
+    std::vector<Undo> undo, redo;
+    std::optional<WorldText> world_text;
+    json panels;
+    std::string mode;
+    double value = 0;
+};
+
+Session::Killed Session::read_killed(std::string_view content) {
+    Archive archive{content};
+    Head head;
+    archive(head);
+    if (head.version != FORAGE_VERSION)
+        throw InputError(fmt::format("the session that was killed is of forage {}, and this is {}",
+                                     head.version, FORAGE_VERSION),
+                         begin_anew);
+    Killed out;
+    out.cycle = head.cycle;
+    archive_input(archive, out.opened), archive_input(archive, out.begun);
+    std::string text;
+    bool waits = false;
+    archive(text, out.document, out.current, waits);
+    if (waits) archive_input(archive, out.wanted.emplace());
+    const json rest = json::parse(text);
+    out.past.load(archive);
+    if (const auto& compare = rest.at("compare"); !compare.is_null()) {
+        Reference made;
+        made.from = compare.at("from"), made.changed = changes_of(compare.at("changed"));
+        made.past.load(archive);
+        out.reference = std::move(made);
+    }
+    out.changed = changes_of(rest.at("changed"));
+    for (const auto& u : rest.at("undo")) out.undo.push_back({u.at(0), u.at(1), u.at(2), u.at(3)});
+    for (const auto& u : rest.at("redo")) out.redo.push_back({u.at(0), u.at(1), u.at(2), u.at(3)});
+    if (const auto& world = rest.at("world"); !world.is_null())
+        out.world_text = {world.at(0), world.at(1), world.at(2)};
+    out.panels = rest.at("panels");
+    out.mode = rest.at("mode"), out.value = rest.at("value");
+    Diagnostics diagnostics;
+    const Sources sources = read_sources(out.begun, diagnostics);
+    throw_errors(diagnostics);
+    if (digest_of_files(out.begun, sources) != head.files)
+        throw InputError(
+            fmt::format("the world or a linked process of '{}' has changed since the session was killed",
+                        out.begun.system),
+            "restore the files, or begin anew");
+    return out;
+}
+
 void Session::recover() {
     if (!kept_) throw InputError("nothing is kept of sessions", "the messages at the start say why");
     const auto content = kept_->killed();
@@ -135,59 +193,29 @@ void Session::recover() {
                              ? "begin anew"
                              : fmt::format("there are sessions of '{}'", fmt::join(others, "', '")));
     }
-    Archive archive{std::string_view(*content)};
-    Head head;
-    archive(head);
-    if (head.version != FORAGE_VERSION)
-        throw InputError(fmt::format("the session that was killed is of forage {}, and this is {}",
-                                     head.version, FORAGE_VERSION),
-                         begin_anew);
-    RunInput opened, begun;
-    archive_input(archive, opened), archive_input(archive, begun);
-    std::string text;
-    Document document;
-    bool current = true, waits = false;
-    archive(text, document, current, waits);
-    RunInput wanted;
-    if (waits) archive_input(archive, wanted);
-    const json rest = json::parse(text);
-    History past;
-    past.load(archive);
-    const json compare = rest.value("compare", json());
-    std::optional<Reference> reference;
-    if (!compare.is_null()) {
-        Reference made;
-        made.from = compare.at("from"), made.changed = changes_of(compare.at("changed"));
-        made.past.load(archive);
-        reference = std::move(made);
+    auto killed = read_killed(*content);
+    const RunInput before = wanted_.value_or(input_);
+    open(std::move(killed.begun));
+    try {
+        history_ = std::move(killed.past);
+        replay(killed.cycle);
+    } catch (...) {  // a course that cannot be taken again leaves the system as it was opened
+        open_any(before);
+        throw;
     }
-    Diagnostics diagnostics;
-    const Sources sources = read_sources(begun, diagnostics);
-    throw_errors(diagnostics);
-    if (digest_of_files(begun, sources) != head.files)
-        throw InputError(
-            fmt::format("the world or a linked process of '{}' has changed since the session was killed",
-                        begun.system),
-            "restore the files, or begin anew");
-    open(std::move(begun));
-    input_ = std::move(opened);
-    history_ = std::move(past);
-    replay(head.cycle);
+    input_ = std::move(killed.opened);
     begin_document(begun_);
-    wanted_ = waits ? std::optional(std::move(wanted)) : std::nullopt;
-    if (current) built_ = document.system();
-    document_ = std::move(document), current_ = current;
+    wanted_ = std::move(killed.wanted);
+    if (killed.current) built_ = killed.document.system();
+    document_ = std::move(killed.document), current_ = killed.current;
     problems_ = document_->problems(run_->registry(), run_->environment());
-    if (reference) run_beside(std::move(*reference), head.cycle);
-    changed_ = changes_of(rest.at("changed"));
-    undo_.clear(), redo_.clear();
-    for (const auto& u : rest.at("undo")) undo_.push_back({u.at(0), u.at(1), u.at(2), u.at(3)});
-    for (const auto& u : rest.at("redo")) redo_.push_back({u.at(0), u.at(1), u.at(2), u.at(3)});
+    if (killed.reference) run_beside(std::move(*killed.reference), killed.cycle);
+    changed_ = std::move(killed.changed);
+    undo_ = std::move(killed.undo), redo_ = std::move(killed.redo);
     trim_undo();
-    if (const auto& world = rest.at("world"); !world.is_null())
-        world_text_ = {world.at(0), world.at(1), world.at(2)};
-    panels_ = rest.at("panels");
-    set_speed(rest.at("mode").get<std::string>(), rest.at("value").get<double>());
+    world_text_ = std::move(killed.world_text);
+    panels_ = std::move(killed.panels);
+    set_speed(killed.mode, killed.value);
     save();
     if (save_failed_.empty()) kept_->forget_killed();
     killed_ = nullptr;
