@@ -1,6 +1,7 @@
 // A page of the diagram: boxes and lines. Ids are those of the model, places those of the file, stretched by a fixed factor.
 import type { CanvasComment, Connection, ConnectionLine, Group, Icon, Process, SystemMessage } from '../protocol/messages';
-import { anchor, type Box, type Point } from './line';
+import { anchor, middleOfLongest, nearestPart, type Box, type Point } from './line';
+import { beside, firstMet, offsetOf } from './parallel';
 
 /** What a unit of the file is on a page: an icon of 50 x 50 is a box of 100 x 100. */
 export const scale = 2;
@@ -28,7 +29,7 @@ export interface PageLine {
   members: Connection[];
   /** Whether the file says how it is drawn on this page. */
   drawn: boolean;
-  /** Its number among the lines between the same boxes. */
+  /** Its number among the lines that would lie on each other. */
   lane: number;
   /** The vertices of the connection that belong to this page, and where the file keeps them. */
   vertices: Point[];
@@ -132,7 +133,6 @@ function phantoms(system: SystemMessage, process: Process, boxes: PageBox[], lin
 function linesOf(process: Process | null, boxes: PageBox[], links: { connection: Connection; source: string; target: string }[]): PageLine[] {
   const byId = new Map(boxes.map((b) => [b.id, b]));
   const merged = new Map<string, PageLine>();
-  const lanes = new Map<string, number>();
   for (const { connection, source, target } of links) {
     const from = byId.get(source), to = byId.get(target);
     if (!from || !to) continue;
@@ -145,9 +145,6 @@ function linesOf(process: Process | null, boxes: PageBox[], links: { connection:
       known.members.push(connection);
       continue;
     }
-    const pair = [source, target].sort().join(' ');
-    const lane = lanes.get(pair) ?? 0;
-    lanes.set(pair, lane + 1);
     merged.set(key, {
       id: key,
       connection,
@@ -155,12 +152,44 @@ function linesOf(process: Process | null, boxes: PageBox[], links: { connection:
       target,
       members: [connection],
       drawn: process !== null && connection.line !== null && from.placed && to.placed,
-      lane,
+      lane: 0,
       vertices,
       list,
     });
   }
-  return [...merged.values()];
+  const lines = [...merged.values()];
+  setLanes(lines, byId);
+  return lines;
+}
+
+/** Of lines that would lie on each other, the first stays, and the others take the nearest places beside it that are free. Vertices are places of the file: a line with some of them stays there. */
+function setLanes(lines: PageLine[], boxes: Map<string, PageBox>): void {
+  const known = new Set<string>(), others: PageLine[] = [];
+  const taken = new Map<string, Point[][]>(); // by the boxes of the lines
+  const placesOf = (l: PageLine) => {
+    const pair = [l.source, l.target].sort().join(' ');
+    if (!taken.has(pair)) taken.set(pair, []);
+    return taken.get(pair)!;
+  };
+  const points = (l: PageLine) => pointsOf(l, boxes.get(l.source)!, boxes.get(l.target)!);
+  for (const l of lines) {
+    if (l.vertices.length) continue;
+    const ends = endsOf(l, boxes.get(l.source)!, boxes.get(l.target)!);
+    if (known.has(ends)) others.push(l);
+    else known.add(ends), placesOf(l).push(points(l));
+  }
+  for (const l of others) {
+    const near = (other: Point[]) => nearestPart(other, middleOfLongest(points(l))).distance < 8;
+    do l.lane++;
+    while (l.lane < 64 && placesOf(l).some(near));
+    placesOf(l).push(points(l));
+  }
+}
+
+/** Between which points of which boxes a line is, in either direction. */
+function endsOf({ connection: { line }, drawn }: PageLine, from: PageBox, to: PageBox): string {
+  const end = (b: PageBox, number = 1) => (b.phantom || !(drawn || from.phantom || to.phantom) ? b.id : `${b.id}:${number}`);
+  return from === to ? from.id : [end(from, line?.source_anchor), end(to, line?.target_anchor)].sort().join(' ');
 }
 
 const centre = (b: Box): Point => ({ x: b.x + b.width / 2, y: b.y + b.height / 2 });
@@ -184,30 +213,33 @@ export function nearestOnBorder(b: Box, p: Point): Point {
 
 /** The points of a line between the present places of its boxes. */
 export function pointsOf(line: PageLine, from: PageBox, to: PageBox): Point[] {
-  const { connection, vertices } = line;
+  const { vertices } = line;
   const [a, b] = [from.box, to.box];
-  if (from.phantom !== to.phantom) {
-    const [outer, box, number] = from.phantom ? [a, b, connection.line?.target_anchor ?? 1] : [b, a, connection.line?.source_anchor ?? 1];
-    const inner = anchor(box, number);
-    if (from.phantom) return [nearestOnBorder(outer, vertices[0] ?? inner), ...vertices, inner];
-    return [inner, ...vertices, nearestOnBorder(outer, vertices[vertices.length - 1] ?? inner)];
-  }
-  if (line.source === line.target && vertices.length === 0) {
-    const r = 18 + 8 * line.lane;
-    return [{ x: a.x + a.width, y: a.y + 20 }, { x: a.x + a.width + r, y: a.y + 20 }, { x: a.x + a.width + r, y: a.y - r }, { x: a.x + a.width - 20, y: a.y - r }, { x: a.x + a.width - 20, y: a.y }];
-  }
-  if (line.drawn) return [anchor(a, connection.line!.source_anchor), ...vertices, anchor(b, connection.line!.target_anchor)];
-  if (vertices.length) return [border(a, vertices[0]!), ...vertices, border(b, vertices[vertices.length - 1]!)];
-  // Lines between the same boxes stand side by side.
-  const shift = (line.lane % 2 ? 1 : -1) * Math.ceil(line.lane / 2) * 12;
-  const [ca, cb] = [centre(a), centre(b)];
-  const length = Math.hypot(cb.x - ca.x, cb.y - ca.y) || 1;
-  const flip = line.source < line.target ? 1 : -1;
-  const side = { x: (-(cb.y - ca.y) / length) * shift * flip, y: ((cb.x - ca.x) / length) * shift * flip };
-  const move = (p: Point) => ({ x: p.x + side.x, y: p.y + side.y });
-  return [move(border(a, cb)), move(border(b, ca))];
+  if (from === to && vertices.length === 0) return loop(a, line.lane);
+  const [p, q] = endPoints(line, from, to);
+  if (vertices.length || line.lane === 0) return [p, ...vertices, q];
+  // Seen from either end, a line stands on the same side.
+  return beside(a, b, p, q, offsetOf(line.lane) * (line.source < line.target ? 1 : -1));
 }
 
+/** Where a line without others beside it leaves and meets its boxes. */
+function endPoints({ connection, drawn, vertices }: PageLine, from: PageBox, to: PageBox): [Point, Point] {
+  const [a, b] = [from.box, to.box], first = vertices[0], last = vertices[vertices.length - 1];
+  if (from.phantom !== to.phantom) {
+    const inner = from.phantom ? anchor(b, connection.line?.target_anchor ?? 1) : anchor(a, connection.line?.source_anchor ?? 1);
+    const next = (from.phantom ? first : last) ?? inner, outer = nearestOnBorder(from.phantom ? a : b, next);
+    // A phantom may stand on any side of a box: what is behind the box is not drawn.
+    return from.phantom ? [outer, firstMet(b, last ?? outer, inner)] : [firstMet(a, first ?? outer, inner), outer];
+  }
+  if (drawn) return [anchor(a, connection.line!.source_anchor), anchor(b, connection.line!.target_anchor)];
+  return [border(a, first ?? centre(b)), border(b, last ?? centre(a))];
+}
+
+/** A line from a box to itself, around its corner at the top and the right; each one around those before it. */
+function loop(b: Box, lane: number): Point[] {
+  const right = b.x + b.width, r = 18 + 12 * lane, inset = Math.min(20 + 10 * lane, 0.8 * Math.min(b.width, b.height));
+  return [{ x: right, y: b.y + inset }, { x: right + r, y: b.y + inset }, { x: right + r, y: b.y - r }, { x: right - inset, y: b.y - r }, { x: right - inset, y: b.y }];
+}
 
 /** The point of the 16 around a box that a click means; null in its middle. */
 export function clickedAnchor(box: Box, p: Point): number | null {
@@ -235,17 +267,7 @@ export function facingAnchor(box: Box, other: Box | Point): number {
 }
 
 /** Between which vertices a point on a line lies: the index at which a new vertex is inserted. */
-export function segmentAt(points: Point[], p: Point): number {
-  let best = 0, least = Infinity;
-  for (let i = 0; i + 1 < points.length; i++) {
-    const [a, b] = [points[i]!, points[i + 1]!];
-    const [dx, dy] = [b.x - a.x, b.y - a.y];
-    const t = Math.max(0, Math.min(1, ((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy || 1)));
-    const d = Math.hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
-    if (d < least) [best, least] = [i, d];
-  }
-  return best;
-}
+export const segmentAt = (points: Point[], p: Point): number => nearestPart(points, p).part;
 
 export const inside = (b: Box, p: Point, margin = 0): boolean =>
   p.x >= b.x - margin && p.x <= b.x + b.width + margin && p.y >= b.y - margin && p.y <= b.y + b.height + margin;

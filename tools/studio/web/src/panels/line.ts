@@ -25,3 +25,24 @@ export function roundedPath(points: Point[], radius = 8): string {
   }
   return `${path}L${at(points[points.length - 1]!)}`;
 }
+
+/** The part of a line that is the nearest to a point, and how far it is. */
+export function nearestPart(points: Point[], p: Point): { part: number; distance: number } {
+  let part = 0, distance = Infinity;
+  for (let i = 0; i + 1 < points.length; i++) {
+    const [a, b] = [points[i]!, points[i + 1]!];
+    const [dx, dy] = [b.x - a.x, b.y - a.y];
+    const t = Math.max(0, Math.min(1, ((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy || 1)));
+    const d = Math.hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
+    if (d < distance) [part, distance] = [i, d];
+  }
+  return { part, distance };
+}
+
+/** The middle of the longest part of a line. */
+export function middleOfLongest(points: Point[]): Point {
+  let best = 0;
+  const length = (i: number) => Math.hypot(points[i + 1]!.x - points[i]!.x, points[i + 1]!.y - points[i]!.y);
+  for (let i = 1; i + 1 < points.length; i++) if (length(i) > length(best)) best = i;
+  return { x: (points[best]!.x + points[best + 1]!.x) / 2, y: (points[best]!.y + points[best + 1]!.y) / 2 };
+}

@@ -1,11 +1,11 @@
-// Comments, phantoms and lines between processes on the canvas, in Chromium against the real program: node canvas_test.mjs FORAGE SOURCES
+// Comments, phantoms and lines between processes on the canvas, in Chromium against the real program: node canvas_test.mjs FORAGE SOURCES [PICTURES]
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
 import { inBrowser } from './support.mjs';
 
-const [forage, sources] = process.argv.slice(2).map((p) => resolve(p));
+const [forage, sources, pictures] = process.argv.slice(2).map((p) => resolve(p));
 const step = (text) => console.log(text);
 
 await inBrowser(sources, async ({ folder, context, start, until }) => {
@@ -24,16 +24,26 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   const inspector = page.getByRole('region', { name: 'Inspector' });
   const comments = diagram.locator('.svelte-flow__node-comment');
   const writing = page.getByLabel('Text of the comment');
-  const tab = (name) => diagram.getByRole('group', { name: 'Processes' }).getByRole('button', { name, exact: true }).click();
+  const firstOf = { System: 'bug', 'Reactive Layer': 'reactive.us', Selection: 'selection.ur' };
+  /** Shows a page, and waits until its boxes are there and rest. */
+  const tab = async (name) => {
+    await diagram.getByRole('group', { name: 'Processes' }).getByRole('button', { name, exact: true }).click();
+    await diagram.locator(`.svelte-flow__node[data-id="${firstOf[name]}"]`).waitFor();
+    await resting();
+  };
+  /** Waits for the field of a comment, which takes what is typed. */
+  const begun = () => until(page, 'the text can be written', () => document.activeElement?.matches('textarea[aria-label="Text of the comment"]'));
   const many = (n) => until(page, `${n} comments`, (k) => document.querySelectorAll('.svelte-flow__node-comment').length === k, n);
   /** Saves, and looks for a pattern in the file. */
   const inFile = async (what, pattern) => {
+    await dirty();
     await canvas.focus();
     await page.keyboard.press('Control+s');
-    await until(page, `${what} is saved`, () => !document.title.startsWith('●'));
+    await clean();
     assert.match(readFileSync(file, 'utf8'), pattern, what);
   };
   const dirty = () => until(page, 'a change', () => document.title.startsWith('●'));
+  const clean = () => until(page, 'no change that is not saved', () => !document.title.startsWith('●'));
   /** The saved text without the comments that hold parts of the diagram. */
   const others = () => readFileSync(file, 'utf8').replace(/\n *<!-- forage:[^]*?-->/g, '');
   /** An empty place of the canvas, below everything. */
@@ -58,12 +68,28 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
     await page.mouse.move(...to, { steps: 3 });
     await page.mouse.up();
   };
+  /** The place and the size of the page in its pane, when they are the same in two pictures in a row. */
+  const resting = () => page.evaluate(async () => {
+    const transform = () => document.querySelector('.svelte-flow__viewport').style.transform;
+    for (let was = ''; was !== transform(); ) {
+      was = transform();
+      for (let i = 0; i < 6; i++) await new Promise(requestAnimationFrame);
+    }
+    return Number(/scale\(([\d.]+)\)/.exec(transform())[1]);
+  });
+  const smaller = async (zoom) => {
+    for (let was = await resting(); was > zoom; was = await resting()) {
+      await diagram.getByRole('button', { name: 'Zoom Out' }).click();
+      await until(page, 'a smaller page', (z) => Number(/scale\(([\d.]+)\)/.exec(document.querySelector('.svelte-flow__viewport').style.transform)[1]) < z, was);
+    }
+  };
   const place = (locator) => locator.evaluate((e) => e.style.transform);
   const leaves = (selector, from) => until(page, `${selector} moves`, ([s, was]) => document.querySelector(s)?.style.transform !== was, [selector, from]);
   const returns = (selector, to) => until(page, `${selector} is back`, ([s, was]) => document.querySelector(s)?.style.transform === was, [selector, to]);
 
   await page.getByRole('group', { name: 'Arena' }).waitFor();
   await page.keyboard.press('Control+k');
+  await until(page, 'the field of the palette', () => document.activeElement?.matches('[role=combobox]'));
   await page.keyboard.type('layout: build');
   await page.keyboard.press('Enter');
   await tab('Selection');
@@ -71,7 +97,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   step('a comment is placed by a click and written; it is one step, and nothing else in the file changes');
   await diagram.getByRole('button', { name: 'Comment', exact: true }).click();
   await page.mouse.click(...(await empty()));
-  await writing.waitFor();
+  await begun();
   await page.keyboard.type('Approach wins -- so "Explore" rests');
   await page.keyboard.press('Enter');
   await page.keyboard.type('until it is over');
@@ -94,17 +120,18 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await leaves(it, was);
   await page.keyboard.press('Control+z');
   await returns(it, was);
+  await clean();
   await canvas.focus();
   await page.keyboard.press('Shift+ArrowRight');
   await leaves(it, was);
-  await page.waitForTimeout(600); // the arrows are sent together, shortly after the last one
+  await dirty(); // the arrows are sent together, shortly after the last one
   await page.keyboard.press('Control+Shift+ArrowRight');
   await inspector.getByLabel('Width').waitFor();
-  await until(page, 'it is wider', () => document.querySelector('[aria-label="Inspector"] input[type=number]')?.value === '100');
+  await until(page, 'it is wider', () => document.querySelector('[aria-label="Inspector"] input[type=number]')?.value === '100' && document.querySelector('.svelte-flow__node-comment').offsetWidth === 200);
   const corner = await page.locator('.svelte-flow__resize-control.handle.bottom.right').boundingBox();
   await drag([corner.x + 3, corner.y + 3], [corner.x + 63, corner.y + 43]);
   await until(page, 'it is wider still', () => Number(document.querySelector('[aria-label="Inspector"] input[type=number]')?.value) > 100);
-  assert.equal(await inspector.getByLabel('Colour').inputValue(), '#fdf3c7'); // as it is seen
+  await until(page, 'its colour as it is seen', () => document.querySelector('[aria-label="Inspector"] input[type=color]')?.value === '#fdf3c7');
   await inspector.getByLabel('Colour').fill('#204060');
   await until(page, 'its colour', () => getComputedStyle(document.querySelector('.svelte-flow__node-comment .comment')).color === 'rgb(255, 255, 255)');
   await inFile('the colour', /forage:comment [^>]*color="#204060"/);
@@ -116,13 +143,13 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await comments.first().click();
   await canvas.focus();
   await page.keyboard.press('Enter');
-  await writing.waitFor();
+  await begun();
   await page.keyboard.type('nonsense');
   await page.keyboard.press('Escape');
   await writing.waitFor({ state: 'detached' });
   await comments.getByText('until it is over').waitFor();
   await page.keyboard.press('F2');
-  await writing.waitFor();
+  await begun();
   await page.keyboard.type('Shorter');
   await page.keyboard.press('Control+Enter');
   await comments.getByText('Shorter', { exact: true }).waitFor();
@@ -132,6 +159,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await many(0);
   await canvas.focus();
   await page.keyboard.press('Control+v');
+  await page.locator(`${it}.selected`).waitFor();
   await many(1);
   await inFile('a comment of the system', /<!-- forage:comment [^>]*text="Shorter" -->\n<\/System>/);
   await page.keyboard.press('Delete');
@@ -141,18 +169,18 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.keyboard.press('Control+z');
   await many(1);
   await page.keyboard.press('c');
-  await writing.waitFor();
+  await begun();
   await page.keyboard.press('Escape');
   await many(1);
   await page.keyboard.press('Control+Shift+z'); // what is given up leaves undo and redo as they were
   await many(0);
   await page.keyboard.press('c');
-  await writing.waitFor();
+  await begun();
   await page.keyboard.type('By keys');
   await page.keyboard.press('Control+Enter');
   await comments.getByText('By keys', { exact: true }).waitFor();
   await page.mouse.dblclick(...(await empty()));
-  await writing.waitFor();
+  await begun();
   await page.keyboard.type('By a double click');
   await diagram.getByRole('button', { name: 'View', exact: true }).focus(); // what is left is kept
   await comments.getByText('By a double click', { exact: true }).waitFor();
@@ -160,8 +188,8 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
 
   step('a phantom is dragged; its place is in the file, and undone');
   await tab('Selection');
+  await until(page, 'two phantoms', () => document.querySelectorAll('.svelte-flow__node:has(.phantom)').length === 2);
   const ids = await page.evaluate(() => [...document.querySelectorAll('.svelte-flow__node:has(.phantom)')].map((n) => n.dataset.id));
-  assert.ok(ids.length === 2, ids.join());
   const far = `.svelte-flow__node[data-id="${ids[0]}"]`;
   was = await place(page.locator(far));
   const dashed = await page.locator(far).boundingBox();
@@ -177,6 +205,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.keyboard.press('Control+z');
   await returns(far, was);
   await page.locator(far).click();
+  await page.locator(`${far}.selected`).waitFor();
   await canvas.focus();
   await page.keyboard.press('Delete');
   await page.getByText('A phantom stands for a group of another process').first().waitFor();
@@ -208,13 +237,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   step('a double click beside a thin line means the line, on a small page, too');
   await tab('Selection');
   const before = await comments.count();
-  const zoom = () => page.evaluate(() => Number(/scale\(([\d.]+)\)/.exec(document.querySelector('.svelte-flow__viewport').style.transform)[1]));
-  while ((await zoom()) > 0.4) {
-    const was = await zoom();
-    await diagram.getByRole('button', { name: 'Zoom Out' }).click();
-    await until(page, 'a smaller page', (z) => Number(/scale\(([\d.]+)\)/.exec(document.querySelector('.svelte-flow__viewport').style.transform)[1]) < z, was);
-    await page.waitForTimeout(300);
-  }
+  await smaller(0.4);
   const beside = await page.evaluate(() => {
     // A place 4 pixels beside a line at which only the line is near.
     for (const path of document.querySelectorAll('g[data-connection] .wide'))
@@ -233,7 +256,38 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   assert.equal(await comments.count(), before);
   await canvas.focus();
   await page.keyboard.press('f');
+  await resting();
   await tab('Reactive Layer');
+
+  step('connections between the same points lie side by side, and each is clicked where it is seen');
+  const drawnHere = () => page.evaluate(() => [...document.querySelectorAll('g[data-connection]')].map((g) => g.dataset.connection));
+  const known = await drawnHere();
+  for (const [from, to, kind] of [['us', 'Approach', 'e'], ['us', 'Approach', 'i'], ['approach', 'US', 'm'], ['us', 'US', 'e'], ['us', 'US', 'i']]) {
+    const drawn = (await drawnHere()).length;
+    await diagram.locator(`.svelte-flow__node[data-id="reactive.${from}"]`).focus();
+    await page.keyboard.press(kind);
+    const connect = page.getByRole('dialog', { name: 'Connect' });
+    await connect.getByLabel('To', { exact: true }).selectOption({ label: `Reactive Layer/${to}` });
+    await connect.getByRole('button', { name: 'Connect' }).click();
+    await connect.waitFor({ state: 'hidden' });
+    await until(page, 'another line', (n) => document.querySelectorAll('g[data-connection]').length === n + 1, drawn);
+  }
+  if (pictures) await page.screenshot({ path: join(pictures, 'parallel.png') });
+  const added = (await drawnHere()).filter((id) => !known.includes(id));
+  const chosenLine = (id) => until(page, `${id} is chosen`, (c) => [...document.querySelectorAll('g[data-connection].chosen')].map((g) => g.dataset.connection).join() === c, id);
+  for (const size of ['large', 'small']) {
+    if (size === 'small') await smaller(0.4);
+    for (const id of added) {
+      await canvas.focus();
+      await page.keyboard.press('Escape');
+      await page.mouse.click(...(await along(id, 0.5)));
+      await chosenLine(id);
+    }
+  }
+  await canvas.focus();
+  for (const _ of added) await page.keyboard.press('Control+z');
+  await until(page, 'the lines are gone', (n) => document.querySelectorAll('g[data-connection]').length === n, known.length);
+  await clean();
 
   step('a type that changed outside and a parameter that changed here are in conflict: the page asks');
   await diagram.locator('.svelte-flow__node', { hasText: 'US' }).first().click();

@@ -1,8 +1,8 @@
 import { describe, expect, it } from 'vitest';
-import { nearestAnchor, pageOf, pointsOf, segmentAt, toFile } from '../../src/panels/diagram';
+import { nearestAnchor, pageOf, pointsOf, segmentAt, toFile, type Page } from '../../src/panels/diagram';
 import { aligned, distributed, freshName } from '../../src/edit/places';
 import { holds, parseTuples, spanned, tupleText } from '../../src/edit/forms/cells';
-import { anchor, roundedPath } from '../../src/panels/line';
+import { anchor, middleOfLongest, nearestPart, roundedPath, type Point } from '../../src/panels/line';
 import type { Connection, ConnectionLine, Group, SystemMessage } from '../../src/protocol/messages';
 
 const group = (id: string, x: number | null, y = 0): Group => ({ id, name: id, path: `P/${id}`, color: '', note: '', icon: x === null ? null : { x, y, width: 50, height: 50 }, type: '', width: 1, height: 1, cells: 1, places: null, states: [] });
@@ -57,6 +57,15 @@ describe('a page of the diagram', () => {
     expect([z.phantom, z.box.x, z.box.y]).toEqual([true, 20, 200]);
     expect(pointsOf(page.lines[0]!, z, page.boxes[0]!)[0]).toEqual({ x: z.box.x + z.box.width, y: 210 });
   });
+  it('ends a line from a phantom where it meets the box, not behind it', async () => {
+    const s = system([[group('a', 10, 20)], [group('z', 0, 0)]], [connection('c', 'z', 'a', line({ target_anchor: 1 })), connection('d', 'a', 'z', line({ source_anchor: 9 }))]);
+    s.processes[0]!.phantoms = [{ group: 'z', x: 12, y: 150 }]; // below the box, whose point 1 is above
+    const [a, z] = (await pageOf(s, s.processes[0]!)).boxes;
+    const [c, d] = (await pageOf(s, s.processes[0]!)).lines.map((l) => pointsOf(l, l.source === 'a' ? a! : z!, l.source === 'a' ? z! : a!));
+    expect(c![0]!.y).toBe(z!.box.y);
+    expect([c![1]!.x, c![1]!.y]).toEqual([57.5, 140]);
+    expect(d![0]).toEqual(anchor(a!.box, 9)); // in view as it is
+  });
   it('has the comments of a page, apart from its lines', async () => {
     const s = system([[group('a', 10, 20)]], []);
     const comment = { id: 'k', text: 'Why', color: '', icon: { x: 1, y: 2, width: 30, height: 40 } };
@@ -72,6 +81,56 @@ describe('a page of the diagram', () => {
     const none = system([[group('a', null), group('b', null)]], [connection('c', 'a', 'b')]);
     const [c, d] = (await pageOf(none, none.processes[0]!)).boxes;
     expect(d!.box.x).toBeGreaterThan(c!.box.x + 100);
+  });
+});
+
+describe('lines that would lie on each other', () => {
+  const linesOf = (page: Page) => page.lines.map((l) => pointsOf(l, page.boxes.find((b) => b.id === l.source)!, page.boxes.find((b) => b.id === l.target)!));
+  const drawnOf = async (groups: Group[][], connections: Connection[]) => {
+    const s = system(groups, connections);
+    return linesOf(await pageOf(s, s.processes[0]!));
+  };
+  /** The least distance between the middle of the longest part of a line and another line. */
+  const apart = (lines: Point[][]) => Math.min(...lines.flatMap((l, i) => lines.flatMap((m, k) => (i === k ? [] : [nearestPart(m, middleOfLongest(l)).distance]))));
+  const onEdge = (p: Point, x: number, y: number) => Math.abs(Math.max(Math.abs(p.x - x - 50), Math.abs(p.y - y - 50)) - 50) < 1e-9;
+  const pair = [group('a', 10, 20), group('b', 200, 20)];
+
+  it('stand side by side, in both directions, the first where the file has it', async () => {
+    const there = line({ source_anchor: 5, target_anchor: 13 }), back = line({ source_anchor: 13, target_anchor: 5 });
+    const lines = await drawnOf([pair], [connection('c', 'a', 'b', there), connection('d', 'b', 'a', back), connection('e', 'a', 'b', there)]);
+    expect(lines).toEqual([[{ x: 120, y: 77.5 }, { x: 400, y: 77.5 }], [{ x: 400, y: 89.5 }, { x: 120, y: 89.5 }], [{ x: 120, y: 65.5 }, { x: 400, y: 65.5 }]]);
+  });
+  it('stay where they are when they have other points, or vertices', async () => {
+    const lines = await drawnOf([pair], [connection('c', 'a', 'b', line({ source_anchor: 5, target_anchor: 13 })), connection('d', 'a', 'b', line({ source_anchor: 5, target_anchor: 14 })), connection('e', 'a', 'b', line({ source_anchor: 5, target_anchor: 13, vertices: [[120, 90]] }))]);
+    expect(lines.map((l) => [l[0], l[l.length - 1]])).toEqual([[{ x: 120, y: 77.5 }, { x: 400, y: 77.5 }], [{ x: 120, y: 77.5 }, { x: 400, y: 102.5 }], [{ x: 120, y: 77.5 }, { x: 400, y: 77.5 }]]);
+  });
+  it('end at the edges of boxes that stand obliquely, and are all apart', async () => {
+    for (const bent of [null, line({ source_anchor: 8, target_anchor: 0 }), line({ source_anchor: 6, target_anchor: 13 })]) {
+      const lines = await drawnOf([[group('a', 10, 20), group('b', 150, 160)]], ['c', 'd', 'e', 'f', 'g', 'h'].map((id, i) => (i % 2 ? connection(id, 'b', 'a', bent && line({ source_anchor: bent.target_anchor, target_anchor: bent.source_anchor })) : connection(id, 'a', 'b', bent))));
+      expect(apart(lines)).toBeGreaterThan(8);
+      lines.forEach((l, i) => {
+        const [a, b] = i % 2 ? [l[l.length - 1]!, l[0]!] : [l[0]!, l[l.length - 1]!];
+        expect([onEdge(a, 20, 40), onEdge(b, 300, 320)], `line ${i}`).toEqual([true, true]);
+      });
+    }
+  });
+  it('leave the next points of the boxes to the lines that end there', async () => {
+    const at = (n: number) => line({ source_anchor: 4 + n, target_anchor: 12 + n });
+    const lines = await drawnOf([pair], [...Array.from({ length: 5 }, (_, i) => connection(`c${i}`, 'a', 'b', at(1))), connection('d', 'a', 'b', at(0)), connection('e', 'a', 'b', at(2))]);
+    expect(lines.slice(5).map((l) => l[0]!.y)).toEqual([52.5, 102.5]);
+    expect(apart(lines)).toBeGreaterThan(8);
+  });
+  it('from a group to itself are loops, each around the one before', async () => {
+    const lines = await drawnOf([[group('a', 10, 20)]], ['c', 'd', 'e'].map((id) => connection(id, 'a', 'a', line({}))));
+    expect(apart(lines)).toBeGreaterThan(8);
+    for (const at of [0, 1, 3, 4]) expect(new Set(lines.map((l) => JSON.stringify(l[at]))).size).toBe(3);
+    expect(lines.map((l) => l[2]!.x)).toEqual([138, 150, 162]);
+  });
+  it('to a phantom, and between processes, are apart, too', async () => {
+    const groups = [[group('a', 10, 20)], [group('z', 0, 0)]], some = [connection('c', 'z', 'a', line({})), connection('d', 'z', 'a', line({})), { ...connection('e', 'a', 'z', line({})), kind: 'inhibitory' as const }];
+    const s = system(groups, some);
+    expect(apart(await drawnOf(groups, some))).toBeGreaterThan(8);
+    expect(apart(linesOf(await pageOf(s, null)))).toBeGreaterThan(8);
   });
 });
 
