@@ -15,14 +15,60 @@ export function savePng(name: string, canvas: HTMLCanvasElement, scale = 1): voi
   const context = out.getContext('2d')!;
   context.imageSmoothingEnabled = false;
   context.drawImage(canvas, 0, 0, out.width, out.height);
-  out.toBlob((blob) => blob && download(`${name}.png`, 'image/png', blob));
+  keep(name, out);
 }
 
+const keep = (name: string, canvas: HTMLCanvasElement) => canvas.toBlob((blob) => blob && download(`${name}.png`, 'image/png', blob));
+
+const edge = 480, caption = 22, gap = 16, narrowest = 80;
+
+/** How many pixels a cell takes when a heat map is saved. */
+export const cellSize = (columns: number, rows: number) => Math.max(1, Math.round(edge / Math.max(columns, rows)));
+
+/** The places of heat maps side by side, or one below the other, each with a line of text below it. */
+function places(columns: number, rows: number, count: number, row: boolean) {
+  const s = cellSize(columns, rows), width = Math.max(s * columns, narrowest), height = s * rows + caption;
+  const at = Array.from({ length: count }, (_, i) => ({ x: (row ? i * (width + gap) : 0) + (width - s * columns) / 2, y: row ? 0 : i * (height + gap), middle: (row ? i * (width + gap) : 0) + width / 2 }));
+  return { s, at, width: row ? count * (width + gap) - gap : width, height: row ? height : count * (height + gap) - gap };
+}
+
+/** Saves heat maps of the same size, with their captions. */
+export function savePngs(name: string, pictures: { canvas: HTMLCanvasElement; caption: string }[], row: boolean): void {
+  const { width: columns, height: rows } = pictures[0]!.canvas;
+  const { s, at, width, height } = places(columns, rows, pictures.length, row);
+  const out = document.createElement('canvas');
+  out.width = width;
+  out.height = height;
+  const context = out.getContext('2d')!;
+  context.imageSmoothingEnabled = false;
+  context.fillStyle = 'white';
+  context.fillRect(0, 0, width, height);
+  context.fillStyle = 'black';
+  context.font = '14px sans-serif';
+  context.textAlign = 'center';
+  pictures.forEach((p, i) => {
+    const { x, y, middle } = at[i]!;
+    context.drawImage(p.canvas, x, y, s * columns, s * rows);
+    context.fillText(p.caption, middle, y + s * rows + 16);
+  });
+  keep(name, out);
+}
+
+const squares = (columns: number, rows: number, colour: (i: number) => string): string =>
+  Array.from({ length: columns * rows }, (_, i) => `<rect x="${i % columns}" y="${Math.floor(i / columns)}" width="1" height="1" fill="${colour(i)}"/>`).join('');
+
 /** A heat map as squares. */
-export function heatSvg(columns: number, rows: number, colour: (i: number) => string): string {
-  const cells: string[] = [];
-  for (let i = 0; i < columns * rows; i++) cells.push(`<rect x="${i % columns}" y="${Math.floor(i / columns)}" width="1" height="1" fill="${colour(i)}"/>`);
-  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${columns} ${rows}" shape-rendering="crispEdges">${cells.join('')}</svg>\n`;
+export const heatSvg = (columns: number, rows: number, colour: (i: number) => string): string =>
+  `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${columns} ${rows}" shape-rendering="crispEdges">${squares(columns, rows, colour)}</svg>\n`;
+
+/** Heat maps of the same size, with their captions. */
+export function heatsSvg(columns: number, rows: number, pictures: { colour: (i: number) => string; caption: string }[], row: boolean): string {
+  const { s, at, width, height } = places(columns, rows, pictures.length, row);
+  const parts = pictures.map((p, i) => {
+    const { x, y, middle } = at[i]!;
+    return `<g transform="translate(${x} ${y}) scale(${s})" shape-rendering="crispEdges">${squares(columns, rows, p.colour)}</g><text x="${middle}" y="${y + s * rows + 16}" text-anchor="middle">${p.caption}</text>`;
+  });
+  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" font-family="sans-serif" font-size="14">${parts.join('')}</svg>\n`;
 }
 
 /** Lines over time; values that are not finite break a line. */
@@ -47,9 +93,9 @@ export function linesSvg(x: ArrayLike<number>, lines: { label: string; colour: s
   return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" font-family="sans-serif" font-size="11">${keys.join('')}<text x="4" y="26">${high.toPrecision(3)}</text><text x="4" y="${height - 24}">${low.toPrecision(3)}</text><text x="50" y="${height - 6}">${x0.toFixed(1)} s</text><text x="${width - 50}" y="${height - 6}">${x1.toFixed(1)} s</text>${paths.join('')}</svg>\n`;
 }
 
-export function csv(header: string[], rows: Iterable<ArrayLike<number>>): string {
-  const quote = (s: string) => (/[",\n]/.test(s) ? `"${s.replace(/"/g, '""')}"` : s);
+export function csv(header: string[], rows: Iterable<ArrayLike<number | string>>): string {
+  const quote = (v: number | string) => (typeof v === 'string' && /[",\n]/.test(v) ? `"${v.replace(/"/g, '""')}"` : Number.isNaN(v) ? 'nan' : String(v));
   let out = header.map(quote).join(',') + '\n';
-  for (const row of rows) out += Array.from(row, (v) => (Number.isNaN(v) ? 'nan' : String(v))).join(',') + '\n';
+  for (const row of rows) out += Array.from(row, quote).join(',') + '\n';
   return out;
 }
