@@ -61,6 +61,28 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.keyboard.press('Control+z');
   await until(page, 'it is back', (n) => document.querySelectorAll('[aria-label="Map of the world"] .item').length === n, items + 2);
 
+  step('the buttons and the map are one stop of the Tab key each; keys lead from button to button, and from item to item');
+  await world.getByRole('button', { name: 'wall', exact: true }).focus();
+  const active = () => page.evaluate(() => [document.activeElement.closest('[role=toolbar]') ? 'button' : document.activeElement.closest('[aria-label="Map of the world"]') ? 'map' : 'other', document.activeElement.ariaLabel ?? document.activeElement.textContent]);
+  await page.keyboard.press('End');
+  const [, end] = await active();
+  await page.keyboard.press('ArrowLeft');
+  assert.ok((await active())[0] === 'button' && (await active())[1] !== end && (await active())[1] !== 'wall', await active());
+  const stops = [];
+  while (stops[stops.length - 1] !== 'map' && stops.length < 8) await page.keyboard.press('Tab'), stops.push((await active())[0]);
+  assert.ok(stops[stops.length - 1] === 'map' && !stops.includes('button'), stops.join());
+  const seen = new Set();
+  await page.keyboard.press('Home');
+  for (let i = 0; i < items + 2; i++) seen.add((await active())[1]), await page.keyboard.press('PageDown');
+  assert.equal(seen.size, items + 2, [...seen].join());
+  const last = (await active())[1];
+  await page.keyboard.press('PageUp');
+  assert.notEqual((await active())[1], last);
+  await world.locator('.item[aria-pressed=true]').waitFor();
+  assert.equal(await map.locator('.chosen').getAttribute('aria-label'), (await active())[1]);
+  await page.keyboard.press('Tab');
+  assert.equal((await active())[0], 'other');
+
   step('every kind is added, and every item of the world can be chosen, and has a form');
   const count = (n) => until(page, `${n} items`, (wanted) => document.querySelectorAll('[aria-label="Item"] option').length === wanted, n);
   const list = world.getByLabel('Item', { exact: true });
