@@ -25,7 +25,11 @@ await inBrowser(sources, async ({ context, start, until }) => {
   first.child.removeAllListeners('exit');
   first.child.kill('SIGKILL');
 
-  const second = start(forage);
+  step('the page of the one that was killed says so, and how to go on, until it reaches the next one');
+  const gone = page.getByRole('alert').filter({ hasText: 'Forage has ended or cannot be reached' });
+  await gone.getByText('forage studio systems/dac_foraging.iqr --world systems/worlds/basic_arena.world --recover', { exact: true }).waitFor();
+
+  const second = start(forage, ['systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world', '--port', new URL(page.url()).port]);
   const again = await context.newPage();
   again.setDefaultTimeout(10000);
   await again.goto(await second.address);
@@ -37,5 +41,7 @@ await inBrowser(sources, async ({ context, start, until }) => {
   await again.getByRole('button', { name: 'End comparison' }).waitFor();
   await again.locator('[aria-label^="Space plot of"] canvas.reference').first().waitFor();
   assert.equal(await again.getByText("This system's last session was not closed.").count(), 0);
+  await gone.waitFor({ state: 'detached' });
+  await until(page, 'cycle 7 in the page of the first one', () => document.querySelector('[aria-label="Moment of the run"]')?.value === '7');
   console.log('all fine');
 });
