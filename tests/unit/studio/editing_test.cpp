@@ -641,6 +641,30 @@ TEST_CASE("an edit of the structure keeps the cycle, the states and the manipula
     CHECK_FALSE(e.group("!new").is_null());
 }
 
+TEST_CASE("an edit of the structure says what it ends: the past, a comparison, a recording") {
+    Editor e;
+    const auto add = [&](const std::string& id) {
+        e.edit({{{"do", "add_group"},
+                 {"process", e.last["system"]["processes"][1]["id"]},
+                 {"name", id},
+                 {"x", 1},
+                 {"y", 1},
+                 {"id", id}}});
+        return e.last["action"]["ended"];
+    };
+    CHECK(add("new1") == json::array());  // there is no past yet
+    e.result({{"command", "step"}, {"cycles", 20}});
+    CHECK(add("new2") == json({"past"}));
+    CHECK(add("new3") == json::array());
+    e.result({{"command", "step"}, {"cycles", 5}});
+    e.result({{"command", "compare"}, {"cycle", 22}});
+    e.result({{"command", "sample"}, {"file", (e.folder / "a.csv").string()}, {"sources", {"Bug/Light"}}});
+    e.edit({{{"do", "place"}, {"id", "new3"}, {"x", 50}, {"y", 50}}});  // nothing of the run
+    CHECK(e.last["action"]["ended"] == json::array());
+    CHECK(add("new4") == json({"past", "comparison", "recording"}));
+    CHECK(e.session->run().cycle() == 22);
+}
+
 TEST_CASE("a world is edited, undone, saved, and the run begins anew in it") {
     ::setenv("FORAGE_MODEL_PATH", FORAGE_SOURCE_DIR "/systems/worlds/models", 1);
     Editor e;

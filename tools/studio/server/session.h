@@ -160,6 +160,8 @@ class Session {
     /// Builds the run anew; groups and connections that did not change keep their states. Returns false, with
     /// the run as it was, when the system cannot run.
     bool rebuild();
+    /// What ends when the run is built anew: "past", "comparison", "recording".
+    std::vector<std::string> lost_by_rebuild() const;
     /// Changes parameters in the document, too, when its items have them. Returns whether that is a step.
     bool set_in_document(const std::vector<std::string>& assignments, const std::string& title);
     /// Takes a step of the document back, or forth.

@@ -216,6 +216,7 @@ void Session::follow_document(const std::string& title) {
     const auto changes = model::parameter_changes(built_, now, run_->registry());
     const auto before = generation_;
     const bool waited = wanted_.has_value();
+    json ended = json::array();
     if (!document_->readable()) {
         problems_ = document_->problems(run_->registry(), run_->environment());
         current_ = false;
@@ -237,8 +238,9 @@ void Session::follow_document(const std::string& title) {
             }
         }
     } else {
+        const auto lost = lost_by_rebuild();
         current_ = rebuild();
-        if (current_) built_ = now;
+        if (current_) built_ = now, ended = lost;
     }
     if (current_) input_.text = document_->text();
     if (generation_ == before) {
@@ -250,11 +252,20 @@ void Session::follow_document(const std::string& title) {
               {"title", title},
               {"shell", ""},
               {"python", ""},
-              {"undoable", true}});
+              {"undoable", true},
+              {"ended", std::move(ended)}});
     }
     status_due_ = true;
     tell(system_message());
     if (waited && !wanted_) tell(world_message());
+}
+
+std::vector<std::string> Session::lost_by_rebuild() const {
+    std::vector<std::string> out;
+    if (history_.last() > history_.first()) out.emplace_back("past");
+    if (reference_) out.emplace_back("comparison");
+    if (sampler_) out.emplace_back("recording");
+    return out;
 }
 
 bool Session::rebuild() {

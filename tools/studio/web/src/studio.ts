@@ -4,6 +4,7 @@ import { protocolVersion, type ServerMessage } from './protocol/messages';
 import type { TypesResult } from './protocol/editing';
 import type { Frame } from './protocol/frame';
 import { editing } from './edit/document.svelte';
+import { endedText } from './edit/ended';
 import { worldFile } from './edit/world.svelte';
 import { actions } from './stores/actions.svelte';
 import { model } from './stores/model.svelte';
@@ -96,9 +97,12 @@ function receive(message: ServerMessage): void {
       if (run.status?.generation !== message.generation) streams.retry();
       run.status = message;
       break;
-    case 'action':
+    case 'action': {
       actions.add(message);
+      const ended = endedText(message, run.status?.epoch);
+      if (ended) actions.tell('info', ended);
       break;
+    }
   }
 }
 

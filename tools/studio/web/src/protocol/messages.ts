@@ -160,6 +160,8 @@ export interface ActionMessage {
   shell?: string;
   python?: string;
   undoable?: boolean;
+  /** What an edit of the structure has ended. */
+  ended?: ('past' | 'comparison' | 'recording')[];
 }
 
 export interface Problem { severity?: string; file?: string; line?: number; column?: number; message: string; hint?: string }

@@ -26,7 +26,7 @@ class Actions {
     if (this.notices.some((n) => n.text === text)) return;
     const notice = { key: this.nextKey++, kind, text };
     this.notices = [...this.notices.slice(-2), notice];
-    if (kind === 'info') setTimeout(() => this.dismiss(notice.key), 4000);
+    if (kind === 'info') setTimeout(() => this.dismiss(notice.key), Math.max(4000, 80 * text.length)); // time to read it
   }
   dismiss(key: number): void {
     this.notices = this.notices.filter((n) => n.key !== key);

@@ -1,5 +1,6 @@
 // Two runs side by side in Chromium, and what the canvases show: node compare_test.mjs FORAGE SOURCES [SCREENSHOT]
 import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { resolve } from 'node:path';
 import { inBrowser } from './support.mjs';
 
@@ -64,6 +65,25 @@ await inBrowser(sources, async ({ context, start, until }) => {
     return blue;
   });
   step('space and raster plots have a picture of each run, or one of their difference');
+  /** What is saved of a space plot has both runs. */
+  const savedWithBoth = async (plot) => {
+    const file = async (format) => {
+      const [download] = await Promise.all([page.waitForEvent('download'), page.locator(plot).getByLabel('Save').selectOption(format)]);
+      return readFileSync(await download.path());
+    };
+    const lines = String(await file('csv')).trim().split('\n').map((l) => l.split(','));
+    assert.deepEqual([lines.length, lines[0].length, lines[0][0]], [19, 10, 'run']);
+    const of = (run) => lines.slice(1).filter((l) => l[0] === run).flatMap((l) => l.slice(1).map(Number));
+    assert.ok(of('now').length === 81 && of('now').every((v) => v === 0), of('now').join());
+    assert.ok(of('as it was').length === 81 && of('as it was').some((v) => v > 0), of('as it was').join());
+    const svg = String(await file('svg'));
+    assert.equal(svg.match(/<rect /g).length, 162);
+    assert.match(svg, />now<.*>as it was</);
+    const png = await file('png'); // its width and height are in its head
+    const [width, height] = [png.readUInt32BE(16), png.readUInt32BE(20)];
+    assert.ok(Math.max(width, height) > 1.5 * Math.min(width, height), `${width} x ${height}`);
+    if (screenshot) writeFileSync(`${screenshot}.both.png`, png);
+  };
   const show = (tab) => page.locator('.dv-tab', { hasText: tab }).filter({ hasText: new RegExp(`^${tab}$`) }).click();
   for (const [tab, plot] of [['Bug/Motor', '[aria-label="Space plot of Bug/Motor"] '], ['Bug/Motor raster', '[aria-label="Raster plot of Bug/Motor"] ']]) {
     await show(tab);
@@ -77,6 +97,7 @@ await inBrowser(sources, async ({ context, start, until }) => {
       const captions = await page.locator(`${plot}figcaption`).allInnerTexts();
       assert.ok(captions.length === 2 && /^now 0$/.test(captions[0]) && /^as it was [\d.]+$/.test(captions[1]), captions.join());
     }
+    if (tab === 'Bug/Motor') await savedWithBoth(plot);
     await page.locator(plot).getByLabel('Comparison').selectOption('difference');
     await page.locator(`${plot}canvas.reference`).waitFor({ state: 'detached' });
     await until(page, `blue in ${tab}: less than it was`, (p) => {
@@ -95,5 +116,15 @@ await inBrowser(sources, async ({ context, start, until }) => {
   assert.equal(await page.getByLabel('Comparison').count(), 0);
   await page.waitForTimeout(300);
   assert.ok(both > (await robots()), 'the pale robot and its trail are gone');
+
+  step('an edit of the structure ends a comparison and the past, and says so');
+  await page.getByRole('button', { name: 'Compare from here' }).click();
+  await page.getByRole('button', { name: 'End comparison' }).waitFor();
+  await page.getByRole('navigation').getByRole('button', { name: 'Open Connections' }).or(page.getByRole('navigation').getByRole('button', { name: 'Connections', exact: true })).first().click();
+  await page.getByRole('navigation').locator('.row:has(i)').first().click();
+  await page.keyboard.press('Delete');
+  await page.getByText('The run goes on in the edited system: it cannot go back to before this edit and the comparison has ended.').waitFor();
+  await page.getByRole('button', { name: 'Compare from here' }).waitFor();
+  assert.ok((await seek.getAttribute('min')) === (await seek.inputValue()));
   console.log('all fine');
 });
