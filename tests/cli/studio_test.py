@@ -4,6 +4,7 @@ import json
 import os
 import math
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -116,6 +117,15 @@ class Watching(unittest.TestCase):
         groups = [g['path'] for p in self.page.last('system')['processes'] for g in p['groups']]
         self.assertIn('Bug/Light', groups)
         self.assertEqual(len(self.page.last('world')['robots']), 1)
+
+    def test_it_runs_at_once_when_told_so(self):
+        self.assertEqual(self.page.do('digest')['cycle'], 0)
+        with Studio(forage, system, '--world', world, '--run') as studio:
+            page = Page(studio)
+            end = time.monotonic() + 60
+            while page.do('digest')['cycle'] == 0:
+                self.assertLess(time.monotonic(), end)
+            page.close()
 
     def test_no_acknowledgement_no_frames(self):
         self.page.do('subscribe', source='Bug/Light')
@@ -375,6 +385,10 @@ class Editing(unittest.TestCase):
             self.assertEqual(page.do('digest')['cycle'], 100)
             self.assertEqual(page.do('read', source='Bug/Light'), before)
             self.assertTrue(page.last('document')['running_is_current'])
+            backup = pathlib.Path(page.do('backup')['file'])
+            self.assertRegex(backup.name, r'^' + re.escape(self.mine.name) + r',\d{4}-\d\d-\d\d_\d\d-\d\d-\d\d$')
+            self.assertIn('name="New"', backup.read_text())
+            self.assertNotIn('name="New"', self.mine.read_text())
             page.do('save')
             page.do('edit', operations=[{'do': 'rename', 'id': 'new', 'name': 'Other'}])
             self.assertIn('+', page.do('difference')['text'])

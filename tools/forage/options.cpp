@@ -321,6 +321,7 @@ void add_studio(CLI::App& app, StudioCommand& o) {
     command.add_option("--port", o.port, "Port on 127.0.0.1 [a free one]")
         ->check(CLI::Range(0, 65535))
         ->option_text("N");
+    command.add_flag("-r,--run", o.running, "Begin to run at once");
     command.add_flag("--recover", o.recover, "Go on with the session of this system that was killed");
     command.add_flag("--open", o.open, "Open the browser");
 }

@@ -17,6 +17,7 @@ int studio(const StudioCommand& command) {
     options.input = command.input;
     options.plot_config = command.plot_config;
     options.recover = command.recover;
+    options.running = command.running;
     options.port = static_cast<std::uint16_t>(command.port);
     options.shipped = installation() / "share/forage/systems";
     note_signals("the studio");

@@ -129,7 +129,9 @@ struct Commands {
     json document_read();
     json difference();
     json new_system();
+    void refuse_shipped(const std::string& file) const;
     json save();
+    json backup();
     json reload();
     json import_process();
     json export_process();

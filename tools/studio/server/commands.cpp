@@ -107,6 +107,7 @@ const std::map<std::string, Entry>& table() {
         {"difference", {&Commands::difference, false}},
         {"new", {&Commands::new_system, true}},
         {"save", {&Commands::save, false}},
+        {"backup", {&Commands::backup, false}},
         {"reload", {&Commands::reload, true}},
         {"import", {&Commands::import_process, true}},
         {"export", {&Commands::export_process, false}},

@@ -1,8 +1,11 @@
 #include <algorithm>
+#include <ctime>
 #include <filesystem>
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include "core/base/output_files.h"
 #include "core/model/build.h"
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
@@ -60,14 +63,18 @@ json Commands::new_system() {
     return json::object();
 }
 
+void Commands::refuse_shipped(const std::string& file) const {
+    if (s.comes_with_forage(file))
+        throw InputError(fmt::format("'{}' comes with Forage and stays as it is", file),
+                         "save it in a folder of your own");
+}
+
 json Commands::save() {
     const auto file = c.value("file", "");
     if (!file.empty() && fs::path(file).extension() != ".iqr")
         throw InputError(fmt::format("'{}' is not a name of a system", file), "it ends with .iqr");
     const std::string before = document().path(), to = file.empty() ? before : file;
-    if (s.comes_with_forage(to))
-        throw InputError(fmt::format("'{}' comes with Forage and stays as it is", to),
-                         "save it in a folder of your own");
+    refuse_shipped(to);
     document().save(file, run().registry(), c.value("overwrite", false));
     // The file now has a text that does not run.
     if (!s.current_ && s.input_.text.empty()) s.input_.text = s.begun_.text;
@@ -79,6 +86,16 @@ json Commands::save() {
     if (s.kept_ && document().path() != before) s.keep_anew(), s.saved_version_.reset();
     s.tell(s.system_message()), s.tell_document();
     return {{"file", document().path()}};
+}
+
+json Commands::backup() {
+    const auto& path = document().path();
+    if (path.empty()) throw InputError("the system has no file yet", "save it first");
+    refuse_shipped(path);
+    const auto file = fmt::format("{},{:%Y-%m-%d_%H-%M-%S}", path, fmt::localtime(std::time(nullptr)));
+    if (fs::exists(file)) throw InputError(fmt::format("'{}' exists", file), "wait for a second");
+    write_file(file, document().text());
+    return {{"file", file}};
 }
 
 json Commands::reload() {

@@ -42,6 +42,7 @@ void serve(const StudioOptions& options, const std::function<void(const Ready&)>
         options.plot_config, options.shipped);
     const std::string note = keep(session, options.recover);
     const Diagnostics mistakes = session.mistakes();
+    if (options.running) session.execute(-1, {{"command", "run"}});
     std::unique_ptr<EngineThread> engine;
     HttpServer::Options wanted;
     wanted.port = options.port;
