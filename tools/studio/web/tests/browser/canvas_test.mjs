@@ -265,6 +265,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   for (const [from, to, kind] of [['us', 'Approach', 'e'], ['us', 'Approach', 'i'], ['approach', 'US', 'm'], ['us', 'US', 'e'], ['us', 'US', 'i']]) {
     const drawn = (await drawnHere()).length;
     await diagram.locator(`.svelte-flow__node[data-id="reactive.${from}"]`).focus();
+    await until(page, 'the box has the focus', (id) => document.activeElement?.dataset.id === id, `reactive.${from}`);
     await page.keyboard.press(kind);
     const connect = page.getByRole('dialog', { name: 'Connect' });
     await connect.getByLabel('To', { exact: true }).selectOption({ label: `Reactive Layer/${to}` });
