@@ -1,0 +1,98 @@
+// Where the cells of a group are drawn: a sparse group has holes in its lattice.
+import type { Group } from '../protocol/messages';
+
+export class Lattice {
+  readonly columns: number;
+  readonly rows: number;
+  /** The number of the cell at each place, row by row; -1 in a hole. */
+  private readonly cells: Int32Array;
+  private readonly places: readonly (readonly [number, number])[] | null;
+
+  constructor(columns: number, rows: number, places: readonly (readonly [number, number])[] | null = null) {
+    this.columns = Math.max(1, columns);
+    this.rows = Math.max(1, rows);
+    this.places = places;
+    this.cells = Int32Array.from({ length: this.columns * this.rows }, (_, i) => (places ? -1 : i));
+    places?.forEach(([x, y], i) => (this.cells[y * this.columns + x] = i));
+  }
+  static of(group: Pick<Group, 'width' | 'height' | 'places'>): Lattice {
+    const { width, height, places } = group;
+    if (!places) return new Lattice(width, height);
+    return new Lattice(Math.max(...places.map((p) => p[0])) + 1, Math.max(...places.map((p) => p[1])) + 1, places);
+  }
+  /** The number of the cell at a place, which counts row by row; -1 in a hole and outside. */
+  cell(place: number): number {
+    return this.cells[place] ?? -1;
+  }
+  has(place: number): boolean {
+    return this.cell(place) >= 0;
+  }
+  /** The place of a cell. */
+  place(cell: number): number {
+    const at = this.places?.[cell];
+    return at ? at[1] * this.columns + at[0] : cell;
+  }
+  /** Values of the cells, in order, at their places; NaN in holes. */
+  spread(values: ArrayLike<number>): ArrayLike<number> {
+    if (!this.places) return values;
+    const out = new Float32Array(this.columns * this.rows).fill(NaN);
+    for (let i = 0; i < this.places.length; i++) out[this.place(i)] = values[i] ?? NaN;
+    return out;
+  }
+  /** Column and row from 1, as they are written for users: "(3, 1)". */
+  name(place: number): string {
+    return `(${(place % this.columns) + 1}, ${Math.floor(place / this.columns) + 1})`;
+  }
+  /** How sources name cells of a selection of places, in as few rectangles as are found row by row: "2..4,1". The cells of a sparse group are one row. */
+  ranges(places: Iterable<number>): string[] {
+    const cells = [...places].map((p) => this.cell(p)).filter((c) => c >= 0).sort((a, b) => a - b);
+    const range = (from: number, to: number) => (from === to ? `${from + 1}` : `${from + 1}..${to + 1}`);
+    const width = this.places ? Infinity : this.columns;
+    const runs: { left: number; right: number; top: number; bottom: number }[] = [];
+    for (const c of cells) {
+      const x = this.places ? c : c % width, y = this.places ? 0 : Math.floor(c / width);
+      const last = runs[runs.length - 1];
+      if (last && last.top === y && last.right === x - 1) last.right = x;
+      else runs.push({ left: x, right: x, top: y, bottom: y });
+    }
+    const boxes: typeof runs = [];
+    for (const r of runs) {
+      const above = boxes.find((b) => b.bottom === r.top - 1 && b.left === r.left && b.right === r.right);
+      if (above) above.bottom = r.bottom;
+      else boxes.push({ ...r });
+    }
+    return boxes.map((b) => `${range(b.left, b.right)},${range(b.top, b.bottom)}`);
+  }
+}
+
+/** The places of the rectangle between two places. */
+export function rectangle(a: number, b: number, columns: number): number[] {
+  const [x0, x1] = [a % columns, b % columns].sort((p, q) => p - q) as [number, number];
+  const [y0, y1] = [Math.floor(a / columns), Math.floor(b / columns)].sort((p, q) => p - q) as [number, number];
+  const out: number[] = [];
+  for (let y = y0; y <= y1; y++) for (let x = x0; x <= x1; x++) out.push(y * columns + x);
+  return out;
+}
+
+/** The edge of a set of places as the path of an SVG, a unit per cell. */
+export function outline(places: ReadonlySet<number>, columns: number): string {
+  let d = '';
+  for (const p of places) {
+    const x = p % columns, y = Math.floor(p / columns);
+    if (!places.has(p - columns)) d += `M${x} ${y}h1`;
+    if (!places.has(p + columns)) d += `M${x} ${y + 1}h1`;
+    if (x === 0 || !places.has(p - 1)) d += `M${x} ${y}v1`;
+    if (x === columns - 1 || !places.has(p + 1)) d += `M${x + 1} ${y}v1`;
+  }
+  return d;
+}
+
+/** The mean of the values at some places; NaN without any. */
+export function meanAt(places: Iterable<number>, values: ArrayLike<number>): number {
+  let sum = 0, n = 0;
+  for (const p of places) {
+    const v = values[p] ?? NaN;
+    if (v === v) sum += v, n++;
+  }
+  return n ? sum / n : NaN;
+}
