@@ -9,6 +9,14 @@ export function adapt(scale: Scale, low: number, high: number): Scale {
   return to.low === scale.low && to.high === scale.high ? scale : { mode: scale.mode, ...to };
 }
 
+/** The scale of an axis: auto leaves a margin around the values, expand is the widest of those so far, manual stays. */
+export function axisScale(scale: Scale, low: number, high: number): Scale {
+  if (scale.mode === 'manual' || !(low <= high)) return scale;
+  const margin = (high - low) * 0.1 || Math.abs(high) * 0.1 || 1;
+  const around = { low: low >= 0 ? Math.max(0, low - margin) : low - margin, high: high <= 0 && low < 0 ? Math.min(0, high + margin) : high + margin };
+  return scale.mode === 'auto' ? { mode: 'auto', ...around } : { mode: 'expand', low: Math.min(scale.low, around.low), high: Math.max(scale.high, around.high) };
+}
+
 /** Smallest and largest finite value; low > high when there is none. */
 export function extent(values: ArrayLike<number>): [number, number] {
   let low = Infinity;

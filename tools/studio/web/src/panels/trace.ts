@@ -52,9 +52,9 @@ export class Trace {
     }
   }
 
-  /** The times within the last `seconds`. */
-  times(seconds: number): number[] {
-    const from = (this.x[this.x.length - 1] ?? 0) - seconds;
+  /** The times within the last `seconds`, or since an earlier moment. */
+  times(seconds: number, since = Infinity): number[] {
+    const from = Math.min((this.x[this.x.length - 1] ?? 0) - seconds, since);
     let i = this.x.length;
     while (i > 0 && this.x[i - 1]! >= from) i--;
     return this.x.slice(i);

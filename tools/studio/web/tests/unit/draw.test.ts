@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { csv, heatsSvg, linesSvg } from '../../src/draw/save';
-import { adapt, extent, short } from '../../src/draw/scale';
+import { adapt, axisScale, extent, short } from '../../src/draw/scale';
 import { cyclesPerRow, Trace } from '../../src/panels/trace';
 
 describe('scales', () => {
@@ -10,6 +10,12 @@ describe('scales', () => {
     const manual = { mode: 'manual' as const, low: 0, high: 1 };
     expect(adapt(manual, -9, 9)).toBe(manual);
     expect(adapt(manual, ...extent([NaN]))).toBe(manual);
+  });
+  it('leaves a margin around lines; expand is the widest so far', () => {
+    expect(axisScale({ mode: 'auto', low: 0, high: 9 }, 2, 4)).toEqual({ mode: 'auto', low: 1.8, high: 4.2 });
+    expect(axisScale({ mode: 'auto', low: 0, high: 9 }, 0, 0)).toEqual({ mode: 'auto', low: 0, high: 1 });
+    expect(axisScale({ mode: 'expand', low: 0, high: 9 }, -1, 4)).toEqual({ mode: 'expand', low: -1.5, high: 9 });
+    expect(axisScale({ mode: 'manual', low: 0, high: 9 }, -1, 40)).toEqual({ mode: 'manual', low: 0, high: 9 });
   });
   it('writes numbers shortly', () => expect([0, 0.123456, 1e-7, NaN].map(short)).toEqual(['0', '0.1235', '1.0e-7', '–']));
 });
