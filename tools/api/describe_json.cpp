@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <map>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -21,11 +23,15 @@ json icon_of(const std::optional<model::Icon>& icon) {
     return {{"x", icon->x}, {"y", icon->y}, {"width", icon->width}, {"height", icon->height}};
 }
 
+/// Columns and rows, from 0, of the cells in the order of their numbers, which go row by row.
 json places_of(const model::Topology& topology) {
     const auto* sparse = std::get_if<model::SparseTopology>(&topology);
     if (!sparse) return nullptr;
+    std::set<std::pair<int, int>> rows;  // a place is one cell, even when it is listed several times
+    for (const auto& p : sparse->points)
+        if (p.x >= 1 && p.y >= 1) rows.emplace(p.y, p.x);
     json out = json::array();
-    for (const auto& p : sparse->points) out.push_back({p.x, p.y});
+    for (const auto& [y, x] : rows) out.push_back({x - 1, y - 1});
     return out;
 }
 
@@ -205,7 +211,8 @@ json describe_system(const model::System& system, const Registry& registry, cons
         const auto& connection = said.connections[i];
         const auto* type = registry.synapse(connection.synapse.type);
         json states = json::array();
-        for (const auto& s : type ? type->states : std::vector<SynapseStateInfo>())
+        // Synapses with the same weight in all of them keep nothing that could be read.
+        for (const auto& s : type && !type->has_gain ? type->states : std::vector<SynapseStateInfo>())
             states.push_back({{"name", s.name}, {"label", s.label}});
         links.push_back({{"id", connection.id},
                          {"name", connection.name},

@@ -8,7 +8,8 @@ export class Lattice {
   private readonly cells: Int32Array;
   private readonly places: readonly (readonly [number, number])[] | null;
 
-  constructor(columns: number, rows: number, places: readonly (readonly [number, number])[] | null = null) {
+  /** `places` are columns and rows within the lattice; `left` and `top` are where the lattice begins in the group. */
+  constructor(columns: number, rows: number, places: readonly (readonly [number, number])[] | null = null, private readonly left = 0, private readonly top = 0) {
     this.columns = Math.max(1, columns);
     this.rows = Math.max(1, rows);
     this.places = places;
@@ -17,8 +18,9 @@ export class Lattice {
   }
   static of(group: Pick<Group, 'width' | 'height' | 'places'>): Lattice {
     const { width, height, places } = group;
-    if (!places) return new Lattice(width, height);
-    return new Lattice(Math.max(...places.map((p) => p[0])) + 1, Math.max(...places.map((p) => p[1])) + 1, places);
+    if (!places?.length) return new Lattice(width, height);
+    const left = Math.min(...places.map((p) => p[0])), top = Math.min(...places.map((p) => p[1]));
+    return new Lattice(width, height, places.map(([x, y]) => [x - left, y - top]), left, top);
   }
   /** The number of the cell at a place, which counts row by row; -1 in a hole and outside. */
   cell(place: number): number {
@@ -41,7 +43,7 @@ export class Lattice {
   }
   /** Column and row from 1, as they are written for users: "(3, 1)". */
   name(place: number): string {
-    return `(${(place % this.columns) + 1}, ${Math.floor(place / this.columns) + 1})`;
+    return `(${this.left + (place % this.columns) + 1}, ${this.top + Math.floor(place / this.columns) + 1})`;
   }
   /** How sources name cells of a selection of places, in as few rectangles as are found row by row: "2..4,1". The cells of a sparse group are one row. */
   ranges(places: Iterable<number>): string[] {
