@@ -1,4 +1,6 @@
 // Saves what a panel shows: PNG and SVG of its canvas, CSV of its numbers.
+import { cssColour, type MapName } from './colours';
+
 export function download(name: string, type: string, content: BlobPart): void {
   const url = URL.createObjectURL(new Blob([content], { type }));
   const link = document.createElement('a');
@@ -25,17 +27,27 @@ const edge = 480, caption = 22, gap = 16, narrowest = 80;
 /** How many pixels a cell takes when a heat map is saved. */
 export const cellSize = (columns: number, rows: number) => Math.max(1, Math.round(edge / Math.max(columns, rows)));
 
-/** The places of heat maps side by side, or one below the other, each with a line of text below it. */
-function places(columns: number, rows: number, count: number, row: boolean) {
-  const s = cellSize(columns, rows), width = Math.max(s * columns, narrowest), height = s * rows + caption;
-  const at = Array.from({ length: count }, (_, i) => ({ x: (row ? i * (width + gap) : 0) + (width - s * columns) / 2, y: row ? 0 : i * (height + gap), middle: (row ? i * (width + gap) : 0) + width / 2 }));
-  return { s, at, width: row ? count * (width + gap) - gap : width, height: row ? height : count * (height + gap) - gap };
+interface Shape { columns: number; rows: number }
+
+/** The places of heat maps side by side, or one below the other, each with a line of text below it. Their cells are equally large. */
+function places(shapes: Shape[], row: boolean) {
+  const s = Math.min(...shapes.map((p) => cellSize(p.columns, p.rows)));
+  let x = 0, y = 0, width = 0, height = 0;
+  const at = shapes.map(({ columns, rows }) => {
+    const w = Math.max(s * columns, narrowest), h = s * rows + caption;
+    const place = { x: x + (w - s * columns) / 2, y, middle: x + w / 2 };
+    width = Math.max(width, x + w);
+    height = Math.max(height, y + h);
+    if (row) x += w + gap;
+    else y += h + gap;
+    return place;
+  });
+  return { s, at, width, height };
 }
 
-/** Saves heat maps of the same size, with their captions. */
+/** Saves heat maps with their captions. */
 export function savePngs(name: string, pictures: { canvas: HTMLCanvasElement; caption: string }[], row: boolean): void {
-  const { width: columns, height: rows } = pictures[0]!.canvas;
-  const { s, at, width, height } = places(columns, rows, pictures.length, row);
+  const { s, at, width, height } = places(pictures.map(({ canvas }) => ({ columns: canvas.width, rows: canvas.height })), row);
   const out = document.createElement('canvas');
   out.width = width;
   out.height = height;
@@ -46,30 +58,47 @@ export function savePngs(name: string, pictures: { canvas: HTMLCanvasElement; ca
   context.fillStyle = 'black';
   context.font = '14px sans-serif';
   context.textAlign = 'center';
-  pictures.forEach((p, i) => {
+  pictures.forEach(({ canvas, caption }, i) => {
     const { x, y, middle } = at[i]!;
-    context.drawImage(p.canvas, x, y, s * columns, s * rows);
-    context.fillText(p.caption, middle, y + s * rows + 16);
+    context.drawImage(canvas, x, y, s * canvas.width, s * canvas.height);
+    context.fillText(caption, middle, y + s * canvas.height + 16);
   });
   keep(name, out);
 }
 
-const squares = (columns: number, rows: number, colour: (i: number) => string): string =>
-  Array.from({ length: columns * rows }, (_, i) => `<rect x="${i % columns}" y="${Math.floor(i / columns)}" width="1" height="1" fill="${colour(i)}"/>`).join('');
+/** The colour of a cell by its number; 'none' where there is nothing. */
+type Colour = (i: number) => string;
+
+/** The colours of values on a scale. */
+export const coloursOf = (values: ArrayLike<number>, low: number, high: number, map: MapName): Colour => (i) => {
+  const v = values[i] ?? NaN;
+  return Number.isNaN(v) ? 'none' : cssColour(map, (v - low) / (high - low || 1));
+};
+
+const squares = (columns: number, rows: number, colour: Colour): string =>
+  Array.from({ length: columns * rows }, (_, i) => [i, colour(i)] as const)
+    .filter(([, fill]) => fill !== 'none')
+    .map(([i, fill]) => `<rect x="${i % columns}" y="${Math.floor(i / columns)}" width="1" height="1" fill="${fill}"/>`)
+    .join('');
 
 /** A heat map as squares. */
-export const heatSvg = (columns: number, rows: number, colour: (i: number) => string): string =>
+export const heatSvg = (columns: number, rows: number, colour: Colour): string =>
   `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${columns} ${rows}" shape-rendering="crispEdges">${squares(columns, rows, colour)}</svg>\n`;
 
-/** Heat maps of the same size, with their captions. */
-export function heatsSvg(columns: number, rows: number, pictures: { colour: (i: number) => string; caption: string }[], row: boolean): string {
-  const { s, at, width, height } = places(columns, rows, pictures.length, row);
+const escape = (s: string) => s.replace(/[&<>]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;' })[c]!);
+
+/** Heat maps with their captions. */
+export function heatsSvg(pictures: (Shape & { colour: Colour; caption: string })[], row: boolean): string {
+  const { s, at, width, height } = places(pictures, row);
   const parts = pictures.map((p, i) => {
     const { x, y, middle } = at[i]!;
-    return `<g transform="translate(${x} ${y}) scale(${s})" shape-rendering="crispEdges">${squares(columns, rows, p.colour)}</g><text x="${middle}" y="${y + s * rows + 16}" text-anchor="middle">${p.caption}</text>`;
+    return `<g transform="translate(${x} ${y}) scale(${s})" shape-rendering="crispEdges">${squares(p.columns, p.rows, p.colour)}</g><text x="${middle}" y="${y + s * p.rows + 16}" text-anchor="middle">${escape(p.caption)}</text>`;
   });
   return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" font-family="sans-serif" font-size="14">${parts.join('')}</svg>\n`;
 }
+
+/** The name of a file for something that may have any name. */
+export const fileName = (text: string): string => text.replace(/[^\w.-]+/g, '_');
 
 /** Lines over time; values that are not finite break a line. */
 export function linesSvg(x: ArrayLike<number>, lines: { label: string; colour: string; y: ArrayLike<number> }[], width = 800, height = 320): string {
@@ -88,7 +117,6 @@ export function linesSvg(x: ArrayLike<number>, lines: { label: string; colour: s
     }
     return `<path d="${d}" fill="none" stroke="${l.colour}" stroke-width="1.5"/>`;
   });
-  const escape = (s: string) => s.replace(/[&<>]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;' })[c]!);
   const keys = lines.map((l, i) => `<text x="${56 + i * 180}" y="14" fill="${l.colour}">${escape(l.label)}</text>`);
   return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" font-family="sans-serif" font-size="11">${keys.join('')}<text x="4" y="26">${high.toPrecision(3)}</text><text x="4" y="${height - 24}">${low.toPrecision(3)}</text><text x="50" y="${height - 6}">${x0.toFixed(1)} s</text><text x="${width - 50}" y="${height - 6}">${x1.toFixed(1)} s</text>${paths.join('')}</svg>\n`;
 }

@@ -37,4 +37,12 @@ export class Moments {
     }
     this.last = cycle;
   }
+  /** The same, of more or fewer cycles. */
+  resized(cycles: number): Moments {
+    const out = new Moments(this.cells, cycles), n = Math.min(cycles, this.cycles);
+    for (let c = 0; c < this.cells; c++) out.values.set(this.values.subarray((c + 1) * this.cycles - n, (c + 1) * this.cycles), (c + 1) * cycles - n);
+    out.last = this.last;
+    out.epoch = this.epoch;
+    return out;
+  }
 }

@@ -57,13 +57,20 @@ describe('files', () => {
   it('quotes names in CSV', () => expect(csv(['s', 'a,b'], [[0, NaN]])).toBe('s,"a,b"\n0,nan\n'));
   it('writes words beside numbers in CSV', () => expect(csv(['run', 'a'], [['as, it was', 0.5], ['now', NaN]])).toBe('run,a\n"as, it was",0.5\nnow,nan\n'));
   it('places heat maps side by side or one below the other, with captions that do not overlap', () => {
-    const svg = (row: boolean, columns = 2, rows = 2) => heatsSvg(columns, rows, ['now', 'as it was'].map((caption) => ({ caption, colour: (i) => `rgb(${i} 0 0)` })), row);
+    const svg = (row: boolean, columns = 2, rows = 2) => heatsSvg(['now', 'as it was'].map((caption) => ({ columns, rows, caption, colour: (i) => `rgb(${i} 0 0)` })), row);
     expect(svg(true)).toContain('viewBox="0 0 976 502"');
     expect(svg(false)).toContain('viewBox="0 0 480 1020"');
     expect([...svg(true).matchAll(/translate\(([\d. ]+)\) scale\(240\)/g)].map((m) => m[1])).toEqual(['0 0', '496 0']);
     expect(svg(true).match(/<rect /g)).toHaveLength(8);
     const middles = [...svg(true, 1, 80).matchAll(/<text x="([\d.]+)" y="496"/g)].map((m) => Number(m[1]));
     expect(middles[1]! - middles[0]!).toBeGreaterThan(80);
+  });
+  it('places heat maps of two sizes with equal cells, without squares where there is nothing', () => {
+    const svg = heatsSvg([{ columns: 2, rows: 1, caption: 'a', colour: () => 'red' }, { columns: 4, rows: 4, caption: '<b>', colour: (i) => (i ? 'none' : 'blue') }], true);
+    expect(svg).toContain('viewBox="0 0 736 502"');
+    expect([...svg.matchAll(/translate\(([\d. ]+)\) scale\(120\)/g)].map((m) => m[1])).toEqual(['0 0', '256 0']);
+    expect(svg.match(/<rect /g)).toHaveLength(3);
+    expect(svg).toContain('&lt;b&gt;');
   });
   it('breaks lines where there is no value', () => expect(linesSvg([0, 1, 2], [{ label: '<x>', colour: '#000', y: [1, NaN, 2] }])).toMatch(/&lt;x&gt;.*d="M[\d. ]+M[\d. ]+"/));
 });

@@ -21,6 +21,14 @@ describe('the cells of a group over the last cycles', () => {
     m.add(block([3, 5]), 2);
     expect([...m.values]).toEqual([NaN, NaN, 5]);
   });
+  it('are kept as far as they fit, when more or fewer cycles are shown', () => {
+    const m = new Moments(2, 3);
+    m.add(block([1, 1, 10], [2, 2, 20], [3, 3, 30]), 1);
+    const wider = m.resized(4);
+    wider.add(block([4, 4, 40]), 1);
+    expect([...wider.values]).toEqual([1, 2, 3, 4, 10, 20, 30, 40]);
+    expect([...wider.resized(2).values]).toEqual([3, 4, 30, 40]);
+  });
   it('of two runs are compared cycle by cycle, though one of them was heard of later', () => {
     const now = new Moments(1, 4), reference = new Moments(1, 4);
     now.add(block([1, 1], [2, 0], [3, 1]), 1);
