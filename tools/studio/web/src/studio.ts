@@ -1,12 +1,14 @@
 // Connects the server with the stores. Everything that changes a run goes through `command`.
 import { Connection } from './connection';
-import { protocolVersion, type ServerMessage } from './protocol/messages';
+import { protocolVersion, type ServerMessage, type SystemMessage } from './protocol/messages';
 import type { TypesResult } from './protocol/editing';
 import type { Frame } from './protocol/frame';
 import { editing } from './edit/document.svelte';
 import { endedText } from './edit/ended';
 import { worldFile } from './edit/world.svelte';
 import { actions } from './stores/actions.svelte';
+import { dock } from './stores/dock.svelte';
+import { nameChanges } from './stores/follow';
 import { model } from './stores/model.svelte';
 import { selection } from './stores/selection.svelte';
 import { run } from './stores/run.svelte';
@@ -71,7 +73,10 @@ function receive(message: ServerMessage): void {
       const named = model.system?.file === message.file && model.system.name === message.name;
       const other = !named && !model.processes.some((p) => message.processes.some((q) => q.id === p.id));
       if (model.system?.file !== message.file) actions.begin();
+      const before = model.system;
       model.system = message;
+      if (other) dock.forget();
+      else if (before) follow(before, message);
       // The diagram begins with the process that is the robot, whose groups show their activity.
       if (other && !model.find(selection.process)) selection.process = (message.processes.find((p) => p.module) ?? message.processes[0])?.id ?? null;
       else if (!model.find(selection.process)) selection.process = null;
@@ -104,6 +109,16 @@ function receive(message: ServerMessage): void {
       break;
     }
   }
+}
+
+/** The panels follow the items of an edited system. */
+function follow(before: SystemMessage, after: SystemMessage) {
+  const changes = nameChanges(before, after), closed = dock.follow(changes);
+  dock.reopen((id) => model.find(id) !== undefined);
+  if (!closed.length) return;
+  const items = [...changes.gone].filter(([, id]) => closed.includes(id)).map(([name]) => name);
+  const panels = `${items.length > 1 ? 'their' : 'its'} ${closed.length > 1 ? `${closed.length} panels are` : 'panel is'} closed`;
+  actions.tell('info', `${items.join(', ')} ${items.length > 1 ? 'are' : 'is'} gone, and ${panels}. Undo brings back both.`);
 }
 
 let counted = 0;

@@ -1,6 +1,7 @@
 // The panels in the middle. Dockview arranges them; this store opens, focuses and keeps them.
 import type { DockviewApi, DockviewGroupPanel, SerializedDockview } from 'dockview-core';
 import { kinds, type PanelState } from '../panels/registry';
+import { followed, type NameChanges } from './follow';
 import { frame } from './frame.svelte';
 
 type Direction = 'left' | 'right' | 'above' | 'below' | 'within';
@@ -87,6 +88,41 @@ class Dock {
 
   private find(panel: PanelState) {
     return this.api?.panels.find((p) => Dock.key(p.params as PanelState) === Dock.key(panel));
+  }
+
+  /** Panels that were closed as their item is gone, with its id. */
+  private parked: { id: string; panel: PanelState }[] = [];
+
+  /** Applies an edit of the system to the panels. Returns the ids of items whose panels were closed, one per panel. */
+  follow(changes: NameChanges): string[] {
+    const closed: string[] = [];
+    for (const p of [...(this.api?.panels ?? [])]) {
+      const panel = p.params as PanelState, next = followed(panel, changes);
+      if (next === panel) continue;
+      if (typeof next === 'string') {
+        this.parked.push({ id: next, panel: { ...panel } });
+        closed.push(next);
+        this.api!.removePanel(p);
+      } else {
+        p.api.updateParameters(next);
+        p.api.setTitle(kinds[next.kind]!.title(next));
+      }
+    }
+    for (const entry of this.parked) {
+      const next = followed(entry.panel, changes);
+      if (typeof next !== 'string') entry.panel = next;
+    }
+    return closed;
+  }
+  /** Opens the panels of items that are there again. */
+  reopen(has: (id: string) => boolean): void {
+    const back = this.parked.filter((p) => has(p.id));
+    this.parked = this.parked.filter((p) => !has(p.id));
+    for (const { panel } of back) this.plot(panel);
+  }
+  /** Forgets what was closed: another system is open. */
+  forget(): void {
+    this.parked = [];
   }
 
   /** Opens a plot where the other plots are, or at the right side. */

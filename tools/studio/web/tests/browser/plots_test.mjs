@@ -1,13 +1,13 @@
 // Plots: choosing cells and states, scales, files, and following the model; in Chromium: node plots_test.mjs FORAGE SOURCES [SCREENSHOT]
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
-import { resolve } from 'node:path';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join, resolve } from 'node:path';
 import { inBrowser } from './support.mjs';
 
 const [forage, sources, screenshot] = process.argv.slice(2).map((p) => resolve(p));
 const step = (text) => console.log(text);
 
-await inBrowser(sources, async ({ context, start, until }) => {
+await inBrowser(sources, async ({ folder, context, start, until }) => {
   const page = await context.newPage();
   page.setDefaultTimeout(10000);
   const faults = [];
@@ -143,6 +143,135 @@ await inBrowser(sources, async ({ context, start, until }) => {
   await page.reload();
   await until(page, 'the scale', () => [...document.querySelectorAll('[aria-label="Highest value"]')].some((i) => i.value === '2.5'));
   await show('Bug/Motor');
+
+  /** The text of what a panel saves. */
+  const saved = async (panel, format) => {
+    const [download] = await Promise.all([page.waitForEvent('download'), panel.getByLabel('Save').selectOption(format)]);
+    return readFileSync(await download.path(), format === 'png' ? 'base64' : 'utf8');
+  };
+  const png = (text) => assert.ok(text.startsWith('iVBORw0KGgo') && text.length > 200, text.slice(0, 40));
+
+  step('raster: state, cycles, scale, files, and the value under the pointer');
+  await tree.getByText('Motor', { exact: true }).click();
+  await inspector.getByRole('button', { name: 'Raster' }).click();
+  const raster = plot('Raster plot of Bug/Motor');
+  await raster.getByLabel('State').selectOption('excIn');
+  await raster.getByLabel('Cycles shown').selectOption({ label: '100 cycles' });
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  const begin = await page.evaluate(() => Number(document.querySelector('[aria-label="Moment of the run"]').value));
+  await cycle(begin + 60);
+  await page.getByRole('button', { name: 'Pause', exact: true }).click();
+  await until(page, 'a picture of 100 cycles', () => document.querySelector('[aria-label="Raster plot of Bug/Motor"] canvas').width === 100);
+  await raster.getByRole('application').focus();
+  await page.keyboard.press('End');
+  await raster.getByText(/^\(9, 9\) cycle \d+ [\d.]+$/).waitFor();
+  png(await saved(raster, 'png'));
+  const rows = (await saved(raster, 'csv')).trim().split('\n').map((l) => l.replace(/"[^"]*"/g, 'name').split(','));
+  assert.ok(rows.length > 50 && rows.every((r) => r.length === 82), `${rows.length} rows`);
+  assert.ok(rows.slice(2).every((r, i) => Number(r[0]) === Number(rows[1][0]) + i + 1), 'a row per cycle');
+  await raster.getByLabel('Colour scale').selectOption('manual');
+  await raster.getByLabel('Highest value of the scale').fill('7');
+  await raster.getByLabel('Highest value of the scale').press('Enter');
+  await shot('raster');
+
+  step('camera: the colour under the pointer, and files');
+  await page.locator('.dv-tab', { hasText: /^Arena$/ }).click();
+  await page.getByRole('button', { name: 'Camera' }).click();
+  const camera = page.getByRole('group', { name: /^Camera of / });
+  await camera.getByRole('application').focus();
+  await page.keyboard.press('ArrowRight');
+  await camera.getByText(/^\(1, 1\) red, green, blue \d+ \d+ \d+$/).waitFor();
+  assert.match(await saved(camera, 'csv'), /^column,row,red,green,blue\n1,1,\d+,\d+,\d+\n2,1,/);
+  png(await saved(camera, 'png'));
+
+  step('panels follow a group that gets another name, with their traces; the titles of a selected group are marked');
+  const tabs = () => page.locator('.dv-tab').allInnerTexts().then((all) => all.map((t) => t.trim()));
+  const marked = () => page.locator('.dv-tab:has(.selected)').allInnerTexts().then((all) => all.map((t) => t.trim()).sort());
+  await tree.getByText('Light', { exact: true }).click();
+  await until(page, 'marked titles', () => [...document.querySelectorAll('.dv-tab:has(.selected)')].some((t) => t.textContent.trim() === 'Bug/Light'));
+  assert.ok((await marked()).includes('Over time') && !(await marked()).includes('Bug/Motor'), (await marked()).join());
+  await shot('marked');
+  const count = (await tabs()).length;
+  await inspector.getByLabel('Name', { exact: true }).fill('Lamp');
+  await inspector.getByLabel('Name', { exact: true }).press('Enter');
+  await plot('Space plot of Bug/Lamp').waitFor();
+  assert.ok((await tabs()).includes('Bug/Lamp') && (await tabs()).length === count);
+  await page.locator('.dv-tab', { hasText: 'Over time' }).first().click();
+  await time.getByRole('button', { name: 'Change Bug/Lamp(17,1)' }).waitFor();
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  await until(page, 'a value of the renamed group', () => [...document.querySelectorAll('.key')].some((k) => k.textContent.includes('Bug/Lamp(17,1)') && /\d$/.test(k.querySelector('.number').textContent)));
+  await page.getByRole('button', { name: 'Pause', exact: true }).click();
+
+  step('a group that is deleted takes its panels with it, and one undo brings both back');
+  await tree.getByText('Motor', { exact: true }).click();
+  await page.keyboard.press('Delete');
+  await page.getByText(/^Bug\/Motor is gone, and its \d panels are closed. Undo brings back both.$/).waitFor();
+  assert.ok(!(await tabs()).some((t) => t.includes('Motor')), (await tabs()).join());
+  await page.getByRole('button', { name: 'Undo' }).first().click();
+  await until(page, 'the panels of Bug/Motor', () => [...document.querySelectorAll('.dv-tab')].filter((t) => /^Bug\/Motor( raster)?$/.test(t.textContent.trim())).length === 2);
+
+  step('sparse groups have their lattice in space plots and wiring, whose cells are chosen by keyboard');
+  const kinds = [['learns', '<Synapse name="synapseHebbian"><Parameter name="lrate" value="0.1"/><XRefHolder name="Freedback"><XRef name="postact" target="act"/></XRefHolder></Synapse>'], ['constant', '<Synapse name="synapseFixedWeight"><Parameter name="weight" value="0.5"/></Synapse>']];
+  writeFileSync(join(folder, 'small.iqr'), `<System id="s" name="S"><Process id="p" name="P">
+    <Group id="a" name="A"><Topology><TopologySparse><Point x="2" y="3"/><Point x="3" y="1"/><Point x="1" y="1"/></TopologySparse></Topology><Neuron name="neuronRandomSpike"/></Group>
+    <Group id="b" name="B"><Topology><TopologyRect hcount="3" vcount="2" cylinderHor="false" cylinderVert="false"/></Topology><Neuron name="neuronLinearThreshold"/></Group>
+  </Process>${kinds.map(([name, synapse]) => `<Connection id="${name}" name="${name}" source="a" target="b" type="excitatory"><Pattern><PatternForeach/></Pattern>${synapse}</Connection>`).join('')}</System>`);
+  await page.goto(await start(forage, ['small.iqr']).address);
+  await tree.getByText('A', { exact: true }).click();
+  await inspector.getByRole('button', { name: 'Space' }).click();
+  const sparse = plot('Space plot of P/A');
+  await until(page, 'a lattice of 3 × 3', () => document.querySelector('[aria-label="Space plot of P/A"] canvas.heat')?.height === 3);
+  await sparse.getByRole('application').focus();
+  await page.keyboard.press('ArrowRight');
+  for (const [key, text] of [['ArrowRight', '(2, 1) no cell'], ['ArrowRight', '(3, 1) '], ['Control+a', '3 cells, mean']]) {
+    await page.keyboard.press(key);
+    await sparse.getByText(text).waitFor();
+  }
+  await shot('sparse');
+  await tree.getByRole('button', { name: 'Connections', exact: true }).last().click();
+  await tree.getByText('constant', { exact: true }).click();
+  const plots = () => inspector.locator('.open button').allInnerTexts();
+  assert.deepEqual(await plots(), ['Wiring'], 'synapses that keep nothing have no plot of their states');
+  await tree.getByText('learns', { exact: true }).click();
+  assert.deepEqual(await plots(), ['Wiring', 'Weight', 'Synaptic potential']);
+  await inspector.getByRole('button', { name: 'Wiring' }).click();
+  const wiring = plot('Wiring of learns');
+  const source = wiring.getByRole('application', { name: 'Choose a source cell' }), target = wiring.getByRole('application', { name: 'Choose a target cell' });
+  await wiring.waitFor();
+  await wiring.getByText('6 synapses').waitFor();
+  await source.focus();
+  for (const key of ['Enter', 'ArrowRight', 'End', 'ArrowLeft', 'Enter']) await page.keyboard.press(key);
+  assert.equal(await wiring.getByRole('spinbutton').inputValue(), '3');
+  assert.deepEqual(await source.locator('canvas').evaluate((c) => [c.width, c.height]), [3, 3]);
+  await target.focus();
+  for (const key of ['ArrowRight', 'ArrowDown', 'Enter']) await page.keyboard.press(key);
+  await wiring.getByText('3 synapses').waitFor();
+  assert.equal(await wiring.getByRole('spinbutton').inputValue(), '4');
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  await wiring.getByLabel('What is shown').selectOption({ label: 'Weight, live' });
+  await source.focus();
+  await page.keyboard.press('Home');
+  await wiring.getByText(/^source \(1, 1\) [\d.e-]+$/).waitFor();
+  await until(page, 'a weight that learns', () => parseFloat([...document.querySelectorAll('[aria-label="Wiring of learns"] [role=status]')][0].textContent.split(') ')[1]) > 0);
+  assert.match(await saved(wiring, 'csv'), /^source,target,strength,distance,delay,weight\n1,4,/);
+  assert.match(await saved(wiring, 'svg'), /<rect .*>P\/A<.*>P\/B</s);
+  png(await saved(wiring, 'png'));
+  await shot('wiring');
+
+  step('weights: the value of a synapse, its course, the scale, and files');
+  await inspector.getByRole('button', { name: 'Weight' }).click();
+  const weights = plot('Weights of learns');
+  await weights.getByRole('application').focus();
+  for (const key of ['End', 'ArrowLeft']) await page.keyboard.press(key);
+  await weights.getByText(/^\(3, 1\) → \(3, 2\) [\d.e-]+$/).waitFor();
+  assert.equal((await saved(weights, 'svg')).match(/<rect /g).length, 18);
+  assert.match(await saved(weights, 'csv'), /^source 1,source 2,source 3\n([\d.e-]+,){2}/);
+  await weights.getByLabel('Colour scale').selectOption('manual');
+  await weights.getByLabel('State').selectOption({ label: 'Synaptic potential' });
+  await shot('weights');
+  await weights.getByRole('button', { name: 'This synapse over time' }).click();
+  await page.getByRole('button', { name: /^Change learns:\w+\(2,6\)$/ }).waitFor();
+  await page.getByRole('button', { name: 'Pause', exact: true }).click();
 
   assert.deepEqual(faults, []);
   console.log('all fine');

@@ -1,0 +1,62 @@
+// Panels follow the items that they show: they keep to an item that gets another name, and close with one that goes.
+import type { PanelState } from '../panels/registry';
+import { parseSource, renamedSource } from '../panels/sources';
+import type { SystemMessage } from '../protocol/messages';
+
+/** What an edit did to the names of items: paths of groups, and names of connections and processes. */
+export interface NameChanges {
+  /** The new names, by the old ones. */
+  names: Map<string, string>;
+  /** The ids of items that are gone, by their names. */
+  gone: Map<string, string>;
+}
+
+function named(system: SystemMessage): Map<string, string> {
+  const all = new Map<string, string>();
+  for (const p of system.processes) {
+    all.set(p.id, p.name);
+    for (const g of p.groups) all.set(g.id, g.path);
+  }
+  for (const c of system.connections) all.set(c.id, c.name);
+  return all;
+}
+
+export function nameChanges(before: SystemMessage, after: SystemMessage): NameChanges {
+  const old = named(before), now = named(after), taken = new Set(now.values());
+  const out: NameChanges = { names: new Map(), gone: new Map() };
+  for (const [id, name] of old) {
+    const next = now.get(id);
+    if (next === undefined) {
+      if (!taken.has(name)) out.gone.set(name, id);
+    } else if (next !== name) out.names.set(name, next);
+  }
+  return out;
+}
+
+/** Kinds of panels that show one item of the system. */
+const ofItem = ['space', 'raster', 'manipulate', 'weights', 'wiring'];
+
+interface Row { item: string }
+
+/** A panel after an edit: itself when nothing changes for it, the id of what it showed when that is gone. */
+export function followed(panel: PanelState, { names, gone }: NameChanges): PanelState | string {
+  const next = { ...panel };
+  if (panel.item && ofItem.includes(panel.kind)) {
+    const lost = gone.get(panel.item) ?? [...gone.values()].find((id) => id === panel.item);
+    if (lost) return lost;
+    next.item = names.get(panel.item) ?? panel.item;
+  }
+  if (panel.sources?.length) {
+    const lost = panel.sources.map((s) => gone.get(parseSource(s, gone.keys())?.item ?? ''));
+    next.sources = panel.sources.filter((_, i) => !lost[i]).map((s) => renamedSource(s, names));
+    if (panel.kind === 'time' && next.sources.length === 0) return lost[0]!;
+  }
+  if (Array.isArray(panel.rows)) next.rows = (panel.rows as Row[]).filter((r) => !gone.has(r.item)).map((r) => ({ ...r, item: names.get(r.item) ?? r.item }));
+  return JSON.stringify(next) === JSON.stringify(panel) ? panel : next;
+}
+
+/** Whether a panel shows one of these items, which are named and by their ids. */
+export function shows(panel: PanelState, names: ReadonlySet<string>): boolean {
+  if (panel.kind === 'time') return (panel.sources ?? []).some((s) => parseSource(s, names) !== null);
+  return ofItem.includes(panel.kind) && names.has(panel.item ?? '');
+}
