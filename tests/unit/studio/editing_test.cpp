@@ -448,6 +448,15 @@ TEST_CASE("the vocabulary has every element of the check, and names what its tex
         for (const auto& c : e1["children"]) element(c["name"].get<std::string>());
 }
 
+TEST_CASE("the places of a sparse group are those of its cells, row by row") {
+    Editor e;
+    const auto id = e.last["system"]["processes"][0]["groups"][0]["id"].get<std::string>();
+    e.edit({{{"do", "topology"}, {"id", id}, {"points", {{2, 3}, {3, 1}, {2, 3}, {1, 1}}}}});
+    const json group = e.group(id);
+    CHECK(group["cells"] == 3);
+    CHECK(group["places"] == json({{0, 0}, {2, 0}, {1, 2}}));
+}
+
 TEST_CASE("a new system is built from nothing, saved under a name, and opened again") {
     Editor e;
     e.result({{"command", "new"}, {"name", "Nothing yet"}});
@@ -466,6 +475,7 @@ TEST_CASE("a new system is built from nothing, saved under a name, and opened ag
     e.edit({{{"do", "add_connection"}, {"source", g}, {"target", h}, {"kind", "excitatory"}}});
     CHECK(e.last["document"]["running_is_current"] == true);
     CHECK(e.last["system"]["connections"][0]["synapses"] == 1);
+    CHECK(e.last["system"]["connections"][0]["states"] == json::array());  // one weight for all synapses
     const auto file = (e.folder / "new.iqr").string();
     e.result({{"command", "save"}, {"file", file}});
     CHECK(e.last["document"]["file"] == file);
