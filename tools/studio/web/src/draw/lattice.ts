@@ -67,6 +67,30 @@ export class Lattice {
   }
 }
 
+/** A part of a lattice, which has places of its own. */
+export class View {
+  constructor(private readonly all: number, readonly x: number, readonly y: number, readonly columns: number, readonly rows: number) {}
+  /** The smallest part of a lattice of `all` columns with these places. */
+  static around(places: Iterable<number>, all: number): View {
+    const list = [...places], xs = list.map((p) => p % all), ys = list.map((p) => Math.floor(p / all));
+    const x = Math.min(...xs), y = Math.min(...ys);
+    return new View(all, x, y, Math.max(...xs) - x + 1, Math.max(...ys) - y + 1);
+  }
+  /** The place in the lattice. */
+  out(place: number): number {
+    return (this.y + Math.floor(place / this.columns)) * this.all + this.x + (place % this.columns);
+  }
+  /** The place in the part; null outside. */
+  in(place: number): number | null {
+    const x = (place % this.all) - this.x, y = Math.floor(place / this.all) - this.y;
+    return x >= 0 && y >= 0 && x < this.columns && y < this.rows ? y * this.columns + x : null;
+  }
+  /** The values of the part. */
+  crop(values: ArrayLike<number>): Float32Array {
+    return Float32Array.from({ length: this.columns * this.rows }, (_, i) => values[this.out(i)] ?? NaN);
+  }
+}
+
 /** The places of the rectangle between two places. */
 export function rectangle(a: number, b: number, columns: number): number[] {
   const [x0, x1] = [a % columns, b % columns].sort((p, q) => p - q) as [number, number];

@@ -65,6 +65,24 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.keyboard.press('Shift+ArrowDown');
   await chosen.getByText('6 cells, mean').waitFor();
 
+  step('space: the rectangle of the selection is enlarged, read and selected as before, until Escape');
+  const width = () => space.locator('canvas.heat').evaluate((c) => `${c.width} ${c.height}`);
+  await chosen.getByRole('button', { name: 'Zoom' }).click();
+  await until(page, 'three columns', () => document.querySelector('[aria-label="Space plot of Bug/Motor"] canvas.heat').width === 3);
+  assert.equal(await width(), '3 2');
+  await cells.focus();
+  await page.keyboard.press('Home');
+  await space.getByText('(4, 1)').waitFor();
+  await page.keyboard.press('Control+a');
+  await chosen.getByText(`6 cells, mean`).waitFor();
+  for (const left of ['the selection', 'the cursor', 'the part']) {
+    await page.keyboard.press('Escape');
+    assert.equal(await space.getByRole('button', { name: 'Whole' }).count(), left === 'the part' ? 0 : 1, left);
+  }
+  assert.equal(await width(), '9 9');
+  await page.mouse.click(...(await at(4, 1)));
+  for (const key of ['ArrowRight', 'ArrowRight', 'ArrowDown']) await page.keyboard.press(`Shift+${key}`);
+
   step('space: the selection over time, as a mean and as cells');
   await chosen.getByRole('button', { name: 'Mean', exact: true }).click();
   await until(page, 'the mean over time', () => document.querySelector('.key .name')?.textContent === 'mean(Bug/Motor:act(4..6,1..2))');

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { Lattice, meanAt, outline, rectangle } from '../../src/draw/lattice';
+import { Lattice, meanAt, outline, rectangle, View } from '../../src/draw/lattice';
 import { parseSource, renamedSource, singleCells, sourceText } from '../../src/panels/sources';
 
 describe('Lattice', () => {
@@ -24,6 +24,13 @@ describe('Lattice', () => {
   });
   it('finds rectangles whichever corner they begin at', () => expect(rectangle(6, 1, 4)).toEqual([1, 2, 5, 6]));
   it('draws the edge of a selection, not the lines between its cells', () => expect(outline(new Set([0, 1]), 4)).toBe('M0 0h1M0 1h1M0 0v1M1 0h1M1 1h1M2 0v1'));
+  it('is shown in part', () => {
+    const view = View.around([6, 9, 10], 4);
+    expect([view.x, view.y, view.columns, view.rows]).toEqual([1, 1, 2, 2]);
+    expect([0, 1, 2, 3].map((p) => view.out(p))).toEqual([5, 6, 9, 10]);
+    expect([view.in(10), view.in(4), view.in(2)]).toEqual([3, null, null]);
+    expect(Array.from(view.crop(Array.from({ length: 12 }, (_, i) => i)))).toEqual([5, 6, 9, 10]);
+  });
   it('leaves out holes in a mean', () => {
     expect(meanAt([0, 1, 2], [1, NaN, 4])).toBe(2.5);
     expect(meanAt([1], [1, NaN])).toBeNaN();
