@@ -80,4 +80,16 @@ std::vector<std::vector<double>> read_patterns(const std::string& path, const Gr
     return text ? parse_patterns(*text, path, shape, diagnostics) : std::vector<std::vector<double>>();
 }
 
+std::string patterns_text(const std::vector<std::vector<double>>& patterns, const GroupShape& shape) {
+    const bool sparse = shape.cells != shape.width * shape.height;
+    const auto width = static_cast<std::size_t>(sparse ? shape.cells : shape.width);
+    std::string out;
+    for (const auto& pattern : patterns) {
+        if (!out.empty()) out += '\n';
+        for (std::size_t i = 0; i < pattern.size(); ++i)
+            out += fmt::format("{}{}", pattern[i], (i + 1) % width == 0 ? '\n' : ' ');
+    }
+    return out;
+}
+
 }  // namespace forage::observe

@@ -17,5 +17,7 @@ std::vector<std::vector<double>> read_patterns(const std::string& path, const Gr
 /// Reads patterns from a text. `path` is its name in messages.
 std::vector<std::vector<double>> parse_patterns(const std::string& text, const std::string& path,
                                                 const GroupShape& shape, Diagnostics& diagnostics);
+/// The text of such a file. Every number is read back as the same one.
+std::string patterns_text(const std::vector<std::vector<double>>& patterns, const GroupShape& shape);
 
 }  // namespace forage::observe

@@ -23,6 +23,7 @@ def test_what_a_page_does_is_repeated_in_python(dac):
             ("manipulate", {"group": "Bug/Motor", "mode": "add", "patterns": [motor], "every": 2}),
             ("manipulate", {"group": "Bug/Light", "patterns": [[0.5] * 32]}),
             ("undo", {}),
+            ("manipulate", {"group": "Bug/Light", "patterns": [[0.5] * 32, [0.1] * 32, [0.3] * 32], "step": 2, "backwards": True, "times": 3}),
             ("move", {"robot": robot, "x": 0.5, "y": -0.5}),
             ("begin_trial", {}),
             ("revoke", {"group": "Bug/Motor"}),
@@ -35,13 +36,28 @@ def test_what_a_page_does_is_repeated_in_python(dac):
         wanted = page.do("digest")
         actions = [m for m in page.messages if m["type"] == "action"]
         page.close()
-    assert len(actions) == 8
+    assert len(actions) == 9
     names = {"run": dac}
     for action in actions:
         dac.run(cycles=action["cycle"] - dac.cycle) if action["cycle"] > dac.cycle else None
         exec(action["python"], names)
     dac.run(cycles=wanted["cycle"] - dac.cycle)
     assert dac.digest() == wanted["digest"]
+
+
+def test_a_restart_with_another_seed_is_repeated_in_python():
+    with Studio(os.environ["FORAGE"], str(SYSTEMS / "dac_foraging.iqr"), "--world", str(WORLD)) as studio:
+        page = Page(studio)
+        page.do("restart", seed=7)
+        page.do("step", cycles=20)
+        wanted = page.do("digest")["digest"]
+        python = page.last("action")["python"]
+        page.close()
+    names = {"forage": forage}
+    exec(python, names)
+    with names["run"] as run:
+        run.run(cycles=20)
+        assert run.digest() == wanted
 
 
 def test_robots_are_moved_and_begin_trials(dac):

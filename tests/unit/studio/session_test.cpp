@@ -7,6 +7,9 @@
 #include <filesystem>
 #include <map>
 
+#include "bug_interface/simulation/world.h"
+#include "core/base/output_files.h"
+#include "core/base/text_file.h"
 #include "tests/support/catch.h"
 #include "tools/studio/server/commands.h"
 #include "tools/studio/server/http_server.h"
@@ -304,8 +307,165 @@ TEST_CASE("panels and sets of parameters are written and read back, in the form 
     f.result({{"command", "undo"}});
     CHECK(std::get<double>(f.session.run().parameter(name)) == 0.625);
     CHECK(f.ask({{"command", "panel_read"}, {"file", values}})["ok"] == false);
+    // A file is replaced only when the command says so.
+    for (json again : {json{{"command", "panel_write"}, {"file", panel}, {"rows", rows}},
+                       json{{"command", "parameters_write"}, {"file", values}, {"rows", rows}}}) {
+        const json refused = f.ask(again);
+        CHECK(refused["ok"] == false);
+        CHECK(refused.dump().find("overwrite it") != std::string::npos);
+        again["overwrite"] = true;
+        f.result(again);
+    }
+    // It now has the values of the rows alone; what the system does not have is told, the rest is set.
+    CHECK(f.result({{"command", "parameters_read"}, {"file", values}})["set"] == 1);
+    std::string text = read_file(values);
+    const std::string one =
+        text.substr(text.find("<Parameter"), text.find("/>") + 2 - text.find("<Parameter"));
+    std::string other = one;
+    other.replace(other.find("itemID=\"") + 8, 1, "no-");
+    write_file(values, text.replace(text.find(one), one.size(), one + other));
+    const json partly = f.result({{"command", "parameters_read"}, {"file", values}});
+    CHECK(partly["set"] == 1);
+    CHECK(partly["missing"].size() == 1);
+    write_file(values, text.replace(text.find(one), one.size(), ""));
+    CHECK(f.ask({{"command", "parameters_read"}, {"file", values}})["ok"] == false);
     CHECK(f.ask({{"command", "panel_write"}, {"file", "/etc/passwd"}, {"rows", rows}})["ok"] == false);
     std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("lists of patterns are written and read back, and played as they are asked to") {
+    Fixture f;
+    f.session.connect(1);
+    const auto file = std::filesystem::temp_directory_path() / "forage-studio-patterns.txt";
+    std::filesystem::remove(file);
+    std::vector<std::vector<double>> patterns(3, std::vector<double>(81));
+    for (std::size_t i = 0; i < 3; ++i) patterns[i][i] = 0.1 * static_cast<double>(i + 1);
+    const json write = {{"command", "patterns_write"},
+                        {"group", "Bug/Motor"},
+                        {"file", file.string()},
+                        {"patterns", patterns}};
+    f.result(write);
+    CHECK(f.ask(write)["ok"] == false);  // it exists
+    CHECK(f.result(
+              {{"command", "patterns_read"}, {"group", "Bug/Motor"}, {"file", file.string()}})["patterns"] ==
+          patterns);
+    std::filesystem::remove(file);
+    f.result({{"command", "manipulate"},
+              {"group", "Bug/Motor"},
+              {"patterns", patterns},
+              {"step", 2},
+              {"times", 1},
+              {"backwards", true}});
+    const json action = f.messages[1].back()["type"] == "action" ? f.messages[1].back()
+                                                                 : f.messages[1][f.messages[1].size() - 2];
+    CHECK(action["shell"].get<std::string>().find("; step 2; times 1; backwards") != std::string::npos);
+    CHECK(action["python"].get<std::string>().find("[::-1][::2], times=1)") != std::string::npos);
+    const auto cell = [&](std::size_t i) {
+        f.result({{"command", "step"}});
+        return f.result({{"command", "read"}, {"source", "Bug/Motor"}})["values"][i].get<double>();
+    };
+    CHECK(cell(2) == Approx(0.3));
+    CHECK(cell(0) == Approx(0.1));
+}
+
+TEST_CASE("a robot that was moved is put back by undo, a series of steps of keys at once") {
+    Fixture f;
+    f.session.connect(1);
+    const auto robot = f.session.run().environment()->robot_names().front();
+    const auto at = [&] { return f.session.run().environment()->pose(0); };
+    const auto before = at();
+    const auto to = [&](double x, const char* merge) {
+        f.result({{"command", "move"}, {"robot", robot}, {"x", x}, {"y", 0}, {"merge", merge}});
+    };
+    to(0.5, ""), to(0.6, "keys 1"), to(0.7, "keys 1"), to(0.8, "keys 2");
+    f.result({{"command", "undo"}});
+    CHECK(at().x == Approx(0.7));
+    f.result({{"command", "undo"}});
+    CHECK(at().x == Approx(0.5));
+    f.result({{"command", "undo"}});
+    CHECK(at().x == Approx(before.x));
+    CHECK(at().y == Approx(before.y));
+    CHECK(at().yaw == Approx(before.yaw));
+    f.result({{"command", "redo"}}), f.result({{"command", "redo"}});
+    CHECK(at().x == Approx(0.7));
+}
+
+TEST_CASE("a light is moved while the run goes: robot, weights and cycle stay, and undo puts it back") {
+    Fixture f;
+    f.session.connect(1);
+    f.result({{"command", "step"}, {"cycles", 40}});
+    const auto world = [&] { return dynamic_cast<const bug::World*>(f.session.run().environment()); };
+    const auto robot = f.session.run().environment()->pose(0);
+    const auto light = world()->targets().front();
+    const json items = f.result({{"command", "world_document"}})["items"];
+    const auto item = std::ranges::find_if(items, [](const json& i) { return i["kind"] == "light"; });
+    REQUIRE(item != items.end());
+    const auto edit = [&](double x) -> json {
+        return {{"command", "world_edit"},
+                {"operations", {{{"do", "move"}, {"id", (*item)["id"]}, {"x", x}, {"y", light.y()}}}},
+                {"run", true}};
+    };
+    f.result(edit(light.x() + 0.5));
+    CHECK(f.session.run().cycle() == 40);
+    CHECK(f.session.run().environment()->pose(0).x == robot.x);
+    CHECK(world()->targets().front().x() == Approx(light.x() + 0.5));
+    const auto& action = *std::find_if(f.messages[1].rbegin(), f.messages[1].rend(),
+                                       [](const json& m) { return m["type"] == "action"; });
+    CHECK(action["ended"] == json::array({"past"}));
+    f.result({{"command", "stop"}});  // the light stays where it was put
+    CHECK(world()->targets().front().x() == Approx(light.x() + 0.5));
+    f.result({{"command", "undo"}});
+    CHECK(world()->targets().front().x() == Approx(light.x()));
+    CHECK(f.result({{"command", "world_document"}})["dirty"] == false);
+    const auto name = f.session.run().environment()->robot_names().front();
+    CHECK(f.ask({{"command", "world_edit"},
+                 {"operations", {{{"do", "remove"}, {"id", name}}}},
+                 {"run", true}})["ok"] == false);
+    CHECK(world()->bugs() == 1);  // a world without its robot is not taken
+}
+
+TEST_CASE("a restart tells its seed, and how to do it without the studio") {
+    Fixture f;
+    f.session.connect(1);
+    f.result({{"command", "restart"}, {"seed", 7}});
+    const auto& sent = f.messages[1];
+    const auto action = std::ranges::find_if(sent, [](const json& m) { return m["type"] == "action"; });
+    REQUIRE(action != sent.end());
+    CHECK((*action)["shell"] == "--seed 7");
+    CHECK((*action)["python"].get<std::string>().find("seed=7)") != std::string::npos);
+}
+
+TEST_CASE("a recording that begins with each run is one of a sequence, unless it says otherwise") {
+    Fixture f;
+    const auto folder = std::filesystem::temp_directory_path() / "forage-studio-sequence";
+    std::filesystem::remove_all(folder), std::filesystem::create_directories(folder);
+    json command = {{"command", "sample"},
+                    {"file", (folder / "t.csv").string()},
+                    {"sources", {"Bug/Light"}},
+                    {"automatic", true}};
+    command["mode"] = "new";
+    CHECK(f.ask(command)["ok"] == false);
+    command.erase("mode");
+    f.result(command);
+    for (int i = 0; i < 2; ++i) f.result({{"command", "step"}}), f.result({{"command", "stop"}});
+    CHECK(std::filesystem::exists(folder / "t_001.csv"));
+    CHECK(std::filesystem::exists(folder / "t_002.csv"));
+    std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("the open system moves to another world, with its edits") {
+    Fixture f;
+    f.session.connect(1);
+    f.result({{"command", "set"}, {"assignments", {"Bug/Light.threshold=0.5"}}});
+    const std::string world = FORAGE_SOURCE_DIR "/systems/worlds/open_arena.world";
+    f.result({{"command", "step"}});
+    f.result({{"command", "world_open"}, {"world", world}});
+    CHECK(f.session.run().cycle() == 0);
+    CHECK(f.session.input().world == world);
+    CHECK(std::get<double>(f.session.run().parameter("Bug/Light.threshold")) == 0.5);
+    CHECK(f.result({{"command", "world_document"}})["file"] == world);
+    CHECK(f.ask({{"command", "world_open"}, {"world", "/no.world"}})["ok"] == false);
+    CHECK(f.session.input().world == world);
 }
 
 TEST_CASE("a session that is killed while it runs goes on where it was kept, byte by byte") {

@@ -41,6 +41,9 @@ struct Commands {
     json restart();
     json speed();
     json open();
+    json world_open();
+    json shipped();
+    json quit();
 
     // ---- looking ----
     json subscribe();
@@ -73,11 +76,12 @@ struct Commands {
     json revoke();
     json manipulations();
     json patterns_read();
+    json patterns_write();
     observe::Manipulation::Settings settings_of(const json& command);
 
     // ---- the world ----
     json move();
-    double heading_of(const std::string& name);
+    std::optional<Pose2> pose_of(const std::string& name);
     json begin_trial();
     /// Changes the run as a noted action says.
     void apply();
@@ -100,10 +104,13 @@ struct Commands {
 
     // ---- panels and sets of parameters ----
     std::string panel_path(const char* ending);
+    /// Throws InputError when a file of this name exists and the command does not say to overwrite it.
+    void check_free(const std::string& path);
     std::vector<xml::PanelRow> panel_rows(const char* ending);
     /// The parameter of an item, as `parameters` describes it. Throws InputError.
     json one_parameter(const std::string& item, const std::string& name);
     static xml::PanelRow row_of(const json& p);
+    std::vector<xml::PanelRow> wanted_rows();  ///< those of the command; throws InputError
     json panel_read();
     json panel_write();
     json parameters_read();
@@ -143,6 +150,10 @@ struct Commands {
     // ---- the text of the world ----
     Session::WorldText& world_text();
     void set_world_text(const std::string& text);
+    /// Builds the run anew in a world of this text: robots and what they carry stay where they are. Throws
+    /// InputError, and leaves the run as it is then.
+    void run_in_world(const std::string& text);
+    void tell_other_world(const std::string& title, const std::vector<std::string>& ended);
     json world_document();
     json world_types();
     json world_edit();

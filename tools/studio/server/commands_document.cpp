@@ -23,7 +23,7 @@ constexpr std::size_t most_text = 4u << 20;  ///< bytes of a text that a page ed
 bool is_shown(const fs::path& file) {
     constexpr std::string_view endings[] = {".iqr",  ".iqrProcess", ".world", ".sdf",  ".xml",
                                             ".conf", ".hconf",      ".pconf", ".json", ".csv",
-                                            ".dat",  ".h5",         ".npy"};
+                                            ".dat",  ".h5",         ".npy",   ".txt"};
     return std::ranges::find(endings, file.extension().string()) != std::end(endings);
 }
 
@@ -56,7 +56,7 @@ json Commands::new_system() {
     const Document made = Document::create(c.at("name").get<std::string>());
     input.text = made.text();
     input.system = "untitled.iqr";
-    input.world = c.value("world", "");
+    input.world = c.value("world", ""), input.world_text.clear();
     s.open_document(input);
     s.document_ = made;
     s.tell_document();

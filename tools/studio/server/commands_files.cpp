@@ -69,6 +69,11 @@ std::string Commands::panel_path(const char* ending) {
     return path;
 }
 
+void Commands::check_free(const std::string& path) {
+    if (!c.value("overwrite", false) && std::filesystem::exists(path))
+        throw InputError(fmt::format("'{}' exists", path), "overwrite it, or choose another name");
+}
+
 std::vector<xml::PanelRow> Commands::panel_rows(const char* ending) {
     const auto path = panel_path(ending);
     Diagnostics diagnostics;
@@ -108,26 +113,49 @@ json Commands::panel_read() {
     return {{"rows", std::move(rows)}};
 }
 
-json Commands::panel_write() {
-    const auto path = panel_path(".hconf");
+std::vector<xml::PanelRow> Commands::wanted_rows() {
     std::vector<xml::PanelRow> rows;
     for (const auto& r : c.at("rows"))
         rows.push_back(
             row_of(one_parameter(r.at("item").get<std::string>(), r.at("parameter").get<std::string>())));
+    return rows;
+}
+
+json Commands::panel_write() {
+    const auto path = panel_path(".hconf");
+    const auto rows = wanted_rows();
+    check_free(path);
     write_file(path, xml::panel_text(rows, false));
     return {{"file", path}};
 }
 
 json Commands::parameters_read() {
-    std::vector<std::string> assignments;
-    for (const auto& r : panel_rows(".pconf"))
-        assignments.push_back(one_parameter(r.id, r.parameter)["assignment"].get<std::string>() + "=" +
-                              r.value);
-    return set(assignments, "parameters of " + c.at("file").get<std::string>(), true);
+    std::vector<std::string> assignments, missing;
+    for (const auto& r : panel_rows(".pconf")) {
+        try {
+            assignments.push_back(one_parameter(r.id, r.parameter)["assignment"].get<std::string>() + "=" +
+                                  r.value);
+        } catch (const InputError& e) {  // the file may be of a larger system
+            missing.emplace_back(e.diagnostics().all().front().message);
+        }
+    }
+    const auto file = c.at("file").get<std::string>();
+    if (assignments.empty())
+        throw InputError(fmt::format("'{}' has no parameter of this system", file),
+                         missing.empty() ? "it is empty" : missing.front());
+    json out = set(assignments, "parameters of " + file, true);
+    out["set"] = assignments.size(), out["missing"] = std::move(missing);
+    return out;
 }
 
 json Commands::parameters_write() {
     const auto path = panel_path(".pconf");
+    check_free(path);
+    if (c.contains("rows")) {
+        const auto chosen = wanted_rows();
+        write_file(path, xml::panel_text(chosen, true));
+        return {{"file", path}, {"rows", chosen.size()}};
+    }
     std::vector<std::string> items = c.value("items", std::vector<std::string>());
     if (items.empty())
         for (const auto& p : run().system().processes) {

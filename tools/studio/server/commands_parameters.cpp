@@ -81,12 +81,17 @@ json Commands::back_or_forth(std::vector<Session::Undo>& from, std::vector<Sessi
     s.undo_.clear(), s.redo_.clear();
     const auto back_again = [&] { s.undo_ = std::move(undone), s.redo_ = std::move(redone); };
     try {
-        if (command.is_null())
+        if (command.is_null()) {
             s.follow_document(title);
-        else if (command.at("command") == "world_text")
+        } else if (command.at("command") == "world_text") {
+            const bool runs = command.value("run", false);
+            const auto ended = s.lost_by_rebuild();
+            if (runs) run_in_world(command.at("text"));
             set_world_text(command.at("text"));
-        else
+            if (runs) tell_other_world(title, ended);
+        } else {
             s.act(command, std::nullopt, told(command, title));
+        }
     } catch (...) {  // what it touched is not there any more; the other steps stay
         back_again();
         throw;

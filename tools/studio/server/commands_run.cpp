@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -52,7 +54,17 @@ json Commands::restart() {
         s.input_.seed = before;
         throw;
     }
-    return {{"seed", s.input_.seed}};
+    const auto seed = s.input_.seed;
+    const auto forms = of_restart(s.input_.system, s.input_.world, seed);
+    s.tell({{"type", "action"},
+            {"generation", s.generation_},
+            {"cycle", run().cycle()},
+            {"command", "restart"},
+            {"title", fmt::format("begin anew with seed {}", seed)},
+            {"shell", forms.shell},
+            {"python", forms.python},
+            {"undoable", false}});
+    return {{"seed", seed}};
 }
 
 json Commands::speed() {
@@ -65,9 +77,48 @@ json Commands::speed() {
     return json::object();
 }
 
+json Commands::world_open() {
+    RunInput input = s.input_;
+    input.world = c.at("world").get<std::string>(), input.world_text.clear();
+    const auto before = std::exchange(s.input_, input);
+    try {
+        s.reset();
+    } catch (...) {
+        s.input_ = before;
+        throw;
+    }
+    s.world_text_.reset();
+    // The steps on the text of the world before say nothing about this one.
+    for (auto* steps : {&s.undo_, &s.redo_})
+        std::erase_if(*steps, [](const auto& step) {
+            const auto command = step.redo.is_object() ? step.redo.value("command", "") : "";
+            return command == "world_text" || command == "move";
+        });
+    ++s.generation_;
+    s.tell(s.world_message()), s.tell(s.system_message()), s.tell_document();
+    return {{"world", input.world}};
+}
+
+json Commands::shipped() {
+    namespace fs = std::filesystem;
+    json worlds = json::array();
+    std::error_code failed;
+    if (!s.shipped_.empty())
+        for (const auto& entry : fs::directory_iterator(fs::path(s.shipped_) / "worlds", failed))
+            if (entry.path().extension() == ".world") worlds.push_back(entry.path().string());
+    std::sort(worlds.begin(), worlds.end());
+    return {{"worlds", std::move(worlds)}};
+}
+
+json Commands::quit() {
+    if (!s.quit) throw InputError("this session cannot be ended by a page");
+    s.quit();
+    return json::object();
+}
+
 json Commands::open() {
     RunInput input = s.input_;
-    input.more.clear(), input.settings.clear(), input.text.clear();
+    input.more.clear(), input.settings.clear(), input.text.clear(), input.world_text.clear();
     const std::filesystem::path folder = c.value("shipped", false) ? s.shipped_ : "";
     const std::string world = c.value("world", "");
     input.system = folder / c.at("system").get<std::string>();

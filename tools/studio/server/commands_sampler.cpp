@@ -42,13 +42,19 @@ std::unique_ptr<observe::RowFile> continued(observe::RecordingFormat format, con
 json Commands::sample() {
     if (s.sampler_) throw InputError("the sampler runs already", "stop it first");
     const bool automatic = c.value("automatic", false);
+    json how = c;
+    // The second run would find the file of the first one.
+    if (automatic && !how.contains("mode")) how["mode"] = "sequence";
+    if (automatic && how["mode"] == "new")
+        throw InputError("a file for each run is one of a sequence, or it is overwritten or appended to",
+                         "sequence, overwrite or append");
     if (automatic && !s.running_) {
-        s.sampler_waits_ = c;
+        s.sampler_waits_ = how;
         s.status_due_ = true;
         return {{"file", nullptr}};
     }
-    begin_sampling(c);
-    if (automatic) s.sampler_waits_ = c;
+    begin_sampling(how);
+    if (automatic) s.sampler_waits_ = how;
     return {{"file", s.sampler_->file}};
 }
 

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include <fmt/format.h>
 
+#include "core/base/output_files.h"
 #include "core/observe/pattern_file.h"
 #include "tools/api/moves.h"
 #include "tools/studio/server/command_functions.h"
@@ -44,9 +46,14 @@ Equivalent Commands::same(const json& command) {
     const auto driven = [&](const json& manipulation) {
         const auto settings = settings_of(manipulation);
         const auto& g = laid(settings.group);
-        return DrivenGroup{g.path, name_of(settings.mode), settings.patterns,
+        return DrivenGroup{g.path,
+                           name_of(settings.mode),
+                           settings.patterns,
                            g.shape.cells == g.shape.width * g.shape.height ? g.shape.width : g.shape.cells,
-                           settings.every};
+                           settings.every,
+                           settings.step,
+                           settings.times,
+                           settings.backwards};
     };
     if (what == "set")
         return of_assignments(command.at("assignments").get<std::vector<std::string>>(), run().cycle());
@@ -103,11 +110,23 @@ json Commands::manipulations() {
 
 json Commands::patterns_read() {
     Diagnostics diagnostics;
-    const auto patterns =
-        observe::parse_patterns(c.at("text").get<std::string>(), c.value("file", "patterns"),
-                                laid(group(c.at("group").get<std::string>())).shape, diagnostics);
+    const auto shape = laid(group(c.at("group").get<std::string>())).shape;
+    const auto patterns = c.contains("text")
+                              ? observe::parse_patterns(c["text"].get<std::string>(),
+                                                        c.value("file", "patterns"), shape, diagnostics)
+                              : observe::read_patterns(c.at("file").get<std::string>(), shape, diagnostics);
     throw_errors(diagnostics);
     return {{"patterns", patterns}};
+}
+
+json Commands::patterns_write() {
+    const auto file = c.at("file").get<std::string>();
+    if (std::filesystem::path(file).extension() != ".txt")
+        throw InputError("the name of a file of patterns ends with .txt");
+    const auto settings = settings_of(c);  // also checks
+    check_free(file);
+    write_file(file, observe::patterns_text(settings.patterns, laid(settings.group).shape));
+    return {{"file", file}};
 }
 
 observe::Manipulation::Settings Commands::settings_of(const json& command) {
@@ -137,21 +156,35 @@ json Commands::move() {
     const bool robot = c.contains("robot");
     const auto name = c.at(robot ? "robot" : "object").get<std::string>();
     const double x = finite(c, "x"), y = finite(c, "y");
-    const double heading =
-        c.contains("heading") && !c["heading"].is_null() ? finite(c, "heading") : heading_of(name);
-    const json command = {
-        {"command", "move"}, {robot ? "robot" : "object", name}, {"x", x}, {"y", y}, {"heading", heading}};
-    s.act(command, std::nullopt, told(command, fmt::format("move {} to ({:.2f}, {:.2f})", name, x, y)));
+    const auto before = pose_of(name);
+    const double heading = c.contains("heading") && !c["heading"].is_null() ? finite(c, "heading")
+                                                                            : before.value_or(Pose2{}).yaw;
+    const auto to = [&](const Pose2& pose) -> json {
+        return {{"command", "move"},
+                {robot ? "robot" : "object", name},
+                {"x", pose.x},
+                {"y", pose.y},
+                {"heading", pose.yaw}};
+    };
+    const json command = to({x, y, heading});
+    const std::string merge = c.value("merge", "");
+    const bool joined = s.joins_move(merge);
+    const auto title = fmt::format("move {} to ({:.2f}, {:.2f})", name, x, y);
+    s.act(command, before && !joined ? std::optional(to(*before)) : std::nullopt, told(command, title));
+    if (joined)
+        s.undo_.back().redo = command, s.undo_.back().title = title, s.redo_.clear();
+    else if (before)
+        s.undo_.back().merge = merge;
     return {{"generation", s.generation_}};
 }
 
-/// The heading of a robot or a movable object; 0 when there is none of this name.
-double Commands::heading_of(const std::string& name) {
+/// The pose of a robot or a movable object; empty when there is none of this name.
+std::optional<Pose2> Commands::pose_of(const std::string& name) {
     const auto& w = world();
-    if (const auto robot = w.find(name)) return w.pose(*robot).yaw;
+    if (const auto robot = w.find(name)) return w.pose(*robot);
     for (std::size_t i = 0; i < w.movable_objects(); ++i)
-        if (w.movable_object(i).name == name) return w.movable_object_pose(i).value_or(Pose2{}).yaw;
-    return 0;
+        if (w.movable_object(i).name == name) return w.movable_object_pose(i);
+    return {};
 }
 
 json Commands::begin_trial() {

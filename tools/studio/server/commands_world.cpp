@@ -127,17 +127,49 @@ json Commands::world_edit() {
     const auto title =
         c.value("title", fmt::format("{} in the world", operations.front().value("do", "edit")));
     const auto merge = c.value("merge", "");
-    const json redo = {{"command", "world_text"}, {"text", text}, {"merge", merge}};
+    const bool runs = c.value("run", false);
+    const auto ended = s.lost_by_rebuild();
+    if (runs) run_in_world(text);
+    const json redo = {{"command", "world_text"}, {"text", text}, {"merge", merge}, {"run", runs}};
     const bool joins = !merge.empty() && !s.undo_.empty() && s.undo_.back().redo.is_object() &&
                        s.undo_.back().redo.value("command", "") == "world_text" &&
                        s.undo_.back().redo.value("merge", "") == merge;
     if (joins)
         s.undo_.back().redo = redo;
     else
-        s.add_undo({{{"command", "world_text"}, {"text", world_text().text}}, redo, title, false});
+        s.add_undo(
+            {{{"command", "world_text"}, {"text", world_text().text}, {"run", runs}}, redo, title, false});
     s.redo_.clear();
     set_world_text(text);
+    if (runs) tell_other_world(title, ended);
     return {{"ids", std::move(ids)}, {"generation", s.generation_}};
+}
+
+void Commands::run_in_world(const std::string& text) {
+    const auto before = std::exchange(s.input_.world_text, text);
+    const auto problems = s.problems_;
+    if (s.rebuild()) return;
+    const auto found = std::exchange(s.problems_, problems);
+    s.input_.world_text = before;
+    for (const auto& p : found)
+        if (p.diagnostic.severity == Severity::error)
+            throw InputError(p.diagnostic.message, "the run keeps its world");
+    throw InputError("the system cannot run in this world", "the run keeps its world");
+}
+
+void Commands::tell_other_world(const std::string& title, const std::vector<std::string>& ended) {
+    ++s.version_;
+    s.status_due_ = true;
+    s.tell({{"type", "action"},
+            {"generation", s.generation_},
+            {"cycle", run().cycle()},
+            {"command", "world_edit"},
+            {"title", title},
+            {"shell", ""},
+            {"python", ""},
+            {"undoable", true},
+            {"ended", ended}});
+    s.tell(s.world_message());
 }
 
 void Commands::set_world_text(const std::string& text) {
@@ -164,11 +196,12 @@ json Commands::world_save() {
     s.make_run(wanted);  // a world in which the system cannot run is not written
     write_file(file, world.text);
     world.saved = world.text, world.path = file;
-    const auto before = std::exchange(s.input_.world, file);
+    const auto before = s.input_;
+    s.input_.world = file, s.input_.world_text.clear();
     try {
         s.reset();  // the run begins anew in the world as it is now
     } catch (...) {
-        s.input_.world = before;
+        s.input_ = before;
         throw;
     }
     s.tell(s.world_message()), s.tell(world_document());

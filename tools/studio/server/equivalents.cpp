@@ -53,7 +53,11 @@ namespace {
 
 /// The option of `forage run` for a manipulation, between two cycles.
 std::string manipulation_option(const DrivenGroup& driven, const std::string& when) {
-    const std::string pace = driven.every > 1 ? fmt::format("; every {}", driven.every) : "";
+    std::string pace;
+    if (driven.every > 1) pace += fmt::format("; every {}", driven.every);
+    if (driven.step > 1) pace += fmt::format("; step {}", driven.step);
+    if (driven.times) pace += fmt::format("; times {}", *driven.times);
+    if (driven.backwards) pace += "; backwards";
     std::string what = driven.group + "=patterns.txt";
     const double neutral = driven.mode == "multiply" ? 1 : 0;
     if (driven.patterns.size() == 1) {
@@ -98,10 +102,15 @@ Equivalent of_manipulation(const DrivenGroup& driven, std::uint64_t cycle) {
                           p.begin() + static_cast<std::ptrdiff_t>(std::min(p.size(), i + width)), ", ")));
         rows.push_back(fmt::format("[{}]", fmt::join(lines, ", ")));
     }
-    const std::string values = rows.size() == 1 ? rows[0] : fmt::format("[{}]", fmt::join(rows, ", "));
+    std::string values = rows.size() == 1 ? rows[0] : fmt::format("[{}]", fmt::join(rows, ", "));
+    if (rows.size() > 1 && driven.backwards) values += "[::-1]";
+    if (rows.size() > 1 && driven.step > 1) values += fmt::format("[::{}]", driven.step);
+    std::string pace;
+    if (driven.every > 1) pace += fmt::format(", every={}", driven.every);
+    if (driven.times) pace += fmt::format(", times={}", *driven.times);
     return {manipulation_option(driven, from(cycle)),
             fmt::format("{} = run[{}].{}({}{})", variable(driven.group), literal(driven.group), driven.mode,
-                        values, driven.every > 1 ? fmt::format(", every={}", driven.every) : "")};
+                        values, pace)};
 }
 
 Equivalent of_end(const DrivenGroup& driven, std::uint64_t begun, std::uint64_t cycle) {
@@ -116,6 +125,12 @@ Equivalent of_move(const std::string& name, double x, double y, double heading) 
 Equivalent of_trial(const std::string& robot, int start) {
     const std::string where = start < 0 ? "" : fmt::format("start={}, ", start);
     return {"", fmt::format("run.begin_trial({}robot={})", where, literal(robot))};
+}
+
+Equivalent of_restart(const std::string& system, const std::string& world, std::uint64_t seed) {
+    const std::string in = world.empty() ? "" : ", world=" + literal(world);
+    return {fmt::format("--seed {}", seed),
+            fmt::format("run = forage.open({}{}, seed={})", literal(system), in, seed)};
 }
 
 Equivalent of_sampling(const std::vector<std::string>& sources, const std::string& file,

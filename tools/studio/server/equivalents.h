@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,9 @@ struct DrivenGroup {
     std::string group, mode;
     std::vector<std::vector<double>> patterns;
     int width = 1;
-    std::uint64_t every = 1;
+    std::uint64_t every = 1, step = 1;
+    std::optional<std::uint64_t> times = {};
+    bool backwards = false;
 };
 /// Its begin, and its end when it began before the cycle `from`.
 Equivalent of_manipulation(const DrivenGroup& driven, std::uint64_t cycle);
@@ -28,6 +31,8 @@ Equivalent of_end(const DrivenGroup& driven, std::uint64_t from, std::uint64_t c
 Equivalent of_move(const std::string& name, double x, double y, double heading);
 /// A new trial; `start` is -1 for the next start pose.
 Equivalent of_trial(const std::string& robot, int start);
+/// A run that begins anew with a seed.
+Equivalent of_restart(const std::string& system, const std::string& world, std::uint64_t seed);
 /// A recording into a file.
 Equivalent of_sampling(const std::vector<std::string>& sources, const std::string& file, std::uint64_t every);
 

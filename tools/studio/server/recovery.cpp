@@ -106,7 +106,8 @@ void archive_input(Archive& archive, RunInput& input) {
         for (auto& path : input.plugins) absolute(path);
     }
     archive(input.system, input.world, input.more, input.replay, input.plugins, input.lenient, input.seed,
-            input.real_time_factor, input.noise, input.sensor_rates, input.latency, input.game, input.text);
+            input.real_time_factor, input.noise, input.sensor_rates, input.latency, input.game, input.text,
+            input.world_text);
     expressions(input.settings), expressions(input.robots);
 }
 

@@ -160,7 +160,7 @@ json Session::world_message() {
     const auto* world = dynamic_cast<const bug::World*>(run_->environment());
     if (!world) return {{"type", "world"}, {"file", nullptr}};
     json out = describe_world(*world);
-    out["picture"] = fmt::format("/picture?what=world&format=png&epoch={}", epoch_);
+    out["picture"] = fmt::format("/picture?what=world&format=png&epoch={}&of={}", epoch_, generation_);
     return out;
 }
 

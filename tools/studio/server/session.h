@@ -66,6 +66,9 @@ class Session {
     /// A picture of the run as the content of a file. Throws InputError.
     std::string picture(const std::string& what, const std::string& format);
 
+    /// Ends the program for a page that asks for it; empty when it cannot.
+    std::function<void()> quit;
+
     Run& run() { return *run_; }
     const RunInput& input() const { return input_; }
     bool running() const { return running_; }
@@ -77,6 +80,7 @@ class Session {
         json undo, redo;  ///< commands that change the run; null when the document alone says what changes
         std::string title;
         bool document = false;      ///< whether it is a step of the document, too
+        std::string merge = {};     ///< a move of the same name joins it; empty for none
         std::size_t bytes() const;  ///< of the texts that it holds
     };
     struct Change {
@@ -106,6 +110,10 @@ class Session {
         std::optional<observe::Recorder> recorder;
     };
 
+    /// Whether the last step is a move with this name, so that the next one joins it.
+    bool joins_move(const std::string& merge) const {
+        return !merge.empty() && !undo_.empty() && undo_.back().merge == merge;
+    }
     void add_undo(Undo step);               ///< the last step; what was undone before cannot be done again
     void trim_undo();                       ///< drops the oldest steps
     void read_plot_config(const Run& run);  ///< throws InputError

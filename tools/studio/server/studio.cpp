@@ -1,5 +1,6 @@
 #include "tools/studio/server/studio.h"
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <thread>
@@ -40,6 +41,8 @@ void serve(const StudioOptions& options, const std::function<void(const Ready&)>
             server->send(client, binary, std::move(data));
         },
         options.plot_config, options.shipped);
+    std::atomic<bool> quits = false;
+    session.quit = [&quits] { quits = true; };
     const std::string note = keep(session, options.recover);
     const Diagnostics mistakes = session.mistakes();
     if (options.running) session.execute(-1, {{"command", "run"}});
@@ -70,7 +73,7 @@ void serve(const StudioOptions& options, const std::function<void(const Ready&)>
     engine = std::make_unique<EngineThread>(session);
     std::thread network([&] { server->run(); });
     ready({fmt::format("http://127.0.0.1:{}/?token={}", server->port(), token), note, mistakes});
-    while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    while (!interrupted() && !quits) std::this_thread::sleep_for(std::chrono::milliseconds(100));
     server->stop();
     network.join();
     engine.reset();
