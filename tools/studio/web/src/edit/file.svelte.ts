@@ -3,15 +3,22 @@ import type { FilesResult } from '../protocol/editing';
 import { actions } from '../stores/actions.svelte';
 import { dock } from '../stores/dock.svelte';
 import { model } from '../stores/model.svelte';
+import { run } from '../stores/run.svelte';
 import { command, request } from '../studio';
 import { CommandError } from '../connection';
 import { baseName, editing, folderOf, sendAll } from './document.svelte';
 import { worldFile } from './world.svelte';
 
-export type FileAction = 'open' | 'save as' | 'import' | 'link' | 'export' | 'new' | 'save the world';
+export type FileAction = 'open' | 'save as' | 'import' | 'link' | 'export' | 'new' | 'world' | 'save the world' | 'other';
+
+/** What a panel does with a file that is chosen; `ending` is added to a name without it. */
+export interface FileTask { title: string; verb: string; ending: string; name?: string; act(file: string, overwrite: boolean): Promise<unknown> }
 
 class FileDialog {
   action = $state<FileAction | null>(null);
+  task = $state.raw<FileTask | null>(null);
+  /** Worlds that come with Forage. */
+  shipped = $state.raw<string[]>([]);
   /** The process that is exported. */
   process = $state<string | null>(null);
   listing = $state.raw<FilesResult | null>(null);
@@ -34,8 +41,17 @@ class FileDialog {
     const world = worldFile.document?.file ?? '';
     if (action === 'save the world') this.name = baseName(world);
     // A world finds its models from its own folder. A system that comes with Forage is saved where the studio was started.
-    if (action !== 'new') void this.list(action === 'save the world' ? folderOf(world) : action === 'save as' && editing.shipped ? '.' : '');
+    void this.list(action === 'save the world' || action === 'world' ? folderOf(world || this.world) : action === 'save as' && editing.shipped ? '.' : '');
+    if (action === 'open' || action === 'new' || action === 'world') void request<{ worlds: string[] }>('shipped').then((r) => (this.shipped = r.worlds), () => {});
     if (action === 'open') void request<{ files: string[] }>('recent').then((r) => (this.recent = r.files), () => {});
+  }
+  /** Asks for a file, and does something with it. Before a file is replaced, the dialog asks again. */
+  choose(task: FileTask): void {
+    this.task = task;
+    this.action = 'other';
+    this.error = this.taken = '';
+    this.name = task.name ?? '';
+    void this.list(editing.shipped ? '.' : '');
   }
   async list(folder: string): Promise<void> {
     try {
@@ -45,12 +61,25 @@ class FileDialog {
       this.error = (e as Error).message;
     }
   }
+  /** Takes a file of the list: for a system that is opened or begun, a world is the one of the other field. */
+  take(file: string): void {
+    if (file.endsWith('.world') && (this.action === 'open' || this.action === 'new')) this.world = this.path(file);
+    else this.name = file;
+  }
+  takes(file: string): boolean {
+    return this.name === file || (file.endsWith('.world') && this.action !== 'world' && this.world === this.path(file));
+  }
   path(name: string): string {
     return name.startsWith('/') || !this.listing ? name : `${this.listing.folder.replace(/\/$/, '')}/${name}`;
   }
+  /** The file that the dialog is about to use. */
+  file(): string {
+    const file = this.path(this.name.trim());
+    return this.action === 'other' && !file.endsWith(this.task!.ending) ? file + this.task!.ending : file;
+  }
   /** Does what the dialog is for. Stays open, with the reason, when that is refused. */
   async act(overwrite = false): Promise<void> {
-    const file = this.path(this.name.trim());
+    const file = this.file();
     const action = this.action!;
     const steps: Record<FileAction, () => Promise<unknown>> = {
       open: () => request('open', { system: file, world: this.world.trim() }),
@@ -58,6 +87,8 @@ class FileDialog {
       import: () => request('import', { file, link: false }),
       link: () => request('import', { file, link: true }),
       export: () => request('export', { process: this.process, file, overwrite }),
+      world: () => request('world_open', { world: file }),
+      other: () => this.task!.act(file, overwrite),
       'save the world': () => request('world_save', { file: /\.world$/.test(file) ? file : `${file}.world`, overwrite }),
       new: () => request('new', { name: this.name.trim() || 'New system', world: this.world.trim() }),
     };
@@ -65,6 +96,7 @@ class FileDialog {
       if (action === 'save as') await sendAll();
       const done = (await steps[action]()) as { file?: string } | undefined;
       this.action = null;
+      if (action === 'world') actions.tell('info', `The run begins anew in ${baseName(file)}.`);
       if (action.startsWith('save')) actions.tell('info', `Saved as ${baseName(done?.file ?? file)}.`);
     } catch (e) {
       this.error = (e as Error).message;
@@ -78,10 +110,22 @@ export const fileDialog = new FileDialog();
 /** Whether the system or its world has changes that are not saved. */
 export const unsaved = () => editing.dirty || worldFile.dirty;
 
+const unsavedText = () => (editing.dirty && worldFile.dirty ? 'The system and its world have' : editing.dirty ? 'The system has' : 'The world has');
+
 /** Whether the present system and world may be left: they are saved, or the user agrees to lose what changed. */
 export function mayLeave(): boolean {
-  const what = editing.dirty && worldFile.dirty ? 'The system and its world have' : editing.dirty ? 'The system has' : 'The world has';
-  return !unsaved() || confirm(`${what} changes that are not saved. Leave them?`);
+  return !unsaved() || confirm(`${unsavedText()} changes that are not saved. Leave them?`);
+}
+
+/** Whether the present world may be left. */
+export const mayLeaveWorld = (): boolean => !worldFile.dirty || confirm('The world has changes that are not saved. Leave them?');
+
+/** Ends the program, and with it the run, for all pages. */
+export async function quit(): Promise<void> {
+  const what = unsaved() ? `${unsavedText()} changes that are not saved. End Forage all the same?` : 'End Forage? The run ends with it.';
+  if (!confirm(what)) return;
+  run.ended = true; // before the server goes
+  if ((await command('quit')) === undefined) run.ended = false;
 }
 
 export async function save(): Promise<void> {

@@ -5,6 +5,8 @@ import type { HelloMessage, StatusMessage } from '../protocol/messages';
 class RunState {
   link = $state<Link>('connecting');
   hello = $state.raw<HelloMessage | null>(null);
+  /** Whether a page has ended the program. */
+  ended = $state(false);
   refused = $state<string | null>(null);
   status = $state.raw<StatusMessage | null>(null);
   framesPerSecond = $state(0);

@@ -1,0 +1,3 @@
+// Whether the dialog about the program is open.
+class About { open = $state(false) }
+export const about = new About();
