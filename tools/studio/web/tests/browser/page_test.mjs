@@ -88,7 +88,9 @@ try {
   await page.getByRole('navigation').getByText('Motor', { exact: true }).click();
   await inspector.getByRole('button', { name: 'Drive' }).click();
   const drive = page.getByRole('group', { name: 'Drive Bug/Motor' });
-  await drive.getByRole('button', { name: /^Cell \(1, 5\)/ }).click();
+  await drive.getByRole('application').focus();
+  for (const key of ['Home', 'ArrowDown', 'ArrowDown', 'ArrowDown', 'ArrowDown', 'Space']) await page.keyboard.press(key);
+  await drive.getByText('Cell (1, 5): 1').waitFor();
   await drive.getByRole('button', { name: 'Send' }).click();
   await page.getByText('Bug/Motor driven by hand').waitFor();
   await page.getByRole('button', { name: 'Run', exact: true }).click();

@@ -68,7 +68,10 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await tutorial.locator('[data-open="0"]').click();
   await page.getByText('Bug/Motor driven by hand').waitFor();
   assert.equal(await refused.count(), 0, 'plots of the larger system are closed');
-  assert.ok(await page.getByRole('group', { name: 'Drive Bug/Motor' }).getByRole('button', { name: 'Cell (5, 1), 1' }).count());
+  const drive = page.getByRole('group', { name: 'Drive Bug/Motor' });
+  await drive.getByRole('application').focus();
+  for (const key of ['Home', 'ArrowRight', 'ArrowRight', 'ArrowRight', 'ArrowRight']) await page.keyboard.press(key);
+  await drive.getByText('Cell (5, 1): 1').waitFor();
   await page.getByRole('button', { name: 'Run', exact: true }).click();
   await until(page, 'the held cell', () => {
     const c = document.querySelector('[aria-label="Space plot of Bug/Motor"] canvas.heat');
