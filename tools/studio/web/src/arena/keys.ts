@@ -42,10 +42,12 @@ export class Mover {
   /** The thing of the last steps, the places where they led it, and when the last one ended. */
   private last: { thing: Thing; places: Place[]; at: number } | null = null;
   private busy = false;
+  /** The number of the series of steps without a pause, which is undone at once. */
+  private series = 0;
 
-  /** `move` asks the server; it fails with the reason when the place is taken. */
+  /** `move` asks the server, with the number of the series of steps; it fails with the reason when the place is taken. */
   constructor(
-    private readonly move: (thing: Thing, to: Place) => Promise<void>,
+    private readonly move: (thing: Thing, to: Place, series: number) => Promise<void>,
     private readonly tell: (text: string) => void,
   ) {}
 
@@ -58,7 +60,7 @@ export class Mover {
     try {
       for (let to: { thing: Thing; place: Place } | null = this.target; to; to = this.target) {
         thing = to.thing;
-        await this.move(to.thing, to.place);
+        await this.move(to.thing, to.place, this.series);
         this.tell(placeText(to.thing.name, to.place));
         if (this.last) this.last.at = performance.now();
         if (this.target === to) this.target = null;
@@ -76,6 +78,7 @@ export class Mover {
     const last = this.last;
     if (last?.thing.index === thing.index && performance.now() - last.at < 1000 && last.places.some((p) => near(p, from))) return last.places[last.places.length - 1]!;
     this.last = { thing, places: [from], at: performance.now() };
+    this.series++;
     return from;
   }
 }

@@ -6,14 +6,16 @@ import { Trail } from './trail';
 type Source = Pick<Streams, 'subscribe'>;
 
 export interface Pose { x: number; y: number; yaw: number; resetting: boolean }
-/** A robot or an object that can be moved. */
-export interface Thing { index: number; kind: 'robot' | 'object'; name: string; radius: number }
+/** A robot, an object or a light that can be moved. A light is moved in the world's file, and has its place there; its index is below 0. */
+export interface Thing { index: number; kind: 'robot' | 'object' | 'light'; name: string; radius: number; place?: Pose }
+/** A light as the world's file has it. */
+export interface Light { id: string; x: number; y: number; yaw: number }
 
 /** Colours of the robots and of their trails. */
 export const robotColours = ['#4aa3ff', '#ffb14a', '#7ddc8a', '#e58be0'];
 export const robotColour = (i: number): string => robotColours[i % robotColours.length]!;
 
-export const thingsOf = (world: WorldMessage): Thing[] => [
+export const thingsOf = (world: WorldMessage, lights: Light[] = []): Thing[] => [
   ...world.robots.map((r, index) => ({ index, kind: 'robot' as const, name: r.name, radius: r.radius })),
   ...world.objects.map((o, k) => ({
     index: world.robots.length + k,
@@ -21,6 +23,7 @@ export const thingsOf = (world: WorldMessage): Thing[] => [
     name: o.name,
     radius: Math.max(0.05, ...o.solids.map((s) => Math.max(s.size[0], s.size[1]) / 2)),
   })),
+  ...lights.map((l, k) => ({ index: -1 - k, kind: 'light' as const, name: l.id, radius: 0.1, place: { x: l.x, y: l.y, yaw: l.yaw, resetting: false } })),
 ];
 
 export class LiveWorld {
@@ -40,6 +43,11 @@ export class LiveWorld {
     const at = 5 * index, state = this.poses[at + 4];
     if (!state) return null;
     return { x: this.poses[at]!, y: this.poses[at + 1]!, yaw: this.poses[at + 3]!, resetting: state === 2 };
+  }
+
+  /** Where a thing is. */
+  poseOf(thing: Thing): Pose | null {
+    return thing.place ?? this.pose(thing.index);
   }
 
   /** Subscribes to poses and trails, and forgets them at the end. */

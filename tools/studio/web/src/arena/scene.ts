@@ -86,8 +86,8 @@ export class WorldScene {
     });
   }
 
-  /** Shows where everything is now, and where the robots of the run to compare with are. Returns the place of the first robot. */
-  update(live: LiveWorld, reference: LiveWorld, shown: { rays: boolean; trails: boolean }): Vector3 | null {
+  /** Shows where everything is now, and where the robots of the run to compare with are. Returns the place of the robot that is followed. */
+  update(live: LiveWorld, reference: LiveWorld, shown: { rays: boolean; trails: boolean }, followed = 0): Vector3 | null {
     this.world.robots.forEach((r, i) => {
       const { parts, arrow, ghost } = this.robots[i]!, pose = live.pose(i), other = reference.pose(i);
       ghost.visible = other !== null;
@@ -120,8 +120,8 @@ export class WorldScene {
           });
     });
     this.trails.show();
-    const first = live.pose(0);
-    return first && new Vector3(first.x, first.y, 0);
+    const place = live.pose(followed);
+    return place && new Vector3(place.x, place.y, 0);
   }
 
   dispose(): void {
