@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/model/lookup.h"
+#include "core/model/refused.h"
 
 namespace forage::model {
 namespace {
@@ -310,14 +311,20 @@ void complete(std::span<Process> processes, std::span<Connection> connections) {
 }
 
 void rename(System& system, std::string_view id, std::string name) {
-    if (auto* p = find_process(system, id))
-        p->name = std::move(name);
-    else if (auto* g = find_group(system, id))
-        g->name = std::move(name);
-    else if (auto* c = find_connection(system, id))
-        c->name = std::move(name);
-    else
-        no_item("process, group or connection", id);
+    if (trim(name).empty()) throw Refused("a name cannot be empty", "write at least one letter or digit");
+    for (auto& p : system.processes) {
+        auto* g = p.id == id ? nullptr : find_in(p.groups, id);
+        if (p.id != id && !g) continue;
+        refuse_linked(p);
+        (g ? g->name : p.name) = std::move(name);
+        return;
+    }
+    auto* c = find_connection(system, id);
+    if (!c) no_item("process, group or connection", id);
+    if (c->linked)
+        throw std::invalid_argument(
+            fmt::format("connection '{}' is in the file of a linked process", trim(c->name)));
+    c->name = std::move(name);
 }
 
 }  // namespace forage::model

@@ -49,7 +49,8 @@ void remove(System& system, std::string_view id);
 /// Forgets the places of phantoms that no page shows any more.
 void forget_phantoms(System& system);
 
-/// Renames a process, group or connection. Throws std::invalid_argument when there is none with this id.
+/// Renames a process, group or connection. Throws Refused for an empty name, and std::invalid_argument when
+/// there is no item with this id or the item is in the file of a linked process.
 void rename(System& system, std::string_view id, std::string name);
 
 /// Gives all ids a prefix CB<n>, as the original does, so that none of them is in `system`. References to

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "core/model/refused.h"
 #include "core/model/validate.h"
 #include "neurons/neurons.h"
 #include "synapses/synapses.h"
@@ -68,6 +69,22 @@ TEST_CASE("Removing a process removes its groups and their connections") {
     REQUIRE(s.processes.size() == 1);
     CHECK(s.processes[0].id == q);
     CHECK(s.connections.empty());
+}
+
+TEST_CASE("An empty name is refused, with a hint, and the item keeps its name") {
+    System s = small();
+    const System before = s;
+    for (const auto& id : {s.processes[0].id, s.processes[0].groups[0].id, s.connections[0].id})
+        for (const char* name : {"", " \t"}) CHECK_THROWS_AS(rename(s, id, name), Refused);
+    CHECK(s == before);
+}
+
+TEST_CASE("What a linked process holds is not renamed") {
+    System s = small();
+    auto& p = s.processes[0];
+    p.path = "part.iqrProcess", p.placeholder = {Process()}, s.connections[0].linked = true;
+    for (const auto& id : {p.id, p.groups[0].id, s.connections[0].id})
+        CHECK_THROWS_AS(rename(s, id, "New"), std::invalid_argument);
 }
 
 TEST_CASE("Editing a copy does not change the original") {

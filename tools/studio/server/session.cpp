@@ -11,6 +11,7 @@
 #include "bug_interface/simulation/world.h"
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
+#include "core/model/refused.h"
 #include "tools/api/describe_json.h"
 #include "tools/api/sources.h"
 #include "tools/plot/world_map.h"
@@ -244,6 +245,8 @@ json Session::execute(int client, const json& command) {
         return {{"ok", false}, {"conflict", true}, {"problems", problem(e.what())}};
     } catch (const InputError& e) {
         return {{"ok", false}, {"problems", problems_of(e.diagnostics())}};
+    } catch (const model::Refused& e) {
+        return {{"ok", false}, {"problems", problem(e.what(), e.hint())}};
     } catch (const json::exception& e) {
         return {{"ok", false}, {"problems", problem(e.what(), "docs/design/studio-protocol.md")}};
     } catch (const std::exception& e) {
