@@ -288,7 +288,7 @@ void set_feedback(System& system, std::string_view id, const std::map<std::strin
     set_references(c.synapse->feedback, states);
 }
 
-System copy(const System& system, std::span<const std::string> ids) {
+System copy(const System& system, std::span<const std::string> ids, Between connections) {
     const std::set<std::string_view> wanted(ids.begin(), ids.end());
     std::set<std::string_view> groups, found;
     System out;
@@ -320,6 +320,7 @@ System copy(const System& system, std::span<const std::string> ids) {
     for (const auto& c : system.connections) {
         if (wanted.contains(c.id)) found.insert(c.id);
         if (!groups.contains(c.source) || !groups.contains(c.target)) continue;
+        if (connections == Between::named && !wanted.contains(c.id)) continue;
         out.connections.push_back(c);
         out.connections.back().linked = false;
         const auto *from = index.find(c.source).process, *to = index.find(c.target).process;

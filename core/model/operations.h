@@ -75,10 +75,12 @@ void set_ports(System& system, std::string_view id, const std::map<std::string, 
 /// Sets the states of the target that a connection's synapse reads.
 void set_feedback(System& system, std::string_view id, const std::map<std::string, std::string>& states);
 
+/// Which connections among groups are copied with them.
+enum class Between { all, named };
 /// The processes, groups and comments with these ids, with all connections among their groups and the
-/// connections with these ids among them, as a system of its own. Groups and comments without their process
-/// are in a process whose id is clipboard_process.
-System copy(const System& system, std::span<const std::string> ids);
+/// connections with these ids among them, as a system of its own; with Between::named only the latter. Groups
+/// and comments without their process are in a process whose id is clipboard_process.
+System copy(const System& system, std::span<const std::string> ids, Between connections = Between::all);
 inline constexpr std::string_view clipboard_process = "clipboard";
 /// Adds what copy() has made, or a whole system, with new ids (a prefix CB<n>, as in the original) and new
 /// names where names are taken. Groups of clipboard_process are added to the process `process`. Comments that

@@ -69,6 +69,9 @@ TEST_CASE("what is copied is pasted with new ids and names, with the connections
     CHECK(one.connections.empty());
     const System both = copy(s.system, std::vector<std::string>{"a", "b"});
     CHECK(both.connections.size() == 1);
+    CHECK(copy(s.system, std::vector<std::string>{"a", "b"}, Between::named).connections.empty());
+    CHECK(copy(s.system, std::vector<std::string>{"a", "b", both.connections[0].id}, Between::named)
+              .connections.size() == 1);
     const auto ids = paste(s.system, both, "p", 100, 100);
     REQUIRE(ids.size() == 3);
     CHECK(ids[0] == "CB1a");
