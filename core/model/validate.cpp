@@ -272,10 +272,13 @@ class Validator {
                 const bool misspelt =
                     it == references.end() && std::find(meant.begin(), meant.end(), port.name) != meant.end();
                 if (enabled && !port.optional && !(misspelt && !out_.lenient))
-                    out_.error(it == references.end() ? use.at : it->at,
-                               fmt::format("the cross reference '{}' of {} is not set", port.name, use.type),
-                               fmt::format("in {}, give it the id of a group for: {}", holder,
-                                           port.label.empty() ? port.name : port.label));
+                    out_.add({Severity::error,
+                              it == references.end() ? use.at : it->at,
+                              fmt::format("the cross reference '{}' of {} is not set", port.name, use.type),
+                              fmt::format("in {}, give it the id of a group for: {}", holder,
+                                          port.label.empty() ? port.name : port.label),
+                              {},
+                              port.name});
                 continue;
             }
             const auto entry = groups_.find(it->target);
@@ -428,11 +431,14 @@ class Validator {
                                          [&](const auto& r) { return r.name == f.name; });
             if (it == use.feedback.end() || it->target.empty()) {
                 if (f.required)
-                    out_.error(
-                        it == use.feedback.end() ? use.at : it->at,
-                        fmt::format("the feedback input '{}' of {} is not set", f.name, use.type),
-                        fmt::format("name a state of the target's {} in <XRefHolder name=\"Freedback\">: {}",
-                                    neuron->name, fmt::join(states, ", ")));
+                    out_.add(
+                        {Severity::error,
+                         it == use.feedback.end() ? use.at : it->at,
+                         fmt::format("the feedback input '{}' of {} is not set", f.name, use.type),
+                         fmt::format("name a state of the target's {} in <XRefHolder name=\"Freedback\">: {}",
+                                     neuron->name, fmt::join(states, ", ")),
+                         {},
+                         f.name});
             } else if (std::find(states.begin(), states.end(), it->target) == states.end()) {
                 out_.error(it->at, fmt::format("{} has no state '{}'", neuron->name, it->target),
                            suggest(it->target, states));

@@ -24,13 +24,25 @@ struct Editor {
     std::map<std::string, json> last;  ///< the last message of each type
     std::optional<Session> session;
 
+    explicit Editor(const std::string& system, const std::vector<std::string>& world_and_others) {
+        open(system, world_and_others);
+    }
     explicit Editor(const std::string& system = "reactive_foraging.iqr", bool world = true) {
+        open(system, world ? std::vector<std::string>{FORAGE_SOURCE_DIR "/systems/worlds/basic_arena.world"}
+                           : std::vector<std::string>());
+    }
+    /// Opens a copy of a system that comes with Forage, in a world if one is named first, with the systems
+    /// that are named after it.
+    void open(const std::string& system, const std::vector<std::string>& world_and_others) {
         fs::create_directories(folder);
         ::setenv("XDG_STATE_HOME", folder.c_str(), 1);
         fs::copy_file(FORAGE_SOURCE_DIR "/systems/" + system, file, fs::copy_options::overwrite_existing);
         RunInput input;
         input.system = file;
-        if (world) input.world = FORAGE_SOURCE_DIR "/systems/worlds/basic_arena.world";
+        if (!world_and_others.empty()) {
+            input.world = world_and_others.front();
+            input.more.assign(world_and_others.begin() + 1, world_and_others.end());
+        }
         session.emplace(input, [this](int, bool binary, std::string data) {
             if (binary) return;
             json message = json::parse(data);
@@ -623,6 +635,84 @@ TEST_CASE("items tell what their forms show, and the synapses of a pattern are t
     CHECK(e.result({{"command", "difference"}})["text"].get<std::string>().find("\n+") != std::string::npos);
     const auto text = e.result({{"command", "item"}, {"item", connection["id"]}})["text"].get<std::string>();
     CHECK(e.ask({{"command", "item_text"}, {"item", connection["id"]}, {"text", text + "<"}})["ok"] == false);
+}
+
+TEST_CASE("a linked process and what it holds have forms that only read") {
+    Editor e;
+    const auto bug = e.last["system"]["processes"][0]["id"];
+    const std::string file = (e.folder / "Part.iqrProcess").string();
+    e.result({{"command", "export"}, {"process", bug}, {"file", file}});
+    const json taken = e.ask({{"command", "import"}, {"file", file}, {"link", true}});
+    CHECK(taken["ok"] == false);
+    CHECK(taken["problems"][0]["hint"] == "import the process instead: it gets ids of its own");
+    e.result({{"command", "new"}, {"name", "Empty"}, {"world", ""}});
+    const auto id = e.result({{"command", "import"}, {"file", file}, {"link", true}})["id"];
+    const json process = e.result({{"command", "item"}, {"item", id}});
+    CHECK(process["kind"] == "process");
+    CHECK(process["linked"] == true);
+    CHECK(process["path"] == file);
+    CHECK(process["module"] == "moduleGazeboBug");
+    CHECK(!process["inputs"].empty());
+    CHECK(!process["parameters"].empty());
+    CHECK(process["text"] == "");
+    const json groups = e.last["system"]["processes"][0]["groups"];
+    REQUIRE(!groups.empty());
+    const json group = e.result({{"command", "item"}, {"item", groups[0]["id"]}});
+    CHECK(group["linked"] == true);
+    CHECK(group["text"] == "");
+}
+
+TEST_CASE("a problem about a port names it, and an empty name is refused with a hint") {
+    Editor e;
+    json bug;
+    for (const auto& p : e.last["system"]["processes"])
+        if (!p["module"].is_null()) bug = p;
+    e.edit({{{"do", "ports"}, {"id", bug["id"]}, {"outputs", json::object()}, {"inputs", {{"_motor", ""}}}}});
+    const json problems = e.last["document"]["problems"];
+    REQUIRE(problems.size() == 1);
+    CHECK(problems[0]["port"] == "_motor");
+    CHECK(problems[0]["item"] == bug["id"]);
+    CHECK(e.last["document"]["running_is_current"] == false);
+    const auto before = e.text();
+    const json refused =
+        e.ask({{"command", "edit"}, {"operations", {{{"do", "rename"}, {"id", bug["id"]}, {"name", " "}}}}});
+    CHECK(refused["ok"] == false);
+    CHECK(refused["problems"][0]["message"] == "a name cannot be empty");
+    CHECK(refused["problems"][0]["hint"] != "");
+    CHECK(e.text() == before);
+}
+
+TEST_CASE("the form of the system keeps what only the original needs") {
+    Editor e;
+    CHECK(e.result({{"command", "item"}, {"item", "system"}})["port"] == "");
+    e.edit({{{"do", "system"}, {"port", "54923"}, {"sync_plots", true}}});
+    const json item = e.result({{"command", "item"}, {"item", "system"}});
+    CHECK(item["port"] == "54923");
+    CHECK(item["sync_plots"] == true);
+    CHECK(e.text().find("syncPlots=\"true\"") != std::string::npos);
+}
+
+TEST_CASE("items of a second system have forms, and are not edited") {
+    const std::string arena = FORAGE_SOURCE_DIR "/systems/worlds/team_arena.world";
+    Editor e("team_a.iqr", {arena, FORAGE_SOURCE_DIR "/systems/team_b.iqr"});
+    const json own = e.last["system"]["processes"].front(), other = e.last["system"]["processes"].back();
+    CHECK(!e.result({{"command", "item"}, {"item", own["id"]}}).contains("other_system"));
+    const json process = e.result({{"command", "item"}, {"item", other["id"]}});
+    CHECK(process["other_system"] == true);
+    CHECK(process["text"] == "");
+    const auto group = other["groups"][0]["id"];
+    const json parameters = e.result({{"command", "item"}, {"item", group}})["parameters"];
+    CHECK(parameters == e.result({{"command", "parameters"}, {"item", group}})["parameters"]);
+    REQUIRE(!parameters.empty());
+    const auto before = e.text();
+    const auto name = parameters[0]["assignment"].get<std::string>();
+    e.result({{"command", "set"}, {"assignments", {name + "=0.5"}}});
+    CHECK(e.result({{"command", "item"}, {"item", group}})["parameters"][0]["value"] == 0.5);
+    CHECK(e.text() == before);
+    const json refused =
+        e.ask({{"command", "edit"}, {"operations", {{{"do", "rename"}, {"id", group}, {"name", "New"}}}}});
+    CHECK(refused["ok"] == false);
+    CHECK(e.ask({{"command", "item"}, {"item", "nothing"}})["ok"] == false);
 }
 
 TEST_CASE("an edit of the structure keeps the cycle, the states and the manipulations of the rest") {

@@ -34,6 +34,23 @@ model::ProcessFile process_file(const std::string& path) {
     return *std::move(file);
 }
 
+/// The ids of a linked process are those of its file, so that they must be free.
+void refuse_taken_ids(const model::System& system, const model::ProcessFile& file, const std::string& path) {
+    const auto refuse_taken = [&](const std::string& id) {
+        const auto has_it = [&](const auto& item) { return item.id == id; };
+        const auto in_process = [&](const auto& p) {
+            return has_it(p) || std::ranges::any_of(p.groups, has_it);
+        };
+        if (std::ranges::any_of(system.processes, in_process) ||
+            std::ranges::any_of(system.connections, has_it))
+            throw InputError(fmt::format("'{}' has the id '{}', which the system has, too", path, id),
+                             "import the process instead: it gets ids of its own");
+    };
+    refuse_taken(file.process.id);
+    for (const auto& g : file.process.groups) refuse_taken(g.id);
+    for (const auto& connection : file.connections) refuse_taken(connection.id);
+}
+
 }  // namespace
 
 json Commands::document_read() {
@@ -115,6 +132,7 @@ json Commands::import_process() {
     const auto path = c.at("file").get<std::string>();
     auto file = process_file(path);
     const std::string title = "import " + fs::path(path).filename().string();
+    if (c.value("link", false)) refuse_taken_ids(document().system(), file, path);
     std::string made;
     document().edit(
         [&](model::System& system) {
@@ -125,12 +143,15 @@ json Commands::import_process() {
             // A link is an empty process whose content is in the file.
             made = model::add_process(system, file.process.name);
             auto& process = *model::find_process(system, made);
-            const auto from = fs::absolute(document().path()).parent_path();
-            process.path = document().path().empty()
-                               ? fs::absolute(path).string()
-                               : fs::relative(fs::absolute(path), from).generic_string();
+            const auto& own = document().path();  // empty before the first save
+            process.path =
+                own.empty()
+                    ? fs::absolute(path).string()
+                    : fs::relative(fs::absolute(path), fs::absolute(own).parent_path()).generic_string();
         },
         title);
+    for (const auto& p : document().system().processes)  // it has the id of its file
+        if (p.linked() && p.placeholder.front().id == made) made = p.id;
     json out = edited(title);
     out["id"] = made;
     return out;

@@ -129,12 +129,25 @@ struct Description {
                 {"width", c.box.width},        {"height", c.box.height},
                 {"linked", in_linked_process}, {"parameters", json::array()}};
     }
+    /// The properties of the item with this id; null when there is none.
+    json of(const std::string& id) {
+        if (id == "system" || id == system.id) return of_system();
+        if (const auto* p = with_id(system.processes, id)) return of(*p);
+        if (const auto* connection = with_id(system.connections, id)) return of(*connection);
+        if (const auto* comment = with_id(system.canvas_comments, id)) return of(*comment, false);
+        for (const auto& p : system.processes)
+            if (const auto* comment = with_id(p.canvas_comments, id)) return of(*comment, p.linked());
+        const auto found = model::GroupIndex(system).find(id);
+        return found.group ? of(*found.group, *found.process) : json();
+    }
     json of_system() {
         return {{"kind", "system"},
                 {"name", trimmed(system.name)},
                 {"author", system.author},
                 {"date", system.date},
                 {"note", system.note.value_or("")},
+                {"port", system.port},
+                {"sync_plots", system.sync_plots},
                 {"cycles_per_second", system.cycles_per_second}};
     }
 };
@@ -194,32 +207,18 @@ std::size_t Commands::synapses_of(const std::string& connection) {
 json Commands::item() {
     const auto id = c.at("item").get<std::string>();
     const auto& system = document().system();
-    Description description{system, document().saved_system(), run().registry()};
-    json out;
-    bool linked = false;
-    if (id == "system" || id == system.id) {
-        out = description.of_system();
-    } else if (const auto* p = with_id(system.processes, id)) {
-        out = description.of(*p);
-    } else if (const auto* connection = with_id(system.connections, id)) {
-        out = description.of(*connection);
-        linked = connection->linked;
-        out["synapses"] = synapses_of(id);
-    } else if (const auto* comment = with_id(system.canvas_comments, id)) {
-        out = description.of(*comment, false);
-    } else if (const auto owner = std::ranges::find_if(
-                   system.processes, [&](const auto& q) { return with_id(q.canvas_comments, id); });
-               owner != system.processes.end()) {
-        linked = owner->linked();
-        out = description.of(*with_id(owner->canvas_comments, id), linked);
-    } else {
-        const auto found = model::GroupIndex(system).find(id);
-        if (!found.group) throw InputError(fmt::format("there is no item with the id '{}'", id));
-        out = description.of(*found.group, *found.process);
-        linked = found.process->linked();
+    json out = Description{system, document().saved_system(), run().registry()}.of(id);
+    if (out.is_null()) {  // another system that runs, too; it has no document
+        const auto all = s.shown_system();
+        out = Description{all, all, run().registry()}.of(id);
+        if (out.is_null()) throw InputError(fmt::format("there is no item with the id '{}'", id));
+        out["other_system"] = true;
+        if (out["kind"] != "comment") out["parameters"] = parameters()["parameters"];
     }
+    if (out["kind"] == "connection") out["synapses"] = synapses_of(id);
     out["id"] = id;
-    const bool here = !linked && (document().readable() || out["kind"] == "system");
+    const bool here = !out.value("linked", false) && !out.contains("other_system") &&
+                      (document().readable() || out["kind"] == "system");
     out["text"] = here ? document().item_text(id == "system" ? system.id : id) : "";
     return out;
 }
@@ -255,7 +254,8 @@ json Commands::text_edit() {
 
 json Commands::copy() {
     const auto ids = c.at("ids").get<std::vector<std::string>>();
-    return {{"text", xml::write_system(model::copy(document().system(), ids))}};
+    const auto connections = c.value("connections", true) ? model::Between::all : model::Between::named;
+    return {{"text", xml::write_system(model::copy(document().system(), ids, connections))}};
 }
 
 json Commands::types() { return describe_types(run().registry()); }

@@ -182,6 +182,8 @@ struct Operation {
         if (const auto* v = member("author")) system.author = v->get<std::string>();
         if (const auto* v = member("date")) system.date = v->get<std::string>();
         if (const auto* v = member("note")) set_note(system, system.id, v->get<std::string>());
+        if (const auto* v = member("port")) system.port = v->get<std::string>();
+        if (const auto* v = member("sync_plots")) system.sync_plots = v->get<bool>();
         if (const auto* v = member("cycles_per_second")) system.cycles_per_second = v->get<double>();
         return nullptr;
     }

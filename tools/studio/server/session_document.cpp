@@ -39,6 +39,8 @@ json json_of(const std::vector<Document::Problem>& problems) {
         one.add(p.diagnostic);
         json row = problems_of(one).front();
         row["item"] = p.item.empty() ? json(nullptr) : json(p.item);
+        if (!p.diagnostic.port.empty()) row["port"] = p.diagnostic.port;
+        if (!p.diagnostic.parameter.empty()) row["parameter"] = p.diagnostic.parameter;
         out.push_back(std::move(row));
     }
     return out;
