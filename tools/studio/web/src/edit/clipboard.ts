@@ -18,9 +18,10 @@ export function withConnections(ids: string[]): string[] {
   return [...new Set([...ids, ...between])];
 }
 
-export async function copy(ids: string[]): Promise<boolean> {
+/** Copies items, with the connections between their groups or without. */
+export async function copy(ids: string[], connections = true): Promise<boolean> {
   if (ids.length === 0) return false;
-  const result = await command<{ text: string }>('copy', { ids: withConnections(ids) });
+  const result = await command<{ text: string }>('copy', connections ? { ids: withConnections(ids) } : { ids, connections });
   if (!result) return false;
   kept = result.text;
   await navigator.clipboard?.writeText(result.text).catch(() => {});
@@ -37,6 +38,7 @@ export async function paste(at: [number, number], text?: string): Promise<void> 
   const content = text ?? (await navigator.clipboard?.readText().catch(() => kept)) ?? kept;
   if (!content.trim()) return actions.tell('info', 'There is nothing to paste.');
   const ids = await edit({ do: 'paste', text: content, ...(selection.process ? { process: selection.process } : {}), x: at[0], y: at[1] });
-  const made = ids?.filter((id): id is string => id !== null) ?? [];
+  // Connections go with their groups, and would hide them in the inspector.
+  const made = ids?.filter((id): id is string => id !== null && model.find(id)?.kind !== 'connection') ?? [];
   if (made.length) selection.set(made);
 }

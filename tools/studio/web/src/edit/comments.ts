@@ -1,13 +1,10 @@
-// Comments on the canvas: how they are made and written, and which ink can be read on their colour.
+// Comments on the canvas: how they are made and written.
 import type { CanvasComment } from '../protocol/messages';
 import { edit } from './operations';
 import { tools } from './tool.svelte';
 
 /** The size of a new comment, in the units of the file. */
 export const newSize = { width: 90, height: 30 };
-
-/** The colour of a comment that has none of its own. */
-export const paper = (dark: boolean): string => (dark ? '#413a1d' : '#fdf3c7');
 
 let drafts = 0;
 /** Lets a new comment be written at a place of the file, in one pane. The document has it with its first text. */
@@ -37,13 +34,4 @@ export async function write(comment: CanvasComment, text: string | null, height:
   if (said === '') void edit({ do: 'remove', ids: [comment.id] });
   else if (said !== null && said !== comment.text) void edit({ do: 'comment', id: comment.id, text: said, ...(height > comment.icon.height ? { height } : {}) });
   return null;
-}
-
-/** Black or white, whichever is read more easily on a colour like "#AABBCC". */
-export function inkOn(colour: string): string {
-  const part = (i: number) => {
-    const v = parseInt(colour.slice(1 + 2 * i, 3 + 2 * i), 16) / 255;
-    return v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
-  };
-  return 0.2126 * part(0) + 0.7152 * part(1) + 0.0722 * part(2) > 0.18 ? '#141414' : '#ffffff';
 }

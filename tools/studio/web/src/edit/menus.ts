@@ -5,7 +5,7 @@ import { dock } from '../stores/dock.svelte';
 import { frame } from '../stores/frame.svelte';
 import { model } from '../stores/model.svelte';
 import { selection } from '../stores/selection.svelte';
-import { copy, cut } from './clipboard';
+import { copy, cut, withConnections } from './clipboard';
 import { editing } from './document.svelte';
 import { fileDialog } from './file.svelte';
 import type { Entries } from './menu.svelte';
@@ -33,16 +33,27 @@ export function itemMenu(id: string): Entries {
   const ids = selection.has(id) ? selection.ids : [id];
   const item = model.find(id);
   if (!item) return [];
+  // The connections between several groups come along, or stay.
+  const joined = withConnections(ids).length > ids.length;
+  const copies: Entries = joined ? [{ label: 'Copy with connections', keys: 'Ctrl C', act: () => copy(ids) }, { label: 'Copy groups only', act: () => copy(ids, false) }] : [{ label: 'Copy', keys: 'Ctrl C', act: () => copy(ids) }];
   const editEntries: Entries = editing.editable
-    ? [null, { label: 'Copy', keys: 'Ctrl C', act: () => copy(ids) }, { label: 'Cut', keys: 'Ctrl X', act: () => cut(ids) }, { label: ids.length > 1 ? `Delete ${ids.length} items` : 'Delete', keys: 'Del', act: () => removeItems(ids) }]
+    ? [null, ...(ids.some((i) => model.find(i)?.kind === 'process') ? [{ label: 'Copy', keys: 'Ctrl C', act: () => copy(ids) }] : copies), { label: 'Cut', keys: 'Ctrl X', act: () => cut(ids) }, { label: ids.length > 1 ? `Delete ${ids.length} items` : 'Delete', keys: 'Del', act: () => removeItems(ids) }]
     : [];
   if (ids.length > 1) {
     const groups = ids.flatMap((i) => model.group(i)?.path ?? []);
-    return [
-      { label: 'Space plots', disabled: !groups.length, act: () => groups.forEach((g) => dock.plot({ kind: 'space', item: g })) },
-      { label: 'Time plot', disabled: !groups.length, act: () => dock.plot({ kind: 'time', sources: groups.map((g) => `mean(${g})`) }) },
-      ...editEntries,
-    ];
+    const connections = ids.flatMap((i) => {
+      const found = model.find(i);
+      return found?.kind === 'connection' ? [found.connection] : [];
+    });
+    const plots: Entries = [];
+    if (groups.length) {
+      plots.push({ label: 'Space plots', act: () => groups.forEach((g) => dock.plot({ kind: 'space', item: g })) });
+      plots.push({ label: 'Time plot', act: () => dock.plot({ kind: 'time', sources: groups.map((g) => `mean(${g})`) }) });
+    }
+    if (connections.length) plots.push({ label: 'Wiring plots', act: () => connections.forEach((c) => dock.plot({ kind: 'wiring', item: c.name })) });
+    const weighed = connections.filter((c) => c.states.length);
+    if (weighed.length) plots.push({ label: 'Weights', act: () => weighed.forEach((c) => dock.plot({ kind: 'weights', item: c.name, state: c.states[0]!.name })) });
+    return plots.length ? [...plots, ...editEntries] : editEntries.slice(1);
   }
   if (item.kind === 'comment') return [...(editing.editable ? [{ label: 'Write', keys: 'Enter', act: () => rename(id) }] : []), { label: 'Properties', act: () => properties(id) }, ...editEntries];
   const first: Entries = [{ label: 'Properties', keys: 'Enter', act: () => properties(id) }];

@@ -26,6 +26,14 @@ export function distributed(boxes: Placed[], axis: 'x' | 'y'): Placed[] {
   return sorted.map((b, i) => ({ ...b, [axis]: Math.round(first + ((last - first) * i) / (sorted.length - 1)) }));
 }
 
+/** A place at or below to the right of `at`, at which a box covers none of the others. */
+export function apart(at: [number, number], boxes: [number, number][]): [number, number] {
+  const near = ([x, y]: [number, number]) => boxes.some((b) => Math.abs(b[0] - x) < 50 && Math.abs(b[1] - y) < 50);
+  let [x, y] = at;
+  while (near([x, y])) (x += 30), (y += 30);
+  return [x, y];
+}
+
 /** A name that none of the others has: "Group 3". */
 export function freshName(stem: string, names: string[]): string {
   const taken = new Set(names);

@@ -6,6 +6,9 @@ class Selection {
   /** The process whose groups the diagram shows; null for the whole system. */
   process = $state<string | null>(null);
 
+  /** What the diagram is to bring into view, when it shows the page; null for nothing. */
+  wanted = $state<string | null>(null);
+
   id = $derived<string | null>(this.ids[this.ids.length - 1] ?? null);
 
   has(id: string): boolean {

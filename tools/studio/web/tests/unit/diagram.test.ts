@@ -1,6 +1,8 @@
 import { describe, expect, it } from 'vitest';
 import { nearestAnchor, pageOf, pointsOf, segmentAt, toFile, type Page } from '../../src/panels/diagram';
-import { aligned, distributed, freshName } from '../../src/edit/places';
+import { fromModule, pageSvg, toModule, wrapped } from '../../src/panels/page_svg';
+import { moduleLinks } from '../../src/panels/module_links';
+import { aligned, apart, distributed, freshName } from '../../src/edit/places';
 import { holds, parseTuples, spanned, tupleText } from '../../src/edit/forms/cells';
 import { anchor, middleOfLongest, nearestPart, roundedPath, type Point } from '../../src/panels/line';
 import type { Connection, ConnectionLine, Group, SystemMessage } from '../../src/protocol/messages';
@@ -169,4 +171,34 @@ describe('cells and names', () => {
     expect(tupleText({ source: [[1, 2]], target: [[3, 4]] })).toBe('1,2 → 3,4');
   });
   it('finds a name that is free', () => expect(freshName('Group', ['Group 1', 'Group 3'])).toBe('Group 2'));
+});
+
+describe('the picture of a page', () => {
+  it('has the boxes, lines and arrows of the page, within its frame', async () => {
+    const s = system([[group('a', 10, 20), group('b & <b>', 200, 20)]], [connection('c', 'a', 'b & <b>', line({ source_anchor: 4, target_anchor: 12, vertices: [[120, -60]] }))]);
+    s.processes[0]!.module = { type: 'm', inputs: [{ name: '_motor', group: 'a' }], outputs: [] };
+    const page = await pageOf(s, s.processes[0]!);
+    const svg = pageSvg(page.boxes, page.lines, s.processes[0]!);
+    expect(svg).toContain('b &amp; &lt;b&gt;');
+    expect(svg.match(/marker-end="url\(#excitatory\)"/g)).toHaveLength(1);
+    expect(svg.split(toModule)).toHaveLength(2); // one arrow, to the module
+    expect(svg.split(fromModule)).toHaveLength(1);
+    const [left, top, width, height] = /viewBox="([^"]+)"/.exec(svg)![1]!.split(' ').map(Number);
+    expect([left, top, width, height]).toEqual([0, -140, 520, 300]);
+  });
+  it('wraps names between words, cuts long ones, and says that there is more', () => {
+    expect(wrapped('one two three', 8, 3)).toEqual(['one two', 'three']);
+    expect(wrapped('abcdefghij', 4, 3)).toEqual(['abcd', 'efgh', 'ij']);
+    expect(wrapped('a b c d', 1, 2)).toEqual(['a', '…']);
+  });
+  it('knows which ports of the module a group has', () => {
+    const s = system([[group('a', 0)]], []);
+    const p = { ...s.processes[0]!, module: { type: 'm', inputs: [{ name: 'i', group: 'a' }, { name: 'j', group: 'b' }], outputs: [{ name: 'o', group: 'a' }] } };
+    expect(moduleLinks(p, 'a')).toEqual({ from: ['o'], to: ['i'] });
+    expect(moduleLinks(s.processes[0]!, 'a')).toEqual({ from: [], to: [] });
+  });
+  it('leaves no box under what is pasted', () => {
+    expect(apart([10, 10], [[10, 10], [70, 70]])).toEqual([130, 130]);
+    expect(apart([10, 10], [[100, 10]])).toEqual([10, 10]);
+  });
 });
