@@ -28,6 +28,8 @@ class Tools {
 
   /** The item whose form is to have the cursor, when it is there. */
   asked = $state<string | null>(null);
+  /** The port or the parameter that is to have it; without one, the first field. */
+  field: string | null = null;
 
   connecting = $derived(this.current !== 'select' && this.current !== 'add' && this.current !== 'comment');
 

@@ -1,0 +1,20 @@
+// Problems in the words of the forms, where the form can mend them.
+import type { DocumentProblem } from '../protocol/editing';
+import { model } from '../stores/model.svelte';
+import { editing } from './document.svelte';
+
+/** A port or an input that is not set, by the name of its field; the words of the file for other problems. */
+export function inWords(p: DocumentProblem): { message: string; hint?: string } {
+  const item = model.find(p.item);
+  if (!p.port || !p.message.endsWith('is not set')) return p;
+  if (item?.kind === 'process') {
+    const type = editing.types?.modules.find((t) => t.type === item.process.module?.type);
+    const port = [...(type?.inputs ?? []), ...(type?.outputs ?? [])].find((q) => q.name === p.port);
+    return { message: `${port?.label || p.port} of the module of ${item.process.name} has no group`, hint: 'Choose one in its form.' };
+  }
+  if (item?.kind === 'connection') {
+    const port = editing.types?.synapses.find((t) => t.type === item.connection.type)?.feedback?.find((q) => q.name === p.port);
+    return { message: `${port?.label || p.port} of the synapse of ${item.connection.name} has no state`, hint: 'Choose one in its form.' };
+  }
+  return p;
+}
