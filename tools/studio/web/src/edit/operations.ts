@@ -1,14 +1,19 @@
 // Changes of the document. Each call is one step of undo.
 import type { Operation } from '../protocol/editing';
 import type { ConnectionKind, ParameterInfo, ParameterValue } from '../protocol/messages';
-import { command } from '../studio';
+import { actions } from '../stores/actions.svelte';
+import { command, request } from '../studio';
 import { editing } from './document.svelte';
 
-/** Sends operations, all of them or none. Resolves with the ids that were made, or undefined when they were refused. */
-export async function edit(operations: Operation | Operation[], title?: string, merge?: string): Promise<(string | null)[] | undefined> {
-  const result = await command<{ ids: (string | string[] | null)[] }>('edit', { operations: [operations].flat(), ...(title ? { title } : {}), ...(merge ? { merge } : {}) });
-  return result?.ids.flat();
+/** Sends operations, all of them or none. Resolves with the ids that were made. Rejects when they are refused, for a form that says so at its field. */
+export async function attempt(operations: Operation | Operation[], title?: string, merge?: string): Promise<(string | null)[]> {
+  const result = await request<{ ids?: (string | string[] | null)[] }>('edit', { operations: [operations].flat(), ...(title ? { title } : {}), ...(merge ? { merge } : {}) });
+  return (result.ids ?? []).flat();
 }
+
+/** The same, which shows what is wrong, and then resolves with undefined. */
+export const edit = (operations: Operation | Operation[], title?: string, merge?: string): Promise<(string | null)[] | undefined> =>
+  attempt(operations, title, merge).catch((error: Error) => void actions.tell('error', error.message));
 
 /** Sets a parameter of items, in the document and in the run. */
 export function setParameter(ids: string[], p: ParameterInfo, value: ParameterValue): void {

@@ -1,7 +1,8 @@
 // What the editor and the server say to each other: the document, its items, the types there are, and the operations.
 import type { ConnectionKind, ParameterInfo, ParameterValue, Problem, State } from './messages';
 
-export interface DocumentProblem extends Problem { item?: string | null }
+/** `port`, `parameter`: the field of the item that it is about. */
+export interface DocumentProblem extends Problem { item?: string | null; port?: string; parameter?: string }
 
 /** The document as it is now. The server sends it after each change. */
 export interface DocumentMessage {
@@ -37,9 +38,10 @@ export type Pattern =
 export interface Typed { type: string; values: Record<string, ParameterValue> }
 
 export interface Topology { form: 'rect' | 'sparse'; width?: number; height?: number; wrap_x?: boolean; wrap_y?: boolean; points?: Place[] }
-export interface Port { name: string; label?: string; doc?: string; group: string }
+export interface Port { name: string; label?: string; doc?: string; optional: boolean; group: string }
 
-interface Common { id: string; name: string; color?: string; note?: string; linked?: boolean; text: string; parameters: ParameterInfo[] }
+/** `linked`: it is in the file of a linked process. `other_system`: it runs beside the system that is edited. */
+interface Common { id: string; name: string; color?: string; note?: string; linked?: boolean; other_system?: boolean; text: string; parameters: ParameterInfo[] }
 export interface Feedback { name: string; label: string; required: boolean; state: string }
 export interface GroupItem extends Common { kind: 'group'; process: string; path: string; neuron: string; topology: Topology }
 export interface ConnectionItem extends Common {
@@ -57,8 +59,8 @@ export interface ConnectionItem extends Common {
   states?: string[];
   synapses: number;
 }
-export interface ProcessItem extends Common { kind: 'process'; enabled: boolean; module: string | null; inputs: Port[]; outputs: Port[] }
-export interface SystemItem extends Common { kind: 'system'; author: string; date: string; cycles_per_second: number }
+export interface ProcessItem extends Common { kind: 'process'; path: string; enabled: boolean; module: string | null; inputs: Port[]; outputs: Port[] }
+export interface SystemItem extends Common { kind: 'system'; author: string; date: string; port: string; sync_plots: boolean; cycles_per_second: number }
 export interface CommentItem extends Common { kind: 'comment'; content: string; width: number; height: number }
 export type EditItem = GroupItem | ConnectionItem | ProcessItem | SystemItem | CommentItem;
 

@@ -13,10 +13,13 @@ vi.mock('../../src/studio', () => {
 
 vi.stubGlobal('navigator', {});
 
+const { actsOn } = await import('../../src/edit/forms/acts');
+const { refusal } = await import('../../src/edit/forms/refusal');
 const { editing } = await import('../../src/edit/document.svelte');
 const { connect, setParameter } = await import('../../src/edit/operations');
 const { copy, cut, paste, withConnections } = await import('../../src/edit/clipboard');
-const { draftComment, inkOn, write } = await import('../../src/edit/comments');
+const { draftComment, write } = await import('../../src/edit/comments');
+const { inkOn } = await import('../../src/draw/ink');
 const { tools } = await import('../../src/edit/tool.svelte');
 const { model } = await import('../../src/stores/model.svelte');
 const { selection } = await import('../../src/stores/selection.svelte');
@@ -99,6 +102,9 @@ describe('the clipboard', () => {
     expect(sent[2]!.operations).toEqual([{ do: 'paste', text: '<clip/>', process: 'p', x: 10, y: 20 }]);
     expect(selection.ids).toEqual(['new', 'newer']);
     expect(await copy([])).toBe(false);
+    sent.length = 0;
+    await copy(['a', 'b'], false);
+    expect(sent).toEqual([{ name: 'copy', ids: ['a', 'b'], connections: false }]);
   });
 });
 
@@ -118,5 +124,21 @@ describe('the selection', () => {
     expect([selection.id, selection.ids]).toEqual(['b', ['a', 'b']]);
     selection.toggle('b');
     expect(selection.id).toBe('a');
+  });
+});
+
+describe('the fields of a form', () => {
+  it('refuse numbers outside of their range, and say the range', () => {
+    expect(refusal(7, 0, 1)).toBe('7 is not taken: 0 to 1.');
+    expect(refusal(0, 1, null)).toBe('0 is not taken: at least 1.');
+    expect(refusal(3, null, 2)).toBe('3 is not taken: at most 2.');
+    expect(refusal(1, 0, 1)).toBe('');
+    expect(refusal(-5, null, null)).toBe('');
+  });
+  it('say what acts on all selected items, and what on one', () => {
+    expect(actsOn('group', 2, 2)).toBe('Colour, neuron, cells and parameters act on the 2 selected groups; name and note act on this one only.');
+    expect(actsOn('group', 3, 2)).toBe('Colour, neuron and cells act on the 3 selected groups, parameters on the 2 of the same type; name and note act on this one only.');
+    expect(actsOn('connection', 2, 1)).toBe('Kind, synapse and feedback act on the 2 selected connections; name, note, ends, pattern, spread and parameters act on this one only.');
+    expect(actsOn('comment', 2, 2)).toBe('Colour and size act on the 2 selected comments; text acts on this one only.');
   });
 });

@@ -1,0 +1,16 @@
+// Where a line that is not drawn by hand leaves and meets its boxes.
+import { boxSize, facingAnchor, scale } from '../panels/diagram';
+import type { Group } from '../protocol/messages';
+import { model } from '../stores/model.svelte';
+
+const box = (g: Group) => ({ x: (g.icon?.x ?? 0) * scale, y: (g.icon?.y ?? 0) * scale, width: boxSize, height: boxSize });
+
+/** The points of two groups that face each other; between processes, lines come from above. */
+export function facingEnds(source: string, target: string): { source_anchor: number; target_anchor: number } {
+  const a = model.group(source), b = model.group(target);
+  if (!a || !b || model.processOf(a.id) !== model.processOf(b.id)) return { source_anchor: 1, target_anchor: 1 };
+  return { source_anchor: facingAnchor(box(a), box(b)), target_anchor: facingAnchor(box(b), box(a)) };
+}
+
+/** The 16 points around a box, as a form names them. */
+export const anchorNames = ['Top', 'Right', 'Bottom', 'Left'].flatMap((side, s) => [1, 2, 3, 4].map((n, i) => ({ value: String(4 * s + i), label: `${side} ${n}` })));

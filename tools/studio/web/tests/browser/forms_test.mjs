@@ -1,0 +1,265 @@
+// Forms and the diagram beside each other, in Chromium against the real program: node forms_test.mjs FORAGE SOURCES
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join, resolve } from 'node:path';
+import { inBrowser } from './support.mjs';
+
+const [forage, sources] = process.argv.slice(2).map((p) => resolve(p));
+const step = (text) => console.log(text);
+
+await inBrowser(sources, async ({ folder, context, start, until }) => {
+  await context.grantPermissions(['clipboard-read', 'clipboard-write']);
+  const faults = [];
+  const listen = (page) => {
+    page.setDefaultTimeout(20000);
+    page.on('pageerror', (e) => faults.push(e.message));
+    page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
+  };
+  const begin = async (args) => {
+    const page = await context.newPage();
+    listen(page);
+    await page.goto(await start(forage, args).address);
+    await page.getByRole('group', { name: 'Arena' }).waitFor();
+    return page;
+  };
+  const paletteOf = (page) => async (text) => {
+    await page.keyboard.press('Control+k');
+    await page.keyboard.type(text);
+    await page.keyboard.press('Enter');
+  };
+  const page = await begin(['systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
+  const palette = paletteOf(page);
+  const diagram = page.getByRole('group', { name: 'Diagram' }), inspector = page.getByRole('region', { name: 'Inspector' }), tree = page.getByRole('navigation');
+  const canvas = diagram.getByRole('application', { name: 'Canvas' });
+  const node = (id) => diagram.locator(`.svelte-flow__node[data-id="${id}"]`);
+  const heading = (name) => inspector.getByRole('heading', { name, exact: true }).waitFor();
+  const pageIs = (name) => diagram.getByRole('group', { name: `Page of ${name}`, exact: true }).waitFor();
+  const alert = (text) => inspector.getByRole('alert').filter({ hasText: text }).waitFor();
+  const row = (id) => tree.locator(`[data-id="${id}"]`);
+  const download = async (act) => {
+    const [file] = await Promise.all([page.waitForEvent('download'), act()]);
+    const path = join(folder, file.suggestedFilename());
+    await file.saveAs(path);
+    return path;
+  };
+  await palette('layout: build');
+
+  step('a page of the diagram is selected with its process, and what is chosen elsewhere opens its page');
+  await diagram.getByRole('button', { name: 'Adaptive', exact: true }).click();
+  await heading('Adaptive');
+  await row('bug.motor').click();
+  await pageIs('Bug');
+  await node('bug.motor').locator('.selected').waitFor();
+  assert.match(await node('bug.motor').locator('.item').getAttribute('title'), /Bug\/Motor.*\n.*9 × 9 cells\nto _motor of the module/);
+  await node('bug.light').getByRole('img', { name: /from the module/ }).waitFor();
+  await palette('CR to Threshold CR');
+  await pageIs('Adaptive');
+  await row('system').click();
+  await pageIs('the system');
+  await inspector.getByLabel('Cycles per second').waitFor();
+  await inspector.getByLabel('Port', { exact: true }).fill('54923');
+  await inspector.getByLabel('Port', { exact: true }).press('Enter');
+  await until(page, 'a change', () => document.title.startsWith('●'));
+
+  step('what was chosen elsewhere is brought into view');
+  await row('bug.motor').click();
+  await pageIs('Bug');
+  const inView = (yes) => until(page, yes ? 'it is seen' : 'it is not seen', (y) => {
+    const seen = document.querySelector('.flow').getBoundingClientRect(), box = document.querySelector('.svelte-flow__node[data-id="bug.light"]').getBoundingClientRect();
+    return y === (box.left < seen.right && box.right > seen.left && box.top < seen.bottom && box.bottom > seen.top);
+  }, yes);
+  const middle = await canvas.boundingBox();
+  await page.mouse.move(middle.x + middle.width / 2, middle.y + 40);
+  await page.mouse.down({ button: 'middle' });
+  await page.mouse.move(middle.x + middle.width / 2 + 1500, middle.y + 40, { steps: 4 });
+  await page.mouse.up({ button: 'middle' });
+  await inView(false);
+  await palette('Bug/Light');
+  await inView(true);
+
+  step('an empty name, and numbers out of their range, are refused at the field');
+  await row('bug.motor').click();
+  await heading('Bug/Motor');
+  const name = inspector.getByLabel('Name', { exact: true });
+  await name.fill(' ');
+  await name.press('Enter');
+  await alert('a name cannot be empty');
+  assert.equal(await name.inputValue(), 'Motor');
+  const columns = inspector.getByLabel('Columns');
+  await columns.fill('0');
+  await columns.press('Enter');
+  await alert('0 is not taken: 1 to');
+  assert.equal(await columns.inputValue(), '9');
+  const persistence = page.locator('[id="Bug/Motor.vmPrs"]');
+  await persistence.fill('7');
+  await persistence.press('Enter');
+  await alert('7 is not taken: 0 to 1.');
+  assert.equal(await persistence.inputValue(), '0');
+  await page.getByRole('button', { name: /problem/ }).waitFor({ state: 'detached' });
+  await inspector.getByRole('button', { name: 'Use 7 all the same' }).click();
+  await until(page, 'the unusual value', () => document.getElementById('Bug/Motor.vmPrs')?.value === '7');
+  await page.keyboard.press('Control+z');
+  await until(page, 'the former value', () => document.getElementById('Bug/Motor.vmPrs')?.value === '0');
+
+  step('a note is written for one of several items; keys select several');
+  await node('bug.light').focus();
+  await page.keyboard.press('Control+Space');
+  await inspector.getByText('Colour, neuron, cells and parameters act on the 2 selected groups; name and note act on this one only.').waitFor();
+  await inspector.getByLabel('Note', { exact: true }).fill('Light only');
+  await inspector.getByLabel('Note', { exact: true }).press('Tab');
+  await node('bug.light').focus();
+  await page.keyboard.press('Shift+Enter');
+  await heading('Bug/Motor');
+  assert.equal(await inspector.getByLabel('Note', { exact: true }).inputValue(), '');
+  await palette('Bug/Light');
+  await until(page, 'the note', () => document.querySelector('aside textarea')?.value === 'Light only');
+
+  step('the end of a line is chosen in its form');
+  await palette('CR to Threshold CR');
+  const leaves = inspector.getByLabel('Leaves at');
+  await leaves.selectOption({ label: 'Bottom 2' });
+  await until(page, 'the line', () => {
+    const path = document.querySelector('g.chosen .wide')?.getAttribute('d').match(/[\d.-]+/g).map(Number), box = document.querySelector('.svelte-flow__node[data-id="adaptive.cr"]');
+    return path && box && Math.abs(path[1] - Number(box.style.transform.match(/[\d.-]+/g)[1]) - box.offsetHeight) < 1;
+  });
+
+  step('the page is saved as a picture, printed alone, and has a map if one likes');
+  const svg = readFileSync(await download(() => palette('Save the diagram as SVG')), 'utf8');
+  assert.ok(svg.startsWith('<svg') && svg.includes('Threshold CR') && svg.includes('url(#inhibitory)'));
+  await diagram.getByRole('button', { name: 'Save or print the page' }).click();
+  const png = readFileSync(await download(() => page.getByRole('menuitem', { name: 'Save the page as PNG' }).click()));
+  assert.ok(png.subarray(1, 4).toString() === 'PNG' && png.length > 5000);
+  await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+  await page.emulateMedia({ media: 'print' });
+  assert.deepEqual(await page.evaluate(() => [...document.body.children].filter((e) => e.getBoundingClientRect().height > 0).map((e) => e.className)), ['printed']);
+  await page.emulateMedia({ media: null });
+  await page.evaluate(() => dispatchEvent(new Event('afterprint')));
+  assert.equal(await page.locator('.printed').count(), 0);
+  const map = diagram.locator('.svelte-flow__minimap');
+  assert.equal(await map.count(), 0);
+  await diagram.getByRole('button', { name: 'View', exact: true }).click();
+  await page.getByRole('menuitem', { name: 'Show the map' }).click();
+  await map.waitFor();
+
+  step('groups are copied without their connections; a process is pasted beside itself');
+  const lines = () => page.locator('g[data-connection]').count();
+  await node('adaptive.cr').click();
+  await node('adaptive.threshold_cr').click({ modifiers: ['Control'] });
+  await node('adaptive.cr').click({ button: 'right' });
+  await page.getByRole('menuitem', { name: 'Copy with connections' }).waitFor();
+  await page.getByRole('menuitem', { name: 'Copy groups only' }).click();
+  await page.getByText('Copied 2 items.').waitFor();
+  const before = await lines();
+  await canvas.focus();
+  await page.keyboard.press('Control+v');
+  await heading('Adaptive/Threshold CR 2');
+  assert.equal(await lines(), before);
+  await page.keyboard.press('Control+z');
+  await diagram.getByRole('button', { name: 'System', exact: true }).click();
+  await node('vision').click({ position: { x: 4, y: 4 } });
+  await page.keyboard.press('Control+c');
+  await page.getByText('Copied.', { exact: true }).waitFor();
+  await page.keyboard.press('Control+v');
+  await heading('Vision 2');
+  const apart = await page.evaluate(() => {
+    const at = (e) => e.style.transform.match(/[\d.-]+/g).map(Number);
+    const [a, b] = [document.querySelector('.svelte-flow__node[data-id="vision"]'), document.querySelector('.svelte-flow__node.selected')].map(at);
+    return Math.hypot(a[0] - b[0], a[1] - b[1]);
+  });
+  assert.ok(apart >= 40, String(apart));
+  await page.keyboard.press('Control+z');
+
+  step('two connections offer their plots');
+  await tree.getByLabel('Connections', { exact: true }).click();
+  const connections = tree.locator('.row:has(i)');
+  await connections.nth(0).click();
+  await connections.nth(1).click({ modifiers: ['Control'] });
+  await connections.nth(1).click({ button: 'right' });
+  await page.getByRole('menuitem', { name: 'Wiring plots' }).waitFor();
+  assert.equal(await page.getByRole('menuitem', { name: 'Space plots' }).count(), 0);
+  await page.keyboard.press('Escape');
+
+  step('tuples come from a file');
+  await palette('CR to Threshold CR');
+  await inspector.getByLabel('Pattern', { exact: true }).selectOption('tuples');
+  await inspector.getByText('From a file or text').click();
+  writeFileSync(join(folder, 'tuples.txt'), '1,1|2,1:3,1\n4,1:5,1\n');
+  await inspector.getByLabel('Import tuples from a file').setInputFiles(join(folder, 'tuples.txt'));
+  await inspector.getByText('1,1 2,1 → 3,1').waitFor();
+  await inspector.getByText('4,1 → 5,1').waitFor();
+  await canvas.focus();
+  await page.keyboard.press('Control+z');
+
+  step('a port that is not set is named as its field, and a click leads there; Run says what it drives');
+  await row('bug').click();
+  await heading('Bug');
+  const port = inspector.locator('[data-port="_motor"] select');
+  const label = (await inspector.locator('[data-port="_motor"] label').innerText()).replace(/\s*\*\s*$/, '').trim();
+  await port.selectOption('');
+  await page.getByRole('button', { name: 'runs the last state without problems' }).click();
+  await palette('Adaptive/UR');
+  await page.getByRole('group', { name: 'Problems' }).getByRole('button', { name: `${label} of the module of Bug has no group` }).click();
+  await until(page, 'the field of the port', () => document.activeElement?.closest('[data-port="_motor"]') != null);
+  await page.keyboard.press('Escape');
+  await canvas.focus();
+  await page.keyboard.press('Control+z');
+  await page.getByRole('button', { name: 'runs the last state without problems' }).waitFor({ state: 'detached' });
+
+  step('Ctrl+K has the actions of the menus');
+  await page.keyboard.press('Control+k');
+  for (const action of ['Save as', 'Import a process', 'Link a process', 'Undo', 'Diagram: two panes side by side', 'Arrange: lay out the page', 'Print the diagram']) {
+    await page.getByRole('combobox', { name: 'Find' }).fill(action);
+    await page.getByRole('option', { name: action }).first().waitFor();
+  }
+  await page.keyboard.press('Escape');
+
+  step('a linked process has a form that only reads');
+  const process = join(folder, 'Part.iqrProcess');
+  await diagram.getByRole('button', { name: 'Selection', exact: true }).click();
+  await palette('Export the process Selection');
+  const dialog = page.getByRole('dialog', { name: 'Export the process' });
+  await dialog.getByLabel('Name').fill(process);
+  await dialog.getByRole('button', { name: 'Export' }).click();
+  await dialog.waitFor({ state: 'detached' });
+  writeFileSync(process, readFileSync(process, 'utf8').replaceAll('selection', 'part').replace('name="Selection"', 'name="Part"')); // ids of its own
+  await palette('Link a process');
+  const link = page.getByRole('dialog', { name: 'Link a process' });
+  await link.getByLabel('Name').fill(process);
+  await link.getByRole('button', { name: 'Link', exact: true }).click();
+  await link.waitFor({ state: 'detached' });
+  await row('part').click();
+  await heading('Part');
+  const path = inspector.getByLabel('External path');
+  assert.match(await path.inputValue(), /Part\.iqrProcess$/);
+  assert.ok(await inspector.getByLabel('Name', { exact: true }).isDisabled());
+  await inspector.getByText(/is changed there/).waitFor();
+
+  step('in a small window, the group that is selected already shows its form again');
+  const small = await context.newPage();
+  listen(small);
+  await small.setViewportSize({ width: 420, height: 800 });
+  await small.goto(new URL(page.url()).origin);
+  const drawer = small.getByRole('region', { name: 'Inspector' });
+  for (let i = 0; i < 2; i++) {
+    await paletteOf(small)('Bug/Light');
+    await drawer.waitFor();
+    await small.keyboard.press('Escape');
+    await drawer.waitFor({ state: 'detached' });
+  }
+  await small.close();
+
+  step('items of a second system show their parameters, which act on the run');
+  const teams = await begin(['systems/team_a.iqr', 'systems/team_b.iqr', '--world', 'systems/worlds/team_arena.world']);
+  await paletteOf(teams)('B_1/Motor');
+  const form = teams.getByRole('region', { name: 'Inspector' });
+  await form.getByText(/only the first system can be edited/).waitFor();
+  assert.ok(await form.getByLabel('Name', { exact: true }).isDisabled());
+  const gain = teams.locator('[id="B_1/Motor.excGain"]');
+  await gain.fill('2');
+  await gain.press('Enter');
+  await form.getByText('B_1/Motor.excGain = 2').waitFor();
+  await teams.close();
+
+  assert.deepEqual(faults, []);
+  console.log('all fine');
+});
