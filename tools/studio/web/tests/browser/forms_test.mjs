@@ -196,14 +196,14 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   const port = inspector.locator('[data-port="_motor"] select');
   const label = (await inspector.locator('[data-port="_motor"] label').innerText()).replace(/\s*\*\s*$/, '').trim();
   await port.selectOption('');
-  await page.getByRole('button', { name: 'runs the last state without problems' }).click();
+  await page.getByRole('button', { name: 'runs an older state' }).click();
   await palette('Adaptive/UR');
   await page.getByRole('group', { name: 'Problems' }).getByRole('button', { name: `${label} of the module of Bug has no group` }).click();
   await until(page, 'the field of the port', () => document.activeElement?.closest('[data-port="_motor"]') != null);
   await page.keyboard.press('Escape');
   await canvas.focus();
   await page.keyboard.press('Control+z');
-  await page.getByRole('button', { name: 'runs the last state without problems' }).waitFor({ state: 'detached' });
+  await page.getByRole('button', { name: 'runs an older state' }).waitFor({ state: 'detached' });
 
   step('Ctrl+K has the actions of the menus');
   await page.keyboard.press('Control+k');
