@@ -138,6 +138,17 @@ export async function save(): Promise<void> {
   if (await command('save')) actions.tell('info', worldFile.dirty ? 'The system is saved, its world is not.' : 'Saved.');
 }
 
+/** Writes the system as it is now into a file beside it. */
+export async function backup(): Promise<void> {
+  try {
+    await sendAll();
+  } catch (e) {
+    return actions.tell('error', (e as Error).message);
+  }
+  const done = await command<{ file: string }>('backup');
+  if (done) actions.tell('info', `The backup is ${baseName(done.file)}.`);
+}
+
 export async function saveWorld(): Promise<void> {
   if (await command('world_save')) actions.tell('info', 'The world is saved; the run begins anew in it.');
 }

@@ -1,6 +1,6 @@
 // Forms and the diagram beside each other, in Chromium against the real program: node forms_test.mjs FORAGE SOURCES
 import assert from 'node:assert/strict';
-import { readFileSync, writeFileSync } from 'node:fs';
+import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { inBrowser } from './support.mjs';
 
@@ -205,7 +205,10 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.keyboard.press('Control+z');
   await page.getByRole('button', { name: 'runs an older state' }).waitFor({ state: 'detached' });
 
-  step('Ctrl+K has the actions of the menus');
+  step('Ctrl+K has the actions of the menus; a backup is written beside the file');
+  await palette('Save a backup');
+  await page.getByText(/^The backup is dac_foraging\.iqr,/).waitFor();
+  assert.equal(readdirSync(join(folder, 'systems')).filter((f) => f.startsWith('dac_foraging.iqr,')).length, 1);
   await page.keyboard.press('Control+k');
   for (const action of ['Save as', 'Import a process', 'Link a process', 'Undo', 'Diagram: two panes side by side', 'Arrange: lay out the page', 'Print the diagram']) {
     await page.getByRole('combobox', { name: 'Find' }).fill(action);
