@@ -182,7 +182,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   step('tuples come from a file');
   await palette('CR to Threshold CR');
   await inspector.getByLabel('Pattern', { exact: true }).selectOption('tuples');
-  await inspector.getByText('From a file or text').click();
+  await inspector.getByText('From text or a file').click();
   writeFileSync(join(folder, 'tuples.txt'), '1,1|2,1:3,1\n4,1:5,1\n');
   await inspector.getByLabel('Import tuples from a file').setInputFiles(join(folder, 'tuples.txt'));
   await inspector.getByText('1,1 2,1 → 3,1').waitFor();
