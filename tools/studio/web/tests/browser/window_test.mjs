@@ -111,6 +111,8 @@ await inBrowser(sources, async ({ context, start, until }) => {
   const row = (name) => until(page, `the row ${name}`, (n) => document.activeElement.matches('nav .row') && document.activeElement.textContent.includes(n), name);
   await page.getByLabel('Filter the tree').focus();
   await page.keyboard.press('ArrowDown');
+  await row('DAC foraging');
+  await page.keyboard.press('ArrowDown');
   await row('Bug');
   await page.keyboard.press('ArrowLeft');
   await page.keyboard.press('ArrowDown');
