@@ -91,6 +91,21 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await until(page, 'six cells over time', () => [...document.querySelectorAll('.key .name')].some((n) => n.textContent === 'Bug/Motor:act(6,2)'));
   assert.equal((await keysOf()).filter((k) => /^Bug\/Motor:act\(\d,\d\)$/.test(k)).length, 6);
 
+  step('space: the selection is dragged to where it should be shown, and onto a plot over time');
+  await show('Bug/Motor');
+  await page.keyboard.press('Escape');
+  await drag([1, 1], [2, 2]);
+  await chosen.getByRole('button', { name: 'Mean', exact: true }).dragTo(plot('Space plot of Bug/Light'));
+  const dropped = page.locator('.panel:has(.uplot)').filter({ visible: true });
+  await dropped.getByText('mean(Bug/Motor:act(1..2,1..2))').waitFor();
+  await page.mouse.move(...(await at(5, 5)));
+  await drag([3, 3], [3, 4]);
+  await chosen.getByText('2 cells, mean').waitFor();
+  await chosen.getByRole('button', { name: 'Cells', exact: true }).dragTo(dropped.locator('.u-over'));
+  await dropped.getByText('Bug/Motor:act(3,4)').waitFor();
+  assert.deepEqual(await dropped.locator('.key .name').allInnerTexts(), ['mean(Bug/Motor:act(1..2,1..2))', 'Bug/Motor:act(3,3)', 'Bug/Motor:act(3,4)']);
+  await page.locator('.dv-tab.dv-active-tab', { hasText: 'Over time' }).locator('.dv-default-tab-action').click();
+
   step('time: a state and cells are chosen from lists or typed; what does not exist is said there');
   const time = page.locator('.panel:has(.uplot)').filter({ visible: true });
   await show('mean(Bug/Motor:act(4..6,1..2)) over time');
@@ -209,11 +224,14 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await until(page, 'marked titles', () => [...document.querySelectorAll('.dv-tab:has(.selected)')].some((t) => t.textContent.trim() === 'Bug/Light'));
   assert.ok((await marked()).includes('Over time') && !(await marked()).includes('Bug/Motor'), (await marked()).join());
   await shot('marked');
+  await inspector.getByRole('button', { name: 'Drive' }).click();
+  await plot('Drive Bug/Light').waitFor();
   const count = (await tabs()).length;
   await inspector.getByLabel('Name', { exact: true }).fill('Lamp');
   await inspector.getByLabel('Name', { exact: true }).press('Enter');
   await plot('Space plot of Bug/Lamp').waitFor();
   assert.ok((await tabs()).includes('Bug/Lamp') && (await tabs()).length === count);
+  await plot('Drive Bug/Lamp').waitFor();
   await page.locator('.dv-tab', { hasText: 'Over time' }).first().click();
   await time.getByRole('button', { name: 'Change Bug/Lamp(17,1)' }).waitFor();
   await page.getByRole('button', { name: 'Run', exact: true }).click();
