@@ -40,9 +40,9 @@ interface Row { item: string }
 
 /** A panel after an edit: itself when nothing changes for it, the id of what it showed when that is gone. */
 export function followed(panel: PanelState, { names, gone }: NameChanges): PanelState | string {
-  const next = { ...panel };
+  const next = { ...panel }, ids = new Set(gone.values());
   if (panel.item && ofItem.includes(panel.kind)) {
-    const lost = gone.get(panel.item) ?? [...gone.values()].find((id) => id === panel.item);
+    const lost = gone.get(panel.item) ?? (ids.has(panel.item) ? panel.item : null);
     if (lost) return lost;
     next.item = names.get(panel.item) ?? panel.item;
   }
@@ -51,7 +51,7 @@ export function followed(panel: PanelState, { names, gone }: NameChanges): Panel
     next.sources = panel.sources.filter((_, i) => !lost[i]).map((s) => renamedSource(s, names));
     if (panel.kind === 'time' && next.sources.length === 0) return lost[0]!;
   }
-  if (Array.isArray(panel.rows)) next.rows = (panel.rows as Row[]).filter((r) => !gone.has(r.item)).map((r) => ({ ...r, item: names.get(r.item) ?? r.item }));
+  if (Array.isArray(panel.rows)) next.rows = (panel.rows as Row[]).filter((r) => !gone.has(r.item) && !ids.has(r.item)).map((r) => ({ ...r, item: names.get(r.item) ?? r.item }));
   return JSON.stringify(next) === JSON.stringify(panel) ? panel : next;
 }
 

@@ -104,7 +104,21 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await chosen.getByRole('button', { name: 'Cells', exact: true }).dragTo(dropped.locator('.u-over'));
   await dropped.getByText('Bug/Motor:act(3,4)').waitFor();
   assert.deepEqual(await dropped.locator('.key .name').allInnerTexts(), ['mean(Bug/Motor:act(1..2,1..2))', 'Bug/Motor:act(3,3)', 'Bug/Motor:act(3,4)']);
-  await page.locator('.dv-tab.dv-active-tab', { hasText: 'Over time' }).locator('.dv-default-tab-action').click();
+  await page.keyboard.press('Control+k');
+  await page.keyboard.type('Record to a file');
+  await page.keyboard.press('Enter');
+  const sampler = page.locator('.panel', { hasText: 'If it is there' });
+  await show('Bug/Light');
+  const light = plot('Space plot of Bug/Light');
+  await light.getByRole('application').focus();
+  for (const key of ['Home', 'Shift+ArrowRight']) await page.keyboard.press(key);
+  await light.getByRole('button', { name: 'Mean', exact: true }).dragTo(sampler.getByText('here, or name them above'));
+  await sampler.getByText('mean(Bug/Light:act(1..2,1))').waitFor();
+  for (const name of ['Record to a file', 'Over time']) {
+    const tab = page.locator('.dv-tab', { hasText: name }).first();
+    await tab.click();
+    await tab.locator('.dv-default-tab-action').click();
+  }
 
   step('time: a state and cells are chosen from lists or typed; what does not exist is said there');
   const time = page.locator('.panel:has(.uplot)').filter({ visible: true });
@@ -297,6 +311,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   step('weights: the value of a synapse, its course, the scale, and files');
   await inspector.getByRole('button', { name: 'Weight' }).click();
   const weights = plot('Weights of learns');
+  await until(page, 'a column per source cell', () => document.querySelector('[aria-label="Weights of learns"] canvas')?.width === 3);
   await weights.getByRole('application').focus();
   for (const key of ['End', 'ArrowLeft']) await page.keyboard.press(key);
   await weights.getByText(/^\(3, 1\) → \(3, 2\) [\d.e-]+$/).waitFor();

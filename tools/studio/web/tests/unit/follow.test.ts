@@ -25,6 +25,7 @@ describe('panels', () => {
     for (const panel of [{ kind: 'space', item: 'Bug/Light' }, { kind: 'manipulate', item: 'a' }, { kind: 'time', sources: ['mean(Bug/Light)'] }]) expect(followed(panel, changes)).toBe('a');
     expect(followed({ kind: 'time', sources: ['mean(Bug/Light)', 'mean(Bug/US)'] }, changes)).toEqual({ kind: 'time', sources: ['mean(Bug/US)'] });
     expect(followed({ kind: 'sampler', sources: ['Bug/Light'] }, changes)).toEqual({ kind: 'sampler', sources: [] });
+    expect(followed({ kind: 'chosen', rows: ['a', 'Bug/Light', 'b'].map((item) => ({ item, parameter: 'p' })) }, changes)).toEqual({ kind: 'chosen', rows: [{ item: 'b', parameter: 'p' }] });
     expect(followed({ kind: 'camera', item: 'Bug/Light' }, changes)).toEqual({ kind: 'camera', item: 'Bug/Light' });
   });
   it('tell whether they show an item', () => {
