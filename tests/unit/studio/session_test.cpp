@@ -260,8 +260,8 @@ TEST_CASE("every command refuses members that are missing or wrong, and changes 
                   "file",   "sources", "name",        "content", "connection", "start"})
                 command[member] = wrong;
             if (name == "step" || name == "restart" || name == "stop" || name == "run" || name == "new" ||
-                name.ends_with("_write"))
-                continue;
+                name == "backup" || name.ends_with("_write"))
+                continue;  // they do something without members; a backup would lie among the systems
             const json reply = f.session.execute(-1, command);
             INFO(command.dump());
             CHECK((reply["ok"] == true || !reply["problems"].empty()));
