@@ -97,7 +97,7 @@ await inBrowser(sources, async ({ context, start, until }) => {
   await page.getByRole('button', { name: /^DAC foraging/ }).press('Enter');
   await focus('New…');
   await page.keyboard.press('End');
-  await focus('Properties of the system');
+  await focus('Quit…');
   await page.keyboard.press('Home');
   await focus('New…');
   await page.keyboard.press('Escape');
