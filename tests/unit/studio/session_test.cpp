@@ -424,6 +424,20 @@ TEST_CASE("a light is moved while the run goes: robot, weights and cycle stay, a
     CHECK(world()->bugs() == 1);  // a world without its robot is not taken
 }
 
+TEST_CASE("a world that comes with Forage is not written") {
+    const std::string world = Fixture::input().world;
+    const auto before = read_file(world);
+    Session session(
+        Fixture::input(), [](int, bool, const std::string&) {}, {}, FORAGE_SOURCE_DIR "/systems");
+    const json listed = session.execute(-1, {{"command", "shipped"}})["result"]["worlds"];
+    CHECK(std::ranges::find(listed, json(world)) != listed.end());
+    const json refused =
+        session.execute(-1, {{"command", "world_save"}, {"file", world}, {"overwrite", true}});
+    CHECK(refused["ok"] == false);
+    CHECK(refused.dump().find("stays as it is") != std::string::npos);
+    CHECK(read_file(world) == before);
+}
+
 TEST_CASE("a restart tells its seed, and how to do it without the studio") {
     Fixture f;
     f.session.connect(1);
@@ -501,6 +515,42 @@ TEST_CASE("a session that is killed while it runs goes on where it was kept, byt
     CHECK(f.session.run().digest() == undisturbed.session.run().digest());
     f.session.end();
     CHECK(std::filesystem::is_empty(folder / "forage/studio"));
+    std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("a light that was moved is where it was put after a crash, too") {
+    const auto folder = std::filesystem::temp_directory_path() / "forage-studio-lights";
+    std::filesystem::remove_all(folder);
+    setenv("XDG_STATE_HOME", folder.c_str(), 1);
+    const auto light = [](Fixture& f) {
+        return dynamic_cast<const bug::World&>(*f.session.run().environment()).targets().front().x();
+    };
+    double moved = 0;
+    std::string digest;
+    {
+        Fixture f;
+        f.session.keep();
+        f.result({{"command", "step"}, {"cycles", 20}});
+        const json items = f.result({{"command", "world_document"}})["items"];
+        const auto item = std::ranges::find_if(items, [](const json& i) { return i["kind"] == "light"; });
+        REQUIRE(item != items.end());
+        moved = light(f) + 0.5;
+        f.result(
+            {{"command", "world_edit"},
+             {"operations", {{{"do", "move"}, {"id", (*item)["id"]}, {"x", moved}, {"y", (*item)["y"]}}}},
+             {"run", true}});
+        f.result({{"command", "step"}, {"cycles", 20}});
+        f.session.work(1000);
+        digest = f.session.run().digest();
+    }  // without end()
+    Fixture f;
+    f.session.keep();
+    REQUIRE(f.session.killed().at("cycle") == 40);
+    f.session.recover();
+    CHECK(light(f) == Approx(moved));
+    CHECK(f.session.run().digest() == digest);
+    CHECK(f.result({{"command", "world_document"}})["dirty"] == true);
+    f.session.end();
     std::filesystem::remove_all(folder);
 }
 

@@ -185,6 +185,9 @@ json Commands::world_save() {
     const auto file = c.value("file", world.path);
     if (std::filesystem::path(file).extension() != ".world")
         throw InputError(fmt::format("'{}' is not a name of a world", file), "it ends with .world");
+    if (s.comes_with_forage(file))
+        throw InputError(fmt::format("'{}' comes with Forage and stays as it is", file),
+                         "save it in a folder of your own");
     if (!c.value("overwrite", false)) {
         if (file == world.path && read_file(file) != world.saved)
             throw InputError(fmt::format("'{}' was changed outside since it was read", file), "overwrite it");
