@@ -53,8 +53,8 @@ void forget_groups(System& system, const std::set<std::string, std::less<>>& ids
 /// Throws for a linked process: its content is in its own file, so changes would be lost.
 void refuse_linked(const Process& p) {
     if (p.linked())
-        throw std::invalid_argument(
-            fmt::format("process '{}' is linked to '{}': embed_links() first", p.name, p.path));
+        throw Refused(fmt::format("process '{}' is linked to '{}'", p.name, p.path),
+                      "change it in its file, or import it, which makes it a part of this system");
 }
 
 [[noreturn]] void no_item(std::string_view what, std::string_view id) {
@@ -322,8 +322,8 @@ void rename(System& system, std::string_view id, std::string name) {
     auto* c = find_connection(system, id);
     if (!c) no_item("process, group or connection", id);
     if (c->linked)
-        throw std::invalid_argument(
-            fmt::format("connection '{}' is in the file of a linked process", trim(c->name)));
+        throw Refused(fmt::format("connection '{}' is in the file of a linked process", trim(c->name)),
+                      "change it in that file");
     c->name = std::move(name);
 }
 

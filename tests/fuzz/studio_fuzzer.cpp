@@ -39,7 +39,7 @@ bool left_out(std::string_view message) {
     if (!command.is_object()) return false;
     const auto name = command.value("command", json());
     for (const char* other : {"sample", "layout_write", "panel_write", "parameters_write", "patterns_write",
-                              "save", "world_save", "export", "backup", "open", "step", "run"})
+                              "save", "world_save", "export", "backup", "open", "world_open", "step", "run"})
         if (name == other) return true;
     return false;
 }

@@ -109,7 +109,10 @@ json Commands::backup() {
     const auto& path = document().path();
     if (path.empty()) throw InputError("the system has no file yet", "save it first");
     refuse_shipped(path);
-    const auto file = fmt::format("{},{:%Y-%m-%d_%H-%M-%S}", path, fmt::localtime(std::time(nullptr)));
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    localtime_r(&now, &local);
+    const auto file = fmt::format("{},{:%Y-%m-%d_%H-%M-%S}", path, local);
     if (fs::exists(file)) throw InputError(fmt::format("'{}' exists", file), "wait for a second");
     write_file(file, document().text());
     return {{"file", file}};
@@ -151,7 +154,10 @@ json Commands::import_process() {
         },
         title);
     for (const auto& p : document().system().processes)  // it has the id of its file
-        if (p.linked() && p.placeholder.front().id == made) made = p.id;
+        if (p.linked() && p.placeholder.front().id == made) {
+            made = p.id;
+            break;
+        }
     json out = edited(title);
     out["id"] = made;
     return out;
@@ -163,8 +169,7 @@ json Commands::export_process() {
         throw InputError(fmt::format("'{}' is not a name of a process", path), "it ends with .iqrProcess");
     if (!document().readable())
         throw InputError("the text of the system has mistakes that hide its meaning", "correct them first");
-    if (!c.value("overwrite", false) && fs::exists(path))
-        throw InputError(fmt::format("'{}' exists", path), "overwrite it, or choose another name");
+    check_free(path);
     write_file(path, xml::write_process(
                          model::extract_process(document().system(), c.at("process").get<std::string>())));
     return {{"file", path}};

@@ -69,7 +69,8 @@ std::string Commands::panel_path(const char* ending) {
     return path;
 }
 
-void Commands::check_free(const std::string& path) {
+void Commands::check_free(const std::string& path) const {
+    refuse_shipped(path);
     if (!c.value("overwrite", false) && std::filesystem::exists(path))
         throw InputError(fmt::format("'{}' exists", path), "overwrite it, or choose another name");
 }

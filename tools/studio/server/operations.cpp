@@ -178,7 +178,11 @@ struct Operation {
                             whole_from(o.at("y")));
     }
     json system_properties() {
-        if (const auto* v = member("name")) system.name = v->get<std::string>();
+        if (const auto* v = member("name")) {
+            if (model::trim(v->get_ref<const std::string&>()).empty())
+                throw InputError("a name cannot be empty", "write at least one letter or digit");
+            system.name = *v;
+        }
         if (const auto* v = member("author")) system.author = v->get<std::string>();
         if (const auto* v = member("date")) system.date = v->get<std::string>();
         if (const auto* v = member("note")) set_note(system, system.id, v->get<std::string>());

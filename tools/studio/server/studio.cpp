@@ -45,7 +45,7 @@ void serve(const StudioOptions& options, const std::function<void(const Ready&)>
     session.quit = [&quits] { quits = true; };
     const std::string note = keep(session, options.recover);
     const Diagnostics mistakes = session.mistakes();
-    if (options.running) session.execute(-1, {{"command", "run"}});
+    if (options.running && !mistakes.failed()) session.execute(-1, {{"command", "run"}});
     std::unique_ptr<EngineThread> engine;
     HttpServer::Options wanted;
     wanted.port = options.port;
