@@ -264,7 +264,11 @@ void World::checkpoint(Archive& archive) {
     archive.same(robots_.size(), "the number of robots");
     archive(cycle_, substep_);
     for (Robot& robot : robots_) robot.checkpoint(archive);
-    archive(body_poses_, game_, *physics_);
+    archive(body_poses_, game_);
+    // Things may have been added to the world or removed from it.
+    if (body_poses_.bodies.size() != bodies_.size())
+        throw ArchiveError("the checkpoint is of a world with other things");
+    archive(*physics_);
     if (archive.loading()) body_poses_.sort(), visuals_placed_ = false;
     if (archive.loading() && description_.game) colour_resources();
 }

@@ -424,6 +424,37 @@ TEST_CASE("a light is moved while the run goes: robot, weights and cycle stay, a
     CHECK(world()->bugs() == 1);  // a world without its robot is not taken
 }
 
+TEST_CASE("a light that is moved does not take along what else was edited on the map") {
+    Fixture f;
+    const auto world = [&] { return dynamic_cast<const bug::World*>(f.session.run().environment()); };
+    const auto light = world()->targets().front();
+    const json items = f.result({{"command", "world_document"}})["items"];
+    const auto item = std::ranges::find_if(items, [](const json& i) { return i["kind"] == "light"; });
+    REQUIRE(item != items.end());
+    const auto to = [&](double x) -> json {
+        return {{"command", "world_edit"},
+                {"operations", {{{"do", "move"}, {"id", (*item)["id"]}, {"x", x}, {"y", light.y()}}}},
+                {"run", true}};
+    };
+    // Before the first cycle, a robot stays where it was put.
+    const auto name = f.session.run().environment()->robot_names().front();
+    f.result({{"command", "move"}, {"robot", name}, {"x", 0.5}, {"y", 0.25}});
+    f.result(to(light.x() + 0.25));
+    CHECK(world()->targets().front().x() == Approx(light.x() + 0.25));
+    CHECK(f.session.run().environment()->pose(0).x == Approx(0.5));
+    // A ball that was added on the map waits until the world is saved.
+    f.result({{"command", "step"}, {"cycles", 40}});
+    const auto moving = world()->body_poses().bodies.size();
+    f.result(
+        {{"command", "world_edit"}, {"operations", {{{"do", "add"}, {"kind", "ball"}, {"x", 1}, {"y", 1}}}}});
+    f.result(to(light.x() + 0.5));
+    CHECK(f.session.run().cycle() == 40);
+    CHECK(world()->body_poses().bodies.size() == moving);
+    f.result({{"command", "undo"}}), f.result({{"command", "undo"}}), f.result({{"command", "undo"}});
+    CHECK(world()->targets().front().x() == Approx(light.x()));
+    CHECK(f.result({{"command", "world_document"}})["dirty"] == false);
+}
+
 TEST_CASE("a world that comes with Forage is not written") {
     const std::string world = Fixture::input().world;
     const auto before = read_file(world);

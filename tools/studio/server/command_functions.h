@@ -1,6 +1,6 @@
 // The functions of commands. Each topic has a file: commands_run.cpp, commands_looking.cpp,
 // commands_parameters.cpp, commands_touching.cpp, commands_sampler.cpp, commands_files.cpp,
-// commands_past.cpp.
+// commands_document.cpp, commands_editing.cpp, commands_world.cpp, commands_past.cpp.
 #pragma once
 
 #include <cstdint>
@@ -105,7 +105,7 @@ struct Commands {
     // ---- panels and sets of parameters ----
     std::string panel_path(const char* ending);
     /// Throws InputError when a file of this name exists and the command does not say to overwrite it.
-    void check_free(const std::string& path);
+    void check_free(const std::string& path) const;
     std::vector<xml::PanelRow> panel_rows(const char* ending);
     /// The parameter of an item, as `parameters` describes it. Throws InputError.
     json one_parameter(const std::string& item, const std::string& name);
@@ -150,6 +150,7 @@ struct Commands {
     // ---- the text of the world ----
     Session::WorldText& world_text();
     void set_world_text(const std::string& text);
+    std::string running_world();  ///< the text of the world that runs
     /// Builds the run anew in a world of this text: robots and what they carry stay where they are. Throws
     /// InputError, and leaves the run as it is then.
     void run_in_world(const std::string& text);

@@ -84,9 +84,9 @@ json Commands::back_or_forth(std::vector<Session::Undo>& from, std::vector<Sessi
         if (command.is_null()) {
             s.follow_document(title);
         } else if (command.at("command") == "world_text") {
-            const bool runs = command.value("run", false);
+            const bool runs = command.contains("run");
             const auto ended = s.lost_by_rebuild();
-            if (runs) run_in_world(command.at("text"));
+            if (runs) run_in_world(command.at("run"));
             set_world_text(command.at("text"));
             if (runs) tell_other_world(title, ended);
         } else {
@@ -94,6 +94,7 @@ json Commands::back_or_forth(std::vector<Session::Undo>& from, std::vector<Sessi
         }
     } catch (...) {  // what it touched is not there any more; the other steps stay
         back_again();
+        if (command.is_object() && command.value("command", "") == "world_text") from.push_back(entry);
         throw;
     }
     back_again();

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <filesystem>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -129,26 +131,43 @@ json Commands::world_edit() {
     const auto merge = c.value("merge", "");
     const bool runs = c.value("run", false);
     const auto ended = s.lost_by_rebuild();
-    if (runs) run_in_world(text);
-    const json redo = {{"command", "world_text"}, {"text", text}, {"merge", merge}, {"run", runs}};
+    json redo = {{"command", "world_text"}, {"text", text}, {"merge", merge}};
+    json undo = {{"command", "world_text"}, {"text", world_text().text}};
+    if (runs) {
+        // What else was edited on the map gets into the run when the world is saved.
+        std::string running = running_world();
+        undo["run"] = running;
+        for (const auto& o : operations) {
+            if (o.at("do") != "move")
+                throw InputError("only what is moved gets into the run at once", "save the world");
+            carry_out_in_world(o, running, models);
+        }
+        run_in_world(running);
+        redo["run"] = running;
+    }
     const bool joins = !merge.empty() && !s.undo_.empty() && s.undo_.back().redo.is_object() &&
                        s.undo_.back().redo.value("command", "") == "world_text" &&
                        s.undo_.back().redo.value("merge", "") == merge;
     if (joins)
-        s.undo_.back().redo = redo;
+        s.undo_.back().redo = redo, s.undo_.back().title = title;
     else
-        s.add_undo(
-            {{{"command", "world_text"}, {"text", world_text().text}, {"run", runs}}, redo, title, false});
+        s.add_undo({undo, redo, title, false});
     s.redo_.clear();
     set_world_text(text);
     if (runs) tell_other_world(title, ended);
     return {{"ids", std::move(ids)}, {"generation", s.generation_}};
 }
 
+std::string Commands::running_world() {
+    return s.input_.world_text.empty() ? world_text().saved : s.input_.world_text;
+}
+
 void Commands::run_in_world(const std::string& text) {
+    if (!s.current_)
+        throw InputError("the system has problems", "correct them first; the run keeps its world");
     const auto before = std::exchange(s.input_.world_text, text);
     const auto problems = s.problems_;
-    if (s.rebuild()) return;
+    if (s.rebuild(true)) return;
     const auto found = std::exchange(s.problems_, problems);
     s.input_.world_text = before;
     for (const auto& p : found)
@@ -185,15 +204,11 @@ json Commands::world_save() {
     const auto file = c.value("file", world.path);
     if (std::filesystem::path(file).extension() != ".world")
         throw InputError(fmt::format("'{}' is not a name of a world", file), "it ends with .world");
-    if (s.comes_with_forage(file))
-        throw InputError(fmt::format("'{}' comes with Forage and stays as it is", file),
-                         "save it in a folder of your own");
-    if (!c.value("overwrite", false)) {
-        if (file == world.path && read_file(file) != world.saved)
-            throw InputError(fmt::format("'{}' was changed outside since it was read", file), "overwrite it");
-        if (file != world.path && std::filesystem::exists(file))
-            throw InputError(fmt::format("'{}' exists", file), "overwrite it, or choose another name");
-    }
+    refuse_shipped(file);
+    if (file != world.path)
+        check_free(file);
+    else if (!c.value("overwrite", false) && read_file(file) != world.saved)
+        throw InputError(fmt::format("'{}' was changed outside since it was read", file), "overwrite it");
     RunInput wanted = s.begun_;  // with the text that the system had: its file may have changed
     wanted.world = file, wanted.world_text = world.text;
     s.make_run(wanted);  // a world in which the system cannot run is not written

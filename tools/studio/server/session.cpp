@@ -101,18 +101,25 @@ void Session::reset() {
     const auto touched = touches_->groups();
     RunInput input = input_;
     if (input.text.empty()) input.text = begun_.text;  // its file may have changed outside
-    for (const auto& [name, change] : changed_) {
-        Diagnostics not_here;  // what the document has, it says itself
-        const auto where = name.substr(0, name.rfind('.'));
-        if (!model::find_item(document_->system(), where, "", not_here))
-            input.settings.push_back({change.assignment});
-    }
+    set_beside_document(input);
     const RunInput as_opened = input_;
     const std::uint64_t seed = input.seed;
     open(std::move(input));
     input_ = as_opened, input_.seed = seed;
     for (const auto& [group, manipulation] : touched) touches_->put(manipulation.settings());
     history_.begin(*run_);
+}
+
+void Session::set_beside_document(RunInput& input) const {
+    for (const auto& [name, change] : changed_) {
+        Diagnostics not_here;  // what the document has, it says itself
+        const auto where = name.substr(0, name.rfind('.'));
+        const auto has = [&](const model::System& system) {
+            return static_cast<bool>(model::find_item(system, where, "", not_here));
+        };
+        if (!has(document_->system()) && std::ranges::any_of(others_, has))
+            input.settings.push_back({change.assignment});
+    }
 }
 
 void Session::rebind() {

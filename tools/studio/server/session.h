@@ -141,6 +141,8 @@ class Session {
     void go_to(std::uint64_t cycle);
     void replay(std::uint64_t cycle);  ///< from the last checkpoint before it
     void rewound();
+    /// Adds the parameters that were set in systems beside the document.
+    void set_beside_document(RunInput& input) const;
     void rebind();  ///< subscribes for all pages anew: the run is another one
     /// Changes the run as a command says, without undo. Throws InputError.
     void apply(const json& command);
@@ -167,7 +169,8 @@ class Session {
     void follow_document(const std::string& title);
     /// Builds the run anew; groups and connections that did not change keep their states. Returns false, with
     /// the run as it was, when the system cannot run.
-    bool rebuild();
+    /// At cycle 0 it begins anew, unless it `goes_on` there, too.
+    bool rebuild(bool goes_on = false);
     /// What ends when the run is built anew: "past", "comparison", "recording".
     std::vector<std::string> lost_by_rebuild() const;
     /// Changes parameters in the document, too, when its items have them. Returns whether that is a step.

@@ -122,8 +122,9 @@ std::size_t Session::Undo::bytes() const {
     std::size_t out = 0;
     for (const auto* command : {&undo, &redo})
         if (command->is_object())
-            if (const auto it = command->find("text"); it != command->end() && it->is_string())
-                out += it->get_ref<const std::string&>().size();
+            for (const char* text : {"text", "run"})
+                if (const auto it = command->find(text); it != command->end() && it->is_string())
+                    out += it->get_ref<const std::string&>().size();
     return out;
 }
 
@@ -270,18 +271,20 @@ std::vector<std::string> Session::lost_by_rebuild() const {
     return out;
 }
 
-bool Session::rebuild() {
+bool Session::rebuild(bool goes_on) {
     RunInput input = wanted_ ? *wanted_ : input_;
     // What was chosen while the system waited for its corrections.
     if (wanted_) input.world = input_.world, input.seed = input_.seed;
     input.text = document_->text();
+    RunInput set = input;
+    set_beside_document(set);
     Diagnostics diagnostics = document_->reading();
-    const Sources sources = read_sources(input, document_->system(), diagnostics);
+    const Sources sources = read_sources(set, document_->system(), diagnostics);
     std::optional<Run> run;
     Touches* touches = nullptr;
     const auto build = [&](bool go_on) {
         run.reset();
-        auto loaded = assemble(sources, input, diagnostics);
+        auto loaded = assemble(sources, set, diagnostics);
         if (!loaded) return;
         run = Run::make(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world),
                         {.seed = run_->seed()}, diagnostics);
@@ -294,7 +297,7 @@ bool Session::rebuild() {
     };
     try {
         try {
-            build(failed_.empty() && run_->cycle() > 0 && !wanted_);
+            build(failed_.empty() && (goes_on || run_->cycle() > 0) && !wanted_);
         } catch (const ArchiveError&) {  // other modules sense the world in another way: it begins anew
             diagnostics = document_->reading();
             build(false);
@@ -328,12 +331,12 @@ bool Session::rebuild() {
     run_ = std::make_unique<Run>(std::move(*run));
     touches_ = touches;
     failed_.clear();
-    files_ = digest_of_files(input, sources);
+    files_ = digest_of_files(set, sources);
     if (wanted_) {
         input_ = input, others_ = sources.more;
         wanted_.reset(), mistakes_ = {};
     }
-    begun_ = std::move(input);
+    begun_ = std::move(set);
     history_.begin(*run_);
     if (anew) rewound();  // a run that has failed does not go on
     rebind();
