@@ -116,7 +116,7 @@ function follow(before: SystemMessage, after: SystemMessage) {
   const changes = nameChanges(before, after), closed = dock.follow(changes);
   dock.reopen((id) => model.find(id) !== undefined);
   if (!closed.length) return;
-  const items = [...changes.gone].filter(([, id]) => closed.includes(id)).map(([name]) => name);
+  const items = [...changes.lost].filter(([id]) => closed.includes(id)).map(([, name]) => name);
   const panels = `${items.length > 1 ? 'their' : 'its'} ${closed.length > 1 ? `${closed.length} panels are` : 'panel is'} closed`;
   actions.tell('info', `${items.join(', ')} ${items.length > 1 ? 'are' : 'is'} gone, and ${panels}. Undo brings back both.`);
 }

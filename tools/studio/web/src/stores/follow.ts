@@ -3,32 +3,43 @@ import type { PanelState } from '../panels/registry';
 import { parseSource, renamedSource } from '../panels/sources';
 import type { SystemMessage } from '../protocol/messages';
 
-/** What an edit did to the names of items: paths of groups, and names of connections and processes. */
+/** What an edit did to the names by which panels show groups and connections: paths, and names of connections. */
 export interface NameChanges {
-  /** The new names, by the old ones. */
+  /** The new names, by the old ones; the id where several items have the new name. */
   names: Map<string, string>;
-  /** The ids of items that are gone, by their names. */
+  /** The ids of groups and connections that are gone, by their names. */
   gone: Map<string, string>;
+  /** The names of all items that are gone, by their ids. */
+  lost: Map<string, string>;
 }
 
 function named(system: SystemMessage): Map<string, string> {
   const all = new Map<string, string>();
-  for (const p of system.processes) {
-    all.set(p.id, p.name);
-    for (const g of p.groups) all.set(g.id, g.path);
-  }
+  for (const p of system.processes) for (const g of p.groups) all.set(g.id, g.path);
   for (const c of system.connections) all.set(c.id, c.name);
   return all;
 }
 
+/** Names that several items have. */
+function shared(names: Iterable<string>): Set<string> {
+  const once = new Set<string>(), more = new Set<string>();
+  for (const name of names) (once.has(name) ? more : once).add(name);
+  return more;
+}
+
 export function nameChanges(before: SystemMessage, after: SystemMessage): NameChanges {
-  const old = named(before), now = named(after), taken = new Set(now.values());
-  const out: NameChanges = { names: new Map(), gone: new Map() };
+  const old = named(before), now = named(after), taken = new Set(now.values()), several = shared(old.values()), ambiguous = shared(now.values());
+  const out: NameChanges = { names: new Map(), gone: new Map(), lost: new Map() };
+  for (const p of before.processes) if (!after.processes.some((q) => q.id === p.id)) out.lost.set(p.id, p.name);
   for (const [id, name] of old) {
     const next = now.get(id);
+    if (next === undefined) out.lost.set(id, name);
+    // A name that several items had does not tell which of them a panel shows.
+    if (several.has(name)) continue;
     if (next === undefined) {
       if (!taken.has(name)) out.gone.set(name, id);
-    } else if (next !== name) out.names.set(name, next);
+    } else if (ambiguous.has(next)) out.names.set(name, id);
+    else if (next !== name) out.names.set(name, next);
   }
   return out;
 }
@@ -39,15 +50,18 @@ const ofItem = ['space', 'raster', 'manipulate', 'weights', 'wiring'];
 interface Row { item: string }
 
 /** A panel after an edit: itself when nothing changes for it, the id of what it showed when that is gone. */
-export function followed(panel: PanelState, { names, gone }: NameChanges): PanelState | string {
-  const next = { ...panel }, ids = new Set(gone.values());
+export function followed(panel: PanelState, { names, gone, lost: ids }: NameChanges): PanelState | string {
+  const next = { ...panel }, known = [...gone.keys(), ...ids.keys()];
   if (panel.item && ofItem.includes(panel.kind)) {
     const lost = gone.get(panel.item) ?? (ids.has(panel.item) ? panel.item : null);
     if (lost) return lost;
     next.item = names.get(panel.item) ?? panel.item;
   }
   if (panel.sources?.length) {
-    const lost = panel.sources.map((s) => gone.get(parseSource(s, gone.keys())?.item ?? ''));
+    const lost = panel.sources.map((s) => {
+      const item = parseSource(s, known)?.item ?? '';
+      return gone.get(item) ?? (ids.has(item) ? item : undefined);
+    });
     next.sources = panel.sources.filter((_, i) => !lost[i]).map((s) => renamedSource(s, names));
     if (panel.kind === 'time' && next.sources.length === 0) return lost[0]!;
   }

@@ -33,5 +33,21 @@ describe('panels', () => {
     for (const panel of [{ kind: 'space', item: 'Bug/Light' }, { kind: 'raster', item: 'a' }, { kind: 'time', sources: ['Bug/US', 'mean(Bug/Light:vm(1,1))'] }]) expect(shows(panel, names)).toBe(true);
     for (const panel of [{ kind: 'space', item: 'Bug/US' }, { kind: 'time', sources: ['mean(Bug/US)'] }, { kind: 'diagram' }, { kind: 'camera', item: 'a' }]) expect(shows(panel, names)).toBe(false);
   });
-  it('stay when an item with another id has the name now', () => expect(nameChanges(system({ a: 'Light' }), system({ z: 'Light' }))).toEqual({ names: new Map(), gone: new Map() }));
+  it('do not follow an item of another kind', () => {
+    const changes = nameChanges(system({ a: 'Light' }, { c: 'Camera' }, 'Camera'), system({ a: 'Light' }, { c: 'Camera' }, 'Eye'));
+    const wiring = { kind: 'wiring', item: 'Camera' };
+    expect(followed(wiring, changes)).toBe(wiring);
+    expect(followed({ kind: 'wiring', item: 'Camera' }, nameChanges(system({}, { c: 'Camera' }, 'Camera'), { processes: [], connections: [{ id: 'c', name: 'Camera' }] } as unknown as SystemMessage))).toEqual(wiring);
+  });
+  it('do not follow one of two items of the same name, and are named by the id when theirs is no longer the only one', () => {
+    const wiring = { kind: 'wiring', item: 'wire' }, byId = { kind: 'weights', item: 'd' };
+    const renamed = nameChanges(system({}, { c: 'wire', d: 'wire' }), system({}, { c: 'wire', d: 'cable' }));
+    for (const panel of [wiring, byId]) expect(followed(panel, renamed)).toBe(panel);
+    const removed = nameChanges(system({}, { c: 'wire', d: 'wire' }), system({}, { c: 'wire' }));
+    expect([followed(wiring, removed), followed(byId, removed), followed({ kind: 'time', sources: ['d:weight(1,1)'] }, removed)]).toEqual([wiring, 'd', 'd']);
+    const second = nameChanges(system({}, { c: 'wire', d: 'cable' }), system({}, { c: 'wire', d: 'wire' }));
+    expect(followed(wiring, second)).toEqual({ kind: 'wiring', item: 'c' });
+    expect(followed({ kind: 'time', sources: ['cable:weight(1,1)'] }, second)).toEqual({ kind: 'time', sources: ['d:weight(1,1)'] });
+  });
+  it('stay when an item with another id has the name now', () => expect(nameChanges(system({ a: 'Light' }), system({ z: 'Light' }))).toEqual({ names: new Map(), gone: new Map(), lost: new Map([['a', 'Bug/Light']]) }));
 });
