@@ -50,9 +50,9 @@ export function itemMenu(id: string): Entries {
       plots.push({ label: 'Space plots', act: () => groups.forEach((g) => dock.plot({ kind: 'space', item: g })) });
       plots.push({ label: 'Time plot', act: () => dock.plot({ kind: 'time', sources: groups.map((g) => `mean(${g})`) }) });
     }
-    if (connections.length) plots.push({ label: 'Wiring plots', act: () => connections.forEach((c) => dock.plot({ kind: 'wiring', item: c.name })) });
+    if (connections.length) plots.push({ label: 'Wiring plots', act: () => connections.forEach((c) => dock.plot({ kind: 'wiring', item: model.nameFor(c) })) });
     const weighed = connections.filter((c) => c.states.length);
-    if (weighed.length) plots.push({ label: 'Weights', act: () => weighed.forEach((c) => dock.plot({ kind: 'weights', item: c.name, state: c.states[0]!.name })) });
+    if (weighed.length) plots.push({ label: 'Weights', act: () => weighed.forEach((c) => dock.plot({ kind: 'weights', item: model.nameFor(c), state: c.states[0]!.name })) });
     return plots.length ? [...plots, ...editEntries] : editEntries.slice(1);
   }
   if (item.kind === 'comment') return [...(editing.editable ? [{ label: 'Write', keys: 'Enter', act: () => rename(id) }] : []), { label: 'Properties', act: () => properties(id) }, ...editEntries];
@@ -66,8 +66,8 @@ export function itemMenu(id: string): Entries {
     first.push({ label: 'Show its groups', act: () => (selection.process = id) });
     if (editing.editable) first.push({ label: 'Export…', act: () => fileDialog.open('export', id) });
   } else {
-    first.push(null, { label: 'Wiring', act: () => dock.plot({ kind: 'wiring', item: item.connection.name }) });
-    for (const s of item.connection.states) first.push({ label: s.label, act: () => dock.plot({ kind: 'weights', item: item.connection.name, state: s.name }) });
+    first.push(null, { label: 'Wiring', act: () => dock.plot({ kind: 'wiring', item: model.nameFor(item.connection) }) });
+    for (const s of item.connection.states) first.push({ label: s.label, act: () => dock.plot({ kind: 'weights', item: model.nameFor(item.connection), state: s.name }) });
   }
   return [...first, ...editEntries];
 }

@@ -5,7 +5,7 @@ import { model } from '../stores/model.svelte';
 /** What a layout file keeps of a panel. */
 export interface PanelState {
   kind: string;
-  /** Path of a group, name of a connection or robot. */
+  /** Path of a group, name of a connection or robot; the id of a connection where another one has the name. */
   item?: string;
   sources?: string[];
   [setting: string]: unknown;
@@ -24,6 +24,7 @@ export interface PanelKind {
 }
 
 const group = (panel: PanelState) => model.group(panel.item ?? '')?.path ?? panel.item ?? '';
+const connection = (panel: PanelState) => model.connection(panel.item ?? '')?.name ?? panel.item ?? '';
 
 export const kinds: Record<string, PanelKind> = {
   arena: { title: () => 'Arena', load: () => import('./Arena.svelte') },
@@ -31,8 +32,8 @@ export const kinds: Record<string, PanelKind> = {
   space: { title: (p) => group(p), load: () => import('./Space.svelte') },
   time: { title: (p) => (p.sources?.length === 1 ? `${p.sources[0]} over time` : 'Over time'), load: () => import('./Time.svelte') },
   raster: { title: (p) => `${group(p)} raster`, load: () => import('./Raster.svelte') },
-  weights: { title: (p) => `${p.item} weights`, load: () => import('./Weights.svelte') },
-  wiring: { title: (p) => `${p.item} wiring`, load: () => import('./Wiring.svelte') },
+  weights: { title: (p) => `${connection(p)} weights`, load: () => import('./Weights.svelte') },
+  wiring: { title: (p) => `${connection(p)} wiring`, load: () => import('./Wiring.svelte') },
   camera: { title: (p) => `Camera of ${p.item}`, load: () => import('./Camera.svelte') },
   manipulate: { title: (p) => `Drive ${group(p)}`, load: () => import('./Manipulate.svelte') },
   sampler: { title: () => 'Record to a file', load: () => import('./Sampler.svelte') },

@@ -10,7 +10,7 @@ export const droppedSources = (e: DragEvent): string[] => JSON.parse(e.dataTrans
 export const bringsSources = (e: DragEvent): boolean => e.dataTransfer?.types.includes(dragged) ?? false;
 
 export interface Source {
-  /** "Process/Group", or the name of a connection. */
+  /** "Process/Group", or the name of a connection; its id where another one has the name. */
   item: string;
   /** Empty for the output. */
   state: string;

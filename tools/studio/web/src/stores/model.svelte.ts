@@ -41,6 +41,10 @@ class Model {
     const item = this.items.get(idOrName);
     return item?.kind === 'connection' ? item.connection : this.connections.find((c) => c.name === idOrName);
   }
+  /** How panels and sources name a connection: by its id where another one has the name, which the server refuses then. */
+  nameFor({ id, name }: Connection): string {
+    return this.connections.some((c) => c.name === name && c.id !== id) ? id : name;
+  }
   processOf(group: string): Process | undefined {
     const item = this.items.get(group);
     return item?.kind === 'group' ? item.process : undefined;
