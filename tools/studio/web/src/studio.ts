@@ -63,6 +63,7 @@ function receive(message: ServerMessage): void {
   switch (message.type) {
     case 'hello':
       run.hello = message;
+      run.ended = false; // a program answers at this address again
       if (message.protocol !== protocolVersion) {
         run.refused = `This page speaks version ${protocolVersion} of the protocol, the server version ${message.protocol}. Reload the page; if that does not help, restart forage studio.`;
         connection.close();

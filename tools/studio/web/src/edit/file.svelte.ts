@@ -124,8 +124,15 @@ export const mayLeaveWorld = (): boolean => !worldFile.dirty || confirm('The wor
 export async function quit(): Promise<void> {
   const what = unsaved() ? `${unsavedText()} changes that are not saved. End Forage all the same?` : 'End Forage? The run ends with it.';
   if (!confirm(what)) return;
-  run.ended = true; // before the server goes
-  if ((await command('quit')) === undefined) run.ended = false;
+  run.ended = run.link === 'open'; // before the server goes
+  try {
+    await request('quit');
+  } catch (e) {
+    // The server may be gone before it has answered.
+    if (run.ended && run.link !== 'open') return;
+    run.ended = false;
+    actions.tell('error', (e as Error).message);
+  }
 }
 
 export async function save(): Promise<void> {
