@@ -41,9 +41,13 @@ export class Lattice {
     for (let i = 0; i < this.places.length; i++) out[this.place(i)] = values[i] ?? NaN;
     return out;
   }
-  /** Column and row from 1, as they are written for users: "(3, 1)". */
+  /** Column and row of a place in the group, from 1. */
+  numbers(place: number): [column: number, row: number] {
+    return [this.left + (place % this.columns) + 1, this.top + Math.floor(place / this.columns) + 1];
+  }
+  /** Column and row as they are written for users: "(3, 1)". */
   name(place: number): string {
-    return `(${this.left + (place % this.columns) + 1}, ${this.top + Math.floor(place / this.columns) + 1})`;
+    return `(${this.numbers(place).join(', ')})`;
   }
   /** How sources name cells of a selection of places, in as few rectangles as are found row by row: "2..4,1". The cells of a sparse group are one row. */
   ranges(places: Iterable<number>): string[] {
