@@ -19,6 +19,7 @@ export function properties(id: string): void {
   selection.select(id);
   frame.openInspector();
   tools.asked = id;
+  tools.field = null;
 }
 
 /** Begins to write the name of an item: in its box, or in the inspector if no box shows it. */

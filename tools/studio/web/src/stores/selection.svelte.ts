@@ -6,7 +6,7 @@ class Selection {
   /** The process whose groups the diagram shows; null for the whole system. */
   process = $state<string | null>(null);
 
-  /** What the diagram is to bring into view, when it shows the page; null for nothing. */
+  /** What the diagram is to bring into view, when it shows the page; null for nothing. Another selection ends it. */
   wanted = $state<string | null>(null);
 
   id = $derived<string | null>(this.ids[this.ids.length - 1] ?? null);
@@ -24,6 +24,7 @@ class Selection {
   set(ids: string[]): void {
     if (ids.length === this.ids.length && ids.every((id, i) => id === this.ids[i])) return;
     this.ids = ids;
+    this.wanted = null; // no diagram showed it
   }
 }
 

@@ -35,6 +35,11 @@ describe('the page of an item', () => {
     reveal('p');
     expect([selection.process, selection.id, selection.wanted]).toEqual(['p', 'p', null]);
   });
+  it('is no longer wanted when something else is selected', () => {
+    reveal('z');
+    selection.select('a');
+    expect(selection.wanted).toBe(null);
+  });
 });
 
 describe('a problem', () => {
