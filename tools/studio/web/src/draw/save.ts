@@ -85,7 +85,8 @@ const squares = (columns: number, rows: number, colour: Colour): string =>
 export const heatSvg = (columns: number, rows: number, colour: Colour): string =>
   `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${columns} ${rows}" shape-rendering="crispEdges">${squares(columns, rows, colour)}</svg>\n`;
 
-const escape = (s: string) => s.replace(/[&<>]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;' })[c]!);
+/** A text as XML has it, also within quotes. */
+export const escape = (s: string) => s.replace(/[&<>"]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' })[c]!);
 
 /** Heat maps with their captions. */
 export function heatsSvg(pictures: (Shape & { colour: Colour; caption: string })[], row: boolean): string {

@@ -1,5 +1,6 @@
 // A page of the diagram as a picture of its own: the boxes and lines as they are drawn, in light colours, without the activity.
 import { inkOn, paper } from '../draw/ink';
+import { escape } from '../draw/save';
 import type { CanvasComment, Group, Process } from '../protocol/messages';
 import { pointsOf, type PageBox, type PageLine } from './diagram';
 import { roundedPath, type Box, type Point } from './line';
@@ -7,7 +8,6 @@ import { moduleLinks } from './module_links';
 
 const kinds = { excitatory: '#c4372c', inhibitory: '#2c62b8', modulatory: '#2f8a45' } as const;
 const ink = '#1f2226', muted = '#62666d', margin = 20;
-const escape = (text: string) => text.replace(/[&<>"]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' })[c]!);
 const number = (v: number) => String(+v.toFixed(2));
 
 /** The lines of a text of at most `width` characters each; a longer word is cut. At most `most` lines, the last one with dots when there are more. */
