@@ -1,4 +1,4 @@
-// The world's file as it is edited. The run keeps its world until the file is saved.
+// The world's file as it is edited. The run keeps its world until the file is saved; only a light that is dragged in the arena acts at once.
 import { request } from '../studio';
 import type { WorldDocument } from '../protocol/editing';
 
