@@ -34,18 +34,28 @@ export const streams = new Streams(
   (source, error) => run.link === 'open' && editing.message?.running_is_current !== false && actions.tell('error', `${source}: ${error.message}`),
 );
 
+/** Whether this page opens or begins another system; its messages come before the reply. */
+let opens = false;
+/** Sends a command; the caller shows what goes wrong. */
+export async function request<T = unknown>(name: string, details: object = {}): Promise<T> {
+  if (name !== 'open' && name !== 'new') return connection.request<T>(name, details);
+  opens = true;
+  try {
+    return await connection.request<T>(name, details);
+  } finally {
+    opens = false;
+  }
+}
+
 /** Sends a command and shows the server's message when it is refused. Undefined then. */
 export async function command<T = unknown>(name: string, details: object = {}): Promise<T | undefined> {
   try {
-    return await connection.request<T>(name, details);
+    return await request<T>(name, details);
   } catch (error) {
     actions.tell('error', (error as Error).message);
     return undefined;
   }
 }
-
-/** Sends a command; the caller shows what goes wrong. */
-export const request = <T = unknown>(name: string, details: object = {}): Promise<T> => connection.request<T>(name, details);
 
 /** Takes the last step back, or does it again. That there is none is no error. */
 export async function step(back: boolean): Promise<void> {
@@ -72,10 +82,13 @@ function receive(message: ServerMessage): void {
     case 'system': {
       // An edited system keeps some of its processes, also when it is saved under another name.
       const named = model.system?.file === message.file && model.system.name === message.name;
-      const other = !named && !model.processes.some((p) => message.processes.some((q) => q.id === p.id));
+      const alike = named || model.processes.some((p) => message.processes.some((q) => q.id === p.id));
+      // One that is opened may look like an edit: files share ids, and new systems a name.
+      const other = opens || !alike;
       if (model.system?.file !== message.file) actions.begin();
       const before = model.system;
       model.system = message;
+      if (before && alike && opens) dock.follow(nameChanges(before, message)); // the arrangement stays, as after an edit
       if (other) dock.forget();
       else if (before) follow(before, message);
       // The diagram begins with the process that is the robot, whose groups show their activity.
