@@ -34,6 +34,15 @@ export class Lattice {
     const at = this.places?.[cell];
     return at ? at[1] * this.columns + at[0] : cell;
   }
+  /** Column and row of a cell within the lattice, from 0. */
+  position(cell: number): [column: number, row: number] {
+    const place = this.place(cell);
+    return [place % this.columns, Math.floor(place / this.columns)];
+  }
+  /** The number of the cell in a column and a row of the lattice; -1 in a hole and outside. */
+  at(column: number, row: number): number {
+    return column >= 0 && column < this.columns ? this.cell(row * this.columns + column) : -1;
+  }
   /** Values of the cells, in order, at their places; NaN in holes. */
   spread(values: ArrayLike<number>): ArrayLike<number> {
     if (!this.places) return values;

@@ -1,13 +1,14 @@
 import { describe, expect, it } from 'vitest';
-import { gridOf, moved, neighbour, painted, stroke } from '../../src/panels/patterns';
+import { Lattice } from '../../src/draw/lattice';
+import { moved, neighbour, painted, stroke } from '../../src/panels/patterns';
 
-const full = gridOf({ width: 3, height: 2, places: null });
-const sparse = gridOf({ width: 1, height: 1, places: [[0, 0], [3, 0], [3, 2]] });
+const full = Lattice.of({ width: 3, height: 2, places: null });
+const sparse = Lattice.of({ width: 4, height: 3, places: [[0, 0], [3, 0], [3, 2]] });
 
 describe('the grid of a group', () => {
   it('has its cells row by row', () => {
     expect([full.columns, full.rows, full.at(2, 1), full.at(3, 0), full.at(0, -1)]).toEqual([3, 2, 5, -1, -1]);
-    expect(full.place(4)).toEqual([1, 1]);
+    expect(full.position(4)).toEqual([1, 1]);
   });
   it('has those of a sparse group at their places', () => {
     expect([sparse.columns, sparse.rows, sparse.at(3, 2), sparse.at(1, 0)]).toEqual([4, 3, 2, -1]);
