@@ -98,8 +98,9 @@ class Dock {
     const closed: string[] = [];
     for (const p of [...(this.api?.panels ?? [])]) {
       const panel = p.params as PanelState, next = followed(panel, changes);
-      if (next === panel) continue;
-      if (typeof next === 'string') {
+      if (next === panel) {
+        if (panel.item) p.api.setTitle(kinds[panel.kind]!.title(panel)); // of what is named by its id
+      } else if (typeof next === 'string') {
         this.parked.push({ id: next, panel: { ...panel } });
         closed.push(next);
         this.api!.removePanel(p);
