@@ -421,7 +421,7 @@ TEST_CASE("a light is moved while the run goes: robot, weights and cycle stay, a
     CHECK(f.ask({{"command", "world_edit"},
                  {"operations", {{{"do", "remove"}, {"id", name}}}},
                  {"run", true}})["ok"] == false);
-    CHECK(world()->bugs() == 1);  // a world without its robot is not taken
+    CHECK(world()->bugs() == 1);  // only what is moved gets into the run at once
 }
 
 TEST_CASE("a light that is moved does not take along what else was edited on the map") {
