@@ -513,6 +513,32 @@ TEST_CASE("the open system moves to another world, with its edits") {
     CHECK(f.session.input().world == world);
 }
 
+TEST_CASE("the time between two savings of a session is set, and holds for the next studio") {
+    const auto folder = std::filesystem::temp_directory_path() / "forage-studio-settings";
+    std::filesystem::remove_all(folder);
+    setenv("XDG_STATE_HOME", folder.c_str(), 1);
+    std::uint64_t cycle = 0;
+    {
+        Fixture f;
+        CHECK(f.result({{"command", "settings"}})["save_interval"] == 20);
+        CHECK(f.result({{"command", "settings"}, {"save_interval", 5}})["save_interval"] == 5);
+        for (const double refused : {4.9, 61.})
+            CHECK(f.ask({{"command", "settings"}, {"save_interval", refused}})["ok"] == false);
+        f.session.keep();
+        f.result({{"command", "speed"}, {"mode", "free"}});
+        f.result({{"command", "run"}});
+        f.session.work(1000);
+        f.session.work(1006);
+        cycle = f.session.run().cycle();
+        f.session.work(1007);
+    }  // without end()
+    Fixture next;
+    CHECK(next.result({{"command", "settings"}})["save_interval"] == 5);
+    next.session.keep();
+    CHECK(next.session.killed().at("cycle") == cycle);
+    std::filesystem::remove_all(folder);
+}
+
 TEST_CASE("a session that is killed while it runs goes on where it was kept, byte by byte") {
     const auto folder = std::filesystem::temp_directory_path() / "forage-studio-states";
     std::filesystem::remove_all(folder);

@@ -143,6 +143,7 @@ struct Commands {
     json import_process();
     json export_process();
     json recent();
+    json settings();
     json files();
     /// After a step of the document.
     json edited(const std::string& title);

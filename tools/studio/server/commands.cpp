@@ -116,6 +116,7 @@ const std::map<std::string, Entry>& table() {
         {"import", {&Commands::import_process, true}},
         {"export", {&Commands::export_process, false}},
         {"recent", {&Commands::recent, false}},
+        {"settings", {&Commands::settings, false}},
         {"files", {&Commands::files, false}},
         {"world_document", {&Commands::world_document, false}},
         {"world_types", {&Commands::world_types, false}},

@@ -11,6 +11,7 @@
 #include "core/xml/writer.h"
 #include "tools/studio/server/command_functions.h"
 #include "tools/studio/server/recent.h"
+#include "tools/studio/server/settings.h"
 
 namespace forage::studio {
 namespace {
@@ -176,6 +177,16 @@ json Commands::export_process() {
 }
 
 json Commands::recent() { return {{"files", recent_files()}}; }
+
+json Commands::settings() {
+    if (const auto interval = c.find("save_interval"); interval != c.end()) {
+        Settings next = s.settings_;
+        next.save_interval = interval->get<double>();
+        write_settings(next);
+        s.settings_ = next;
+    }
+    return {{"save_interval", s.settings_.save_interval}};
+}
 
 json Commands::files() {
     const auto wanted = c.value("folder", "");

@@ -30,8 +30,7 @@ constexpr double slice = 0.004;             ///< seconds of cycles between two l
 constexpr double look_interval = 1;         ///< s between two looks at the document's file
 constexpr double status_interval = 0.1;     ///< s
 constexpr double frame_interval = 1. / 30;  ///< s
-constexpr double save_interval = 20;        ///< s, while the run goes
-constexpr double save_rest = 1;             ///< s, while it does not
+constexpr double save_rest = 1;             ///< s between two savings while the run rests
 constexpr double most_behind = 0.25;        ///< seconds that a paced run may try to catch up
 
 /// A layout of the studio, or the plots of the original.
@@ -354,7 +353,7 @@ double Session::work(double now) {
         tell(status());
         status_at_ = now, status_due_ = false;
     }
-    if (kept_ && saved_version_ != version_ && now - saved_at_ >= (running_ ? save_interval : save_rest))
+    if (kept_ && saved_version_ != version_ && now - saved_at_ >= (running_ ? settings_.save_interval : save_rest))
         save(), saved_at_ = now;
     // All pages get their frames at the same time, so that what several of them watch is drawn once.
     bool waits = false, sent = false;

@@ -20,6 +20,7 @@
 #include "tools/studio/server/client.h"
 #include "tools/studio/server/history.h"
 #include "tools/studio/server/recovery.h"
+#include "tools/studio/server/settings.h"
 #include "tools/studio/server/touches.h"
 
 namespace forage::studio {
@@ -39,7 +40,7 @@ class Session {
     Session(const RunInput& input, Send send, const std::string& plot_config = {}, std::string shipped = {});
 
     /// Keeps the session in the user's folder of states from now on, so that a killed program loses at most
-    /// half a minute. Throws std::runtime_error.
+    /// the time between two savings. Throws std::runtime_error.
     void keep();
     /// Goes on with the session that was killed. Throws InputError when there is none, or when it cannot go
     /// on.
@@ -218,6 +219,7 @@ class Session {
     double looked_at_ = -1e9;
     json sampler_waits_;    ///< the command of a sampler that begins with the run; null for none
     bool sampled_ = false;  ///< whether it has begun in this run
+    Settings settings_ = read_settings();
     std::optional<RecoveryFiles> kept_;
     json killed_;
     std::string files_;  ///< digest of the files of system and world, when they were read

@@ -1,5 +1,5 @@
 // Light or dark: the system's choice, unless the user chose.
-type Choice = 'auto' | 'light' | 'dark';
+export type Choice = 'auto' | 'light' | 'dark';
 
 class Theme {
   choice = $state<Choice>('auto');
@@ -13,9 +13,12 @@ class Theme {
     const kept = localStorage.getItem('theme');
     if (kept === 'light' || kept === 'dark') this.choice = kept;
   }
+  choose(choice: Choice): void {
+    this.choice = choice;
+    localStorage.setItem('theme', choice);
+  }
   toggle(): void {
-    this.choice = this.dark ? 'light' : 'dark';
-    localStorage.setItem('theme', this.choice);
+    this.choose(this.dark ? 'light' : 'dark');
   }
 }
 
