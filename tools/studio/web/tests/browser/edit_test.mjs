@@ -230,6 +230,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   small.setDefaultTimeout(20000);
   await small.setViewportSize({ width: 420, height: 800 });
   await small.goto(new URL(await studio.address).origin);
+  await small.locator('.dv-tab').first().waitFor();
   await small.keyboard.press('Control+k');
   await small.keyboard.type('diagram');
   await small.keyboard.press('Enter');

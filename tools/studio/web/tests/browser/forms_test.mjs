@@ -242,6 +242,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   listen(small);
   await small.setViewportSize({ width: 420, height: 800 });
   await small.goto(new URL(page.url()).origin);
+  await small.locator('.dv-tab').first().waitFor();
   const drawer = small.getByRole('region', { name: 'Inspector' });
   for (let i = 0; i < 2; i++) {
     await paletteOf(small)('Bug/Light');

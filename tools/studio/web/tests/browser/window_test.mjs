@@ -134,6 +134,30 @@ await inBrowser(sources, async ({ context, start, until }) => {
   await page.keyboard.press('Shift+Tab');
   await row('Connections');
 
+  step('settings hold for the next page and the next studio');
+  const settings = async (page) => {
+    await page.keyboard.press('Control+k');
+    await page.keyboard.type('settings');
+    await page.keyboard.press('Enter');
+    return page.getByRole('dialog', { name: 'Settings' });
+  };
+  let dialog = await settings(page);
+  const seconds = () => dialog.getByLabel('Seconds between two savings of the session');
+  await until(page, 'the time', () => document.querySelector('dialog[open] input[type=number]')?.value === '20');
+  await seconds().fill('4');
+  await page.keyboard.press('Enter');
+  assert.equal(await dialog.isVisible(), true, 'a crash would lose more than a minute, or the disk is always busy: refused');
+  await seconds().fill('30');
+  await dialog.getByLabel('Colours').selectOption('dark');
+  await page.keyboard.press('Enter');
+  await dialog.waitFor({ state: 'hidden' });
+  await page.reload();
+  await page.locator('.dv-tab').first().waitFor();
+  await until(page, 'dark colours', () => document.documentElement.classList.contains('dark'));
+  dialog = await settings(page);
+  await until(page, 'the time that was set', () => document.querySelector('dialog[open] input[type=number]')?.value === '30');
+  await page.keyboard.press('Escape');
+
   step('names in forms break between their words only');
   await page.keyboard.press('Control+k');
   await page.keyboard.type('Light to US');
