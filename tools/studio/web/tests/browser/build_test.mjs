@@ -30,7 +30,6 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   const faults = [];
   const studio = start(forage, ['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
   const page = await context.newPage();
-  page.setDefaultTimeout(30000);
   page.on('pageerror', (e) => faults.push(e.message));
   page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
   await page.goto(await studio.address);

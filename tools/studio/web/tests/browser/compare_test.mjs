@@ -9,7 +9,6 @@ const step = (text) => console.log(text);
 
 await inBrowser(sources, async ({ context, start, until }) => {
   const page = await context.newPage();
-  page.setDefaultTimeout(10000);
   await page.goto(await start(forage).address);
   await page.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
   const seek = page.getByLabel('Moment of the run');

@@ -15,7 +15,6 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   const original = readFileSync(file, 'utf8');
   const studio = start(forage, ['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
   const page = await context.newPage();
-  page.setDefaultTimeout(20000);
   page.on('pageerror', (e) => faults.push(e.message));
   page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
   await page.goto(await studio.address);
@@ -227,7 +226,6 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
 
   step('in a small window, Enter leads into the form of a box, and Escape back to it');
   const small = await context.newPage();
-  small.setDefaultTimeout(20000);
   await small.setViewportSize({ width: 420, height: 800 });
   await small.goto(new URL(await studio.address).origin);
   await small.locator('.dv-tab').first().waitFor();

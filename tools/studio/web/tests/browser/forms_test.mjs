@@ -11,7 +11,6 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await context.grantPermissions(['clipboard-read', 'clipboard-write']);
   const faults = [];
   const listen = (page) => {
-    page.setDefaultTimeout(20000);
     page.on('pageerror', (e) => faults.push(e.message));
     page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
   };

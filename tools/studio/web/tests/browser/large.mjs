@@ -28,7 +28,6 @@ await inBrowser(sources, async ({ folder, context, start }) => {
     write(join(folder, `${name}.iqr`), groups, connections, processes);
     const studio = start(forage, [`${name}.iqr`]);
     const page = await context.newPage();
-    page.setDefaultTimeout(30000);
     const address = await studio.address;
     const began = performance.now();
     await page.goto(address);

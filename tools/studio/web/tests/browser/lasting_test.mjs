@@ -11,7 +11,6 @@ await inBrowser(sources, async ({ context, start, until }) => {
   step('a studio that is killed: the next one offers to go on, with the panels and the comparison as they were');
   const first = start(forage);
   const page = await context.newPage();
-  page.setDefaultTimeout(10000);
   await page.goto(await first.address);
   await page.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
   await page.getByRole('navigation').getByText('CS', { exact: true }).first().dblclick();
@@ -31,7 +30,6 @@ await inBrowser(sources, async ({ context, start, until }) => {
 
   const second = start(forage, ['systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world', '--port', new URL(page.url()).port]);
   const again = await context.newPage();
-  again.setDefaultTimeout(10000);
   await again.goto(await second.address);
   await again.getByText("This system's last session was not closed.").waitFor();
   assert.equal(await cycle(again), 0);

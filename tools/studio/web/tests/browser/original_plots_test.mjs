@@ -20,7 +20,6 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
 </iqrDataManagerConfiguration>
 `);
   const page = await context.newPage();
-  page.setDefaultTimeout(10000);
   await page.goto(await start(forage).address);
   await page.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
 

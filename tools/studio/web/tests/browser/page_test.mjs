@@ -25,12 +25,11 @@ try {
   browser = await chromium.launch({ executablePath: browserPath, args: ['--no-sandbox', '--disable-gpu', '--disable-background-networking', '--disable-dev-shm-usage'] });
   const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, colorScheme: 'light' });
   const page = await context.newPage();
-  page.setDefaultTimeout(10000);
   let received = 0; // binary frames
   page.on('websocket', (socket) => socket.on('framereceived', (f) => (received += typeof f.payload === 'string' ? 0 : 1)));
   page.on('pageerror', (e) => faults.push(e.message));
   page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
-  const until = (what, condition, argument) => page.waitForFunction(condition, argument, { timeout: 10000, polling: 100 }).catch(() => assert.fail(`waited in vain: ${what}`));
+  const until = (what, condition, argument) => page.waitForFunction(condition, argument, { polling: 100 }).catch(() => assert.fail(`waited in vain: ${what}`));
   const seek = page.getByLabel('Moment of the run');
   const pixels = (selector) => page.locator(selector).first().evaluate((c) => [...c.getContext('2d').getImageData(0, 0, c.width, c.height).data].reduce((h, v) => (h * 31 + v) | 0, 7));
 

@@ -9,7 +9,6 @@ const step = (text) => console.log(text);
 
 await inBrowser(sources, async ({ folder, context, start, until }) => {
   const page = await context.newPage();
-  page.setDefaultTimeout(10000);
   const faults = [];
   page.on('pageerror', (e) => faults.push(e.message));
   await page.goto(await start(forage).address);

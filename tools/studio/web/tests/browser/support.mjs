@@ -5,6 +5,9 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import assert from 'node:assert/strict';
 
+// What waits is patient: tests run on machines that do much else.
+const patience = 30000;
+
 const browserPath = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((p) => existsSync(p));
 if (!browserPath) {
   console.log('SKIPPED: there is no Chromium');
@@ -38,11 +41,12 @@ export async function inBrowser(sources, test, options = ['--disable-gpu']) {
   try {
     browser = await chromium.launch({ executablePath: browserPath, args: ['--no-sandbox', ...options, '--disable-background-networking', '--disable-dev-shm-usage'] });
     const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, colorScheme: 'light' });
+    context.setDefaultTimeout(patience);
     const start = (forage, args) => {
       studios.push(startStudio(forage, folder, args));
       return studios[studios.length - 1];
     };
-    const until = (page, what, condition, argument) => page.waitForFunction(condition, argument, { timeout: 10000, polling: 100 }).catch(() => assert.fail(`waited in vain: ${what}`));
+    const until = (page, what, condition, argument) => page.waitForFunction(condition, argument, { timeout: patience, polling: 100 }).catch(() => assert.fail(`waited in vain: ${what}`));
     await test({ folder, context, start, until });
   } finally {
     await browser?.close();

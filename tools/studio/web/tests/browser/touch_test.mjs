@@ -11,7 +11,6 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   const faults = [];
   const studio = start(forage, ['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
   const page = await context.newPage();
-  page.setDefaultTimeout(20000);
   page.on('pageerror', (e) => faults.push(e.message));
   page.on('dialog', (d) => d.accept());
   const picture = async (name) => pictures && page.screenshot({ path: join(pictures, `${name}.png`) });

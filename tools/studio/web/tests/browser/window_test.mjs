@@ -12,7 +12,6 @@ await inBrowser(sources, async ({ context, start, until }) => {
   const address = await start(forage).address;
   const open = async (size) => {
     const page = await context.newPage();
-    page.setDefaultTimeout(10000);
     page.on('pageerror', (e) => faults.push(e.message));
     page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
     await page.setViewportSize(size);

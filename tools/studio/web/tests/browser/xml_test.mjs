@@ -22,7 +22,6 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   let printed = '';
   studio.child.stderr.on('data', (d) => (printed += d));
   const page = await context.newPage();
-  page.setDefaultTimeout(10000);
   page.on('pageerror', (e) => faults.push(e.message));
   page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
   const serious = async (which = page) => {
