@@ -4,7 +4,9 @@ export interface Entry {
   keys?: string;
   /** Why it cannot be chosen now. */
   disabled?: boolean;
-  act(): unknown;
+  act?(): unknown;
+  /** Another menu, which opens in its place. */
+  more?(): Entries;
 }
 /** A null is a dividing line. */
 export type Entries = (Entry | null)[];
@@ -20,6 +22,13 @@ class Menu {
     const box = (e.currentTarget as Element).getBoundingClientRect();
     const mouse = e instanceof MouseEvent && e.type === 'contextmenu' && e.clientX > 0;
     this.shown = { ...(mouse ? { x: e.clientX, y: e.clientY } : { x: box.left, y: box.bottom + 2 }), entries, from };
+  }
+  choose({ act, more }: Entry): void {
+    if (more && this.shown) this.shown = { ...this.shown, entries: more() };
+    else {
+      this.close();
+      void act?.();
+    }
   }
   close(): void {
     const from = this.shown?.from;
