@@ -34,12 +34,13 @@ function done(p: IDockviewPanel | undefined): void {
 
 /** Whether `move` changes anything: a panel that fills a side of the window is there already. */
 export function canMove(p: IDockviewPanel, side: Side): boolean {
-  if (floats(p) || shares(p) || neighbour(p, side)) return true;
+  if (floats(p) || shares(p) || p.api.isMaximized() || neighbour(p, side)) return true;
   const { width, height } = p.group.element.getBoundingClientRect();
   return side === 'left' || side === 'right' ? height < dock.api!.height - 4 : width < dock.api!.width - 4;
 }
 /** Splits a panel off its stack. One that stands alone goes past its neighbour, or without one to the edge of all; a floating window goes a step. */
 export function move(p: IDockviewPanel, side: Side): void {
+  p.api.exitMaximized(); // the neighbours are hidden
   if (floats(p)) return shift(p, side);
   if (shares(p)) return split(p, side);
   if (!canMove(p, side)) return;
@@ -83,6 +84,7 @@ const homes = new Map<string, { beside: string; position: Position; index?: numb
 
 /** Takes a panel out of the columns into a window above them. */
 export function float(p: IDockviewPanel): void {
+  p.api.exitMaximized();
   const api = dock.api!, { width, height } = p.group.api;
   if (!floats(p)) {
     const sibling = p.group.panels.find((q) => q !== p);
