@@ -315,6 +315,28 @@ class Watching(unittest.TestCase):
         self.assertFalse(self.page.ask('move', robot=self.page.last('world')['robots'][0]['name'], x=99.0, y='a')['ok'])
 
 
+class Layouts(unittest.TestCase):
+    """Arrangements of panels are files beside the system."""
+
+    def test_a_layout_is_replaced_only_when_that_is_said(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mine = pathlib.Path(folder, 'mine.iqr')
+            mine.write_bytes(pathlib.Path(system).read_bytes())
+            with Studio(forage, str(mine), '--world', world) as studio:
+                page = Page(studio)
+                page.do('pause')
+                page.do('layout_write', name='wide', content={'dock': 1})
+                refused = page.ask('layout_write', name='wide', content={'dock': 2})
+                self.assertFalse(refused['ok'])
+                self.assertIn('wide.layout.json', refused['problems'][0]['message'])
+                self.assertIn('overwrite it', refused['problems'][0]['hint'])
+                self.assertEqual(page.do('layout_read', name='wide')['content'], {'dock': 1})
+                page.do('layout_write', name='wide', content={'dock': 2}, overwrite=True)
+                self.assertEqual(page.do('layout_read', name='wide')['content'], {'dock': 2})
+                self.assertEqual(page.do('layouts')['layouts'], ['wide'])
+                page.close()
+
+
 class OriginalPlots(unittest.TestCase):
     """The original's .conf files open the same plots."""
 

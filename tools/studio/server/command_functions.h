@@ -105,6 +105,8 @@ struct Commands {
     // ---- panels and sets of parameters ----
     std::string panel_path(const char* ending);
     /// Throws InputError when a file of this name exists and the command does not say to overwrite it.
+    void check_new(const std::string& path) const;
+    /// The same, and of a file that comes with Forage.
     void check_free(const std::string& path) const;
     std::vector<xml::PanelRow> panel_rows(const char* ending);
     /// The parameter of an item, as `parameters` describes it. Throws InputError.

@@ -53,6 +53,7 @@ json Commands::layout_convert() {
 
 json Commands::layout_write() {
     const auto path = layout_path(c.at("name").get<std::string>());
+    check_new(path);
     write_file(path, c.at("content").dump(1) + "\n");
     return {{"file", path}};
 }
@@ -71,6 +72,10 @@ std::string Commands::panel_path(const char* ending) {
 
 void Commands::check_free(const std::string& path) const {
     refuse_shipped(path);
+    check_new(path);
+}
+
+void Commands::check_new(const std::string& path) const {
     if (!c.value("overwrite", false) && std::filesystem::exists(path))
         throw InputError(fmt::format("'{}' exists", path), "overwrite it, or choose another name");
 }

@@ -22,6 +22,10 @@ export class CommandError extends Error {
   ) {
     super(problems.map(problemText).join('\n') || 'the server refused this');
   }
+  /** Whether a file is in the way, which the same command with `overwrite` replaces. */
+  get fileExists(): boolean {
+    return this.problems.some((p) => p.hint?.startsWith('overwrite it'));
+  }
 }
 
 interface Waiting { resolve(result: unknown): void; reject(error: Error): void }

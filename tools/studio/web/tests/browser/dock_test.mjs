@@ -1,12 +1,13 @@
 // Panels are moved, stacked, floated, resized and closed with the keyboard alone, in Chromium against the real program: node dock_test.mjs FORAGE SOURCES [PICTURES]
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { inBrowser } from './support.mjs';
 
 const [forage, sources, pictures] = process.argv.slice(2).map((p) => resolve(p));
 const step = (text) => console.log(text);
 
-await inBrowser(sources, async ({ context, start, until }) => {
+await inBrowser(sources, async ({ folder, context, start, until }) => {
   const faults = [];
   const page = await context.newPage();
   page.setDefaultTimeout(10000);
@@ -19,10 +20,14 @@ await inBrowser(sources, async ({ context, start, until }) => {
   const picture = async (name) => pictures && page.screenshot({ path: join(pictures, `${name}.png`) });
 
   /** The stacks that are seen: their tabs, in order, and their places. */
-  const stacks = () => page.evaluate(() => [...document.querySelectorAll('.dv-groupview')].filter((g) => g.getClientRects().length && g.offsetWidth && g.offsetHeight).map((g) => {
+  const stacks = () => page.evaluate(async () => {
+    // Floating windows are laid out with the next picture.
+    for (let i = 0; i < 2; i++) await new Promise(requestAnimationFrame);
+    return [...document.querySelectorAll('.dv-groupview')].filter((g) => g.getClientRects().length && g.offsetWidth && g.offsetHeight).map((g) => {
     const { x, y, width, height } = g.getBoundingClientRect();
     return { tabs: [...g.querySelectorAll('.dv-tab')].map((t) => t.textContent.trim()).join(', '), x: Math.round(x), y: Math.round(y), right: Math.round(x + width), bottom: Math.round(y + height), width: Math.round(width), height: Math.round(height), floats: !!g.closest('.dv-resize-container') };
-  }));
+    });
+  });
   const stack = async (tab) => {
     const found = (await stacks()).find((s) => s.tabs.split(', ').includes(tab));
     assert.ok(found, `a stack with ${tab}: ${JSON.stringify(await stacks())}`);
@@ -249,6 +254,30 @@ await inBrowser(sources, async ({ context, start, until }) => {
   await page.getByRole('group', { name: 'Diagram' }).waitFor();
   await until(page, 'two stacks', () => document.querySelectorAll('.dv-groupview').length === 2);
   assert.equal(await arrangement(), left);
+
+  step('a layout that is there already is replaced only after a question');
+  const file = join(folder, 'systems/mine.layout.json');
+  await page.getByRole('button', { name: 'Layouts of the panels' }).press('Enter');
+  await page.getByLabel('Name of the layout').focus();
+  await page.keyboard.type('mine');
+  await press('Enter');
+  await page.getByText('The layout mine is kept beside the system.').first().waitFor();
+  const first = readFileSync(file, 'utf8');
+  await find('panel: float');
+  await until(page, 'a floating window', () => document.querySelector('.dv-resize-container'));
+  await page.getByRole('button', { name: 'Layouts of the panels' }).press('Enter');
+  await page.getByLabel('Name of the layout').focus();
+  await press('Enter');
+  await page.getByText('There is a layout mine already.').waitFor();
+  await picture('replace');
+  assert.equal(readFileSync(file, 'utf8'), first);
+  await press('Tab', 'Tab', 'Enter');
+  await until(page, 'the menu is closed', () => !document.querySelector('.layouts .menu'));
+  assert.match(readFileSync(file, 'utf8'), /floatingGroups/);
+  await find('panel: dock');
+  await page.getByRole('button', { name: 'Layouts of the panels' }).press('Enter');
+  await page.getByRole('button', { name: 'mine', exact: true }).press('Enter');
+  await until(page, 'the layout with its floating window', () => document.querySelector('.dv-resize-container'));
   assert.deepEqual(faults, []);
   console.log('all fine');
 });
