@@ -394,6 +394,21 @@ class Editing(unittest.TestCase):
     def tearDown(self):
         self.folder.cleanup()
 
+    def test_a_module_that_is_switched_is_told_with_the_system(self):
+        with Studio(forage, str(self.mine), '--world', world) as studio:
+            page = Page(studio)
+            page.do('pause')
+            name = next(p['name'] for p in page.last('system')['processes'] if p['module'])
+            enabled = lambda: next(p['enabled'] for p in page.last('system')['processes'] if p['name'] == name)  # noqa: E731
+            self.assertTrue(enabled())
+            page.do('set', assignments=[f'{name}.enableModule=false'])
+            self.assertFalse(enabled())
+            page.do('undo')
+            self.assertTrue(enabled())
+            page.do('redo')
+            self.assertFalse(enabled())
+            page.close()
+
     def test_a_system_is_edited_while_it_runs_and_runs_from_the_command_line(self):
         with Studio(forage, str(self.mine), '--world', world, state=self.folder.name) as studio:
             page = Page(studio)

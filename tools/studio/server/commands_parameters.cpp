@@ -5,6 +5,15 @@
 #include "tools/studio/server/equivalents.h"
 
 namespace forage::studio {
+namespace {
+
+/// Whether an assignment switches a module on or off, which the description of the system says.
+bool switches_module(const std::vector<std::string>& assignments) {
+    return std::any_of(assignments.begin(), assignments.end(),
+                       [](const auto& a) { return a.find(".enableModule=") != a.npos; });
+}
+
+}  // namespace
 
 json Commands::parameters() {
     json out = describe_parameters(run(), c.at("item").get<std::string>());
@@ -54,7 +63,11 @@ json Commands::set(const std::vector<std::string>& assignments, const std::strin
     const bool step = undoable && s.set_in_document(assignments, title);
     s.act(command, undoable ? std::optional<json>({{"command", "set"}, {"assignments", back}}) : std::nullopt,
           told);
-    if (step) s.undo_.back().document = true, s.tell_document();
+    if (step) {
+        s.undo_.back().document = true;
+        if (switches_module(assignments)) s.tell(s.system_message());
+        s.tell_document();
+    }
     return {{"generation", s.generation_}};
 }
 
@@ -99,7 +112,10 @@ json Commands::back_or_forth(std::vector<Session::Undo>& from, std::vector<Sessi
     }
     back_again();
     const bool document = entry.document, world = command.is_object() && command["command"] == "world_text";
+    const bool module = document && command.is_object() && command["command"] == "set" &&
+                        switches_module(command["assignments"].get<std::vector<std::string>>());
     to.push_back(std::move(entry));
+    if (module) s.tell(s.system_message());
     if (document || world) s.tell_document();
     return {{"generation", s.generation_}};
 }

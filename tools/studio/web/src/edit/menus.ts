@@ -14,12 +14,12 @@ import { tools } from './tool.svelte';
 
 export const removeItems = (ids: string[]) => edit({ do: 'remove', ids });
 
-/** Opens the inspector on an item and puts the cursor into its first field. */
-export function properties(id: string): void {
+/** Opens the inspector on an item and puts the cursor into a field, or into its first one. */
+export function properties(id: string, field: string | null = null): void {
   selection.select(id);
   frame.openInspector();
   tools.asked = id;
-  tools.field = null;
+  tools.field = field;
 }
 
 /** Begins to write the name of an item: in its box, or in the inspector if no box shows it. */
