@@ -85,17 +85,19 @@ export function arrange(plots: PanelState[]): void {
     for (const p of plots) dock.open(p, { beside: arena, inactive: true });
     return;
   }
-  const width = Math.max(220, Math.round((api.width - (kept ? tutorialWidth() : 0)) * (kept ? 0.4 : 0.3)));
-  let above: string | undefined;
+  // Many plots stand in two columns: below each other they would be too low to be read.
+  const columns = plots.length > 3 ? 2 : 1;
+  const room = api.width - (kept ? tutorialWidth() : 0);
+  const width = Math.max(220, Math.round(room * (columns > 1 ? 0.48 : kept ? 0.4 : 0.3)));
+  const opened: string[] = [];
   for (const p of plots) {
-    const id = dock.open(p, above ? { beside: above, direction: 'below' } : { beside: arena, direction: 'right', width });
-    above = id ?? above;
+    const above = opened[opened.length - columns], beside = above ?? opened[0] ?? arena;
+    opened.push(dock.open(p, { beside, direction: above ? 'below' : 'right', width: opened.length ? width / columns : width })!);
   }
-  if (model.world) dock.open({ kind: 'diagram' }, { beside: arena, direction: 'below', height: Math.round(api.height * 0.42) });
+  if (model.world) dock.open({ kind: 'diagram' }, { beside: arena, direction: 'below', height: Math.round(api.height * 0.52) });
   api.getPanel(arena)?.api.setActive();
-  if (!kept) return;
-  kept.api.setSize({ width: tutorialWidth() });
-  if (above) api.getPanel(above)?.api.setSize({ width });
+  kept?.api.setSize({ width: tutorialWidth() });
+  for (const id of opened.slice(0, columns)) api.getPanel(id)?.api.setSize({ width: width / columns });
 }
 
 /** Arranges the panels as a layout file says. Returns whether it says anything. */

@@ -175,6 +175,33 @@ await inBrowser(sources, async ({ context, start, until }) => {
     return found;
   }));
   assert.deepEqual(broken, []);
+  step('the layouts of the parts leave room for plots and for the names in the diagram');
+  for (const size of [large, { width: 1366, height: 768 }]) {
+    await page.setViewportSize(size);
+    for (const [part, n] of [['Overview', 4], ['Part 3: learning', 6], ['Part 4: memory', 7]]) {
+      await page.keyboard.press('Control+k');
+      await page.keyboard.type(`Layout: ${part}`);
+      await page.keyboard.press('Enter');
+      await count(page, n);
+      const plots = await page.evaluate(() => [...document.querySelectorAll('.dv-groupview')].map((g) => [g.querySelector('.dv-tab').textContent.trim(), Math.round(g.offsetWidth), Math.round(g.offsetHeight)]));
+      for (const [title, width, height] of plots) assert.ok(width >= 180 && height >= 220, `${part}: ${title} has ${width} x ${height}`);
+      await until(page, `names of at least 6.4 px in ${part}`, () => {
+        const sizes = [...document.querySelectorAll('.item:not(.phantom) .name')].map((e) => (parseFloat(getComputedStyle(e).fontSize) * e.getBoundingClientRect().width) / e.offsetWidth);
+        return sizes.length > 3 && Math.min(...sizes) >= 6.4;
+      });
+    }
+  }
+  step('a space plot says that the module of its group is off, with the way to its switch, which keys reach');
+  const collector = page.getByRole('group', { name: 'Space plot of Contextual/Collector' });
+  await collector.getByText('Module off').waitFor();
+  await collector.getByRole('button', { name: 'Enable it…' }).press('Enter');
+  await until(page, 'the focus on the switch', () => document.activeElement.matches('aside.right input[type=checkbox]'));
+  await page.keyboard.press(' ');
+  await collector.getByText('Module off').waitFor({ state: 'detached' });
+  assert.equal(await page.getByRole('button', { name: 'Run', exact: true }).count(), 1, 'the key of the switch does not run the system');
+  await page.getByRole('button', { name: 'Undo' }).click();
+  await collector.getByText('Module off').waitFor();
+
   assert.deepEqual(faults, []);
   console.log('all fine');
 });
