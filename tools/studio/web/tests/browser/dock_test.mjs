@@ -215,6 +215,12 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await inMenu('Restore');
   await focused('Arena');
   assert.equal(await arrangement(), home);
+  await inMenu('Maximize');
+  await inMenu('Move right');
+  await focused('Arena');
+  assert.deepEqual(await order(), [columns[1], columns[0], ...columns.slice(2)], 'one that is alone goes past its hidden neighbour');
+  await inMenu('Move left');
+  assert.deepEqual(await order(), columns);
 
   step('Ctrl+K has the same actions, for the active panel');
   await find('panel: float');
