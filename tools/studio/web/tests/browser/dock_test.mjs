@@ -10,7 +10,6 @@ const step = (text) => console.log(text);
 await inBrowser(sources, async ({ folder, context, start, until }) => {
   const faults = [];
   const page = await context.newPage();
-  page.setDefaultTimeout(10000);
   page.on('pageerror', (e) => faults.push(e.message));
   page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
   await page.setViewportSize({ width: 1600, height: 1000 });
