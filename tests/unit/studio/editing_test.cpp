@@ -741,6 +741,32 @@ TEST_CASE("an edit of the structure keeps the cycle, the states and the manipula
     CHECK_FALSE(e.group("!new").is_null());
 }
 
+TEST_CASE("every page knows a system that is opened from an edit of the one before") {
+    Editor e;
+    std::vector<std::int64_t> seen;
+    const auto opened = [&] {
+        const auto now = e.last["system"]["opened"].get<std::int64_t>();
+        if (!seen.empty()) CHECK(now >= seen.back());
+        seen.push_back(now);
+        return seen.size() < 2 || seen[seen.size() - 2] != now;
+    };
+    opened();
+    e.edit({{{"do", "rename"}, {"id", "selection.ur"}, {"name", "Other"}}});
+    CHECK_FALSE(opened());
+    e.result({{"command", "undo"}});
+    CHECK_FALSE(opened());
+    e.result({{"command", "save"}, {"file", (e.folder / "copy.iqr").string()}});
+    CHECK_FALSE(opened());
+    for (int i = 0; i < 2; ++i) {  // the same ids, and then the same file
+        e.result({{"command", "open"}, {"system", e.file}, {"world", e.session->input().world}});
+        CHECK(opened());
+    }
+    for (int i = 0; i < 2; ++i) {  // the same name
+        e.result({{"command", "new"}, {"name", "Mine"}});
+        CHECK(opened());
+    }
+}
+
 TEST_CASE("an edit of the structure says what it ends: the past, a comparison, a recording") {
     Editor e;
     const auto add = [&](const std::string& id) {

@@ -56,6 +56,7 @@ plot::Picture floor_picture(const bug::World& world) {
 Session::Session(const RunInput& input, Send send, const std::string& plot_config, std::string shipped)
     : send_(std::move(send)), shipped_(std::move(shipped)), plot_config_(plot_config) {
     open_any(input);
+    note_opening();
     read_plot_config(*run_);
 }
 
@@ -159,7 +160,7 @@ void Session::tell(const json& message) {
 
 json Session::system_message() {
     json out = describe_system(shown_system(), run_->registry(), run_.get());
-    out["file"] = input_.system;
+    out["file"] = input_.system, out["opened"] = opened_;
     return out;
 }
 

@@ -179,6 +179,7 @@ class Session {
     /// Takes a step of the document back, or forth.
     void step_document(bool back);
     void tell_document();
+    void note_opening();  ///< the system of the document is another one now
     /// Gives a description of parameters the values of the saved file. Returns false for an item of another
     /// file.
     bool saved_values(json& described) const;
@@ -232,6 +233,7 @@ class Session {
     double value_ = 1;
     std::uint32_t epoch_ = 1;
     std::uint64_t generation_ = 0, version_ = 0;
+    std::int64_t opened_ = 0;  ///< ms since 1970; another number says that the system is another one
     double pace_from_ = -1, status_at_ = -1, frames_at_ = -1;
     std::uint64_t pace_cycle_ = 0;
     double rate_from_ = -1, measured_rate_ = 0;

@@ -1,5 +1,6 @@
 // The document of a session, and the run that follows it.
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -105,11 +106,18 @@ void Session::open_with_mistakes(const RunInput& input, const Diagnostics& found
 
 void Session::open_document(const RunInput& input) {
     open_any(input);
+    note_opening();
     ++generation_;  // what pages write of the system before does not get into this one
     sampler_waits_ = nullptr;
     if (kept_) keep_anew();
     // The page arranges its panels when it has the system, and an arena is one of them.
     tell(world_message()), tell(system_message()), tell_document();
+}
+
+void Session::note_opening() {
+    using namespace std::chrono;
+    const auto now = duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
+    opened_ = std::max<std::int64_t>(opened_ + 1, now);
 }
 
 void Session::add_undo(Undo step) {

@@ -214,6 +214,7 @@ void Session::recover() {
     undo_ = std::move(killed.undo), redo_ = std::move(killed.redo);
     trim_undo();
     world_text_ = std::move(killed.world_text);
+    note_opening();
     panels_ = std::move(killed.panels);
     set_speed(killed.mode, killed.value);
     save();

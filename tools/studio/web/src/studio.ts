@@ -34,18 +34,8 @@ export const streams = new Streams(
   (source, error) => run.link === 'open' && editing.message?.running_is_current !== false && actions.tell('error', `${source}: ${error.message}`),
 );
 
-/** Whether this page opens or begins another system; its messages come before the reply. */
-let opens = false;
 /** Sends a command; the caller shows what goes wrong. */
-export async function request<T = unknown>(name: string, details: object = {}): Promise<T> {
-  if (name !== 'open' && name !== 'new') return connection.request<T>(name, details);
-  opens = true;
-  try {
-    return await connection.request<T>(name, details);
-  } finally {
-    opens = false;
-  }
-}
+export const request = <T = unknown>(name: string, details: object = {}): Promise<T> => connection.request<T>(name, details);
 
 /** Sends a command and shows the server's message when it is refused. Undefined then. */
 export async function command<T = unknown>(name: string, details: object = {}): Promise<T | undefined> {
@@ -80,17 +70,14 @@ function receive(message: ServerMessage): void {
       }
       break;
     case 'system': {
-      // An edited system keeps some of its processes, also when it is saved under another name.
-      const named = model.system?.file === message.file && model.system.name === message.name;
-      const alike = named || model.processes.some((p) => message.processes.some((q) => q.id === p.id));
-      // One that is opened may look like an edit: files share ids, and new systems a name.
-      const other = opens || !alike;
-      if (model.system?.file !== message.file) actions.begin();
-      const before = model.system;
+      const before = model.system, other = before?.opened !== message.opened;
       model.system = message;
-      if (before && alike && opens) dock.follow(nameChanges(before, message)); // the arrangement stays, as after an edit
-      if (other) dock.forget();
-      else if (before) follow(before, message);
+      if (other) {
+        actions.begin();
+        // The panels stay for a system that is alike: what it does not have goes without a word, as Undo does not bring it back.
+        if (before && alike(before, message)) dock.follow(nameChanges(before, message));
+        dock.forget();
+      } else if (before) follow(before, message);
       // The diagram begins with the process that is the robot, whose groups show their activity.
       if (other && !model.find(selection.process)) selection.process = (message.processes.find((p) => p.module) ?? message.processes[0])?.id ?? null;
       else if (!model.find(selection.process)) selection.process = null;
@@ -124,6 +111,9 @@ function receive(message: ServerMessage): void {
     }
   }
 }
+
+/** Whether the arrangement of the panels stays when one of two systems is opened after the other. */
+const alike = (before: SystemMessage, after: SystemMessage): boolean => before.file === after.file || before.processes.some((p) => after.processes.some((q) => q.id === p.id));
 
 /** The panels follow the items of an edited system. */
 function follow(before: SystemMessage, after: SystemMessage) {

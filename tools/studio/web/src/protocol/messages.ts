@@ -74,6 +74,8 @@ export interface SystemMessage {
   type: 'system';
   name: string;
   file: string;
+  /** Another number says that another system was opened; with the same one, this one was edited. */
+  opened: number;
   note: string;
   cycles_per_second: number;
   seconds_per_cycle: number;

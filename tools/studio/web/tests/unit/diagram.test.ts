@@ -11,7 +11,7 @@ const group = (id: string, x: number | null, y = 0): Group => ({ id, name: id, p
 const connection = (id: string, source: string, target: string, line: Connection['line'] = null): Connection => ({ id, name: id, source, target, kind: 'excitatory', type: '', note: '', synapses: 1, form: '', states: [], line });
 const line = (more: Partial<ConnectionLine>): ConnectionLine => ({ source_anchor: 1, target_anchor: 1, vertices: [], source_vertices: [], target_vertices: [], ...more });
 const system = (groups: Group[][], connections: Connection[]): SystemMessage => ({
-  type: 'system', name: 's', file: '', note: '', cycles_per_second: 25, seconds_per_cycle: 0.04,
+  type: 'system', name: 's', file: '', opened: 1, note: '', cycles_per_second: 25, seconds_per_cycle: 0.04,
   processes: groups.map((g, i) => ({ id: `p${i}`, name: `P${i}`, color: '', note: '', icon: { x: 100 * i, y: 0, width: 50, height: 50 }, linked: false, enabled: true, module: null, groups: g, comments: [], phantoms: [] })),
   connections,
   comments: [],
