@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "core/base/text_file.h"
@@ -789,6 +790,50 @@ TEST_CASE("an edit of the structure says what it ends: the past, a comparison, a
     CHECK(e.last["action"]["ended"] == json::array());
     CHECK(add("new4") == json({"past", "comparison", "recording"}));
     CHECK(e.session->run().cycle() == 22);
+}
+
+TEST_CASE("actions that begin the run anew say what they end, and how to do it without the studio") {
+    Editor e;
+    int recordings = 0;
+    const auto action = [&](const json& command) {
+        e.result({{"command", "step"}, {"cycles", 5}});
+        e.result({{"command", "compare"}, {"cycle", 3}});
+        e.result({{"command", "sample"},
+                  {"file", (e.folder / fmt::format("{}.csv", ++recordings)).string()},
+                  {"sources", {"Bug/Light"}}});
+        e.result(command);
+        CHECK(e.session->run().cycle() == 0);
+        CHECK(e.last["action"]["command"] == command["command"]);
+        CHECK(e.last["action"]["ended"] == json({"past", "comparison", "recording"}));
+        return e.last["action"];
+    };
+    const std::string open = "run = forage.open(\"" + e.file + "\", world=\"";
+    json told = action({{"command", "restart"}, {"seed", 7}});
+    CHECK(told["shell"] == "--seed 7");
+    e.result({{"command", "restart"}, {"seed", 8}});
+    CHECK(e.last["action"]["ended"] == json::array());  // there was nothing
+
+    const std::string arena = FORAGE_SOURCE_DIR "/systems/worlds/open_arena.world";
+    told = action({{"command", "world_open"}, {"world", arena}});
+    CHECK(told["title"] == "begin anew in open_arena.world");
+    CHECK(told["shell"] == "--world '" + arena + "'");
+    CHECK(told["python"] == open + arena + "\", seed=8)");
+
+    ::setenv("FORAGE_MODEL_PATH", FORAGE_SOURCE_DIR "/systems/worlds/models", 1);
+    const std::string mine = (e.folder / "mine.world").string();
+    told = action({{"command", "world_save"}, {"file", mine}});
+    CHECK(told["shell"] == "--world '" + mine + "'");
+    CHECK(told["python"] == open + mine + "\", seed=8)");
+}
+
+TEST_CASE("a system without a robot leaves its world") {
+    Editor e("cookbook/winner_take_all.iqr",
+             std::vector<std::string>{FORAGE_SOURCE_DIR "/systems/worlds/basic_arena.world"});
+    e.result({{"command", "world_open"}, {"world", ""}});
+    CHECK(e.last["action"]["title"] == "begin anew without a world");
+    CHECK(e.last["action"]["shell"] == "");
+    CHECK(e.last["action"]["python"] == "run = forage.open(\"" + e.file + "\", seed=1)");
+    CHECK(e.last["world"]["file"].is_null());
 }
 
 TEST_CASE("a world is edited, undone, saved, and the run begins anew in it") {

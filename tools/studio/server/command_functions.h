@@ -39,6 +39,9 @@ struct Commands {
     json step();
     json stop();
     json restart();
+    /// Tells the pages that the user has begun the run anew, and what has ended with it.
+    void tell_begun_anew(const std::string& command, const std::string& title, const Equivalent& forms,
+                         const std::vector<std::string>& ended);
     json speed();
     json open();
     json world_open();

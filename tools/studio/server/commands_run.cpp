@@ -47,6 +47,7 @@ json Commands::stop() {
 
 json Commands::restart() {
     const auto before = s.input_.seed;
+    const auto ended = s.lost_by_rebuild();
     s.input_.seed = whole(c, "seed", before, 0, std::numeric_limits<std::uint64_t>::max());
     try {
         s.reset();
@@ -55,16 +56,22 @@ json Commands::restart() {
         throw;
     }
     const auto seed = s.input_.seed;
-    const auto forms = of_restart(s.input_.system, s.input_.world, seed);
+    tell_begun_anew("restart", fmt::format("begin anew with seed {}", seed),
+                    of_restart(s.input_.system, s.input_.world, seed), ended);
+    return {{"seed", seed}};
+}
+
+void Commands::tell_begun_anew(const std::string& command, const std::string& title, const Equivalent& forms,
+                               const std::vector<std::string>& ended) {
     s.tell({{"type", "action"},
             {"generation", s.generation_},
             {"cycle", run().cycle()},
-            {"command", "restart"},
-            {"title", fmt::format("begin anew with seed {}", seed)},
+            {"command", command},
+            {"title", title},
             {"shell", forms.shell},
             {"python", forms.python},
-            {"undoable", false}});
-    return {{"seed", seed}};
+            {"undoable", false},
+            {"ended", ended}});
 }
 
 json Commands::speed() {
@@ -80,6 +87,7 @@ json Commands::speed() {
 json Commands::world_open() {
     RunInput input = s.input_;
     input.world = c.at("world").get<std::string>(), input.world_text.clear();
+    const auto ended = s.lost_by_rebuild();
     const auto before = std::exchange(s.input_, input);
     try {
         s.reset();
@@ -95,6 +103,9 @@ json Commands::world_open() {
             return command == "world_text" || command == "move";
         });
     ++s.generation_;
+    const auto name = std::filesystem::path(input.world).filename().string();
+    tell_begun_anew("world_open", name.empty() ? "begin anew without a world" : "begin anew in " + name,
+                    of_world(input.system, input.world, input.seed), ended);
     s.tell(s.world_message()), s.tell(s.system_message()), s.tell_document();
     return {{"world", input.world}};
 }

@@ -215,6 +215,7 @@ json Commands::world_save() {
     write_file(file, world.text);
     world.saved = world.text, world.path = file;
     const auto before = s.input_;
+    const auto ended = s.lost_by_rebuild();
     s.input_.world = file, s.input_.world_text.clear();
     try {
         s.reset();  // the run begins anew in the world as it is now
@@ -222,6 +223,9 @@ json Commands::world_save() {
         s.input_ = before;
         throw;
     }
+    tell_begun_anew("world_save",
+                    "save " + std::filesystem::path(file).filename().string() + " and begin anew in it",
+                    of_world(s.input_.system, file, s.input_.seed), ended);
     s.tell(s.world_message()), s.tell(world_document());
     return {{"file", file}};
 }

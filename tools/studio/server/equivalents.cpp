@@ -127,10 +127,21 @@ Equivalent of_trial(const std::string& robot, int start) {
     return {"", fmt::format("run.begin_trial({}robot={})", where, literal(robot))};
 }
 
-Equivalent of_restart(const std::string& system, const std::string& world, std::uint64_t seed) {
+namespace {
+
+std::string opened_in_python(const std::string& system, const std::string& world, std::uint64_t seed) {
     const std::string in = world.empty() ? "" : ", world=" + literal(world);
-    return {fmt::format("--seed {}", seed),
-            fmt::format("run = forage.open({}{}, seed={})", literal(system), in, seed)};
+    return fmt::format("run = forage.open({}{}, seed={})", literal(system), in, seed);
+}
+
+}  // namespace
+
+Equivalent of_restart(const std::string& system, const std::string& world, std::uint64_t seed) {
+    return {fmt::format("--seed {}", seed), opened_in_python(system, world, seed)};
+}
+
+Equivalent of_world(const std::string& system, const std::string& world, std::uint64_t seed) {
+    return {world.empty() ? "" : "--world " + quoted(world), opened_in_python(system, world, seed)};
 }
 
 Equivalent of_sampling(const std::vector<std::string>& sources, const std::string& file,

@@ -33,6 +33,8 @@ Equivalent of_move(const std::string& name, double x, double y, double heading);
 Equivalent of_trial(const std::string& robot, int start);
 /// A run that begins anew with a seed.
 Equivalent of_restart(const std::string& system, const std::string& world, std::uint64_t seed);
+/// A run that begins anew in another world; `world` is empty for none.
+Equivalent of_world(const std::string& system, const std::string& world, std::uint64_t seed);
 /// A recording into a file.
 Equivalent of_sampling(const std::vector<std::string>& sources, const std::string& file, std::uint64_t every);
 

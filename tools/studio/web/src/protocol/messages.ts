@@ -162,7 +162,7 @@ export interface ActionMessage {
   shell?: string;
   python?: string;
   undoable?: boolean;
-  /** What an edit of the structure has ended. */
+  /** What has ended, as the run was built anew or has begun anew. */
   ended?: ('past' | 'comparison' | 'recording')[];
 }
 
