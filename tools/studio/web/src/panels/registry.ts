@@ -12,6 +12,7 @@ export interface PanelState {
 }
 
 export interface PanelProps {
+  /** Another one when its item, sources or rows have got other names; what `keep` changes in it is not tracked. */
   panel: PanelState;
   /** Keeps settings in the layout. */
   keep(settings: Partial<PanelState>): void;

@@ -20,6 +20,9 @@ function named(system: SystemMessage): Map<string, string> {
   return all;
 }
 
+/** The ids of groups and connections by their names. */
+export const idsByName = (system: SystemMessage): Map<string, string> => new Map([...named(system)].map(([id, name]) => [name, id]));
+
 /** Names that several items have. */
 function shared(names: Iterable<string>): Set<string> {
   const once = new Set<string>(), more = new Set<string>();

@@ -250,12 +250,34 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await inspector.getByRole('button', { name: 'Drive' }).click();
   await plot('Drive Bug/Light').waitFor();
   const count = (await tabs()).length;
+  /** The numbers that the plots over time have seen: the traces, and the raster. */
+  const seen = async (process) => {
+    const all = [];
+    for (const [title, panel] of [['Over time', time], [`${process}/Motor raster`, plot(`Raster plot of ${process}/Motor`)]]) {
+      await page.locator('.dv-tab', { hasText: title }).first().click();
+      all.push((await saved(panel, 'csv')).trim().split('\n').slice(1));
+    }
+    return all;
+  };
+  const already = await seen('Bug');
+  assert.ok(already.every((rows) => rows.length > 10), `${already.map((rows) => rows.length)} rows`);
   await inspector.getByLabel('Name', { exact: true }).fill('Lamp');
   await inspector.getByLabel('Name', { exact: true }).press('Enter');
   await plot('Space plot of Bug/Lamp').waitFor();
   assert.ok((await tabs()).includes('Bug/Lamp') && (await tabs()).length === count);
+  await page.locator('.dv-tab', { hasText: 'Drive Bug/Lamp' }).click();
   await plot('Drive Bug/Lamp').waitFor();
   await page.locator('.dv-tab', { hasText: 'Over time' }).first().click();
+  await time.getByRole('button', { name: 'Change Bug/Lamp(17,1)' }).waitFor();
+  assert.deepEqual(await seen('Bug'), already, 'what was seen stays');
+  await tree.getByRole('button', { name: /^Bug/ }).first().click();
+  await inspector.getByLabel('Name', { exact: true }).fill('Robot');
+  await inspector.getByLabel('Name', { exact: true }).press('Enter');
+  await until(page, 'the name of the process', () => [...document.querySelectorAll('.dv-tab')].some((t) => t.textContent.trim() === 'Robot/Motor raster'));
+  assert.deepEqual(await seen('Robot'), already);
+  await page.locator('.dv-tab', { hasText: 'Over time' }).first().click();
+  await time.getByRole('button', { name: 'Change Robot/Lamp(17,1)' }).waitFor();
+  await page.keyboard.press('Control+z');
   await time.getByRole('button', { name: 'Change Bug/Lamp(17,1)' }).waitFor();
   await page.getByRole('button', { name: 'Run', exact: true }).click();
   await until(page, 'a value of the renamed group', () => [...document.querySelectorAll('.key')].some((k) => k.textContent.includes('Bug/Lamp(17,1)') && /\d$/.test(k.querySelector('.number').textContent)));

@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import type { SystemMessage } from '../../src/protocol/messages';
-import { followed, nameChanges, shows } from '../../src/stores/follow';
+import { renamedSource } from '../../src/panels/sources';
+import { followed, idsByName, nameChanges, shows } from '../../src/stores/follow';
 
 const system = (groups: Record<string, string>, connections: Record<string, string> = {}, process = 'Bug') =>
   ({ processes: [{ id: 'p', name: process, groups: Object.entries(groups).map(([id, name]) => ({ id, path: `${process}/${name}` })) }], connections: Object.entries(connections).map(([id, name]) => ({ id, name })) }) as unknown as SystemMessage;
@@ -14,6 +15,13 @@ describe('panels', () => {
     expect(followed({ kind: 'chosen', rows: [{ item: 'Bug/Light', parameter: 'p' }] }, changes)).toEqual({ kind: 'chosen', rows: [{ item: 'Bug/Lamp', parameter: 'p' }] });
     const same = { kind: 'space', item: 'Bug/US' };
     expect(followed(same, changes)).toBe(same);
+  });
+  it('know a source by the id of its item, which another name does not change', () => {
+    const before = system({ a: 'Light', b: 'US' }, { c: 'wire' }), after = system({ a: 'US', b: 'Light' }, { c: 'cable' }, 'Robot');
+    const sources = ['mean(Bug/Light:vm(1,2))', 'Bug/US', 'wire:weight', 'Bug/Gone'], names = idsByName(before);
+    expect(sources.map((s) => renamedSource(s, names))).toEqual(['mean(a:vm(1,2))', 'b', 'c:weight', 'Bug/Gone']);
+    const { sources: next } = followed({ kind: 'time', sources }, nameChanges(before, after)) as { sources: string[] };
+    expect(next.map((s) => renamedSource(s, idsByName(after)))).toEqual(sources.map((s) => renamedSource(s, names)));
   });
   it('follow a process, and two groups that change their names with each other', () => {
     expect(followed({ kind: 'raster', item: 'Bug/Light' }, nameChanges(system({ a: 'Light' }), system({ a: 'Light' }, {}, 'Robot')))).toEqual({ kind: 'raster', item: 'Robot/Light' });
