@@ -499,6 +499,47 @@ TEST_CASE("a new system is built from nothing, saved under a name, and opened ag
     CHECK(std::ranges::count(listed, "new.iqr") == 1);
 }
 
+TEST_CASE("a backup is listed under its file, opened, and not written") {
+    Editor e("reactive_foraging.iqr");
+    const auto backup = e.result({{"command", "backup"}})["file"].get<std::string>();
+    const std::string older = e.file + ",1999-12-31_23-59-58", kept = e.content();
+    fs::copy_file(e.file, older);
+    for (const char* no : {",1999-12-31_23-59-5", ",1999-12-31-23-59-58", ",autosave", "~"})
+        fs::copy_file(e.file, e.file + no);
+    const json listed = e.result({{"command", "files"}});
+    CHECK(listed["files"] == json({"mine.iqr"}));
+    REQUIRE(listed["backups"].size() == 2);  // the latest first
+    CHECK(listed["backups"][0]["file"] == fs::path(backup).filename().string());
+    CHECK(listed["backups"][1] == json({{"file", "mine.iqr,1999-12-31_23-59-58"},
+                                        {"system", "mine.iqr"},
+                                        {"time", "1999-12-31T23:59:58"}}));
+    CHECK(e.last["document"]["backup_of"].is_null());
+
+    e.result({{"command", "open"}, {"system", older}, {"world", e.session->input().world}});
+    CHECK(e.last["document"]["backup_of"] == e.file);
+    e.edit({{{"do", "rename"}, {"id", "selection.ur"}, {"name", "Other"}}});
+    CHECK(e.ask({{"command", "save"}}).dump().find("is a backup and stays as it is") != std::string::npos);
+    CHECK(e.ask({{"command", "save"}, {"overwrite", true}})["ok"] == false);
+    CHECK(read_file(older) == kept);
+    CHECK(e.ask({{"command", "save"}, {"file", e.file}})["ok"] == false);  // it asks before
+    CHECK(e.content() == kept);
+    // A backup of the backup is one of the system; within a second they have one name.
+    fs::remove(backup);
+    CHECK(e.result({{"command", "backup"}})["file"].get<std::string>().find("mine.iqr,1999") ==
+          std::string::npos);
+    e.result({{"command", "save"}, {"file", e.file}, {"overwrite", true}});
+    CHECK(e.last["document"]["backup_of"].is_null());
+    CHECK(e.content() != kept);
+}
+
+TEST_CASE("a backup with mistakes is opened to be corrected") {
+    Editor e;
+    const std::string backup = e.file + ",1999-12-31_23-59-58";
+    std::ofstream(backup) << "<System";
+    e.result({{"command", "open"}, {"system", backup}, {"world", e.session->input().world}});
+    CHECK(e.last["document"]["opened_with_mistakes"] == true);
+}
+
 TEST_CASE("a file that changes outside is noticed, and both changes are merged") {
     Editor e;
     const auto group = e.last["system"]["processes"][0]["groups"][0]["id"];

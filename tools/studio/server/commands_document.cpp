@@ -2,13 +2,13 @@
 #include <ctime>
 #include <filesystem>
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include "core/base/output_files.h"
 #include "core/model/build.h"
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
+#include "tools/studio/server/backups.h"
 #include "tools/studio/server/command_functions.h"
 #include "tools/studio/server/recent.h"
 #include "tools/studio/server/settings.h"
@@ -93,6 +93,9 @@ json Commands::save() {
         throw InputError(fmt::format("'{}' is not a name of a system", file), "it ends with .iqr");
     const std::string before = document().path(), to = file.empty() ? before : file;
     refuse_shipped(to);
+    if (backup_of(to))
+        throw InputError(fmt::format("'{}' is a backup and stays as it is", to),
+                         "save it under the name of the system, or under another one");
     document().save(file, run().registry(), c.value("overwrite", false));
     // The file now has a text that does not run.
     if (!s.current_ && s.input_.text.empty()) s.input_.text = s.begun_.text;
@@ -107,13 +110,14 @@ json Commands::save() {
 }
 
 json Commands::backup() {
-    const auto& path = document().path();
+    auto path = document().path();
+    if (const auto backup = backup_of(path)) path = backup->system;
     if (path.empty()) throw InputError("the system has no file yet", "save it first");
     refuse_shipped(path);
     const std::time_t now = std::time(nullptr);
     std::tm local{};
     localtime_r(&now, &local);
-    const auto file = fmt::format("{},{:%Y-%m-%d_%H-%M-%S}", path, local);
+    const auto file = backup_path(path, local);
     if (fs::exists(file)) throw InputError(fmt::format("'{}' exists", file), "wait for a second");
     write_file(file, document().text());
     return {{"file", file}};
@@ -195,7 +199,7 @@ json Commands::files() {
     const fs::path where = fs::canonical(here, failed);
     if (failed || !fs::is_directory(where))
         throw InputError(fmt::format("'{}' is not a folder", here.string()));
-    std::vector<std::string> folders, files;
+    std::vector<std::string> folders, files, backups;
     for (const auto& entry : fs::directory_iterator(where, fs::directory_options::skip_permission_denied)) {
         const std::string name = entry.path().filename().string();
         std::error_code ignored;
@@ -204,12 +208,21 @@ json Commands::files() {
             folders.push_back(name);
         else if (is_shown(entry.path()))
             files.push_back(name);
+        else if (backup_of(name))
+            backups.push_back(name);
     }
     std::ranges::sort(folders), std::ranges::sort(files);
+    std::ranges::sort(backups, std::greater());  // of each system, the latest first
+    json dated = json::array();
+    for (const auto& name : backups) {
+        const auto backup = backup_of(name);
+        dated.push_back({{"file", name}, {"system", backup->system}, {"time", backup->time}});
+    }
     return {{"folder", where.string()},
             {"parent", where.parent_path().string()},
             {"folders", folders},
-            {"files", files}};
+            {"files", files},
+            {"backups", std::move(dated)}};
 }
 
 }  // namespace forage::studio

@@ -11,6 +11,7 @@
 #include "core/xml/writer.h"
 #include "tools/api/describe_json.h"
 #include "tools/api/sources.h"
+#include "tools/studio/server/backups.h"
 #include "tools/studio/server/equivalents.h"
 #include "tools/studio/server/problems.h"
 #include "tools/studio/server/session.h"
@@ -25,7 +26,8 @@ bool has_errors(const std::vector<Document::Problem>& problems) {
 
 /// Whether an error is in the file of a system, or in one that it links.
 bool is_in_system(const Diagnostics& diagnostics, const std::string& system) {
-    const auto ending = std::filesystem::path(system).extension();
+    const auto backup = backup_of(system);
+    const auto ending = std::filesystem::path(backup ? backup->system : system).extension();
     if (ending != ".iqr" && ending != ".xml") return false;
     return std::ranges::any_of(diagnostics.all(), [&](const Diagnostic& d) {
         return d.severity == Severity::error && d.where.file &&
@@ -173,8 +175,10 @@ json Session::document_message() const {
     const auto title = [](const std::vector<Undo>& steps) {
         return steps.empty() ? json(nullptr) : json(steps.back().title);
     };
+    const auto backup = backup_of(document_->path());
     return {{"type", "document"},
             {"file", document_->path()},
+            {"backup_of", backup ? json(backup->system) : json(nullptr)},
             {"shipped", comes_with_forage(document_->path())},
             {"name", document_->system().name},
             {"dirty", document_->dirty()},

@@ -9,6 +9,8 @@ class DocumentState {
   file = $derived(this.message?.file ?? '');
   /** Whether it comes with Forage, and is saved under another name only. */
   shipped = $derived(this.message?.shipped ?? false);
+  /** The system of which it is a backup, which is saved under another name only. */
+  backupOf = $derived(this.message?.backup_of ?? null);
   dirty = $derived(this.message?.dirty ?? false);
   problems = $derived<DocumentProblem[]>(this.message?.problems ?? []);
   /** Whether the text has a system that forms can change. */

@@ -37,7 +37,7 @@ class FileDialog {
     this.taken = '';
     this.world = model.world?.file ?? '';
     const item = model.find(process);
-    this.name = action === 'export' && item?.kind === 'process' ? `${item.process.name}.iqrProcess` : action === 'save as' ? editing.file.split('/').pop() || `${model.system?.name || 'system'}.iqr` : '';
+    this.name = action === 'export' && item?.kind === 'process' ? `${item.process.name}.iqrProcess` : action === 'save as' ? baseName(editing.backupOf ?? editing.file) || `${model.system?.name || 'system'}.iqr` : '';
     const world = worldFile.document?.file ?? '';
     if (action === 'save the world') this.name = baseName(world);
     // A world finds its models from its own folder. A system that comes with Forage is saved where the studio was started.
@@ -141,7 +141,7 @@ export async function save(): Promise<void> {
   } catch (e) {
     return actions.tell('error', (e as Error).message);
   }
-  if (!editing.file || editing.shipped) return fileDialog.open('save as');
+  if (!editing.file || editing.shipped || editing.backupOf) return fileDialog.open('save as');
   if (await command('save')) actions.tell('info', worldFile.dirty ? 'The system is saved, its world is not.' : 'Saved.');
 }
 

@@ -9,6 +9,8 @@ export interface DocumentMessage {
   type: 'document';
   /** Empty for a system that has no file yet. */
   file: string;
+  /** The system of which the file is a backup: it is not written. */
+  backup_of: string | null;
   /** Whether the file comes with Forage: it is not written. */
   shipped: boolean;
   dirty: boolean;
@@ -82,7 +84,10 @@ export interface TypeInfo { type: string; label?: string; doc?: string; paramete
 export interface TypesResult { neurons: TypeInfo[]; synapses: TypeInfo[]; modules: TypeInfo[]; arborizations: TypeInfo[]; functions: TypeInfo[] }
 
 export interface PreviewResult { synapses: number; source: number[]; target: number[] }
-export interface FilesResult { folder: string; parent?: string | null; folders: string[]; files: string[] }
+/** A backup of a system; `time` is local. */
+export interface BackupFile { file: string; system: string; time: string }
+/** `backups`: the latest of a system first. */
+export interface FilesResult { folder: string; parent?: string | null; folders: string[]; files: string[]; backups: BackupFile[] }
 
 /** Changes a part of the item that a form shows, and sends the operations for it. */
 export type Change = (part: Partial<EditItem>, operation: Operation | Operation[], merge: string) => Promise<unknown>;

@@ -1,13 +1,14 @@
-// What lasts in Chromium against the real program: node lasting_test.mjs FORAGE SOURCES
+// What lasts in Chromium against the real program: node lasting_test.mjs FORAGE SOURCES [SCREENSHOT]
 import assert from 'node:assert/strict';
-import { resolve } from 'node:path';
+import { readFileSync } from 'node:fs';
+import { join, resolve } from 'node:path';
 import { inBrowser } from './support.mjs';
 
-const [forage, sources] = process.argv.slice(2).map((p) => resolve(p));
+const [forage, sources, screenshot] = process.argv.slice(2).map((p) => resolve(p));
 const step = (text) => console.log(text);
 const cycle = (page) => page.getByLabel('Moment of the run').inputValue().then(Number);
 
-await inBrowser(sources, async ({ context, start, until }) => {
+await inBrowser(sources, async ({ folder, context, start, until }) => {
   step('a studio that is killed: the next one offers to go on, with the panels and the comparison as they were');
   const first = start(forage);
   const page = await context.newPage();
@@ -41,5 +42,36 @@ await inBrowser(sources, async ({ context, start, until }) => {
   assert.equal(await again.getByText("This system's last session was not closed.").count(), 0);
   await gone.waitFor({ state: 'detached' });
   await until(page, 'cycle 7 in the page of the first one', () => document.querySelector('[aria-label="Moment of the run"]')?.value === '7');
+
+  step('a backup is opened from under its file, and does not replace it without a question');
+  const file = join(folder, 'systems/dac_foraging.iqr'), content = readFileSync(file, 'utf8');
+  await again.keyboard.press('Control+b');
+  await again.getByText(/^The backup is dac_foraging\.iqr,/).waitFor();
+  await again.keyboard.press('Control+o');
+  const opening = again.getByRole('dialog', { name: 'Open a system' });
+  await opening.getByText('a backup', { exact: true }).click();
+  await opening.getByRole('button', { name: /^today, \d\d:\d\d:\d\d$/ }).click();
+  if (screenshot) await again.screenshot({ path: `${screenshot}.backups.png` });
+  await opening.getByRole('button', { name: 'Open', exact: true }).click();
+  const name = again.getByRole('button', { name: /^DAC foraging backup/ });
+  await name.waitFor();
+  await again.keyboard.press('Control+k');
+  await again.keyboard.type('Learning/CS');
+  await again.keyboard.press('Enter');
+  const field = again.getByRole('region', { name: 'Inspector' }).getByLabel('Name', { exact: true });
+  await field.fill('Changed');
+  await field.press('Enter');
+  await until(again, 'a change', () => document.title.startsWith('●'));
+  await again.keyboard.press('Control+s');
+  const saving = again.getByRole('dialog', { name: 'Save as' });
+  assert.equal(await saving.getByLabel('Name', { exact: true }).inputValue(), 'dac_foraging.iqr');
+  await saving.getByRole('button', { name: 'Save', exact: true }).click();
+  await saving.getByRole('button', { name: 'Replace the file' }).waitFor();
+  assert.equal(readFileSync(file, 'utf8'), content);
+  await saving.getByRole('button', { name: 'Replace the file' }).click();
+  await saving.waitFor({ state: 'detached' });
+  await until(again, 'the file itself', () => document.title.includes('dac_foraging.iqr)') && !document.title.startsWith('●'));
+  await name.waitFor({ state: 'detached' });
+  assert.match(readFileSync(file, 'utf8'), /name="Changed"/);
   console.log('all fine');
 });
