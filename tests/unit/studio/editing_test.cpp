@@ -714,7 +714,14 @@ TEST_CASE("a problem about a port names it, and an empty name is refused with a 
     REQUIRE(problems.size() == 1);
     CHECK(problems[0]["port"] == "_motor");
     CHECK(problems[0]["item"] == bug["id"]);
+    CHECK(problems[0]["unset"] == true);
     CHECK(e.last["document"]["running_is_current"] == false);
+    // A port that leads to a group with which it cannot work has another problem.
+    e.edit({{{"do", "ports"}, {"id", bug["id"]}, {"inputs", {{"_motor", bug["groups"][1]["id"]}}}}});
+    const json wrong = e.last["document"]["problems"];
+    REQUIRE(wrong.size() == 1);
+    CHECK(wrong[0]["port"] == "_motor");
+    CHECK_FALSE(wrong[0].contains("unset"));
     const auto before = e.text();
     const json refused =
         e.ask({{"command", "edit"}, {"operations", {{{"do", "rename"}, {"id", bug["id"]}, {"name", " "}}}}});

@@ -12,8 +12,8 @@
 #include "tools/api/describe_json.h"
 #include "tools/api/sources.h"
 #include "tools/studio/server/backups.h"
+#include "tools/studio/server/document_problems.h"
 #include "tools/studio/server/equivalents.h"
-#include "tools/studio/server/problems.h"
 #include "tools/studio/server/session.h"
 
 namespace forage::studio {
@@ -33,20 +33,6 @@ bool is_in_system(const Diagnostics& diagnostics, const std::string& system) {
         return d.severity == Severity::error && d.where.file &&
                (d.where.file->path == system || d.where.file->path.ends_with(".iqrProcess"));
     });
-}
-
-json json_of(const std::vector<Document::Problem>& problems) {
-    json out = json::array();
-    for (const auto& p : problems) {
-        Diagnostics one;
-        one.add(p.diagnostic);
-        json row = problems_of(one).front();
-        row["item"] = p.item.empty() ? json(nullptr) : json(p.item);
-        if (!p.diagnostic.port.empty()) row["port"] = p.diagnostic.port;
-        if (!p.diagnostic.parameter.empty()) row["parameter"] = p.diagnostic.parameter;
-        out.push_back(std::move(row));
-    }
-    return out;
 }
 
 }  // namespace
@@ -184,7 +170,7 @@ json Session::document_message() const {
             {"dirty", document_->dirty()},
             {"readable", document_->readable()},
             {"opened_with_mistakes", wanted_.has_value()},
-            {"problems", json_of(problems_)},
+            {"problems", problems_of(problems_, document_->system(), run_->registry())},
             {"outside", outside_ ? json("changed") : json(nullptr)},
             {"undo", title(undo_)},
             {"redo", title(redo_)},

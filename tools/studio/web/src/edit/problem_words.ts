@@ -6,7 +6,7 @@ import { editing } from './document.svelte';
 /** A port or an input that is not set, by the name of its field; the words of the file for other problems. */
 export function inWords(p: DocumentProblem): { message: string; hint?: string } {
   const item = model.find(p.item);
-  if (!p.port || !p.message.endsWith('is not set')) return p;
+  if (!p.unset) return p;
   if (item?.kind === 'process') {
     const type = editing.types?.modules.find((t) => t.type === item.process.module?.type);
     const port = [...(type?.inputs ?? []), ...(type?.outputs ?? [])].find((q) => q.name === p.port);

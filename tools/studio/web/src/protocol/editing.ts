@@ -1,8 +1,8 @@
 // What the editor and the server say to each other: the document, its items, the types there are, and the operations.
 import type { ConnectionKind, ParameterInfo, ParameterValue, Problem, State } from './messages';
 
-/** `port`, `parameter`: the field of the item that it is about. */
-export interface DocumentProblem extends Problem { item?: string | null; port?: string; parameter?: string }
+/** `port`, `parameter`: the field of the item that it is about; `unset`: the port is required, and leads nowhere. */
+export interface DocumentProblem extends Problem { item?: string | null; port?: string; parameter?: string; unset?: boolean }
 
 /** The document as it is now. The server sends it after each change. */
 export interface DocumentMessage {

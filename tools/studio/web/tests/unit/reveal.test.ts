@@ -44,8 +44,8 @@ describe('the page of an item', () => {
 
 describe('a problem', () => {
   it('about a port or an input is told by the name of its field', () => {
-    expect(inWords({ message: "the cross reference '_motor' of moduleBug is not set", item: 'p', port: '_motor' }).message).toBe('Motor of the module of P has no group');
-    expect(inWords({ message: "the feedback input 'postact' of synapseLearning is not set", item: 'inner', port: 'postact' }).message).toBe('Activity of the synapse of inner has no state');
+    expect(inWords({ message: "the cross reference '_motor' of moduleBug is not set", item: 'p', port: '_motor', unset: true }).message).toBe('Motor of the module of P has no group');
+    expect(inWords({ message: "the feedback input 'postact' of synapseLearning is not set", item: 'inner', port: 'postact', unset: true }).message).toBe('Activity of the synapse of inner has no state');
   });
   it('of another kind keeps the words of the file', () => {
     const other = { message: 'the port has another size', item: 'p', port: '_motor' };
