@@ -13,7 +13,6 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   const address = await studio.address;
   const open = async (url) => {
     const page = await context.newPage();
-    page.setDefaultTimeout(20000);
     page.on('pageerror', (e) => faults.push(e.message));
     page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
     await page.goto(url);
