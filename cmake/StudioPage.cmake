@@ -1,8 +1,9 @@
 # Builds the page of the studio with Node, and makes the source file that holds it: run by the build as
-#   cmake -DWEB=tools/studio/web -DTUTORIAL=docs/tutorial -DBASIC=tools/studio/server/basic -DWORK=folder -DNPM=npm -DSTRICT=ON -DOUTPUT=assets.cpp -P StudioPage.cmake
-# Without NPM, or when npm fails and STRICT is off, only the hand-written page is in it.
+#   cmake -DWEB=tools/studio/web -DTUTORIAL=docs/tutorial -DBASIC=tools/studio/server/basic -DWORK=folder -DNPM=npm -DSTRICT=ON -DOUTPUT=assets.cpp -DDONE=assets.done -P StudioPage.cmake
+# Without NPM, or when npm fails and STRICT is off, only the hand-written page is in it. The file DONE is missing when npm failed, so that
+# the next build tries again.
 set(page "")
-set(again OFF)
+file(REMOVE ${DONE})
 if(NPM)
   file(REMOVE_RECURSE ${WORK}/web/src ${WORK}/web/tests ${WORK}/web/tutorial)  # files that are no longer there
   file(COPY ${WEB}/ DESTINATION ${WORK}/web PATTERN node_modules EXCLUDE PATTERN dist EXCLUDE)
@@ -25,7 +26,6 @@ if(NPM)
     message(FATAL_ERROR "the page of the studio cannot be built:\n${out}")
   else()
     message("The page of the studio cannot be built (npm failed): only the hand-written page /basic is in the program. The next build tries again.\n${out}")
-    set(again ON)
   endif()
 endif()
 
@@ -71,6 +71,6 @@ ${table}};
 const int asset_count = ${count};
 }  // namespace forage::studio
 ")
-if(again)
-  execute_process(COMMAND touch -d @0 ${OUTPUT})  # older than what it is made from
+if(page OR NOT NPM)
+  file(TOUCH ${DONE})
 endif()

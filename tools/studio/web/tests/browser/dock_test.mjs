@@ -42,8 +42,9 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   const go = async (tab) => {
     for (let i = 0; i < 12; i++) {
       if (await page.evaluate((t) => document.activeElement.matches('.dv-tab') && document.activeElement.textContent.trim() === t, tab)) return;
+      await page.evaluate(() => (window.before = document.activeElement));
       await press('F6');
-      await page.waitForTimeout(60);
+      await until(page, 'another part', () => document.activeElement !== window.before);
     }
     assert.fail(`F6 does not lead to ${tab}`);
   };
@@ -93,6 +94,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   step('keys on a tab do not run the system');
   await go('Bug/Motor');
   await press(' ');
+  await page.waitForTimeout(500); // the server says ten times a second whether it runs
   assert.equal(await page.getByRole('button', { name: 'Run', exact: true }).count(), 1);
 
   step('a panel becomes a tab of another stack, goes before the other tab, and is split off again');
@@ -234,7 +236,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   step('the button of a stack opens the same menu; the right button, too');
   await go('Diagram');
   await press('Tab');
-  await until(page, 'the button', () => document.activeElement.ariaLabel === 'Menu of the panel');
+  await until(page, 'the button', () => document.activeElement.ariaLabel === 'Menu of the panel Diagram');
   await press('Enter');
   await choose('Into the tabs of…');
   await choose('Arena');

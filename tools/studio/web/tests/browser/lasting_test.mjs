@@ -50,7 +50,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await again.keyboard.press('Control+o');
   const opening = again.getByRole('dialog', { name: 'Open a system' });
   await opening.getByText('a backup', { exact: true }).click();
-  await opening.getByRole('button', { name: /^today, \d\d:\d\d:\d\d$/ }).click();
+  await opening.getByRole('button', { name: /^(today|yesterday), \d\d:\d\d:\d\d$/ }).click();
   if (screenshot) await again.screenshot({ path: `${screenshot}.backups.png` });
   await opening.getByRole('button', { name: 'Open', exact: true }).click();
   const name = again.getByRole('button', { name: /^DAC foraging backup/ });

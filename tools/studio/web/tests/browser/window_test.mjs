@@ -198,6 +198,7 @@ await inBrowser(sources, async ({ context, start, until }) => {
   await until(page, 'the focus on the switch', () => document.activeElement.matches('aside.right input[type=checkbox]'));
   await page.keyboard.press(' ');
   await collector.getByText('Module off').waitFor({ state: 'detached' });
+  await page.waitForTimeout(500); // the server says ten times a second whether it runs
   assert.equal(await page.getByRole('button', { name: 'Run', exact: true }).count(), 1, 'the key of the switch does not run the system');
   await page.getByRole('button', { name: 'Undo' }).click();
   await collector.getByText('Module off').waitFor();
