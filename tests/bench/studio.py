@@ -62,20 +62,22 @@ def main():
         control.do('run')
         rate(studio, control, 1)
         ratios = []
-        for _ in range(5):
-            alone = rate(studio, control)
-            watchers = [Watcher(studio, groups) for _ in range(3)]
-            for w in watchers:
-                w.start()
-            time.sleep(0.3)
-            watched = rate(studio, control)
-            for w in watchers:
-                w.over = True
-                w.join()
-            ratios.append([w / a for w, a in zip(watched, alone)])
+        for i in range(24):
+            # Which case comes first changes, as the speed of a machine drifts.
+            pair = {}
+            for watched in ((False, True), (True, False))[i % 2]:
+                watchers = [Watcher(studio, groups) for _ in range(3 * watched)]
+                for w in watchers:
+                    w.start()
+                time.sleep(0.3)
+                pair[watched] = rate(studio, control, 1)
+                for w in watchers:
+                    w.over = True
+                    w.join()
+            ratios.append([w / a for w, a in zip(pair[True], pair[False])])
         for what, values in zip(('cycles per second', 'cycles per second of the engine\'s thread'), zip(*ratios)):
-            print(f'{what} with three pages / with none: {statistics.median(values):.3f} (from {min(values):.3f} to {max(values):.3f};'
-                  f' {alone[0]:.0f} cycles/s alone)')
+            low, middle, high = statistics.quantiles(values, n=4)
+            print(f'{what} with three pages / with none: {middle:.3f} (half of {len(values)} pairs from {low:.3f} to {high:.3f})')
         # The age of what a page that needs 80 ms per frame has just drawn, in real time.
         control.do('speed', mode='real')
         slow = Page(studio)
