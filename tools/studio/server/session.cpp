@@ -354,7 +354,8 @@ double Session::work(double now) {
         tell(status());
         status_at_ = now, status_due_ = false;
     }
-    if (kept_ && saved_version_ != version_ && now - saved_at_ >= (running_ ? settings_.save_interval : save_rest))
+    if (kept_ && saved_version_ != version_ &&
+        now - saved_at_ >= (running_ ? settings_.save_interval : save_rest))
         save(), saved_at_ = now;
     // All pages get their frames at the same time, so that what several of them watch is drawn once.
     bool waits = false, sent = false;
