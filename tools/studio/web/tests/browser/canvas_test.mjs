@@ -233,6 +233,28 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await tab('Reactive Layer');
   await vertex.waitFor({ state: 'detached' });
 
+  step('a page that is opened, and one that is opened again, zoom from what is seen');
+  const zoom = () => page.evaluate(() => Number(/scale\(([\d.]+)\)/.exec(document.querySelector('.svelte-flow__viewport').style.transform)[1]));
+  const zooms = async (button, factor) => {
+    const was = await resting();
+    await diagram.getByRole('button', { name: button }).click();
+    await resting();
+    assert.ok(Math.abs((await zoom()) / was - factor) < 0.01, `${button}: ${was} becomes ${await zoom()}`);
+  };
+  await page.reload();
+  await tab('Reactive Layer');
+  await zooms('Zoom Out', 1 / 1.2);
+  const kept = await resting();
+  await tab('Selection');
+  await zooms('Zoom In', 1.2);
+  await tab('Reactive Layer');
+  assert.ok(Math.abs((await resting()) - kept) < 0.001, 'the page is as it was left');
+  await zooms('Zoom Out', 1 / 1.2);
+  await page.setViewportSize({ width: 1300, height: 850 });
+  await zooms('Zoom In', 1.2);
+  assert.ok(Math.abs((await zoom()) - kept) < 0.001, 'another size of the window leaves what was zoomed');
+  await page.setViewportSize({ width: 1400, height: 900 });
+
   step('a double click beside a thin line means the line, on a small page, too');
   await tab('Selection');
   const before = await comments.count();
